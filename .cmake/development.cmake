@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+# Settings of the project's own tests, benchmarks and examples. They link moreau_development and
+# nothing of it reaches a user of moreau::moreau.
+option(MOREAU_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+option(MOREAU_NATIVE "Compile for the CPU of this machine (-march=native)" OFF)
+set(MOREAU_SANITIZE "" CACHE STRING "Sanitizers, comma separated, e.g. address,undefined")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES AND PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+add_library(moreau_development INTERFACE)
+target_link_libraries(moreau_development INTERFACE moreau::moreau)
+target_compile_options(moreau_development INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow)
+if(MOREAU_WERROR)
+  target_compile_options(moreau_development INTERFACE -Werror)
+endif()
+if(MOREAU_NATIVE)
+  # g++ 12 sees uninitialized values inside its own AVX-512 intrinsics (GCC bug 105593).
+  target_compile_options(moreau_development INTERFACE -march=native
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized>)
+endif()
+if(MOREAU_SANITIZE)
+  set(sanitize -fsanitize=${MOREAU_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(moreau_development INTERFACE ${sanitize})
+  target_link_options(moreau_development INTERFACE ${sanitize})
+  target_compile_definitions(moreau_development INTERFACE _GLIBCXX_ASSERTIONS)
+endif()

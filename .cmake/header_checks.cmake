@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+# Each header compiled alone and twice, all linked into one program: a header that leans on its
+# includer, lacks a guard or defines a function that is not inline does not pass.
+set(include_dir ${PROJECT_SOURCE_DIR}/include)
+set(generated ${CMAKE_CURRENT_BINARY_DIR}/headers)
+file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${include_dir} ${include_dir}/moreau/*.hpp)
+list(SORT headers ORDER DESCENDING)
+set(units "")
+set(together "int main() {}\n")
+foreach(header IN LISTS headers)
+  set(include "#include \"${header}\"\n")
+  file(CONFIGURE OUTPUT ${generated}/${header}.cpp CONTENT "${include}${include}" @ONLY)
+  list(APPEND units ${generated}/${header}.cpp)
+  string(PREPEND together "${include}")
+endforeach()
+file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
+
+# Nothing of it runs: the code that is fastest to compile will do.
+add_library(moreau_headers OBJECT ${units})
+target_link_libraries(moreau_headers PUBLIC moreau_development)
+target_compile_options(moreau_headers PUBLIC -O0 -g0)
+add_executable(moreau_headers_link ${generated}/together.cpp)
+target_link_libraries(moreau_headers_link PRIVATE moreau_headers)
+
+# All headers in one unit: what a second compiler is shown of those that no test includes.
+add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cpp)
+target_link_libraries(moreau_headers_together PRIVATE moreau_development)
+target_compile_options(moreau_headers_together PRIVATE -O0 -g0)
+
+add_test(NAME source.headers COMMAND ${PROJECT_SOURCE_DIR}/.ci/check_headers)
+set_tests_properties(source.headers PROPERTIES LABELS source)

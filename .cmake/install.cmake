@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# Install rules, and the same package files in the build tree, so that moreau_DIR may point at
+# either. All paths are relative: an installed tree may be moved.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/moreau)
+
+configure_package_config_file(.cmake/moreau-config.cmake.in moreau-config.cmake
+                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may break its users.
+write_basic_package_version_file(moreau-config-version.cmake COMPATIBILITY SameMinorVersion
+                                 ARCH_INDEPENDENT)
+configure_file(.cmake/moreau.pc.in moreau.pc @ONLY)
+
+install(TARGETS moreau EXPORT moreau-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT moreau-targets NAMESPACE moreau:: DESTINATION ${package_dir})
+export(EXPORT moreau-targets NAMESPACE moreau:: FILE ${PROJECT_BINARY_DIR}/moreau-targets.cmake)
+
+install(DIRECTORY include/moreau DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.hpp")
+install(FILES ${PROJECT_BINARY_DIR}/moreau-config.cmake
+              ${PROJECT_BINARY_DIR}/moreau-config-version.cmake
+        DESTINATION ${package_dir})
+install(FILES ${PROJECT_BINARY_DIR}/moreau.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/moreau)

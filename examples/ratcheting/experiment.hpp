@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// The box, its walls and the sample; preparation by the lid; one step under the harmonic force.
+// x is the first axis and points out of the moving wall; up is the last axis.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/measure/energy.hpp"
+#include "moreau/world/simulation.hpp"
+
+#include "parameters.hpp"
+#include "sample.hpp"
+
+namespace ratcheting {
+
+/// Thrown by a progress callback's wish to stop; everything written so far is complete.
+struct Interrupted {};
+
+template <class ShapeT>
+class Experiment {
+ public:
+  using S = moreau::SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  using Law = moreau::SignoriniCoulomb<double>;
+  using Simulation = moreau::Simulation<ShapeT, Law>;
+  static constexpr int up = S::dim - 1;
+  /// Called after every step of the preparation with the stage's name; may throw Interrupted.
+  using Progress = std::function<void(const char* stage, const moreau::StepReport&)>;
+
+  /// @param thickness of a grain out of the plane [m]; 1 in space
+  Experiment(const Parameters& p, double thickness)
+      : parameters_(p), random_(p.seed), simulation_(make_simulation(p)) {
+    const Grains<ShapeT> grains = make_grains<ShapeT>(p, random_);
+    volume_ = grains.volume;
+    thickness_ = thickness;
+    mass_ = p.density * thickness * volume_;
+    length_ = p.box_length > 0 ? p.box_length : length_from_volume();
+    const auto poses = hang<S>(grains.circumradii, length_, random_);
+    double top = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const auto shape = simulation_.add_shape(grains.shapes[i]);
+      simulation_.add_grain(shape, poses[i], p.density * thickness);
+      top = std::max(top, poses[i].position[up] + grains.circumradii[i]);
+    }
+    add_walls(top);
+  }
+
+  /// The paper's preparation: compression by the lid without gravity, until the kinetic energy per
+  /// grain is below 1e-6 of lid force times grain size; then gravity on, the lid raised and fixed.
+  /// The lid first closes in at a speed that the alert distance can follow, then its force takes
+  /// over.
+  /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
+  void prepare(const Progress& progress) {
+    moreau::GaussSeidelOptions options = solver_options(parameters_);
+    options.max_sweeps = std::min(options.max_sweeps, parameters_.preparation_sweeps);
+    simulation_.set_solver(moreau::NonlinearGaussSeidel(options));
+    const double force = parameters_.lid_force * mass_ * 9.81;
+    const double size = simulation_.grain_size();
+    const double speed = 0.4 * parameters_.margin * size / parameters_.step;
+    const Vector up_axis = Vector::Unit(up);
+    simulation_.set_velocity(lid_, -speed * up_axis);
+    double reaction = 0;
+    for (int k = 0; reaction < force; ++k) {
+      progress("closing", simulation_.step(parameters_.step));
+      const double now = simulation_.contact_impulse(lid_)[up] / parameters_.step;
+      reaction += 0.05 * (now - reaction);
+    }
+    simulation_.set_velocity(lid_, Vector::Zero());
+    simulation_.set_wall_mass(lid_, mass_);
+    simulation_.set_force(lid_, -force * up_axis);
+    const double still = 1e-6 * force * size * double(simulation_.grain_count());
+    for (int k = 0; k < 20 || kinetic_energy() > still; ++k)
+      progress("compressing", simulation_.step(parameters_.step));
+    simulation_.set_solver(moreau::NonlinearGaussSeidel(solver_options(parameters_)));
+    fix_lid();
+  }
+
+  /// Fixes the lid where the preparation left it plus the raise, lets gravity act, frees the wall.
+  void fix_lid() {
+    simulation_.set_wall_mass(lid_, std::numeric_limits<double>::infinity());
+    simulation_.set_velocity(lid_, Vector::Zero());
+    simulation_.set_force(lid_, Vector::Zero());
+    auto pose = simulation_.bodies().pose[lid_.index()];
+    pose.position[up] += parameters_.lid_raise;
+    simulation_.set_pose(lid_, pose);
+    height_ = pose.position[up];
+    simulation_.set_gravity(-parameters_.gravity * Vector::Unit(up));
+    wall_mass_ = parameters_.wall_mass_ratio * mass_;
+    simulation_.set_wall_mass(wall_, wall_mass_);
+    start_ = simulation_.time();
+  }
+
+  /// One step under f at the middle of the step.
+  moreau::StepReport vibrate() {
+    const double f = parameters_.force(time() + parameters_.step / 2);
+    simulation_.set_force(wall_, -f * Vector::UnitX());
+    return simulation_.step(parameters_.step);
+  }
+
+  double time() const { return simulation_.time() - start_; }  ///< since f started [s]
+  /// Displacement of the wall, outward positive [m].
+  double displacement() const {
+    return simulation_.bodies().pose[wall_.index()].position[0] - length_;
+  }
+  double wall_velocity() const { return simulation_.bodies().velocity[wall_.index()][0]; }
+  /// Force of the grains on the wall over the last step, outward positive [N].
+  double wall_force() const { return simulation_.contact_impulse(wall_)[0] / parameters_.step; }
+  /// Of the grains [J].
+  double kinetic_energy() const {
+    const auto& bodies = simulation_.bodies();
+    return moreau::kinetic_energy<S>(simulation_.grain_count(),
+                                     [&](std::size_t k) {
+                                       const std::size_t i = simulation_.grain(k).index();
+                                       return moreau::BodyMotion<S>{
+                                           bodies.weight[i],
+                                           bodies.inertia(i, bodies.pose[i].rotation),
+                                           bodies.pose[i].position, bodies.velocity[i]};
+                                     })
+        .total();
+  }
+
+  const Simulation& simulation() const { return simulation_; }
+  double mass() const { return mass_; }
+  double wall_mass() const { return wall_mass_; }
+  double volume() const { return volume_; }
+  double length() const { return length_; }
+  double height() const { return height_; }
+  double thickness() const { return thickness_; }
+  moreau::BodyId wall() const { return wall_; }
+  /// The whole box as it stands, with the wall where it is.
+  moreau::Aabb<S> box() const {
+    moreau::Aabb<S> box;
+    box.lower.setZero();
+    box.upper.setConstant(length_);
+    box.upper[0] += displacement();
+    box.upper[up] = height_;
+    return box;
+  }
+
+ private:
+  static moreau::GaussSeidelOptions solver_options(const Parameters& p) {
+    moreau::GaussSeidelOptions options;
+    options.tolerance = p.tolerance;
+    options.stop_test = p.stop_test;
+    options.max_sweeps = p.max_sweeps;
+    return options;
+  }
+  static Simulation make_simulation(const Parameters& p) {
+    // Materials: 0 grains, 1 horizontal walls, 2 vertical walls.
+    moreau::Materials<Law> laws(3, Law(p.friction));
+    laws.set(moreau::MaterialId(0), moreau::MaterialId(2), Law(0));
+    moreau::Tolerances tolerances;
+    tolerances.margin = p.margin;
+    moreau::OverlapCorrectionOptions correction;
+    correction.enabled = p.correction;
+    return Simulation(moreau::SizeDistribution::azema2008().smallest(), laws,
+                      moreau::NonlinearGaussSeidel(solver_options(p)), tolerances, correction);
+  }
+
+  /// L = W from V = rho L^D H/L at the solid fraction that the lid's compression leaves: about 0.53
+  /// in space and 0.80 in the plane for angular grains. Only the target of H/L depends on it.
+  double length_from_volume() const {
+    constexpr double packed[] = {0.80, 0.53};
+    return std::pow(volume_ / (packed[S::dim - 2] * parameters_.box_ratio), 1.0 / S::dim);
+  }
+
+  void add_walls(double top) {
+    const moreau::MaterialId horizontal(1), vertical(2);
+    for (int axis = 0; axis < up; ++axis) {
+      const Vector n = Vector::Unit(axis);
+      simulation_.add_wall(n, Vector::Zero(), vertical);
+      const auto far = simulation_.add_wall(-n, length_ * n, vertical);
+      if (axis == 0) wall_ = far;
+    }
+    const Vector n = Vector::Unit(up);
+    simulation_.add_wall(n, Vector::Zero(), horizontal);
+    lid_ = simulation_.add_wall(-n, top * n, horizontal);
+  }
+
+  Parameters parameters_;
+  std::mt19937_64 random_;
+  Simulation simulation_;
+  double volume_ = 0, thickness_ = 1, mass_ = 0, wall_mass_ = 0, length_ = 0, height_ = 0;
+  double start_ = 0;
+  moreau::BodyId wall_, lid_;
+};
+
+}  // namespace ratcheting

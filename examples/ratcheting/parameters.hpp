@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The parameters of the ratcheting study, with the paper's values (Azema et al., arXiv 0711.1081)
+// and this project's choices where the paper is silent. SI units.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string>
+
+#include "moreau/sample/size_distribution.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+
+namespace ratcheting {
+
+struct Parameters {
+  std::string shape = "polyhedron";  ///< polyhedron, polygon, sphere or disk
+  std::size_t grains = 1200;
+  double frequency = 5;          ///< nu [Hz]
+  double fmax = 6000;            ///< [N]
+  double fmin = 0;               ///< [N]
+  double gravity = 9.81;         ///< [m/s^2]
+  double density = 2700;         ///< of the grains' material [kg/m^3]
+  double wall_mass_ratio = 0.5;  ///< m_w / m
+  double duration = 1;           ///< of the vibration [s]
+  double step = 2e-4;            ///< h [s]
+  moreau::SizeReading size_reading = moreau::SizeReading::circumdiameter;
+  double box_ratio = 1;     ///< H / L aimed at
+  double box_length = 0;    ///< L = W [m]; 0: from the sample's volume
+  double lid_force = 10;    ///< in units of m 9.81 m/s^2
+  double lid_raise = 0.01;  ///< [m]
+  double friction = 0.4;    ///< grain-grain and grain-horizontal wall; vertical walls have none
+  double tolerance = 1e-4;
+  moreau::StopTest stop_test = moreau::StopTest::qm16;
+  int max_sweeps = 2000;
+  int preparation_sweeps = 200;  ///< cap per step of the preparation
+  double margin = 0.02;          ///< alert distance, relative to the smallest size
+  bool correction = true;        ///< overlap correction outside the velocity problem
+  int threads = 1;
+  std::uint64_t seed = 1;
+  int snapshots = 20;  ///< ParaView files over the duration; 0: none
+  bool plots = true;
+  std::string output = "ratcheting-output";
+
+  /// f(t), compressive force on the moving wall [N] (paper, eq. 1).
+  double force(double t) const {
+    const double omega = 2 * std::numbers::pi * frequency;
+    return (fmax + fmin) / 2 - (fmax - fmin) / 2 * std::sin(omega * t);
+  }
+};
+
+}  // namespace ratcheting

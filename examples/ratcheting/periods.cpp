@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "periods.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ratcheting {
+
+namespace {
+
+/// Index of the first sample at or after a time; the samples end each step.
+std::size_t index_at(const std::vector<WallSample>& wall, double t, double step) {
+  const double k = std::round(t / step) - 1;
+  return static_cast<std::size_t>(std::clamp(k, 0.0, double(wall.size() - 1)));
+}
+
+Period measure(const std::vector<WallSample>& wall, std::size_t first, std::size_t last) {
+  Period period;
+  period.start = wall[first].t;
+  period.finish = wall[last].t;
+  period.jam_before = wall[first].x;
+  period.jam_after = wall[last].x;
+  std::size_t peak = first;
+  for (std::size_t k = first; k <= last; ++k)
+    if (wall[k].x > wall[peak].x) peak = k;
+  period.peak = wall[peak].t;
+  period.dx_max = wall[peak].x - period.jam_before;
+  // While the wall is blocked it may creep inward a little: motion starts from the lowest point.
+  std::size_t blocked = first;
+  for (std::size_t k = first; k <= peak; ++k)
+    if (wall[k].x < wall[blocked].x) blocked = k;
+  const double rise = wall[peak].x - wall[blocked].x;
+  std::size_t onset = peak;
+  while (onset > blocked && wall[onset - 1].x - wall[blocked].x > 0.02 * rise) --onset;
+  period.onset = wall[onset].t;
+  std::size_t outward = 0;
+  for (std::size_t k = onset; k <= peak; ++k) {
+    period.v_max_active = std::max(period.v_max_active, wall[k].v);
+    const double share = (wall[k].x - wall[blocked].x) / rise;
+    if (!(share > 0.1 && share < 0.9)) continue;
+    period.f_g_active += wall[k].f_g;
+    ++outward;
+  }
+  if (outward > 0) period.f_g_active /= double(outward);
+  for (std::size_t k = peak; k <= last; ++k)
+    period.v_max_passive = std::max(period.v_max_passive, -wall[k].v);
+  return period;
+}
+
+}  // namespace
+
+std::vector<Period> find_periods(const std::vector<WallSample>& wall, const Parameters& p) {
+  std::vector<Period> periods;
+  for (int k = 1; (k + 0.75) / p.frequency <= p.duration + p.step / 2; ++k) {
+    const std::size_t first = index_at(wall, (k - 0.25) / p.frequency, p.step);
+    const std::size_t last = index_at(wall, (k + 0.75) / p.frequency, p.step);
+    if (last <= first || last >= wall.size()) break;
+    Period period = measure(wall, first, last);
+    period.force_minimum = (k + 0.25) / p.frequency;
+    periods.push_back(period);
+  }
+  return periods;
+}
+
+}  // namespace ratcheting

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What the wall's trajectory says, period by period.
+#pragma once
+
+#include <vector>
+
+#include "parameters.hpp"
+
+namespace ratcheting {
+
+/// One line of wall.csv, SI units.
+struct WallSample {
+  double t, f, x, v, f_g;
+};
+
+/// One extension of the wall, between two maxima of the force. f is smallest at t = (k + 1/4)/nu
+/// and largest at (k + 3/4)/nu.
+struct Period {
+  double start = 0, finish = 0;  ///< times of the force maxima before and after [s]
+  double jam_before = 0;         ///< x_j: position at the force maximum before [m]
+  double jam_after = 0;          ///< x_j': position at the force maximum after [m]
+  double onset = 0;              ///< a: time when 2 % of the rise is passed [s]
+  double force_minimum = 0;      ///< time of the minimum of f [s]
+  double peak = 0;               ///< b: time of the largest x [s]
+  double dx_max = 0;             ///< largest x - jam_before [m]
+  double v_max_active = 0;       ///< largest outward speed [m/s]
+  double v_max_passive = 0;      ///< largest inward speed after the peak [m/s]
+  double f_g_active =
+      0;  ///< mean force of the grains on the wall between 10 and 90 % of the rise [N]
+
+  double delay() const { return peak - force_minimum; }  ///< delta t_r [s]
+};
+
+/// Whole periods from the first force maximum on; the first extension is part of the filling
+/// transient and is left out.
+std::vector<Period> find_periods(const std::vector<WallSample>& wall, const Parameters& p);
+
+}  // namespace ratcheting

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The files of one run. Every line is complete as soon as it is written; an interrupted run keeps
+// them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "moreau/io/csv.hpp"
+#include "moreau/measure/coordination.hpp"
+#include "moreau/measure/solid_fraction.hpp"
+#include "moreau/measure/stress.hpp"
+#include "moreau/measure/velocity_field.hpp"
+
+#include "experiment.hpp"
+#include "parameters.hpp"
+#include "periods.hpp"
+#include "summary.hpp"
+
+namespace ratcheting {
+
+/// One line of packing.csv and of state.csv.
+struct PackingSample {
+  double t, x, rho_inner, rho_box, stress_xx, stress_zz, roll, roll_strength;
+};
+
+template <class ShapeT>
+class Recorder {
+ public:
+  using S = moreau::SpaceOf<ShapeT>;
+  static constexpr int up = S::dim - 1;
+
+  Recorder(const Parameters& p, const Experiment<ShapeT>& experiment)
+      : parameters_(p),
+        experiment_(experiment),
+        folder_(p.output),
+        wall_(file("wall.csv"), {"t", "f", "x", "v", "f_g"}),
+        packing_(file("packing.csv"),
+                 {"t", "rho_inner", "rho_box", "kinetic_energy", "contacts", "coordination"}),
+        state_(file("state.csv"), {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"}),
+        solver_(file("solver.csv"), {"step", "pairs", "points", "sweeps", "residual", "max_overlap",
+                                     "mean_overlap", "ms_detect", "ms_solve", "ms_total"}) {}
+
+  /// Fixes the control volume: 2 d from the side walls, 0.1 H to 0.7 H.
+  void set_control_volume() {
+    const double inset = 2 * experiment_.simulation().grain_size();
+    inner_ = experiment_.box();
+    inner_.lower.array() += inset;
+    inner_.upper.array() -= inset;
+    inner_.lower[up] = 0.1 * experiment_.height();
+    inner_.upper[up] = 0.7 * experiment_.height();
+    moreau::require_inside(inner_, experiment_.box());
+  }
+
+  void record_step(std::size_t step, const moreau::StepReport& report, std::size_t total) {
+    const double t = experiment_.time();
+    const double shift =
+        experiment_.simulation().correction().shifts()[experiment_.wall().index()][0];
+    const WallSample sample{t, parameters_.force(t - parameters_.step / 2),
+                            experiment_.displacement(), experiment_.wall_velocity(),
+                            experiment_.wall_force()};
+    samples_.push_back(sample);
+    totals_.add(report, shift, total);
+    wall_.row(sample.t, sample.f, sample.x, sample.v, sample.f_g);
+    solver_.row(step, report.pairs, report.points, report.solve.sweeps, report.solve.residual,
+                report.max_overlap, report.mean_overlap, report.ms_detect, report.ms_solve,
+                report.ms_total);
+  }
+
+  void record_packing(const moreau::StepReport& report) {
+    const auto& simulation = experiment_.simulation();
+    const double inner = solid_fraction(inner_), whole = solid_fraction(experiment_.box());
+    const auto position = [&](std::size_t body) -> const typename S::Vector& {
+      return simulation.bodies().pose[body].position;
+    };
+    const auto is_grain = [&](std::size_t body) { return simulation.is_grain(body); };
+    const typename S::Matrix stress =
+        moreau::contact_stress<S>(simulation.contacts(), parameters_.step, inner_, position,
+                                  is_grain) /
+        experiment_.thickness();
+    moreau::VelocityField<S> field(experiment_.box(), 6, 6);
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const std::size_t body = simulation.grain(k).index();
+      field.add(position(body), simulation.bodies().velocity[body].template head<S::dim>());
+    }
+    const auto roll = field.roll();
+    const moreau::Coordination coordination =
+        counter_.count(simulation.contacts().points, simulation.contacts().impulses,
+                       simulation.bodies().size(), is_grain);
+    packing_samples_.push_back({experiment_.time(), experiment_.displacement(), inner, whole,
+                                stress(0, 0), stress(up, up), roll.angular_velocity,
+                                roll.strength});
+    packing_.row(experiment_.time(), inner, whole, experiment_.kinetic_energy(), report.points,
+                 coordination.neighbours);
+    state_.row(experiment_.time(), experiment_.displacement(), stress(0, 0), stress(up, up),
+               roll.angular_velocity, roll.strength);
+  }
+
+  void flush() {
+    for (moreau::CsvWriter* file : {&wall_, &packing_, &state_, &solver_}) file->flush();
+  }
+
+  double solid_fraction(const moreau::Aabb<S>& volume) {
+    const auto& simulation = experiment_.simulation();
+    return moreau::solid_fraction(
+        volume, simulation.grain_count(),
+        [&](std::size_t k) -> const ShapeT& { return simulation.shape_of_grain(k); },
+        [&](std::size_t k) -> const moreau::Pose<S>& {
+          return simulation.bodies().pose[simulation.grain(k).index()];
+        },
+        workspace_);
+  }
+
+  const moreau::Aabb<S>& inner() const { return inner_; }
+  const std::vector<WallSample>& samples() const { return samples_; }
+  const std::vector<PackingSample>& packing_samples() const { return packing_samples_; }
+  const SolverTotals& totals() const { return totals_; }
+
+ private:
+  std::string file(const char* name) const { return (folder_ / name).string(); }
+
+  Parameters parameters_;
+  const Experiment<ShapeT>& experiment_;
+  std::filesystem::path folder_;
+  moreau::CsvWriter wall_, packing_, state_, solver_;
+  moreau::Aabb<S> inner_;
+  moreau::ClipWorkspace<S> workspace_;
+  moreau::CoordinationCounter<S> counter_;
+  std::vector<WallSample> samples_;
+  std::vector<PackingSample> packing_samples_;
+  SolverTotals totals_;
+};
+
+}  // namespace ratcheting

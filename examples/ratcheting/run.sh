@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing (Debian), builds the study and runs it. Arguments go to the program; without
+# any, a small case: 120 polyhedra, the wall's force scaled with the sample's weight.
+set -euo pipefail
+top=$(cd "$(dirname "$0")/../.." && pwd)
+packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox)
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  root=$([ "$(id -u)" -eq 0 ] || echo sudo)
+  $root apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive $root apt-get install -y -qq --no-install-recommends "${missing[@]}"
+fi
+cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON \
+  -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF >/dev/null
+cmake --build "$top/build/study" --target ratcheting
+[ $# -gt 0 ] || set -- --grains 120 --fmax 600
+exec "$top/build/study/examples/ratcheting" "$@"

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The run from end to end; included by one source file per shape.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "experiment.hpp"
+#include "progress.hpp"
+#include "recorder.hpp"
+#include "run.hpp"
+#include "run_json.hpp"
+#include "views.hpp"
+
+namespace ratcheting {
+
+/// Thickness of the plane's grains such that the sample weighs what the same sample weighs in space
+/// [m]; 1 in space.
+template <class ShapeT>
+double thickness_of(const Parameters& p) {
+  std::mt19937_64 own(p.seed), twin(p.seed);
+  using Twin = typename SolidTwin<ShapeT>::type;
+  return make_grains<Twin>(p, twin).volume / make_grains<ShapeT>(p, own).volume;
+}
+
+/// Steps between two lines of packing.csv.
+constexpr std::size_t packing_interval = 5;
+
+template <class ShapeT>
+int run(const Parameters& p) {
+  std::error_code error;
+  std::filesystem::create_directories(p.output, error);
+  if (error)
+    throw std::runtime_error("--output: cannot make folder " + p.output + ": " + error.message());
+  Stopwatch watch;
+  Experiment<ShapeT> experiment(p, thickness_of<ShapeT>(p));
+  Recorder<ShapeT> recorder(p, experiment);
+  RunJson json(p, experiment);
+  Progress progress;
+  const auto total = static_cast<std::size_t>(std::llround(p.duration / p.step));
+  std::size_t done = 0;
+  try {
+    experiment.prepare([&](const char* stage, const moreau::StepReport& report) {
+      progress.preparing(stage, report, experiment.simulation().time());
+      if (interrupted()) throw Interrupted{};
+    });
+    json.stage("prepare", watch.lap());
+    recorder.set_control_volume();
+    recorder.record_packing({});
+    Views<ShapeT> views(experiment, p.step, p.output);
+    if (p.snapshots > 0) views.snapshot(0);
+    const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
+    std::size_t snapshots = 0;
+    for (; done < total && !interrupted(); ++done) {
+      const moreau::StepReport report = experiment.vibrate();
+      recorder.record_step(done + 1, report, total);
+      if ((done + 1) % packing_interval == 0) recorder.record_packing(report);
+      const double end = double(done + 1) * p.step;
+      if (end >= active && end < active + p.step) views.picture("_active");
+      if (end >= jammed && end < jammed + p.step) views.picture("_jammed");
+      const std::size_t wanted = std::size_t(p.snapshots) * (done + 1) / total;
+      if (wanted > snapshots) views.snapshot(int(snapshots = wanted));
+      progress.vibrating(done + 1, total, report, experiment.displacement());
+    }
+    views.picture("");
+  } catch (const Interrupted&) {
+  }
+  progress.finish();
+  json.stage("vibrate", watch.lap());
+  recorder.flush();
+  write_events(p.output, find_periods(recorder.samples(), p));
+  json.write(p, experiment, recorder, done < total);
+  if (p.plots) plot(p.output);
+  return done < total ? 130 : 0;
+}
+
+}  // namespace ratcheting

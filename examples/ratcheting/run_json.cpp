@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "run_json.hpp"
+
+#include <algorithm>
+
+namespace ratcheting {
+
+Json to_json(const Parameters& p) {
+  return {{"shape", p.shape},
+          {"grains", p.grains},
+          {"frequency", p.frequency},
+          {"fmax", p.fmax},
+          {"fmin", p.fmin},
+          {"gravity", p.gravity},
+          {"density", p.density},
+          {"wall_mass_ratio", p.wall_mass_ratio},
+          {"duration", p.duration},
+          {"step", p.step},
+          {"size_reading", p.size_reading == moreau::SizeReading::circumdiameter ? "circumdiameter"
+                                                                                 : "circumradius"},
+          {"box_ratio", p.box_ratio},
+          {"box_length", p.box_length},
+          {"lid_force_weights", p.lid_force},
+          {"lid_raise", p.lid_raise},
+          {"friction", p.friction},
+          {"tolerance", p.tolerance},
+          {"stop_test", p.stop_test == moreau::StopTest::qm16 ? "qm16" : "residual"},
+          {"max_sweeps", p.max_sweeps},
+          {"preparation_sweeps", p.preparation_sweeps},
+          {"margin", p.margin},
+          {"overlap_correction", p.correction},
+          {"threads", p.threads},
+          {"seed", p.seed}};
+}
+
+Json to_json(const Period& period) {
+  return {{"x_j", period.jam_before},
+          {"x_j_after", period.jam_after},
+          {"t_onset", period.onset},
+          {"t_force_minimum", period.force_minimum},
+          {"t_peak", period.peak},
+          {"delay", period.delay()},
+          {"dx_max", period.dx_max},
+          {"v_max_active", period.v_max_active},
+          {"v_max_passive", period.v_max_passive},
+          {"f_g_active", period.f_g_active}};
+}
+
+Json to_json(const SolverTotals& t) {
+  const auto share = [&](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+  return {{"steps", t.steps},
+          {"capped_steps", t.capped},
+          {"mean_sweeps", t.mean(t.sweeps)},
+          {"mean_residual", t.mean(t.residual)},
+          {"worst_residual", t.worst_residual},
+          {"mean_pairs", t.mean(t.pairs)},
+          {"mean_points", t.mean(t.points)},
+          {"mean_overlap", t.mean(t.mean_overlap)},
+          {"mean_overlap_first_tenth", t.mean_overlap_first},
+          {"mean_overlap_last_tenth", t.mean_overlap_last},
+          {"max_overlap", t.max_overlap},
+          {"dissipation", t.dissipation},
+          {"correction_work", t.correction_work},
+          {"correction_work_over_dissipation", share(t.correction_work, t.dissipation)},
+          {"correction_wall_travel", t.correction_travel},
+          {"correction_wall_drift", t.correction_drift},
+          {"mean_ms_detect", t.mean(t.ms_detect)},
+          {"mean_ms_solve", t.mean(t.ms_solve)},
+          {"mean_ms_total", t.mean(t.ms_total)},
+          {"median_ms_total", t.median_ms()}};
+}
+
+Json versions() {
+  return {
+      {"moreau", MOREAU_VERSION_STRING},
+      {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                    "." + std::to_string(EIGEN_MINOR_VERSION)},
+      {"compiler", __VERSION__}};
+}
+
+namespace {
+
+/// Linear interpolation of the inner solid fraction [-].
+double rho_at(const std::vector<PackingSample>& packing, double t) {
+  const auto after = std::find_if(packing.begin(), packing.end(),
+                                  [&](const PackingSample& s) { return s.t >= t - 1e-9; });
+  return after == packing.end() ? packing.back().rho_inner : after->rho_inner;
+}
+
+}  // namespace
+
+Json results(const Parameters& p, double mass, double wall_mass, double length,
+             const std::vector<Period>& periods, const std::vector<PackingSample>& packing) {
+  Json json;
+  if (packing.empty()) return json;
+  const double rho0 = rho_at(packing, std::min(0.2, p.duration));
+  json["rho_initial"] = packing.front().rho_inner;
+  json["rho_0"] = rho0;
+  json["rho_final"] = packing.back().rho_inner;
+  json["rho_box_initial"] = packing.front().rho_box;
+  json["rho_box_final"] = packing.back().rho_box;
+  if (periods.empty()) return json;
+  double dx = 0, v = 0, delay = 0, active = 0;
+  for (const Period& period : periods) {
+    dx += period.dx_max;
+    v += period.v_max_passive;
+    delay += period.delay();
+    active += period.f_g_active;
+  }
+  const double n = double(periods.size());
+  dx /= n, v /= n, delay /= n, active /= n;
+  const double weight = mass * p.gravity;
+  json["periods"] = periods.size();
+  json["dx_max"] = dx;
+  json["v_max_passive"] = v;
+  json["delay"] = delay;
+  json["net_contraction_per_period"] = (periods.front().jam_before - periods.back().jam_after) / n;
+  json["contracting_periods"] =
+      std::count_if(periods.begin(), periods.end(),
+                    [](const Period& period) { return period.jam_after < period.jam_before; });
+  // Compaction from jam to jam, at the force maxima that bound the periods.
+  const double first = 0.75 / p.frequency, last = first + n / p.frequency;
+  json["compaction_per_period"] = (rho_at(packing, last) - rho_at(packing, first)) / n / rho0;
+  json["compaction_rate"] =
+      (rho_at(packing, last) - rho_at(packing, first)) / rho0 / (last - first);
+  json["contraction_rate"] =
+      (periods.front().jam_before - periods.back().jam_after) / length / (last - first);
+  json["C"] = dx / ((mass / (mass + wall_mass)) * (weight / p.fmax) * p.gravity /
+                    (p.frequency * p.frequency));
+  json["active_thrust"] = active;
+  json["active_thrust_over_weight"] = active / weight;
+  // 0.228 f_a^2 / (M fmax nu^2) with M = m_w + beta m, for a constant active thrust.
+  const auto predicted = [&](double beta) {
+    return 0.228 * active * active /
+           ((wall_mass + beta * mass) * p.fmax * p.frequency * p.frequency);
+  };
+  json["dx_max_over_prediction"] = {{"beta_1", dx / predicted(1)},
+                                    {"beta_1_3", dx / predicted(1.0 / 3)}};
+  return json;
+}
+
+void write_events(const std::filesystem::path& folder, const std::vector<Period>& periods) {
+  moreau::CsvWriter file(folder / "events.csv",
+                         {"period", "t_before", "x_before", "t_onset", "t_force_min", "t_peak",
+                          "x_peak", "t_after", "x_after"});
+  int number = 0;
+  for (const Period& period : periods)
+    file.row(++number, period.start, period.jam_before, period.onset, period.force_minimum,
+             period.peak, period.jam_before + period.dx_max, period.finish, period.jam_after);
+  file.close();
+}
+
+}  // namespace ratcheting

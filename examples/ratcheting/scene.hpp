@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Grains and the ground they stand on, in space, as triangles.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "moreau/core/pose.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/sphere.hpp"
+
+#include "image.hpp"
+#include "rasterizer.hpp"
+
+namespace ratcheting {
+
+/// What is seen in space.
+class Scene {
+ public:
+  /// A polyhedron of any scalar type.
+  template <moreau::Polytope Shape>
+  void add_grain(const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose,
+                 const Color& color) {
+    std::vector<Vector3f> corner;
+    for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
+      corner.push_back(pose(shape.vertices().row(i).transpose()).template cast<float>());
+    for (std::uint32_t f = 0; f < shape.face_count(); ++f) {
+      const auto face = shape.face(f);
+      const Vector3f normal =
+          (pose.rotation * shape.face_normals().row(f).transpose()).template cast<float>();
+      for (std::size_t k = 1; k + 1 < face.size(); ++k)
+        triangles_.push_back({{corner[face[0]], corner[face[k]], corner[face[k + 1]]},
+                              {normal, normal, normal},
+                              object(),
+                              f});
+    }
+    colors_.push_back(color);
+  }
+
+  template <class T>
+  void add_grain(const moreau::Ball<T>& ball, const moreau::Pose<moreau::Space<3, T>>& pose,
+                 const Color& color) {
+    constexpr int meridians = 32, parallels = 16;
+    const Vector3f center = pose.position.template cast<float>();
+    const auto direction = [](int i, int j) -> Vector3f {
+      const float phi = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / meridians;
+      const float theta = std::numbers::pi_v<float> * static_cast<float>(j) / parallels;
+      return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+    };
+    const auto add = [&](const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+      const auto r = static_cast<float>(ball.radius());
+      triangles_.push_back(
+          {{center + r * a, center + r * b, center + r * c}, {a, b, c}, object(), 0});
+    };
+    for (int i = 0; i < meridians; ++i)
+      for (int j = 0; j < parallels; ++j) {
+        if (j > 0) add(direction(i, j), direction(i, j + 1), direction(i + 1, j));
+        if (j + 1 < parallels)
+          add(direction(i + 1, j), direction(i, j + 1), direction(i + 1, j + 1));
+      }
+    colors_.push_back(color);
+  }
+
+  /// The ground: a square at the height of `middle` that fades into the background between
+  /// `radius` and twice as far from it [m].
+  void add_ground(const Vector3f& middle, float radius, const Color& color) {
+    const float reach = 2 * radius;
+    const Vector3f n = Vector3f::UnitZ();
+    const auto corner = [&](float x, float y) -> Vector3f {
+      return middle + reach * Vector3f(x, y, 0);
+    };
+    triangles_.push_back({{corner(-1, -1), corner(1, -1), corner(1, 1)}, {n, n, n}, object(), 0});
+    triangles_.push_back({{corner(-1, -1), corner(1, 1), corner(-1, 1)}, {n, n, n}, object(), 0});
+    ground_ = {object(), middle, radius};
+    colors_.push_back(color);
+  }
+  /// How much of an object is seen at a point, the rest being background: one but for the ground.
+  float opacity(std::uint32_t object, const Vector3f& point) const {
+    if (object != ground_.object) return 1;
+    const float way = (point - ground_.middle).norm() / ground_.radius;
+    const float share = std::clamp(way - 1, 0.0f, 1.0f);
+    return 1 - share * share * (3 - 2 * share);
+  }
+  bool is_ground(std::uint32_t object) const { return object == ground_.object; }
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const Color& color(std::uint32_t object) const { return colors_[object]; }
+
+ private:
+  std::uint32_t object() const { return static_cast<std::uint32_t>(colors_.size()); }
+
+  struct Ground {
+    std::uint32_t object = 0xFFFFFFFFu;
+    Vector3f middle = Vector3f::Zero();
+    float radius = 1;
+  };
+
+  std::vector<Triangle> triangles_;
+  Ground ground_;
+  std::vector<Color> colors_;
+};
+
+}  // namespace ratcheting

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Snapshots that ParaView opens, and the pictures of a run.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "moreau/io/vtk.hpp"
+#include "moreau/measure/force_chains.hpp"
+
+#include "experiment.hpp"
+#include "render.hpp"
+
+namespace ratcheting {
+
+template <class ShapeT>
+class Views {
+ public:
+  using S = moreau::SpaceOf<ShapeT>;
+
+  Views(const Experiment<ShapeT>& experiment, double step, const std::filesystem::path& folder)
+      : experiment_(experiment),
+        step_(step),
+        folder_(folder),
+        grains_(folder / "grains.pvd"),
+        contacts_(folder / "contacts.pvd") {}
+
+  /// vtk/grains_NNNN.vtp with velocities, vtk/contacts_NNNN.vtp with forces, and their series.
+  void snapshot(int number) {
+    std::filesystem::create_directories(folder_ / "vtk");
+    char name[32];
+    std::snprintf(name, sizeof name, "_%04d.vtp", number);
+    const std::string grains = std::string("vtk/grains") + name;
+    const std::string contacts = std::string("vtk/contacts") + name;
+    const auto& simulation = experiment_.simulation();
+    writer_.write_grains(folder_ / grains, simulation.grain_count(), shape(), pose(),
+                         [&](std::size_t k) -> const typename S::Twist& {
+                           return simulation.bodies().velocity[simulation.grain(k).index()];
+                         });
+    moreau::contact_segments<S>(simulation.contacts(), step_, position(), is_grain(), segments_);
+    writer_.write_contacts(folder_ / contacts, segments_);
+    grains_.add(experiment_.time(), grains);
+    contacts_.add(experiment_.time(), contacts);
+  }
+
+  /// packing.png and force_chains.png, or with a suffix to their names.
+  void picture(const std::string& suffix) {
+    const auto& simulation = experiment_.simulation();
+    moreau::force_chains<S>(simulation.contacts(), step_, position(), is_grain(), segments_);
+    const auto color = [&](std::size_t k) {
+      const double radius = double(simulation.shape_of_grain(k).circumradius());
+      return stone_color((2 * radius / largest() - 0.5) * 2, k);
+    };
+    write_png(folder_ / ("packing" + suffix + ".png"),
+              render_packing(experiment_.box(), simulation.grain_count(), shape(), pose(), color));
+    write_png(folder_ / ("force_chains" + suffix + ".png"),
+              render_force_chains<S>(experiment_.box(), segments_));
+  }
+
+ private:
+  auto shape() const {
+    return [this](std::size_t k) -> const ShapeT& {
+      return experiment_.simulation().shape_of_grain(k);
+    };
+  }
+  auto pose() const {
+    return [this](std::size_t k) -> const moreau::Pose<S>& {
+      return experiment_.simulation().bodies().pose[experiment_.simulation().grain(k).index()];
+    };
+  }
+  auto position() const {
+    return [this](std::size_t body) -> const typename S::Vector& {
+      return experiment_.simulation().bodies().pose[body].position;
+    };
+  }
+  auto is_grain() const {
+    return [this](std::size_t body) { return experiment_.simulation().is_grain(body); };
+  }
+  /// Circumdiameter of the largest grain [m].
+  double largest() const {
+    double radius = 0;
+    for (std::size_t k = 0; k < experiment_.simulation().grain_count(); ++k)
+      radius = std::max(radius, double(experiment_.simulation().shape_of_grain(k).circumradius()));
+    return 2 * radius;
+  }
+
+  const Experiment<ShapeT>& experiment_;
+  double step_;
+  std::filesystem::path folder_;
+  moreau::VtkWriter<S> writer_;
+  moreau::PvdSeries grains_, contacts_;
+  std::vector<moreau::ContactSegment<S>> segments_;
+};
+
+}  // namespace ratcheting

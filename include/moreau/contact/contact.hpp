@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The contacts of one step, as the mechanics needs them.
+//
+// Conventions: the frame's first column is the normal, a unit vector from body a to body b in world
+// axes. Relative velocity u = F^T (v_b + lever(r_b) w_b - v_a - lever(r_a) w_a), so u_n > 0
+// separates; the impulse r is what b receives, in the frame, so r_n > 0 pushes; a receives -F r.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "moreau/core/space.hpp"
+#include "moreau/detect/manifold.hpp"
+
+namespace moreau {
+
+/// What the solver reads of one contact point.
+template <class S>
+struct Contact {
+  std::uint32_t a, b;          ///< bodies
+  std::uint32_t law;           ///< index into the table of laws
+  typename S::Scalar gap;      ///< [m], < 0 is penetration
+  typename S::Matrix frame;    ///< columns n, t[, s]; world axes
+  typename S::Vector lever_a;  ///< from the centre of a to the contact point, world axes [m]
+  typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
+};
+
+/// What makes a contact point the same one in the next step.
+struct ContactKey {
+  std::uint32_t a, b;
+  FeatureKey feature;
+  friend constexpr auto operator<=>(const ContactKey&, const ContactKey&) = default;
+};
+
+/// The contacts of one step, arrays in one order, sorted by (a, b, feature).
+template <class S>
+struct Contacts {
+  std::vector<Contact<S>> points;
+  std::vector<ContactKey> keys;
+  std::vector<ContactClass> classes;
+  std::vector<typename S::Vector> impulses;  ///< in the contact frame, normal first [N s]
+
+  std::size_t size() const { return points.size(); }
+  void clear() {
+    points.clear();
+    keys.clear();
+    classes.clear();
+    impulses.clear();
+  }
+};
+
+}  // namespace moreau

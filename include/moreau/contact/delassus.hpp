@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The Delassus operator W = J M^-1 J^T of a set of contacts, never formed: each contact keeps its
+// own rows of J M^-1/2, each body the change of its scaled velocity y = M^1/2 (V - V_free). Then
+//
+//     u_c = free_c + Jb y_b - Ja y_a        an impulse dr at c:  y_b += Jb^T dr,  y_a -= Ja^T dr
+//     W_cc = Ja Ja^T + Jb Jb^T
+//
+// so that one sweep costs one pass over the contacts. A body that cannot move along some axis has a
+// zero there in M^-1/2; its prescribed velocity stands in V_free.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/contact/local_problem.hpp"
+
+namespace moreau {
+
+/// M^-1/2 of one body in world axes.
+template <class S>
+struct MobilityRoot {
+  typename S::Matrix linear;    ///< [kg^-1/2]
+  typename S::Inertia angular;  ///< [kg^-1/2 m^-1]
+};
+
+/// The operator for bodies that touch at points; model of what NonlinearGaussSeidel sweeps over.
+template <class S>
+class BodyDelassus {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  /// Generalized velocity padded to whole SIMD lanes; the padding stays zero.
+  static constexpr int width = (S::dofs + 3) / 4 * 4;
+  using Wide = Eigen::Matrix<Scalar, width, 1>;
+  using WideRows = Eigen::Matrix<Scalar, width, S::dim>;
+
+  /// Builds the rows and blocks, and the free relative velocities.
+  /// @param contacts in: the points, frames, levers; out: the tangents turned, see LocalBlock
+  /// @param roots    M^-1/2 of every body
+  /// @param free     velocity every body would have without contacts, (v, w) in world axes
+  void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
+                std::span<const typename S::Twist> free) {
+    constexpr int tangents = S::dim - 1;
+    rows_.resize(contacts.size());
+    scaled_.assign(roots.size(), Wide::Zero());
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      Contact<S>& contact = contacts[c];
+      Row& row = rows_[c];
+      row.a = contact.a;
+      row.b = contact.b;
+      row.ja = scaled_rows(contact.frame, contact.lever_a, roots[contact.a]);
+      row.jb = scaled_rows(contact.frame, contact.lever_b, roots[contact.b]);
+      Eigen::Matrix<Scalar, tangents, tangents> turn;
+      row.block =
+          align_tangents<S>(row.ja.transpose() * row.ja + row.jb.transpose() * row.jb, turn);
+      contact.frame.template rightCols<tangents>() *= turn;
+      row.ja.template rightCols<tangents>() *= turn;
+      row.jb.template rightCols<tangents>() *= turn;
+      row.free = relative_velocity(contact, free[contact.a], free[contact.b]);
+    }
+  }
+
+  std::size_t size() const { return rows_.size(); }
+  std::size_t body_count() const { return scaled_.size(); }
+
+  /// W_cc in the contact's frame.
+  const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
+  /// Adds to the free normal velocity of a contact [m/s].
+  void offset_normal(std::size_t c, Scalar offset) { rows_[c].free[0] += offset; }
+
+  /// Relative velocity u of a contact under all impulses applied so far [m/s].
+  Vector velocity(std::size_t c) const {
+    const Row& row = rows_[c];
+    return row.free + row.jb.transpose() * scaled_[row.b] - row.ja.transpose() * scaled_[row.a];
+  }
+  /// The normal component of velocity(c) alone.
+  Scalar normal_velocity(std::size_t c) const {
+    const Row& row = rows_[c];
+    return row.free[0] + row.jb.col(0).dot(scaled_[row.b]) - row.ja.col(0).dot(scaled_[row.a]);
+  }
+  /// Applies an impulse, in the contact's frame, to its two bodies [N s].
+  void apply(std::size_t c, const Vector& impulse) {
+    const Row& row = rows_[c];
+    scaled_[row.b].noalias() += row.jb * impulse;
+    scaled_[row.a].noalias() -= row.ja * impulse;
+  }
+  /// Undoes all impulses: every body back at its free velocity.
+  void clear() { scaled_.assign(scaled_.size(), Wide::Zero()); }
+  /// The scaled rows of the normal component at a and at b.
+  auto normal_row_a(std::size_t c) const { return rows_[c].ja.col(0); }
+  auto normal_row_b(std::size_t c) const { return rows_[c].jb.col(0); }
+  /// M^1/2 (V - V_free) of a body.
+  auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
+
+  /// u of a contact between bodies of velocities (v, w) [m/s].
+  static Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
+                                  const typename S::Twist& b) {
+    return contact.frame.transpose() *
+           (point_velocity(b, contact.lever_b) - point_velocity(a, contact.lever_a));
+  }
+
+ private:
+  struct Row {
+    WideRows ja, jb;
+    LocalBlock<S> block;
+    Vector free;
+    std::uint32_t a, b;
+  };
+
+  static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
+    return twist.template head<S::dim>() + S::spin(twist.template tail<S::angular_dim>(), lever);
+  }
+  static WideRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
+                              const MobilityRoot<S>& root) {
+    WideRows rows = WideRows::Zero();
+    rows.template topRows<S::dim>() = root.linear * frame;
+    rows.template middleRows<S::angular_dim>(S::dim) =
+        root.angular * (S::lever(lever).transpose() * frame);
+    return rows;
+  }
+
+  std::vector<Row> rows_;
+  std::vector<Wide> scaled_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The Delassus block of one contact, factored so that a law's local solution is a few divisions.
+//
+// Eliminating the normal impulse from u = W r + b leaves the tangential Schur complement
+// W_tt - w w^T / w_nn. With the tangents of the contact frame turned to its eigenvectors,
+//
+//     W = w_nn [1 q^T; q q q^T] + diag(0, slip),        q = w / w_nn,
+//
+// and for the impulse with u_n = 0 and u_t = -alpha r_t (alpha = 0 sticks)
+//
+//     r_t = -(b_t - q b_n) / (slip + alpha)   (entry by entry),     r_n = -b_n / w_nn - q . r_t.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// W of one contact in its own frame, normal first; tangents aligned as above [1/kg].
+template <class S>
+struct LocalBlock {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  static constexpr int tangents = S::dim - 1;
+  using Tangent = Eigen::Matrix<Scalar, tangents, 1>;
+
+  Scalar normal;     ///< w_nn
+  Tangent coupling;  ///< q = w_tn / w_nn [-]
+  Tangent slip;      ///< eigenvalues of the Schur complement
+
+  /// W r.
+  Vector operator*(const Vector& r) const {
+    const auto r_t = r.template tail<tangents>();
+    const Scalar u_n = normal * (r[0] + coupling.dot(r_t));
+    Vector u;
+    u[0] = u_n;
+    u.template tail<tangents>() = u_n * coupling + slip.cwiseProduct(r_t);
+    return u;
+  }
+  Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
+  typename S::Matrix matrix() const {
+    typename S::Matrix w;
+    for (int k = 0; k < S::dim; ++k) w.col(k) = *this * Vector(Vector::Unit(k));
+    return w;
+  }
+};
+
+namespace detail {
+
+/// Columns: orthonormal eigenvectors of a symmetric matrix, as a rotation.
+template <std::floating_point T>
+Eigen::Matrix<T, 1, 1> eigenvectors(const Eigen::Matrix<T, 1, 1>&) {
+  return Eigen::Matrix<T, 1, 1>::Ones();
+}
+template <std::floating_point T>
+Eigen::Matrix<T, 2, 2> eigenvectors(const Eigen::Matrix<T, 2, 2>& a) {
+  // One Jacobi rotation by the smaller angle.
+  T c = 1, s = 0;
+  if (a(1, 0) != T(0)) {
+    const T theta = (a(1, 1) - a(0, 0)) / (T(2) * a(1, 0));
+    const T t = std::copysign(T(1), theta) / (std::abs(theta) + std::sqrt(theta * theta + T(1)));
+    c = T(1) / std::sqrt(t * t + T(1));
+    s = t * c;
+  }
+  Eigen::Matrix<T, 2, 2> q;
+  q << c, s, -s, c;
+  return q;
+}
+
+}  // namespace detail
+
+/// Turns the tangents (columns 1.. of a frame) so that W becomes a LocalBlock.
+/// @param w     W in the frame as it comes, symmetric positive definite
+/// @param turn  out: D - 1 x D - 1; new tangents = old tangents * turn
+template <class S>
+LocalBlock<S> align_tangents(const typename S::Matrix& w,
+                             Eigen::Matrix<typename S::Scalar, S::dim - 1, S::dim - 1>& turn) {
+  constexpr int tangents = S::dim - 1;
+  using Block = Eigen::Matrix<typename S::Scalar, tangents, tangents>;
+  LocalBlock<S> block;
+  block.normal = w(0, 0);
+  const typename LocalBlock<S>::Tangent q =
+      w.template bottomLeftCorner<tangents, 1>() / block.normal;
+  const Block schur =
+      w.template bottomRightCorner<tangents, tangents>() - block.normal * (q * q.transpose());
+  turn = detail::eigenvectors(schur);
+  block.coupling = turn.transpose() * q;
+  block.slip = (turn.transpose() * schur * turn).diagonal();
+  return block;
+}
+
+}  // namespace moreau

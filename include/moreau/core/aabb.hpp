@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Axis-aligned bounding box in world axes.
+#pragma once
+
+#include <limits>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// The set lower <= x <= upper [m]; empty (and neutral under merge) as constructed.
+template <class S>
+struct Aabb {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  Vector lower = Vector::Constant(std::numeric_limits<Scalar>::infinity());
+  Vector upper = Vector::Constant(-std::numeric_limits<Scalar>::infinity());
+
+  bool overlaps(const Aabb& other) const {
+    return (lower.array() <= other.upper.array()).all() &&
+           (other.lower.array() <= upper.array()).all();
+  }
+  bool contains(const Aabb& other) const {
+    return (lower.array() <= other.lower.array()).all() &&
+           (other.upper.array() <= upper.array()).all();
+  }
+  void merge(const Vector& x) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  /// Grown by the margin [m] on every side.
+  Aabb inflated(Scalar margin) const {
+    Aabb box = *this;
+    box.lower.array() -= margin;
+    box.upper.array() += margin;
+    return box;
+  }
+};
+
+}  // namespace moreau

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Errors at the edges of the library: a bad argument throws, with its function, name and value.
+// Kernels assert (MOREAU_ASSERT); a solver that does not converge says so in its report, never
+// here.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cassert>
+#include <concepts>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#ifndef MOREAU_ASSERT
+#define MOREAU_ASSERT(condition) assert(condition)
+#endif
+
+namespace moreau {
+
+namespace detail {
+
+template <class Value>
+requires(!std::derived_from<Value, Eigen::EigenBase<Value>>) void print(std::ostream& out,
+                                                                        const Value& value) {
+  out << value;
+}
+
+template <class Derived>
+void print(std::ostream& out, const Eigen::MatrixBase<Derived>& value) {
+  static const Eigen::IOFormat row(9, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
+  out << value.format(row);
+}
+
+}  // namespace detail
+
+/// Throws std::invalid_argument "function: argument = value must ...".
+template <class Value>
+[[noreturn]] void throw_invalid(std::string_view function, std::string_view argument,
+                                const Value& value, std::string_view expectation) {
+  std::ostringstream message;
+  message.precision(9);
+  message << function << ": " << argument << " = ";
+  detail::print(message, value);
+  message << ' ' << expectation;
+  throw std::invalid_argument(message.str());
+}
+
+/// Checks an argument of a public function.
+/// @param condition   what has to hold
+/// @param function    the public name the caller used, e.g. "Polyhedron"
+/// @param argument    the name of the argument, e.g. "vertices[3]"
+/// @param value       its value; formatted only on failure
+/// @param expectation what it must be, e.g. "must be finite"
+/// @throws std::invalid_argument naming all of them if the condition does not hold
+template <class Value>
+void require(bool condition, std::string_view function, std::string_view argument,
+             const Value& value, std::string_view expectation) {
+  if (!condition) throw_invalid(function, argument, value, expectation);
+}
+
+}  // namespace moreau

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Strong ids: a body's index cannot be handed in where a shape's is asked for.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+
+namespace moreau {
+
+/// An index that knows what it counts. Trivially copyable; ordered like its value.
+template <class Tag>
+struct Id {
+  std::uint32_t value = 0;
+
+  constexpr Id() = default;
+  constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
+
+  /// The position in the array of what it counts.
+  constexpr std::size_t index() const { return value; }
+  friend constexpr auto operator<=>(const Id&, const Id&) = default;
+  friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
+};
+
+using BodyId = Id<struct BodyTag>;
+using ShapeId = Id<struct ShapeTag>;
+using MaterialId = Id<struct MaterialTag>;
+
+}  // namespace moreau

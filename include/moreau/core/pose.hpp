@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Where a body is: the position of its centre of mass and the rotation of its axes.
+#pragma once
+
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// Maps body to world coordinates: x = position + rotation x_body. Lengths in metres.
+template <class S>
+struct Pose {
+  using Vector = typename S::Vector;
+
+  Vector position = Vector::Zero();
+  typename S::Rotation rotation = S::identity();
+
+  /// World coordinates of a point given in body coordinates.
+  Vector operator()(const Vector& x_body) const { return position + rotation * x_body; }
+  /// Body coordinates of a point given in world coordinates.
+  Vector to_body(const Vector& x) const { return rotation.inverse() * (x - position); }
+  bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }
+};
+
+}  // namespace moreau

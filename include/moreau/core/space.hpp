@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The one algebra for two and three dimensions.
+//
+// Angular quantities are vectors of length A = D(D-1)/2: one number in the plane, three in space.
+// The matrix lever(r), D x A, carries every cross product:
+//
+//     velocity of a point at r from the centre   v + lever(r) w
+//     torque of a force f at r                   lever(r)^T f
+//     Delassus block                             F^T (1/m + lever(r) I^-1 lever(r)^T) F
+//
+// Written so, the mechanics is the same text in both dimensions. This header (and the geometry of
+// single shapes) is the only place that knows which one it is.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <concepts>
+
+namespace moreau {
+
+/// Types and operations of a D-dimensional Euclidean space over T; specialised for D = 2 and 3.
+template <int Dim, std::floating_point T = double>
+struct Space;
+
+/// The plane. Rotations are angles, positive from x to y; angular quantities are 1-vectors.
+template <std::floating_point T>
+struct Space<2, T> {
+  using Scalar = T;
+  static constexpr int dim = 2;          ///< D
+  static constexpr int angular_dim = 1;  ///< A
+  static constexpr int dofs = 3;         ///< D + A
+
+  using Vector = Eigen::Matrix<T, 2, 1>;
+  using Matrix = Eigen::Matrix<T, 2, 2>;
+  using Angular = Eigen::Matrix<T, 1, 1>;
+  using Inertia = Eigen::Matrix<T, 1, 1>;
+  using Lever = Eigen::Matrix<T, 2, 1>;
+  using Twist = Eigen::Matrix<T, 3, 1>;  ///< (v, w), generalized velocity or force of a body
+  using Rotation = Eigen::Rotation2D<T>;
+
+  /// The rotation by the angle w [rad].
+  static Rotation exp(const Angular& w) { return Rotation(w[0]); }
+  /// q, free of the drift that many small rotations leave: an angle has none.
+  static Rotation normalized(const Rotation& q) { return q; }
+  static Rotation identity() { return Rotation(T(0)); }
+  static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }
+  /// Whether q is a rotation at all: in space, a quaternion of unit length.
+  static bool is_rotation(const Rotation& q) { return is_finite(q); }
+  /// Angular quantities from body to world axes: the identity in the plane.
+  static Inertia adjoint(const Rotation&) { return Inertia::Ones(); }
+  /// D x A with lever(r) w = the velocity at r of a rotation w about the origin.
+  static Lever lever(const Vector& r) { return Lever(-r.y(), r.x()); }
+  /// lever(r) w without forming the matrix [m/s].
+  static Vector spin(const Angular& w, const Vector& r) { return {-w[0] * r.y(), w[0] * r.x()}; }
+  /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
+  static Angular moment(const Vector& r, const Vector& f) {
+    return Angular(r.x() * f.y() - r.y() * f.x());
+  }
+  /// w x I w [N m]: none in the plane.
+  static Angular gyroscopic(const Inertia&, const Angular&) { return Angular::Zero(); }
+  /// Derivative, along a rotation dw, of I(q) w at fixed w: none in the plane.
+  static Inertia gyroscopic_jacobian(const Inertia&, const Angular&) { return Inertia::Zero(); }
+  /// Orthonormal, right-handed; columns: normal n, tangent t. n must be unit.
+  static Matrix contact_frame(const Vector& n) {
+    Matrix frame;
+    frame << n.x(), -n.y(), n.y(), n.x();
+    return frame;
+  }
+};
+
+/// Space. Rotations are unit quaternions; angular quantities are vectors in world axes unless
+/// a name ends in _body.
+template <std::floating_point T>
+struct Space<3, T> {
+  using Scalar = T;
+  static constexpr int dim = 3;
+  static constexpr int angular_dim = 3;
+  static constexpr int dofs = 6;
+
+  using Vector = Eigen::Matrix<T, 3, 1>;
+  using Matrix = Eigen::Matrix<T, 3, 3>;
+  using Angular = Eigen::Matrix<T, 3, 1>;
+  using Inertia = Eigen::Matrix<T, 3, 3>;
+  using Lever = Eigen::Matrix<T, 3, 3>;
+  using Twist = Eigen::Matrix<T, 6, 1>;
+  using Rotation = Eigen::Quaternion<T>;
+
+  /// The rotation by |w| [rad] about w.
+  static Rotation exp(const Angular& w) {
+    const T half = w.norm() / T(2);
+    // sin(x)/x by its series where the quotient would lose digits; the next term is x^4/120.
+    const T sinc = half < T(1e-2) ? T(1) - half * half / T(6) * (T(1) - half * half / T(20))
+                                  : std::sin(half) / half;
+    Rotation q;
+    q.w() = std::cos(half);
+    q.vec() = (sinc / T(2)) * w;
+    return q;
+  }
+  static Rotation normalized(const Rotation& q) { return q.normalized(); }
+  static Rotation identity() { return Rotation::Identity(); }
+  static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
+  static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
+  static Inertia adjoint(const Rotation& q) { return q.toRotationMatrix(); }
+  static Lever lever(const Vector& r) {
+    Lever l;
+    l << T(0), r.z(), -r.y(), -r.z(), T(0), r.x(), r.y(), -r.x(), T(0);
+    return l;
+  }
+  static Vector spin(const Angular& w, const Vector& r) { return w.cross(r); }
+  static Angular moment(const Vector& r, const Vector& f) { return r.cross(f); }
+  static Angular gyroscopic(const Inertia& I, const Angular& w) { return w.cross(I * w); }
+  /// d(I(q) w) = (I lever'(w) - [I w]x) dw, where [a]x b = a x b = -lever(a) b.
+  static Inertia gyroscopic_jacobian(const Inertia& I, const Angular& w) {
+    return lever(I * w) - I * lever(w);
+  }
+  /// Orthonormal, right-handed; columns: normal n, tangents t and s. n must be unit.
+  /// Source: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).
+  static Matrix contact_frame(const Vector& n) {
+    const T sign = std::copysign(T(1), n.z());
+    const T a = T(-1) / (sign + n.z());
+    const T b = n.x() * n.y() * a;
+    Matrix frame;
+    frame.col(0) = n;
+    frame.col(1) << T(1) + sign * n.x() * n.x() * a, sign * b, -sign * n.x();
+    frame.col(2) << b, sign + n.y() * n.y() * a, -n.y();
+    return frame;
+  }
+};
+
+}  // namespace moreau

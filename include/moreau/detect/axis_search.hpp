@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The signed gap of two polyhedra from their faces and edges.
+//
+// For a unit vector n let s(n) = min over B of n.b - max over A of n.a, the separation along n; the
+// signed gap is the maximum of s over all n. C = B - A is a polytope. If the shapes overlap, the
+// origin lies in it and the gap is minus the distance to its nearest face: the largest s over the
+// normals of C's faces, which are those of A, those of B reversed, and the common normals of pairs
+// of edges. If they are apart, the largest s over these normals is a lower bound; it is the gap if
+// the nearest points of the two features lie within them, for then they are that far apart.
+//
+// A vertex q of B below every face of A, and nowhere less deep than -s(n_f) below the best one,
+// proves that face at once: to bring that one point out of A takes as much along any axis.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "moreau/detect/edge_search.hpp"
+#include "moreau/detect/foot.hpp"
+#include "moreau/detect/polyhedron_pair.hpp"
+
+namespace moreau::detail {
+
+template <std::floating_point T>
+class AxisSearch {
+ public:
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+
+  /// @param points_a  at least one vertex of a, relative to the centre of b; points_b likewise.
+  /// They
+  ///                  save time if they are near the contact
+  /// @param margin    stop at an axis that separates by more [m]
+  AxisSearch(const PolyhedronPair<T>& pair, PointSet<T>& points_a, PointSet<T>& points_b, T margin)
+      : pair_(pair), rounding_(pair.rounding()) {
+    const auto of_a =
+        search_faces(pair.a, pair.b, pair.offset, points_b, -std::numeric_limits<T>::infinity());
+    axis_ = {pair.a.normals()[of_a.face], of_a.separation, AxisKind::face_a, of_a.face,
+             of_a.vertex};
+    if (axis_.gap > margin) return;
+    const FaceMasks<T> below_a(pair.a, points_b, level());
+    if (is_proved(pair.a, of_a, pair.offset, pair.b, below_a)) return;
+    const auto of_b =
+        search_faces(pair.b, pair.a, Vector(-pair.offset), points_a, axis_.gap + rounding_);
+    if (of_b.is_found)
+      axis_ = {-pair.b.normals()[of_b.face], of_b.separation, AxisKind::face_b, of_b.vertex,
+               of_b.face};
+    if (axis_.gap > margin) return;
+    const FaceMasks<T> below_b(pair.b, points_a, level());
+    if (of_b.is_found && is_proved(pair.b, of_b, Vector(-pair.offset), pair.a, below_b)) return;
+    search_edges(edges_left(pair.a, below_a), edges_left(pair.b, below_b));
+    if (axis_.gap <= T(0)) is_exact_ = true;
+  }
+
+  const Axis<S>& axis() const { return axis_; }
+  /// Whether its gap is the signed gap. Otherwise the shapes are apart, by the gap or more.
+  bool is_exact() const { return is_exact_; }
+
+ private:
+  /// What an edge has to exceed; never positive, see edge_search.hpp.
+  T level() const { return std::min(axis_.gap + rounding_, T(0)); }
+
+  /// @param below  for each face of the shape the points of the other at most level() above it
+  bool is_proved(const Placed<Polyhedron<T>>& shape, const FaceSeparation<T>& found,
+                 const Vector& offset, const Placed<Polyhedron<T>>& other,
+                 const FaceMasks<T>& below) {
+    is_exact_ = below.in_common() != 0 ||
+                (axis_.gap > T(0) &&
+                 has_foot(shape, found.face, Vector(other.vertices()[found.vertex] + offset)));
+    return is_exact_;
+  }
+
+  void search_edges(const ShortList& edges_a, const ShortList& edges_b) {
+    for (std::size_t i = 0; i < edges_a.size(); ++i) {
+      const EdgeView<T> a(pair_.a, edges_a[i]);
+      for (std::size_t j = 0; j < edges_b.size(); ++j)
+        try_pair(a, edges_a[i], EdgeView<T>(pair_.b, edges_b[j]), edges_b[j]);
+    }
+  }
+  void try_pair(const EdgeView<T>& a, std::uint32_t id_a, const EdgeView<T>& b,
+                std::uint32_t id_b) {
+    Vector n;
+    if (!crossing_normal(a, b, n)) return;
+    const Vector apart = b.from + pair_.offset - a.from;
+    if (!(n.dot(apart) > axis_.gap + rounding_)) return;
+    // Whatever n is, its own separation is a lower bound of the gap: nothing that rounding did to
+    // the arcs can make the result too large.
+    const T separation = pair_.separation(n);
+    if (!(separation > axis_.gap + rounding_)) return;
+    axis_ = {n, separation, AxisKind::edges, id_a, id_b};
+    is_exact_ = separation > T(0) && feet_are_within(a, b, apart, n);
+  }
+
+  const PolyhedronPair<T>& pair_;
+  const T rounding_;
+  Axis<S> axis_;
+  bool is_exact_ = false;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Which boxes overlap: what the broad phases share.
+#pragma once
+
+#include <compare>
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/core/aabb.hpp"
+
+namespace moreau {
+
+/// Two boxes by their place in the input; first < second.
+struct IndexPair {
+  std::uint32_t first, second;
+  friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
+};
+
+/// find_pairs replaces the contents of `pairs` by all pairs of overlapping boxes (boxes that touch
+/// overlap), sorted, each once. Boxes must be finite. Memory is kept: no allocation once it has
+/// grown.
+template <class B, class S>
+concept BroadPhase = requires(B broad_phase, std::span<const Aabb<S>> boxes,
+                              std::vector<IndexPair>& pairs) {
+  { broad_phase.find_pairs(boxes, pairs) } -> std::same_as<void>;
+};
+
+}  // namespace moreau

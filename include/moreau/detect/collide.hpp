@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The narrow phase: all pairs of shapes, in either order.
+//
+//   bool collide(a, b, margin, manifold[, cache])   contact points, if the gap is at most the
+//   margin SignedDistance distance(a, b)                   gap, normal, nearest points bool
+//   overlap(a, b)                              gap <= 0
+//
+// a and b are Placed shapes. Each unordered pair of shapes has one function, found by the types of
+// its arguments, for the shape of lower rank first; the other order is made here. A shape of one's
+// own joins in by functions of these names in its own namespace.
+#pragma once
+
+#include "moreau/detect/collide_half_space.hpp"
+#include "moreau/detect/collide_polygons.hpp"
+#include "moreau/detect/collide_polyhedra.hpp"
+#include "moreau/detect/collide_sphere_polytope.hpp"
+#include "moreau/detect/collide_spheres.hpp"
+#include "moreau/detect/reduce.hpp"
+
+namespace moreau {
+
+/// Which of two shapes of different kind comes first in the functions that exist.
+template <class Shape>
+inline constexpr int collide_rank = 1;
+template <class S>
+inline constexpr int collide_rank<Sphere<S>> = 0;
+template <class S>
+inline constexpr int collide_rank<HalfSpace<S>> = 2;
+
+/// The other order.
+template <class A, class B>
+requires(collide_rank<A> > collide_rank<B>) bool collide(const Placed<A>& a, const Placed<B>& b,
+                                                         typename SpaceOf<A>::Scalar margin,
+                                                         Manifold<SpaceOf<A>>& out,
+                                                         PairCache<SpaceOf<A>>& cache) {
+  cache.axis = -cache.axis;
+  const bool touch = collide(b, a, margin, out, cache);
+  cache.axis = -cache.axis;
+  if (touch) out.swap_sides();
+  return touch;
+}
+
+/// The other order.
+template <class A, class B>
+requires(collide_rank<A> >
+         collide_rank<B>) SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
+                                                              const Placed<B>& b) {
+  SignedDistance<SpaceOf<A>> found = distance(b, a);
+  found.normal = -found.normal;
+  std::swap(found.witness_a, found.witness_b);
+  return found;
+}
+
+/// Without a memory of the pair.
+template <class A, class B>
+bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
+             Manifold<SpaceOf<A>>& out) {
+  PairCache<SpaceOf<A>> none;
+  return collide(a, b, margin, out, none);
+}
+
+/// Whether the shapes have a point in common.
+template <class A, class B>
+bool overlap(const Placed<A>& a, const Placed<B>& b) {
+  return distance(a, b).gap <= 0;
+}
+
+}  // namespace moreau

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Where two edges of polygons look at each other along a normal: the segment in which their
+// projections overlap, with the gap between the two lines at each end.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "moreau/detect/manifold.hpp"
+#include "moreau/detect/placed.hpp"
+#include "moreau/shape/polygon.hpp"
+
+namespace moreau::detail {
+
+template <std::floating_point T>
+class ContactSegment {
+ public:
+  using S = Space<2, T>;
+  using Vector = typename S::Vector;
+  using Shape = Placed<Polygon<T>>;
+
+  /// @param offset  centre of b minus centre of a
+  /// @param near    distance within which two ends are one [m]
+  ContactSegment(const Shape& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
+                 const Vector& offset, const Vector& normal, T near)
+      : center_(a.center()), frame_(S::contact_frame(normal)), near_(near) {
+    a_ = project(a, edge_a, Vector::Zero());
+    b_ = project(b, edge_b, offset);
+  }
+
+  /// Calls use(ManifoldPoint) for each end; once if they coincide.
+  template <class Use>
+  void for_each_corner(Use&& use) const {
+    for (const End& end : a_.ends)
+      if (b_.contains(end.x, near_))
+        use(point(end.x, end.h, b_.height(end.x),
+                  FeatureKey(FeatureKey::Kind::vertex_edge, end.vertex, b_.edge)));
+    for (const End& end : b_.ends)
+      if (a_.contains(end.x, near_) && !is_end_of_a(end))
+        use(point(end.x, a_.height(end.x), end.h,
+                  FeatureKey(FeatureKey::Kind::edge_vertex, a_.edge, end.vertex)));
+  }
+
+ private:
+  struct End {
+    T x, h;  // along the tangent and the normal, relative to the centre of a
+    std::uint32_t vertex;
+  };
+  struct Segment {
+    std::array<End, 2> ends;
+    std::uint32_t edge;
+
+    bool contains(T x, T near) const {
+      const auto [low, high] = std::minmax(ends[0].x, ends[1].x);
+      return x >= low - near && x <= high + near;
+    }
+    T height(T x) const {
+      const T along = ends[1].x - ends[0].x;
+      const T t = along == T(0) ? T(0) : (x - ends[0].x) / along;
+      return ends[0].h + t * (ends[1].h - ends[0].h);
+    }
+  };
+
+  Segment project(const Shape& shape, std::uint32_t edge, const Vector& offset) const {
+    const auto next = static_cast<std::uint32_t>((edge + 1) % shape.vertices().size());
+    const auto end = [&](std::uint32_t v) -> End {
+      const Vector x = shape.vertices()[v] + offset;
+      return {frame_.col(1).dot(x), frame_.col(0).dot(x), v};
+    };
+    return {{end(edge), end(next)}, edge};
+  }
+  bool is_end_of_a(const End& end) const {
+    for (const End& other : a_.ends)
+      if (std::abs(other.x - end.x) <= near_ && b_.contains(other.x, near_)) return true;
+    return false;
+  }
+  ManifoldPoint<S> point(T x, T height_a, T height_b, FeatureKey key) const {
+    return {center_ + frame_ * Vector(T(0.5) * (height_a + height_b), x), height_b - height_a, key};
+  }
+
+  const Vector center_;
+  const typename S::Matrix frame_;
+  const T near_;
+  Segment a_, b_;
+};
+
+}  // namespace moreau::detail

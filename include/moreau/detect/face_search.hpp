@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// The face of one polyhedron that separates it best from another.
+//
+// For a face f of A with normal n_f the separation is s(n_f) = min over b in B of n_f.b - offset_f,
+// so the height of any single b above the face bounds it. A handful of vertices bounds all faces in
+// one sweep; the face with the largest bound is looked at (a support scan), its deepest vertex
+// joins the handful, and so on until the largest bound is attained. Two or three rounds are usual.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "moreau/detect/placed.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+namespace moreau::detail {
+
+/// A few vertices of one shape, seen from the other's centre.
+template <std::floating_point T>
+class PointSet {
+ public:
+  using Vector = typename Space<3, T>::Vector;
+  static constexpr std::size_t capacity = 16;
+
+  std::size_t size() const { return size_; }
+  bool full() const { return size_ == capacity; }
+  const Vector& operator[](std::size_t i) const { return points_[i]; }
+  const Vector& back() const { return points_[size_ - 1]; }
+  bool contains(std::uint32_t id) const { return find(id) < size_; }
+  /// Position of the vertex with this id; size() if it is not here.
+  std::size_t find(std::uint32_t id) const {
+    std::size_t i = 0;
+    while (i < size_ && ids_[i] != id) ++i;
+    return i;
+  }
+  void add(std::uint32_t id, const Vector& point) {
+    MOREAU_ASSERT(!full());
+    ids_[size_] = id;
+    points_[size_++] = point;
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::array<std::uint32_t, capacity> ids_;
+  std::array<Vector, capacity> points_;
+};
+
+/// Indices below a total; if there are too many to write down, all of them.
+class ShortList {
+ public:
+  explicit ShortList(std::size_t total) : total_(total) {}
+  std::size_t size() const { return is_all_ ? total_ : size_; }
+  std::uint32_t operator[](std::size_t k) const {
+    return is_all_ ? static_cast<std::uint32_t>(k) : ids_[k];
+  }
+  void add(std::uint32_t id) {
+    if (size_ < ids_.size())
+      ids_[size_++] = id;
+    else
+      is_all_ = true;
+  }
+  bool contains(std::uint32_t id) const {
+    for (std::size_t k = 0; k < size(); ++k)
+      if ((*this)[k] == id) return true;
+    return false;
+  }
+
+ private:
+  std::size_t total_, size_ = 0;
+  bool is_all_ = false;
+  std::array<std::uint32_t, 64> ids_;
+};
+
+/// The height of a point, relative to the centre, above a face's plane.
+template <std::floating_point T>
+T height_above(const Placed<Polyhedron<T>>& shape, std::size_t face,
+               const typename Space<3, T>::Vector& point) {
+  return shape.normals()[face].dot(point) - shape.offset(face);
+}
+
+/// The points, each coordinate in every lane of a register.
+template <std::floating_point T>
+class WidePoints {
+ public:
+  using Point = std::array<typename Wide<T>::Values, 3>;
+  explicit WidePoints(const PointSet<T>& points) {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      points_[k] = Rows<Space<3, T>>::broadcast(points[k]);
+  }
+  const Point& operator[](std::size_t k) const { return points_[k]; }
+
+ private:
+  std::array<Point, PointSet<T>::capacity> points_;
+};
+
+/// For each face of a shape, which points are at most at some height above it: bit k for point k.
+template <std::floating_point T>
+class FaceMasks {
+ public:
+  using W = Wide<T>;
+
+  FaceMasks(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points, T height)
+      : shape_(shape), points_(points), height_(height) {
+    const auto& normals = shape.normals();
+    if (normals.padded_size() > capacity) return;
+    is_stored_ = true;
+    const WidePoints<T> wide(points);
+    typename W::Indices in_common{};
+    in_common = ~in_common;
+    for (Eigen::Index i = 0; i < normals.padded_size(); i += W::lanes) {
+      const auto level = height + W::load(shape.offsets() + i);
+      typename W::Indices mask{};
+      for (std::size_t k = 0; k < points.size(); ++k)
+        mask |= (normals.dot(i, wide[k]) <= level) & (typename W::Lane{1} << k);
+      in_common &= mask;
+      for (int l = 0; l < W::lanes; ++l)
+        masks_[static_cast<std::size_t>(i + l)] = static_cast<std::uint16_t>(mask[l]);
+    }
+    in_common_ = static_cast<std::uint32_t>(W::common_bits(in_common));
+  }
+
+  std::uint32_t operator[](std::size_t face) const {
+    return is_stored_ ? masks_[face] : compute(face);
+  }
+  /// The masks of all faces, if there is room for them; else they are computed when asked for.
+  const std::uint16_t* stored() const { return is_stored_ ? masks_.data() : nullptr; }
+  /// The points that are at most at that height above every face.
+  std::uint32_t in_common() const {
+    if (is_stored_) return in_common_;
+    std::uint32_t common = ~0U;
+    for (std::size_t f = 0; f < shape_.normals().size(); ++f) common &= compute(f);
+    return common;
+  }
+
+ private:
+  static_assert(PointSet<T>::capacity <= 16);
+  static constexpr Eigen::Index capacity = 512;
+
+  std::uint32_t compute(std::size_t face) const {
+    std::uint32_t mask = 0;
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (height_above(shape_, face, points_[k]) <= height_) mask |= 1U << k;
+    return mask;
+  }
+
+  const Placed<Polyhedron<T>>& shape_;
+  const PointSet<T>& points_;
+  const T height_;
+  bool is_stored_ = false;
+  std::uint32_t in_common_ = 0;
+  std::array<std::uint16_t, capacity> masks_;
+};
+
+/// The face above which the lowest of the points is highest, and its height there.
+template <std::floating_point T>
+Extreme<T> highest_above(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points) {
+  using W = Wide<T>;
+  std::array<std::array<typename W::Values, 3>, PointSet<T>::capacity> wide;
+  for (std::size_t k = 0; k < points.size(); ++k) wide[k] = Rows<Space<3, T>>::broadcast(points[k]);
+  WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
+  auto index = W::iota();
+  for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += W::lanes) {
+    auto lowest = shape.normals().dot(i, wide[0]);
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const auto h = shape.normals().dot(i, wide[k]);
+      lowest = h < lowest ? h : lowest;
+    }
+    best.take(lowest - W::load(shape.offsets() + i), index);
+    index += W::lanes;
+  }
+  return best.reduce();
+}
+
+/// What a search over the faces of one shape found.
+template <std::floating_point T>
+struct FaceSeparation {
+  T separation;
+  std::uint32_t face, vertex;  ///< of own; the vertex of other that is deepest below it
+  bool is_found;               ///< whether it is larger than what was asked for
+};
+
+/// @param offset    centre of other minus centre of own
+/// @param points    vertices of other relative to the centre of own, at least one; grows
+/// @param at_least  only larger separations count
+template <std::floating_point T>
+FaceSeparation<T> search_faces(const Placed<Polyhedron<T>>& own, const Placed<Polyhedron<T>>& other,
+                               const typename Space<3, T>::Vector& offset, PointSet<T>& points,
+                               T at_least) {
+  FaceSeparation<T> best{at_least, 0, 0, false};
+  const auto look_at = [&](std::uint32_t face) {
+    const typename Space<3, T>::Vector normal = own.normals()[face];
+    const std::uint32_t vertex = other.vertices().farthest(-normal).index;
+    const T separation = height_above(own, face, other.vertices()[vertex] + offset);
+    if (separation > best.separation) best = {separation, face, vertex, true};
+    return vertex;
+  };
+  while (!points.full()) {
+    const Extreme<T> bound = highest_above(own, points);
+    if (!(bound.value > best.separation)) return best;
+    const std::uint32_t vertex = look_at(bound.index);
+    if (points.contains(vertex)) return best;
+    points.add(vertex, other.vertices()[vertex] + offset);
+  }
+  for (std::uint32_t f = 0; f < own.normals().size(); ++f) look_at(f);
+  return best;
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What the narrow phase says of a pair (a, b).
+//
+// Convention, everywhere in the library: the normal is a unit vector in world axes from a to b; a
+// gap is the signed distance along it, negative where the shapes overlap.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// The kind of the features that touch, each pair named once whichever of a and b holds which.
+/// Half-spaces count as a face. A sphere counts as a vertex. In the plane an edge of a polygon is
+/// an edge: vertex_edge and edge_edge are the regular classes there.
+enum class ContactClass : std::uint8_t {
+  vertex_vertex,  ///< degenerate
+  vertex_edge,    ///< degenerate in space, the simple contact in the plane
+  vertex_face,    ///< simple: one point
+  edge_edge,      ///< simple in space: one point; in the plane double: two
+  edge_face,      ///< double: two points
+  face_face,      ///< triple: three points
+};
+
+constexpr const char* name(ContactClass c) {
+  constexpr const char* names[] = {"vertex_vertex", "vertex_edge", "vertex_face",
+                                   "edge_edge",     "edge_face",   "face_face"};
+  return names[static_cast<int>(c)];
+}
+
+/// Identifies a contact point within its pair from step to step by the features that make it:
+/// (vertex of a, face of b), (face of a, vertex of b), (edge of a, edge of b). It does not depend
+/// on which of the two faces served as reference of the clipping.
+struct FeatureKey {
+  enum class Kind : std::uint8_t {
+    vertex_face = 0,
+    face_vertex = 1,
+    edge_edge = 2,
+    vertex_vertex = 3,
+    vertex_edge = 4,
+    edge_vertex = 5
+  };
+  std::uint64_t value = 0;
+
+  constexpr FeatureKey() = default;
+  /// @param a,b indices of the feature of a and of b, each below 2^28
+  constexpr FeatureKey(Kind kind, std::size_t a, std::size_t b)
+      : value(static_cast<std::uint64_t>(kind) << 56 | static_cast<std::uint64_t>(a) << 28 |
+              static_cast<std::uint64_t>(b)) {}
+
+  constexpr Kind kind() const { return static_cast<Kind>(value >> 56); }
+  constexpr std::size_t a() const { return value >> 28 & 0xfffffff; }
+  constexpr std::size_t b() const { return value & 0xfffffff; }
+  /// The same point with the roles of a and b exchanged.
+  constexpr FeatureKey swapped() const {
+    constexpr Kind other[] = {Kind::face_vertex,   Kind::vertex_face, Kind::edge_edge,
+                              Kind::vertex_vertex, Kind::edge_vertex, Kind::vertex_edge};
+    return FeatureKey(other[value >> 56], b(), a());
+  }
+  friend constexpr auto operator<=>(const FeatureKey&, const FeatureKey&) = default;
+};
+
+/// One point of a contact.
+template <class S>
+struct ManifoldPoint {
+  typename S::Vector position;  ///< world, midway between the two surfaces [m]
+  typename S::Scalar gap;       ///< along the manifold's normal [m], < 0 is penetration
+  FeatureKey feature;
+};
+
+/// The points where a pair touches or is about to, with one common normal.
+/// Reused from pair to pair: clear() keeps the memory.
+template <class S>
+struct Manifold {
+  typename S::Vector normal = S::Vector::Zero();  ///< unit, from a to b, world axes
+  typename S::Scalar gap = 0;                     ///< the pair's signed distance [m]
+  ContactClass contact_class = ContactClass::vertex_vertex;
+  std::vector<ManifoldPoint<S>> points;     ///< gap at most the margin; sorted by feature
+  std::vector<typename S::Scalar> scratch;  ///< working memory of whoever fills the points
+
+  void clear() { points.clear(); }
+  /// Points into the order of their keys.
+  void sort() {
+    std::sort(points.begin(), points.end(),
+              [](const auto& p, const auto& q) { return p.feature < q.feature; });
+  }
+  /// The manifold of (b, a), made of that of (a, b).
+  void swap_sides() {
+    normal = -normal;
+    for (auto& point : points) point.feature = point.feature.swapped();
+    sort();
+  }
+};
+
+/// The signed distance of a pair.
+template <class S>
+struct SignedDistance {
+  typename S::Scalar gap;        ///< [m], < 0: the depth of penetration
+  typename S::Vector normal;     ///< unit, from a to b, world axes
+  typename S::Vector witness_a;  ///< a point of a's surface, world [m]
+  typename S::Vector witness_b;  ///< a point of b's surface: witness_a + gap normal [m]
+};
+
+}  // namespace moreau

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// A shape where it stands in this step: what the narrow phase reads.
+//
+// Everything but the centre is kept relative to the centre, in world axes. A pair is then judged in
+// coordinates of the size of the shapes, however far from the world's origin it lies.
+#pragma once
+
+#include "moreau/detect/rows.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/half_space.hpp"
+#include "moreau/shape/sphere.hpp"
+
+namespace moreau {
+
+/// A convex shape of which the support function is all that is known.
+template <class ShapeT>
+class Placed {
+ public:
+  using Space = SpaceOf<ShapeT>;
+  using Vector = typename Space::Vector;
+
+  explicit Placed(const ShapeT& shape) { update(shape, Pose<Space>{}); }
+  Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
+
+  /// The shape must outlive this object's use.
+  void update(const ShapeT& shape, const Pose<Space>& pose) {
+    shape_ = &shape;
+    pose_ = pose;
+  }
+  const Vector& center() const { return pose_.position; }
+  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  Vector support(const Vector& direction) const {
+    return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);
+  }
+  Aabb<Space> bounding_box() const { return shape_->bounding_box(pose_); }
+
+ private:
+  const ShapeT* shape_ = nullptr;
+  Pose<Space> pose_;
+};
+
+/// A polytope: its vertices and face normals turned into world axes once per step.
+template <class ShapeT>
+requires Polytope<ShapeT>
+class Placed<ShapeT> {
+ public:
+  using Space = SpaceOf<ShapeT>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+
+  explicit Placed(const ShapeT& shape) { update(shape, Pose<Space>{}); }
+  Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
+
+  /// Allocates only if the shape has more vertices or faces than any before. The shape must outlive
+  /// this object's use.
+  void update(const ShapeT& shape, const Pose<Space>& pose) {
+    const typename Space::Matrix rotation = pose.rotation.toRotationMatrix();
+    shape_ = &shape;
+    center_ = pose.position;
+    vertices_.assign(shape.vertices(), rotation);
+    normals_.assign(shape.face_normals(), rotation);
+    const Eigen::Index count = shape.face_offsets().size();
+    offsets_.resize(normals_.padded_size());
+    offsets_.head(count) = shape.face_offsets().array();
+    offsets_.tail(offsets_.size() - count).setConstant(offsets_[0]);
+  }
+
+  /// The same orientation elsewhere; costs nothing, unlike update().
+  void move_to(const Vector& center) { center_ = center; }
+
+  const ShapeT& shape() const { return *shape_; }
+  const Vector& center() const { return center_; }
+  /// Relative to the centre, world axes [m].
+  const detail::Rows<Space>& vertices() const { return vertices_; }
+  /// Unit, outward, world axes; one for each face.
+  const detail::Rows<Space>& normals() const { return normals_; }
+  /// Distance of face f's plane from the centre [m].
+  Scalar offset(std::size_t f) const { return offsets_[static_cast<Eigen::Index>(f)]; }
+  /// As long as normals().padded_size().
+  const Scalar* offsets() const { return offsets_.data(); }
+  /// Radius of the ball about the centre that holds the shape [m].
+  Scalar radius() const { return shape_->circumradius(); }
+  /// The farthest vertex in the direction (any length but zero), relative to the centre [m].
+  Vector support(const Vector& direction) const {
+    return vertices_[vertices_.farthest(direction).index];
+  }
+  Aabb<Space> bounding_box() const {
+    Aabb<Space> box = vertices_.bounding_box();
+    box.lower += center_;
+    box.upper += center_;
+    return box;
+  }
+
+ private:
+  const ShapeT* shape_ = nullptr;
+  Vector center_ = Vector::Zero();
+  detail::Rows<Space> vertices_, normals_;
+  Eigen::Array<Scalar, Eigen::Dynamic, 1> offsets_;
+};
+
+/// A ball or disk.
+template <class S>
+class Placed<Sphere<S>> {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  explicit Placed(const Sphere<S>& shape) { update(shape, Pose<S>{}); }
+  Placed(const Sphere<S>& shape, const Pose<S>& pose) { update(shape, pose); }
+
+  void update(const Sphere<S>& shape, const Pose<S>& pose) {
+    center_ = pose.position;
+    radius_ = shape.radius();
+  }
+  void move_to(const Vector& center) { center_ = center; }
+  const Vector& center() const { return center_; }
+  Scalar radius() const { return radius_; }
+  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  Vector support(const Vector& direction) const { return radius_ * direction.normalized(); }
+  Aabb<S> bounding_box() const { return {center_.array() - radius_, center_.array() + radius_}; }
+
+ private:
+  Vector center_ = Vector::Zero();
+  Scalar radius_ = 0;
+};
+
+/// A wall: the solid is { x : normal . (x - center) <= 0 }.
+template <class S>
+class Placed<HalfSpace<S>> {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  explicit Placed(const HalfSpace<S>& shape) { update(shape, Pose<S>{}); }
+  Placed(const HalfSpace<S>& shape, const Pose<S>& pose) { update(shape, pose); }
+
+  void update(const HalfSpace<S>& shape, const Pose<S>& pose) {
+    center_ = pose.position;
+    normal_ = pose.rotation * shape.normal();
+  }
+  const Vector& center() const { return center_; }        ///< a point of the plane
+  const Vector& normal() const { return normal_; }        ///< unit, out of the solid, world axes
+  Scalar offset() const { return normal_.dot(center_); }  ///< normal . x = offset on the plane [m]
+
+ private:
+  Vector center_ = Vector::Zero();
+  Vector normal_ = Vector::Zero();
+};
+
+}  // namespace moreau

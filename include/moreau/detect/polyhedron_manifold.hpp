@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The points of contact of two polyhedra, once the axis is known.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "moreau/detect/contact_class.hpp"
+#include "moreau/detect/contact_polygon.hpp"
+#include "moreau/detect/foot.hpp"
+#include "moreau/detect/polyhedron_witness.hpp"
+
+namespace moreau::detail {
+
+/// Of the faces at a vertex, the one with most of its vertices (three are enough) at or above the
+/// height along the direction; of those the one that faces it most.
+template <std::floating_point T>
+std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape,
+                          std::span<const std::uint32_t> candidates,
+                          const typename Space<3, T>::Vector& direction, T height) {
+  std::uint32_t best = candidates[0];
+  int most = -1;
+  T most_aligned = 0;
+  for (const std::uint32_t f : candidates) {
+    int count = 0;
+    for (const std::uint32_t v : shape.shape().face(f))
+      if (count < 3 && direction.dot(shape.vertices()[v]) >= height) ++count;
+    const T aligned = direction.dot(shape.normals()[f]);
+    if (count < most || (count == most && aligned <= most_aligned)) continue;
+    best = f;
+    most = count;
+    most_aligned = aligned;
+  }
+  return best;
+}
+
+/// The two faces whose overlap is the region of contact. Only vertices within margin - gap of a
+/// shape's support plane can be within the margin of the other shape.
+template <std::floating_point T>
+std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
+                                          const Axis<Space<3, T>>& axis, T margin) {
+  const T slab = margin - axis.gap + pair.rounding();
+  const auto choose = [&](const Placed<Polyhedron<T>>& shape, bool is_own_face, std::uint32_t id,
+                          const typename Space<3, T>::Vector& direction) {
+    if (is_own_face) return id;
+    const Extreme<T> top = shape.vertices().farthest(direction);
+    const auto candidates = axis.kind == AxisKind::edges
+                                ? std::span<const std::uint32_t>(shape.shape().edges()[id].face)
+                                : shape.shape().vertex_faces(top.index);
+    return facing_face(shape, candidates, direction, top.value - slab);
+  };
+  return {choose(pair.a, axis.kind == AxisKind::face_a, axis.a, axis.normal),
+          choose(pair.b, axis.kind == AxisKind::face_b, axis.b, -axis.normal)};
+}
+
+/// Midway between the surfaces where they are nearest or deepest, relative to the centre of a.
+/// Where several vertices are equally deep, one whose foot lies beside the face proves nothing, and
+/// the polygon in which the faces overlap has to say where.
+template <std::floating_point T>
+typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
+                                               const Axis<Space<3, T>>& axis,
+                                               const Simplex<T>& simplex) {
+  using Vector = typename Space<3, T>::Vector;
+  const Witness<Vector> witness = witness_of(pair, axis, simplex);
+  bool is_on_both = true;
+  if (axis.kind == AxisKind::face_a) is_on_both = has_foot(pair.a, axis.a, witness.b);
+  if (axis.kind == AxisKind::face_b)
+    is_on_both = has_foot(pair.b, axis.b, Vector(witness.a - pair.offset));
+  Vector middle = T(0.5) * (witness.a + witness.b);
+  if (is_on_both) return middle;
+  std::vector<T> scratch;
+  const auto [face_a, face_b] = facing_faces(pair, axis, std::max(axis.gap, T(0)));
+  const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal,
+                                  pair.size * DetectionTolerance<T>::coincident, scratch);
+  T deepest = std::numeric_limits<T>::infinity();
+  polygon.for_each_corner([&](const ManifoldPoint<Space<3, T>>& corner) {
+    if (!(corner.gap < deepest)) return;
+    deepest = corner.gap;
+    middle = corner.position - pair.a.center();
+  });
+  return middle;
+}
+
+/// Fills the manifold of a pair whose axis is known.
+template <std::floating_point T>
+void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>& simplex,
+          T margin, Manifold<Space<3, T>>& out) {
+  out.clear();
+  out.normal = axis.normal;
+  out.gap = axis.gap;
+  const auto [face_a, face_b] = facing_faces(pair, axis, margin);
+  const T near = pair.size * DetectionTolerance<T>::coincident;
+  const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal, near,
+                                  out.scratch);
+  T deepest = std::numeric_limits<T>::infinity();
+  polygon.for_each_corner([&](const ManifoldPoint<Space<3, T>>& corner) {
+    if (!(corner.gap <= margin + pair.rounding())) return;
+    deepest = std::min(deepest, corner.gap);
+    out.points.push_back(corner);
+  });
+  // Nearest vertices lie above each other, but no face takes part.
+  const bool is_degenerate = axis.kind == AxisKind::nearest_points && out.points.size() == 1;
+  if (is_degenerate) out.points.clear();
+  if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) {
+    const auto witness = witness_of(pair, axis, simplex);
+    out.points.push_back(
+        {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
+  }
+  out.sort();
+  const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
+  switch (out.points.size()) {
+    case 1:
+      out.contact_class = class_of_point(out.points[0].feature);
+      break;
+    case 2:
+      out.contact_class = has_face ? ContactClass::edge_face : ContactClass::edge_edge;
+      break;
+    default:
+      out.contact_class = ContactClass::face_face;
+  }
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The points of two polyhedra that are nearest to each other, or deepest, once the axis is known.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "moreau/detect/manifold.hpp"
+#include "moreau/detect/polyhedron_axis.hpp"
+
+namespace moreau::detail {
+
+/// The points of the surfaces nearest to each other along the axis, relative to the centre of a.
+template <class Vector>
+struct Witness {
+  Vector a, b;
+  FeatureKey feature;
+};
+
+/// Nearest points of two lines that are not parallel.
+template <std::floating_point T>
+Witness<typename Space<3, T>::Vector> witness_of_edges(const PolyhedronPair<T>& pair,
+                                                       const Axis<Space<3, T>>& axis) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto& edge_a = pair.a.shape().edges()[axis.a];
+  const auto& edge_b = pair.b.shape().edges()[axis.b];
+  const Vector p = pair.a.vertices()[edge_a.vertex[0]];
+  const Vector q = pair.b.vertices()[edge_b.vertex[0]] + pair.offset;
+  const Vector u = pair.a.vertices()[edge_a.vertex[1]] - p;
+  const Vector v = pair.b.vertices()[edge_b.vertex[1]] + pair.offset - q;
+  // Both lines in the plane perpendicular to v: p + t u meets q there.
+  const Vector across = v.cross(axis.normal);
+  const T slope = u.dot(across);
+  const T t = slope == T(0) ? T(0.5) : std::clamp((q - p).dot(across) / slope, T(0), T(1));
+  const Vector on_a = p + t * u;
+  return {on_a, on_a + axis.gap * axis.normal,
+          FeatureKey(FeatureKey::Kind::edge_edge, axis.a, axis.b)};
+}
+
+/// The nearest points of the hull of the simplex, each with its weights there.
+template <std::floating_point T>
+Witness<typename Space<3, T>::Vector> witness_of_nearest(const PolyhedronPair<T>& pair,
+                                                         const Simplex<T>& simplex) {
+  using Vector = typename Space<3, T>::Vector;
+  std::array<T, 3> weight{T(1), T(0), T(0)};
+  const Vector& x = simplex.nearest();
+  if (simplex.size() == 2) {
+    const Vector along = simplex[1].point - simplex[0].point;
+    weight[1] = (x - simplex[0].point).dot(along) / along.squaredNorm();
+    weight[0] = T(1) - weight[1];
+  } else if (simplex.size() == 3) {
+    const Vector p = simplex[0].point - x, q = simplex[1].point - x, r = simplex[2].point - x;
+    const Vector n = (q - p).cross(r - p);
+    weight = {n.dot(q.cross(r)), n.dot(r.cross(p)), n.dot(p.cross(q))};
+    for (T& w : weight) w /= n.squaredNorm();
+  }
+  Witness<Vector> witness{Vector::Zero(), Vector::Zero(), FeatureKey()};
+  for (int i = 0; i < simplex.size(); ++i) {
+    const T w = weight[static_cast<std::size_t>(i)];
+    witness.a += w * pair.a.vertices()[simplex[i].a];
+    witness.b += w * (pair.b.vertices()[simplex[i].b] + pair.offset);
+  }
+  using Kind = FeatureKey::Kind;
+  std::uint32_t other_a = simplex[0].a, other_b = simplex[0].b, edge = 0;
+  for (int i = 1; i < simplex.size(); ++i) {
+    if (simplex[i].a != simplex[0].a) other_a = simplex[i].a;
+    if (simplex[i].b != simplex[0].b) other_b = simplex[i].b;
+  }
+  witness.feature = FeatureKey(Kind::vertex_vertex, simplex[0].a, simplex[0].b);
+  if (find_edge(pair.a, simplex[0].a, other_a, edge))
+    witness.feature = FeatureKey(Kind::edge_vertex, edge, simplex[0].b);
+  else if (find_edge(pair.b, simplex[0].b, other_b, edge))
+    witness.feature = FeatureKey(Kind::vertex_edge, simplex[0].a, edge);
+  return witness;
+}
+
+/// For a face axis: the deepest vertex and its foot on the face's plane.
+template <std::floating_point T>
+Witness<typename Space<3, T>::Vector> witness_of_face(const PolyhedronPair<T>& pair,
+                                                      const Axis<Space<3, T>>& axis) {
+  using Vector = typename Space<3, T>::Vector;
+  const Vector across = axis.gap * axis.normal;
+  if (axis.kind == AxisKind::face_a) {
+    const Vector on_b = pair.b.vertices()[axis.b] + pair.offset;
+    return {on_b - across, on_b, FeatureKey(FeatureKey::Kind::face_vertex, axis.a, axis.b)};
+  }
+  const Vector on_a = pair.a.vertices()[axis.a];
+  return {on_a, on_a + across, FeatureKey(FeatureKey::Kind::vertex_face, axis.a, axis.b)};
+}
+
+/// The nearest points of a pair whose axis is known.
+template <std::floating_point T>
+Witness<typename Space<3, T>::Vector> witness_of(const PolyhedronPair<T>& pair,
+                                                 const Axis<Space<3, T>>& axis,
+                                                 const Simplex<T>& simplex) {
+  if (axis.kind == AxisKind::nearest_points) return witness_of_nearest(pair, simplex);
+  return axis.kind == AxisKind::edges ? witness_of_edges(pair, axis) : witness_of_face(pair, axis);
+}
+
+}  // namespace moreau::detail

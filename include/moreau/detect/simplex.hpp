@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Points of the Minkowski difference B - A, at most four, and the one of their hull nearest to the
+// origin: the inner step of the distance algorithm of Gilbert, Johnson and Keerthi (1988).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau::detail {
+
+/// point = (vertex b of B) - (vertex a of A), world axes.
+template <class Vector>
+struct DifferencePoint {
+  Vector point;
+  std::uint32_t a, b;
+};
+
+/// The points that carry the nearest point of their hull, which itself is `nearest`. `direction` is
+/// parallel to it (any length), taken from the geometry of the points: it keeps its digits where
+/// the nearest point itself is lost in rounding because the origin all but touches the hull.
+template <std::floating_point T>
+class Simplex {
+ public:
+  using Vector = typename Space<3, T>::Vector;
+  using Point = DifferencePoint<Vector>;
+
+  explicit Simplex(const Point& p) : points_{p, p, p, p}, nearest_(p.point), direction_(p.point) {}
+
+  int size() const { return size_; }
+  const Point& operator[](int i) const { return points_[static_cast<std::size_t>(i)]; }
+  const Vector& nearest() const { return nearest_; }
+  const Vector& direction() const { return direction_; }
+  T squared_distance() const { return nearest_.squaredNorm(); }
+  bool contains(const Point& p) const {
+    for (int i = 0; i < size_; ++i)
+      if ((*this)[i].a == p.a && (*this)[i].b == p.b) return true;
+    return false;
+  }
+
+  enum class Step {
+    nearer,    ///< the new nearest point is nearer; the points it does not need are dropped
+    stuck,     ///< it is not; nothing has changed
+    enclosed,  ///< the origin lies within the four points
+  };
+  /// Adds a point beyond which the hull has none towards the origin. The nearest feature then has
+  /// the new point, so only those are looked at.
+  Step add(const Point& s) {
+    Feature best{s.point, s.point};
+    switch (size_) {
+      case 1:
+        best = edge(s.point, 0);
+        break;
+      case 2:
+        best = face(s.point, 0, 1, normal(s.point, 0, 1));
+        break;
+      default:
+        if (!nearest_face(s.point, best)) {
+          points_[3] = s;
+          size_ = 4;
+          nearest_.setZero();
+          return Step::enclosed;
+        }
+    }
+    if (!(best.squared_distance < squared_distance())) return Step::stuck;
+    if (best.size > 1) points_[0] = points_[best.first];
+    if (best.size > 2) points_[1] = points_[best.second];
+    points_[best.size - 1] = s;
+    size_ = static_cast<int>(best.size);
+    nearest_ = best.nearest;
+    direction_ = best.direction;
+    return Step::nearer;
+  }
+
+ private:
+  /// The new point, and with it the first, or the first and second of the old ones (first <
+  /// second).
+  struct Feature {
+    Vector nearest, direction;
+    T squared_distance = std::numeric_limits<T>::infinity();
+    std::size_t size = 0, first = 0, second = 0;
+  };
+
+  Vector to(const Vector& s, std::size_t i) const { return points_[i].point - s; }
+  Vector normal(const Vector& s, std::size_t i, std::size_t j) const {
+    return to(s, i).cross(to(s, j));
+  }
+
+  Feature edge(const Vector& s, std::size_t i) const {
+    const Vector along = to(s, i);
+    const T t = -s.dot(along);
+    if (!(t > T(0))) return {s, s, s.squaredNorm(), 1, 0, 0};
+    const Vector x = s + (t / along.squaredNorm()) * along;
+    return {x, x, x.squaredNorm(), 2, i, 0};
+  }
+
+  // The origin is beyond an edge if it lies on the outer side of the plane through the edge,
+  // perpendicular to the triangle. Beyond none, its foot is on the face.
+  Feature face(const Vector& s, std::size_t i, std::size_t j, const Vector& n) const {
+    const T squared = n.squaredNorm();
+    const bool is_flat = !(squared > std::numeric_limits<T>::min());
+    const bool is_beyond_i = is_flat || n.cross(to(s, i)).dot(s) > T(0);
+    const bool is_beyond_j = is_flat || n.cross(to(s, j)).dot(s) < T(0);
+    if (is_beyond_i && is_beyond_j) {
+      const Feature along_i = edge(s, i), along_j = edge(s, j);
+      return along_j.squared_distance < along_i.squared_distance ? along_j : along_i;
+    }
+    if (is_beyond_i) return edge(s, i);
+    if (is_beyond_j) return edge(s, j);
+    const T height = n.dot(s);
+    const Vector x = (height / squared) * n;
+    return {x, height < T(0) ? Vector(-n) : n, height * height / squared, 3, i, j};
+  }
+
+  /// Of the three faces with the new point those behind which the origin lies.
+  /// @returns false if there is none
+  bool nearest_face(const Vector& s, Feature& best) const {
+    constexpr std::array<std::array<std::size_t, 2>, 3> sides = {{{0, 1}, {1, 2}, {0, 2}}};
+    const std::array<Vector, 3> normals = {normal(s, 0, 1), normal(s, 1, 2), normal(s, 0, 2)};
+    const T volume = normals[0].dot(to(s, 2));
+    bool is_outside = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // The last normal points the other way round.
+      const T height = normals[k].dot(s) * (k == 2 ? -volume : volume);
+      if (height < T(0)) continue;
+      is_outside = true;
+      const Feature candidate = face(s, sides[k][0], sides[k][1], normals[k]);
+      if (candidate.squared_distance < best.squared_distance) best = candidate;
+    }
+    return is_outside;
+  }
+
+  std::array<Point, 4> points_;
+  int size_ = 1;
+  Vector nearest_, direction_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include "moreau/detect/broad_phase.hpp"
+
+namespace moreau::detail {
+
+/// Sorts pairs of indices below `count` in linear time: one pass that deals them out by their first
+/// index, then the few of each by their second.
+class PairSorter {
+ public:
+  void sort(std::vector<IndexPair>& pairs, std::size_t count) {
+    begin_.assign(count + 1, 0);
+    for (const IndexPair& pair : pairs) ++begin_[pair.first + 1];
+    for (std::size_t i = 0; i < count; ++i) begin_[i + 1] += begin_[i];
+    sorted_.resize(pairs.size());
+    next_.assign(begin_.begin(), begin_.end());
+    for (const IndexPair& pair : pairs) sorted_[next_[pair.first]++] = pair;
+    for (std::size_t i = 0; i < count; ++i) sort_range(begin_[i], begin_[i + 1]);
+    pairs.swap(sorted_);
+  }
+
+ private:
+  void sort_range(std::uint32_t begin, std::uint32_t end) {
+    std::sort(sorted_.begin() + begin, sorted_.begin() + end);
+  }
+
+  std::vector<std::uint32_t> begin_, next_;
+  std::vector<IndexPair> sorted_;
+};
+
+}  // namespace moreau::detail

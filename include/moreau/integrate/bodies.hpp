@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// State and inertia of all bodies, arrays by field. Grains and walls alike: a wall is a body some
+// of whose axes have no inverse mass.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include <cstddef>
+#include <vector>
+
+#include "moreau/contact/delassus.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/pose.hpp"
+
+namespace moreau {
+
+/// I^-1/2 of a symmetric positive definite inertia.
+template <class S>
+typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
+  return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
+}
+
+template <class S>
+struct Bodies {
+  using Vector = typename S::Vector;
+  using Inertia = typename S::Inertia;
+  using Twist = typename S::Twist;
+
+  std::vector<Pose<S>> pose;          ///< of the centre of mass [m]
+  std::vector<Twist> velocity;        ///< (v, w) in world axes [m/s, rad/s]
+  std::vector<Twist> force;           ///< external (force, torque) in world axes [N, N m]
+  std::vector<Vector> inverse_mass;   ///< along the body's axes; zero: prescribed [1/kg]
+  std::vector<Inertia> inertia_body;  ///< about the centre, body axes [kg m^2]; zero: prescribed
+  std::vector<Inertia> inverse_inertia_root_body;  ///< I^-1/2, body axes; zero: prescribed
+  std::vector<typename S::Scalar> weight;          ///< mass that gravity acts on; 0 for walls [kg]
+  std::vector<MaterialId> material;
+
+  std::size_t size() const { return pose.size(); }
+  bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
+
+  typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
+  /// Inertia in world axes at a rotation [kg m^2].
+  Inertia inertia(std::size_t i, const typename S::Rotation& q) const {
+    const Inertia a = S::adjoint(q);
+    return a * inertia_body[i] * a.transpose();
+  }
+  /// M^-1/2 in world axes.
+  MobilityRoot<S> mobility_root(std::size_t i) const {
+    const typename S::Matrix r = axes(i);
+    const Inertia a = S::adjoint(pose[i].rotation);
+    return {r * inverse_mass[i].cwiseSqrt().asDiagonal() * r.transpose(),
+            a * inverse_inertia_root_body[i] * a.transpose()};
+  }
+};
+
+}  // namespace moreau

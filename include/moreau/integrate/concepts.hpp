@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <span>
+
+#include "moreau/integrate/bodies.hpp"
+
+namespace moreau {
+
+/// Moves the bodies through one step in three parts, around the solution of the contacts.
+///
+/// - predict_configuration(bodies, momentum, h): to where contacts are detected; fills the angular
+///   momentum of every body at the start of the step.
+/// - free_velocity(bodies, gravity, momentum, free, h): velocities at the end without contacts.
+/// - advance_configuration(bodies, after, h): to the end of the step with the velocities `after`.
+template <class I, class S>
+concept TimeIntegrator = requires(const I integrator, Bodies<S> bodies,
+                                  std::span<typename S::Angular> momentum,
+                                  std::span<typename S::Twist> free,
+                                  std::span<const typename S::Twist> after,
+                                  typename S::Vector gravity, typename S::Scalar step) {
+  integrator.predict_configuration(bodies, momentum, step);
+  integrator.free_velocity(bodies, gravity, momentum, free, step);
+  integrator.advance_configuration(bodies, after, step);
+};
+
+}  // namespace moreau

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Moreau-Jean time stepping: velocities jump once per step, at a configuration in between.
+//
+//   q_m = q_i + h (1 - theta) v_i      contacts are detected here
+//   v_free = v_i + h M^-1 F
+//   v_{i+1} = v_free + M^-1 J^T r      r from the contact problem
+//   q_{i+1} = q_m + h theta v_{i+1}
+//
+// Rotations keep the angular momentum L to rounding: with I_m = I(q_m) the contacts see
+// w = I_m^-1 (L_i + h tau), and w_{i+1} solves I(exp(h theta w) q_m) w = L_{i+1} by Newton, so the
+// gyroscopic terms are implicit (in the plane it is I w = L).
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "moreau/core/error.hpp"
+#include "moreau/integrate/bodies.hpp"
+
+namespace moreau {
+
+/// Model of TimeIntegrator for set-valued laws.
+class MoreauJean {
+ public:
+  /// @param theta in [1/2, 1]: 1/2 is second order and keeps energy, 1 is fully implicit
+  /// @throws std::invalid_argument outside
+  explicit MoreauJean(double theta = 0.5) : theta_(theta) {
+    require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
+  }
+  double theta() const { return theta_; }
+
+  /// Angular momentum of every body [kg m^2/s], then the move to the detection configuration.
+  template <class S>
+  void predict_configuration(Bodies<S>& bodies, std::span<typename S::Angular> momentum,
+                             typename S::Scalar step) const {
+    const auto h = step * static_cast<typename S::Scalar>(1 - theta_);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      momentum[i] = bodies.inertia(i, bodies.pose[i].rotation) *
+                    bodies.velocity[i].template tail<S::angular_dim>();
+      move(bodies.pose[i], bodies.velocity[i], h);
+    }
+  }
+
+  /// Velocities at the end of the step if nothing touched. momentum becomes L_i + h tau.
+  template <class S>
+  void free_velocity(const Bodies<S>& bodies, const typename S::Vector& gravity,
+                     std::span<typename S::Angular> momentum, std::span<typename S::Twist> free,
+                     typename S::Scalar step) const {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const typename S::Vector force =
+          bodies.force[i].template head<S::dim>() + bodies.weight[i] * gravity;
+      const typename S::Matrix r = bodies.axes(i);
+      free[i] = bodies.velocity[i];
+      free[i].template head<S::dim>() +=
+          step * (r * bodies.inverse_mass[i].cwiseProduct(r.transpose() * force));
+      if (!bodies.rotates(i)) continue;
+      momentum[i] += step * bodies.force[i].template tail<S::angular_dim>();
+      free[i].template tail<S::angular_dim>() =
+          bodies.inertia(i, bodies.pose[i].rotation).inverse() * momentum[i];
+    }
+  }
+
+  /// From the velocities that the contacts leave to the end of the step.
+  /// @param after velocities after the contact impulses, at the detection configuration
+  template <class S>
+  void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> after,
+                             typename S::Scalar step) const {
+    const auto h = step * static_cast<typename S::Scalar>(theta_);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      bodies.velocity[i] = after[i];
+      if (bodies.rotates(i))
+        bodies.velocity[i].template tail<S::angular_dim>() =
+            end_spin(bodies, i, after[i].template tail<S::angular_dim>(), h);
+      move(bodies.pose[i], bodies.velocity[i], h);
+    }
+  }
+
+ private:
+  template <class S>
+  static void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
+    pose.position += h * velocity.template head<S::dim>();
+    pose.rotation =
+        S::normalized(S::exp(h * velocity.template tail<S::angular_dim>()) * pose.rotation);
+  }
+  /// Newton on I(exp(h w) q) w = L; d(I(q) w) along a rotation is S::gyroscopic_jacobian.
+  template <class S>
+  static typename S::Angular end_spin(const Bodies<S>& bodies, std::size_t i,
+                                      const typename S::Angular& start, typename S::Scalar h) {
+    using Scalar = typename S::Scalar;
+    const typename S::Rotation& q = bodies.pose[i].rotation;
+    const typename S::Angular momentum = bodies.inertia(i, q) * start;
+    typename S::Angular w = start;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
+      const typename S::Angular error = inertia * w - momentum;
+      if (error.norm() <= 2 * std::numeric_limits<Scalar>::epsilon() * momentum.norm()) break;
+      const typename S::Inertia jacobian = inertia + h * S::gyroscopic_jacobian(inertia, w);
+      w -= jacobian.inverse() * error;
+    }
+    return w;
+  }
+
+  double theta_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Tables of numbers as comma-separated values.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "moreau/core/error.hpp"
+#include "moreau/io/output_file.hpp"
+
+namespace moreau {
+
+/// Writes one row at a time. Numbers are as short as they can be and still read back to the same
+/// bits; nan and inf are written so. Only whole lines go to the file, so an interrupted run leaves
+/// a valid one. No allocation per row once the longest has been written.
+class CsvWriter {
+ public:
+  /// Creates the file and writes the header line.
+  /// @param columns     their names, e.g. {"t", "x"}: the header is "t,x"
+  /// @param flush_every rows that may be held back, > 0; 1 writes every row at once
+  /// @throws std::system_error naming the path if the file cannot be created or written
+  /// @throws std::invalid_argument without columns, for a name that is empty or holds a comma, a
+  ///         quote or a line break, or for flush_every = 0
+  CsvWriter(const std::filesystem::path& path, std::initializer_list<std::string_view> columns,
+            std::size_t flush_every = 1)
+      : columns_(columns.size()),
+        flush_every_(flush_every),
+        file_(checked(path, columns, flush_every)) {
+    for (const std::string_view name : columns) {
+      if (!lines_.empty()) lines_ += ',';
+      lines_ += name;
+    }
+    lines_ += '\n';
+    flush();
+  }
+  CsvWriter(CsvWriter&&) = default;
+  CsvWriter& operator=(CsvWriter&&) = delete;
+  /// Writes what is held back; an error then goes unseen: call close() to see it.
+  ~CsvWriter() {
+    try {
+      close();
+    } catch (const std::exception&) {
+    }
+  }
+
+  const std::filesystem::path& path() const { return file_.path(); }
+  std::size_t rows() const { return rows_; }  ///< given so far
+
+  /// Adds a row of numbers (floating-point or integers), as many as there are columns.
+  /// @throws std::system_error naming the path if the file cannot be written, e.g. for a full disk
+  /// @throws std::invalid_argument for another number of values
+  template <class... Numbers>
+  requires(std::is_arithmetic_v<Numbers>&&...) void row(Numbers... numbers) {
+    require(sizeof...(numbers) == columns_, "CsvWriter::row", "number of values",
+            sizeof...(numbers), "must be the number of columns");
+    const std::size_t start = lines_.size();
+    (append(numbers, start), ...);
+    lines_ += '\n';
+    if (++rows_ % flush_every_ == 0) flush();
+  }
+
+  /// Hands all rows so far to the operating system.
+  void flush() {
+    if (lines_.empty()) return;
+    file_.write(lines_);
+    lines_.clear();
+  }
+  /// flush(), then closes the file. No row() after it.
+  void close() {
+    flush();
+    file_.close();
+  }
+
+ private:
+  static const std::filesystem::path& checked(const std::filesystem::path& path,
+                                              std::initializer_list<std::string_view> columns,
+                                              std::size_t flush_every) {
+    require(columns.size() > 0, "CsvWriter", "columns.size()", columns.size(), "must be > 0");
+    require(flush_every > 0, "CsvWriter", "flush_every", flush_every, "must be > 0");
+    for (const std::string_view name : columns)
+      require(!name.empty() && name.find_first_of(",\"\r\n") == std::string_view::npos, "CsvWriter",
+              "column", name, "must be a name without comma, quote and line break");
+    return path;
+  }
+
+  void append(auto number, std::size_t start) {
+    if (lines_.size() > start) lines_ += ',';
+    char digits[64];  // the longest shortest form of a double has 24
+    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    lines_.append(digits, end);
+  }
+
+  std::size_t columns_, flush_every_, rows_ = 0;
+  std::string lines_;
+  OutputFile file_;
+};
+
+}  // namespace moreau

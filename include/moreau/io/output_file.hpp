@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A file to write to, which says so when it cannot.
+#pragma once
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace moreau {
+
+/// Bytes go out with write() and are with the operating system when it returns.
+/// Every failure throws std::system_error naming the path and the reason.
+class OutputFile {
+ public:
+  /// Empties the file or creates it; its folder must exist.
+  explicit OutputFile(const std::filesystem::path& path) : path_(path) {
+    errno = 0;
+    file_.reset(std::fopen(path.c_str(), "wb"));
+    if (!file_) fail("open");
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+
+  void write(std::string_view bytes) {
+    errno = 0;
+    if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
+      fail("write");
+  }
+  /// Closes the file and checks that all of it could be written. No write() after it.
+  void close() {
+    if (!file_) return;
+    errno = 0;
+    if (std::fclose(file_.release()) != 0) fail("write");
+  }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  [[noreturn]] void fail(const char* what) const {
+    const int reason = errno != 0 ? errno : EIO;
+    throw std::system_error(reason, std::generic_category(),
+                            std::string("cannot ") + what + " '" + path_.string() + "'");
+  }
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+/// Replaces a file as a whole: a reader, or an interrupted run, finds the old one or the new one,
+/// never a part.
+/// @throws std::system_error naming the path
+inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  std::filesystem::path partial = path;
+  partial += ".part";
+  std::error_code ignored;
+  try {
+    OutputFile file(partial);
+    file.write(bytes);
+    file.close();
+    std::filesystem::rename(partial, path);
+  } catch (...) {
+    std::filesystem::remove(partial, ignored);
+    throw;
+  }
+}
+
+}  // namespace moreau

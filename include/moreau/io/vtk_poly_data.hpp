@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The XML format of VTK for points, lines and polygons (.vtp), as ParaView opens it.
+// Format: "VTK file formats", XML, PolyData; arrays lie behind the XML as raw appended data, each
+// preceded by its number of bytes (header_type UInt64).
+#pragma once
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/io/output_file.hpp"
+
+namespace moreau {
+
+template <class T>
+concept VtkNumber = std::same_as<T, float> || std::same_as<T, double> ||
+    std::same_as<T, std::int32_t> || std::same_as<T, std::uint32_t>;
+
+template <VtkNumber T>
+constexpr std::string_view vtk_type_name() {
+  if constexpr (std::same_as<T, float>) return "Float32";
+  if constexpr (std::same_as<T, double>) return "Float64";
+  if constexpr (std::same_as<T, std::int32_t>) return "Int32";
+  if constexpr (std::same_as<T, std::uint32_t>) return "UInt32";
+}
+
+/// One data set. Cells are vertices, lines or polygons; a file orders them so, and cell arrays
+/// have to follow that order. clear() keeps the memory for the next snapshot.
+class VtkPolyData {
+ public:
+  enum class Cells : std::uint8_t { vertices, lines, polygons };
+  enum class On : std::uint8_t { points, cells };
+
+  void clear() {
+    points_.clear();
+    for (auto& kind : cells_) kind = {};
+    arrays_.clear();
+    appended_.clear();
+  }
+
+  /// @param x in metres; a plane vector gets z = 0
+  /// @returns its index
+  template <class Vector>
+  std::int32_t add_point(const Vector& x) {
+    for (int k = 0; k < 3; ++k) points_.push_back(k < x.size() ? static_cast<float>(x[k]) : 0.0f);
+    return static_cast<std::int32_t>(point_count() - 1);
+  }
+  /// A cell of the points with these indices.
+  void add_cell(Cells kind, std::span<const std::int32_t> points) {
+    CellList& cells = cells_[static_cast<std::size_t>(kind)];
+    cells.points.insert(cells.points.end(), points.begin(), points.end());
+    cells.ends.push_back(static_cast<std::int32_t>(cells.points.size()));
+  }
+
+  std::size_t point_count() const { return points_.size() / 3; }
+  std::size_t cell_count() const {
+    std::size_t count = 0;
+    for (const CellList& kind : cells_) count += kind.ends.size();
+    return count;
+  }
+
+  /// Values on all points or cells added so far, `components` in a row for each.
+  /// @throws std::invalid_argument for a number of values that does not fit, or a name that XML
+  ///         would not take
+  template <VtkNumber T>
+  void add_array(On place, std::string_view name, std::size_t components,
+                 std::span<const T> values) {
+    const std::size_t count = place == On::points ? point_count() : cell_count();
+    require(values.size() == components * count, "VtkPolyData::add_array", name, values.size(),
+            "values must be components times points or cells");
+    require(!name.empty() && name.find_first_of("\"<>&") == std::string_view::npos,
+            "VtkPolyData::add_array", "name", name, "must be a plain name");
+    arrays_.push_back({place, element(name, components, values)});
+  }
+
+  /// Writes the .vtp file, whole or not at all.
+  /// @throws std::system_error naming the path
+  void write(const std::filesystem::path& path) {
+    const std::size_t kept = appended_.size();
+    std::string xml = header();
+    xml += "<Points>\n" + element("Points", 3, std::span<const float>(points_)) + "</Points>\n";
+    constexpr std::array names = {"Verts", "Lines", "Polys"};
+    for (std::size_t kind = 0; kind < names.size(); ++kind) {
+      const CellList& cells = cells_[kind];
+      xml += std::string("<") + names[kind] + ">\n";
+      xml += element("connectivity", 1, std::span<const std::int32_t>(cells.points));
+      xml += element("offsets", 1, std::span<const std::int32_t>(cells.ends));
+      xml += std::string("</") + names[kind] + ">\n";
+    }
+    xml += arrays("PointData", On::points) + arrays("CellData", On::cells);
+    xml += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+    xml += appended_;
+    xml += "\n</AppendedData>\n</VTKFile>\n";
+    appended_.resize(kept);
+    write_atomically(path, xml);
+  }
+
+ private:
+  struct CellList {
+    std::vector<std::int32_t> points, ends;
+  };
+  struct Array {
+    On place;
+    std::string element;
+  };
+
+  std::string header() const {
+    const auto count = [](std::string_view name, std::size_t n) {
+      return " NumberOf" + std::string(name) + "=\"" + std::to_string(n) + '"';
+    };
+    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" +
+           std::string(order) + "\" header_type=\"UInt64\">\n<PolyData>\n<Piece" +
+           count("Points", point_count()) + count("Verts", cells_[0].ends.size()) +
+           count("Lines", cells_[1].ends.size()) + count("Strips", 0) +
+           count("Polys", cells_[2].ends.size()) + ">\n";
+  }
+
+  std::string arrays(const std::string& tag, On place) const {
+    std::string xml = "<" + tag + ">\n";
+    for (const Array& array : arrays_)
+      if (array.place == place) xml += array.element;
+    return xml + "</" + tag + ">\n";
+  }
+
+  /// The XML of an array; its bytes go behind the others.
+  template <VtkNumber T>
+  std::string element(std::string_view name, std::size_t components, std::span<const T> values) {
+    const std::size_t offset = appended_.size();
+    const std::uint64_t bytes = values.size_bytes();
+    appended_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    appended_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    return "<DataArray type=\"" + std::string(vtk_type_name<T>()) + "\" Name=\"" +
+           std::string(name) + "\" NumberOfComponents=\"" + std::to_string(components) +
+           "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+  }
+
+  std::vector<float> points_;
+  std::array<CellList, 3> cells_;
+  std::vector<Array> arrays_;
+  std::string appended_;
+};
+
+/// A .pvd file: the snapshots of a run with their times, as ParaView plays them.
+class PvdSeries {
+ public:
+  explicit PvdSeries(std::filesystem::path path) : path_(std::move(path)) {}
+
+  /// Lists a file (relative to the .pvd file) at a time [s] and rewrites the series, so that it is
+  /// whole at any moment. Files of the same time are shown together as parts 0, 1, ...
+  /// @throws std::system_error naming the path
+  void add(double time, std::string_view file, int part = 0) {
+    std::ostringstream line;
+    line.precision(17);
+    line << "<DataSet timestep=\"" << time << "\" part=\"" << part << "\" file=\"" << file
+         << "\"/>\n";
+    lines_ += line.str();
+    write_atomically(path_,
+                     "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+                     "<Collection>\n" +
+                         lines_ + "</Collection>\n</VTKFile>\n");
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string lines_;
+};
+
+}  // namespace moreau

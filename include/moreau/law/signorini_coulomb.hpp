@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Unilateral contact with dry friction and Newton's restitution.
+//
+//   0 <= u_n + offset  _|_  r_n >= 0,     |r_t| <= mu r_n,  u_t = -alpha r_t with alpha >= 0,
+//                                          alpha = 0 inside the cone.
+//
+// The local solution is exact. Where the sticking impulse leaves the cone the contact slips,
+// u_t = -alpha r_t, and alpha > 0 is the root of phi(alpha) = |r_t| - mu r_n, positive at 0 and
+// negative at infinity (O. Bonnefon and G. Daviet, "Quartic formulation of Coulomb 3D frictional
+// contact", INRIA RT-0400, 2011). Squaring phi would add roots with r_n < 0. Newton runs on 1/|r_t|
+// - 1/(mu r_n) instead, which is nearly linear in alpha (as in the secular equation of J. J. More
+// and D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553), inside a bracket for phi. In the
+// plane the sign of r_t does not depend on alpha and the solution is explicit.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+#include "moreau/contact/local_problem.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// Slip in the plane: r_t = s mu r_n, with s the (constant) sign of r_t along the branch.
+template <std::floating_point T>
+Eigen::Matrix<T, 2, 1> solve_slip(const LocalBlock<Space<2, T>>& block,
+                                  const Eigen::Matrix<T, 2, 1>& b, T friction,
+                                  const Eigen::Matrix<T, 2, 1>&) {
+  const T s = b[1] > block.coupling[0] * b[0] ? -friction : friction;
+  const T normal = -b[0] / (block.normal * (T(1) + s * block.coupling[0]));
+  return {normal, s * normal};
+}
+
+/// Slip in space, started from the alpha that the guess implies.
+template <std::floating_point T>
+Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
+                                  const Eigen::Matrix<T, 3, 1>& b, T friction,
+                                  const Eigen::Matrix<T, 3, 1>& guess) {
+  // Within this relative |phi| the last Newton step is taken along the derivative at hand, which
+  // leaves an error of its square: rounding.
+  constexpr T close = std::numeric_limits<T>::epsilon() < T(1e-10) ? T(2e-8) : T(2e-4);
+  // In units of the impulse without friction, so that products of small impulses do not underflow.
+  const T free = -b[0] / block.normal, unit = T(1) / free;
+  if (!std::isfinite(unit))
+    return Eigen::Matrix<T, 3, 1>::Zero();  // below the smallest normal number
+  const T q1 = block.coupling[0], q2 = block.coupling[1];
+  const T c1 = unit * (b[1] - q1 * b[0]), c2 = unit * (b[2] - q2 * b[0]);
+  const T l1 = block.slip[0], l2 = block.slip[1];
+  T lower = 0, upper = std::numeric_limits<T>::infinity(), alpha = 0;
+  const T g1 = unit * guess[1], g2 = unit * guess[2], squared = g1 * g1 + g2 * g2;
+  if (squared > T(0)) {
+    alpha = -((c1 + l1 * g1) * g1 + (c2 + l2 * g2) * g2) / squared;
+    if (!(alpha > T(0) && std::isfinite(alpha))) alpha = 0;
+  }
+  T r1 = 0, r2 = 0;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const T i1 = T(1) / (l1 + alpha), i2 = T(1) / (l2 + alpha);
+    r1 = -c1 * i1, r2 = -c2 * i2;
+    const T s1 = r1 * i1, s2 = r2 * i2;  // -dr_t/dalpha
+    const T length2 = r1 * r1 + r2 * r2, length = std::sqrt(length2);
+    const T limit = friction * (T(1) - q1 * r1 - q2 * r2);
+    const T fall = r1 * s1 + r2 * s2;                      // -|r_t| d|r_t|/dalpha
+    const T limit_slope = friction * (q1 * s1 + q2 * s2);  // d limit/dalpha
+    const T phi = length - limit;
+    // Newton on the reciprocals where the limit is positive, on phi itself where it is not.
+    const T change = limit > T(0) ? phi * length2 * limit /
+                                        (limit_slope * length2 * length + fall * limit * limit)
+                                  : phi * length / (fall + limit_slope * length);
+    if (std::abs(phi) <= close * (length + std::abs(limit))) {
+      r1 -= change * s1;
+      r2 -= change * s2;
+      break;
+    }
+    (phi > T(0) ? lower : upper) = alpha;
+    if (std::isfinite(upper) && upper - lower <= close * close * upper) break;
+    T next = alpha + change;
+    if (!(next > lower && next < upper))
+      next = std::isinf(upper) ? T(2) * lower + l1 + l2 : (lower + upper) / T(2);
+    alpha = next;
+  }
+  // On the cone to the last digit, whatever Newton left.
+  const T normal = free * (T(1) - q1 * r1 - q2 * r2);
+  const T length2 = r1 * r1 + r2 * r2;
+  const T scale = length2 > T(0) ? friction * normal / std::sqrt(length2) : T(0);
+  return {normal, scale * r1, scale * r2};
+}
+
+}  // namespace detail
+
+/// Signorini's condition with Coulomb friction and Newton's restitution for one pair of materials.
+template <std::floating_point T = double>
+class SignoriniCoulomb {
+ public:
+  /// @param friction    mu >= 0 [-]
+  /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
+  /// @throws std::invalid_argument outside these ranges
+  explicit SignoriniCoulomb(T friction = T(0), T restitution = T(0))
+      : friction_(friction), restitution_(restitution) {
+    require(std::isfinite(friction) && friction >= T(0), "SignoriniCoulomb", "friction", friction,
+            "must be finite and >= 0");
+    require(restitution >= T(0) && restitution <= T(1), "SignoriniCoulomb", "restitution",
+            restitution, "must lie in [0, 1]");
+  }
+
+  T friction() const { return friction_; }
+  T restitution() const { return restitution_; }
+
+  /// e = 0: the contact may close its gap within the step, max(0, g)/h, and a penetration is not
+  /// thrown out. e > 0: it acts only when closed, with e min(0, u_n before); a contact that
+  /// anticipated its gap would lose the restitution.
+  T velocity_offset(T gap, T before, T step) const {
+    if (restitution_ == T(0)) return std::max(T(0), gap) / step;
+    if (gap > T(0)) return std::numeric_limits<T>::infinity();
+    return restitution_ * std::min(T(0), before);
+  }
+
+  /// The exact impulse of the local problem [N s].
+  /// @param block W of the contact
+  /// @param b     relative velocity at zero impulse, with the offset [m/s]
+  /// @param guess any impulse nearby, or zero
+  template <class S>
+  typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
+                           const typename S::Vector& guess) const {
+    constexpr int tangents = S::dim - 1;
+    typename S::Vector r = S::Vector::Zero();
+    if (b[0] >= T(0)) return r;
+    const T free = -b[0] / block.normal;
+    if (friction_ == T(0)) {
+      r[0] = free;
+      return r;
+    }
+    const auto c = b.template tail<tangents>() - b[0] * block.coupling;
+    r.template tail<tangents>() = -c.cwiseQuotient(block.slip);
+    r[0] = free - block.coupling.dot(r.template tail<tangents>());
+    const T limit = friction_ * r[0];
+    if (limit >= T(0) && r.template tail<tangents>().squaredNorm() <= limit * limit) return r;
+    return detail::solve_slip<T>(block, b, friction_, guess);
+  }
+
+  /// r - P_K(r - (u + mu |u_t| n)), K the Coulomb cone. Zero iff (u, r) satisfies the law
+  /// (G. De Saxce and Z.-Q. Feng, Math. Comput. Modelling 28 (1998) 225).
+  template <class Vector>
+  Vector natural_map(const Vector& u, const Vector& r) const {
+    constexpr int tangents = Vector::RowsAtCompileTime - 1;
+    Vector x = r - u;
+    x[0] -= friction_ * u.template tail<tangents>().norm();
+    return r - project(x);
+  }
+
+  /// The point of the cone |x_t| <= mu x_n nearest to x.
+  template <class Vector>
+  Vector project(const Vector& x) const {
+    constexpr int tangents = Vector::RowsAtCompileTime - 1;
+    const T length = x.template tail<tangents>().norm();
+    if (length <= friction_ * x[0]) return x;
+    if (friction_ * length <= -x[0]) return Vector::Zero();
+    const T normal = (x[0] + friction_ * length) / (T(1) + friction_ * friction_);
+    Vector p;
+    p[0] = normal;
+    p.template tail<tangents>() = x.template tail<tangents>() * (friction_ * normal / length);
+    return p;
+  }
+
+ private:
+  T friction_, restitution_;
+};
+
+}  // namespace moreau

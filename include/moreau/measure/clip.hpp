@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// The exact volume of a polytope inside an axis-aligned box.
+//
+// The surface is a set of oriented rings of points (in space the faces, in the plane the outline).
+// A plane of the box cuts each ring; where it does, the ring closes along the plane, from the point
+// p where it leaves to the point q where it comes back. In the plane that is all. In space the cut
+// leaves a hole whose rim consists of those segments, backwards: the triangles (apex, q, p) with
+// any common apex on the plane fill it. Nothing has to be sorted or linked, and the surface stays
+// closed whatever the rounding: neighbouring rings compute the point on their common edge from the
+// same two ends in the same order, so they agree on it in every bit. A plane through vertices,
+// edges or whole faces is therefore no special case.
+//
+// Volume by the divergence theorem, as a sum of signed simplices over one point of the surface.
+// Error: some rounding errors of the volume of the polytope, not of the result.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/pose.hpp"
+#include "moreau/measure/control_volume.hpp"
+#include "moreau/shape/concepts.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// Closed sequences of points, one after the other.
+template <class S>
+struct Rings {
+  using Vector = typename S::Vector;
+
+  std::vector<Vector> points;
+  std::vector<std::size_t> ends;  ///< one past the last point of each ring
+
+  void clear() {
+    points.clear();
+    ends.clear();
+  }
+  /// Ends the ring of the points since the last one; drops it if it encloses nothing.
+  void close() {
+    const std::size_t start = ends.empty() ? 0 : ends.back();
+    if (points.size() - start > 2)
+      ends.push_back(points.size());
+    else
+      points.resize(start);
+  }
+};
+
+/// The half-space side (x[axis] - limit) <= 0, side = 1 or -1.
+template <class S>
+struct AxisPlane {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  int axis;
+  Scalar side;
+  Scalar limit;
+
+  Scalar height(const Vector& x) const { return side * (x[axis] - limit); }
+  bool keeps(const Vector& x) const { return height(x) <= 0; }
+  /// Where the segment from a kept point to one that is not meets the plane.
+  Vector crossing(const Vector& kept, const Vector& cut) const {
+    const Scalar below = height(kept);
+    Vector x = kept + below / (below - height(cut)) * (cut - kept);
+    x[axis] = limit;
+    return x;
+  }
+};
+
+/// Fills the hole that a plane cuts into a surface. In the plane there is none.
+template <class S>
+class Cap {
+ public:
+  explicit Cap(Rings<S>&) {}
+  void add(const typename S::Vector&, const typename S::Vector&) {}
+};
+
+template <class T>
+class Cap<Space<3, T>> {
+ public:
+  using Vector = typename Space<3, T>::Vector;
+
+  explicit Cap(Rings<Space<3, T>>& triangles) : triangles_(triangles) {}
+  /// A ring leaves the kept side at p and comes back at q.
+  void add(const Vector& p, const Vector& q) {
+    if (!has_apex_) apex_ = p;
+    has_apex_ = true;
+    if (p == q || p == apex_ || q == apex_) return;
+    for (const Vector& x : {apex_, q, p}) triangles_.points.push_back(x);
+    triangles_.close();
+  }
+
+ private:
+  Rings<Space<3, T>>& triangles_;
+  Vector apex_ = Vector::Zero();
+  bool has_apex_ = false;
+};
+
+/// Appends what the plane keeps of one ring.
+template <class S>
+void clip_ring(std::span<const typename S::Vector> ring, const AxisPlane<S>& plane, Rings<S>& kept,
+               Cap<S>& cap) {
+  using Vector = typename S::Vector;
+  const Vector* from = &ring.back();
+  bool from_kept = plane.keeps(*from);
+  // The ring may start on the far side: its first return then closes its last leave.
+  const bool starts_cut = !from_kept;
+  bool left = false, returned = false;
+  Vector leave = Vector::Zero(), first_return = Vector::Zero();
+  for (const Vector& to : ring) {
+    const bool to_kept = plane.keeps(to);
+    if (from_kept && !to_kept) {
+      leave = plane.crossing(*from, to);
+      left = true;
+      kept.points.push_back(leave);
+    } else if (!from_kept && to_kept) {
+      const Vector back = plane.crossing(to, *from);
+      kept.points.push_back(back);
+      if (starts_cut && !returned)
+        first_return = back;
+      else
+        cap.add(leave, back);
+      returned = true;
+    }
+    if (to_kept) kept.points.push_back(to);
+    from = &to;
+    from_kept = to_kept;
+  }
+  if (starts_cut && left) cap.add(leave, first_return);
+  kept.close();
+}
+
+template <class S>
+void clip(const Rings<S>& rings, const AxisPlane<S>& plane, Rings<S>& kept, Rings<S>& caps) {
+  kept.clear();
+  caps.clear();
+  Cap<S> cap(caps);
+  std::size_t start = 0;
+  for (const std::size_t end : rings.ends) {
+    clip_ring<S>(std::span(rings.points).subspan(start, end - start), plane, kept, cap);
+    start = end;
+  }
+  const std::size_t shift = kept.points.size();
+  kept.points.insert(kept.points.end(), caps.points.begin(), caps.points.end());
+  for (const std::size_t end : caps.ends) kept.ends.push_back(shift + end);
+}
+
+/// The area inside the rings, counter-clockwise counts as positive [m^2].
+template <class T>
+T enclosed_volume(const Rings<Space<2, T>>& rings) {
+  using Vector = typename Space<2, T>::Vector;
+  T doubled = 0;
+  std::size_t start = 0;
+  for (const std::size_t end : rings.ends) {
+    const Vector& origin = rings.points.front();
+    for (std::size_t i = start; i < end; ++i) {
+      const Vector a = rings.points[i] - origin;
+      const Vector b = rings.points[i + 1 < end ? i + 1 : start] - origin;
+      doubled += a.x() * b.y() - a.y() * b.x();
+    }
+    start = end;
+  }
+  return doubled / 2;
+}
+
+/// The volume inside the rings, counter-clockwise seen from outside [m^3].
+template <class T>
+T enclosed_volume(const Rings<Space<3, T>>& rings) {
+  using Vector = typename Space<3, T>::Vector;
+  T sixfold = 0;
+  std::size_t start = 0;
+  for (const std::size_t end : rings.ends) {
+    const Vector& origin = rings.points.front();
+    const Vector& corner = rings.points[start];
+    Vector normal = Vector::Zero();  // times twice the ring's area
+    for (std::size_t i = start + 1; i + 1 < end; ++i)
+      normal += (rings.points[i] - corner).cross(rings.points[i + 1] - corner);
+    sixfold += (corner - origin).dot(normal);
+    start = end;
+  }
+  return sixfold / 6;
+}
+
+/// The outline of a polygon: one ring.
+template <class T, class Polygon>
+void append_surface(const Polygon&, std::span<const typename Space<2, T>::Vector> vertices,
+                    Rings<Space<2, T>>& rings) {
+  rings.points.assign(vertices.begin(), vertices.end());
+  rings.close();
+}
+
+/// The faces of a polyhedron.
+template <class T, class Polyhedron>
+void append_surface(const Polyhedron& shape, std::span<const typename Space<3, T>::Vector> vertices,
+                    Rings<Space<3, T>>& rings) {
+  for (std::size_t f = 0; f < shape.face_count(); ++f) {
+    for (const auto vertex : shape.face(f)) rings.points.push_back(vertices[vertex]);
+    rings.close();
+  }
+}
+
+}  // namespace detail
+
+/// Buffers of clipped_volume, kept from call to call so that it allocates nothing once warm.
+template <class S>
+struct ClipWorkspace {
+  std::vector<typename S::Vector> vertices;
+  detail::Rings<S> rings, kept, caps;
+};
+
+namespace detail {
+
+/// The box around the vertices, in world axes from the grain's centre; fills workspace.vertices.
+template <Polytope Shape, class S>
+Aabb<S> turn_vertices(const Shape& shape, const Pose<S>& pose, ClipWorkspace<S>& workspace) {
+  const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
+  Aabb<S> box;
+  workspace.vertices.clear();
+  for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i) {
+    workspace.vertices.push_back(rotation * shape.vertices().row(i).transpose());
+    box.merge(workspace.vertices.back());
+  }
+  return box;
+}
+
+/// The volume between `lower` and `upper` of the polytope with workspace.vertices, and with
+/// `around` as their box; only the planes that cut that box are used.
+template <Polytope Shape, class S>
+typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, const Aabb<S>& limits,
+                                  ClipWorkspace<S>& workspace) {
+  using Scalar = typename S::Scalar;
+  Rings<S>& rings = workspace.rings;
+  rings.clear();
+  append_surface(shape, std::span<const typename S::Vector>(workspace.vertices), rings);
+  const auto cut = [&](const AxisPlane<S>& plane) {
+    clip(rings, plane, workspace.kept, workspace.caps);
+    std::swap(rings, workspace.kept);
+  };
+  for (int k = 0; k < S::dim; ++k) {
+    if (around.lower[k] < limits.lower[k]) cut({k, Scalar(-1), limits.lower[k]});
+    if (around.upper[k] > limits.upper[k]) cut({k, Scalar(1), limits.upper[k]});
+  }
+  return rings.ends.empty() ? Scalar(0) : std::max(Scalar(0), enclosed_volume(rings));
+}
+
+}  // namespace detail
+
+/// The volume of a polytope at a pose that lies in the control volume [m^D].
+/// @param control_volume  in world axes [m]
+/// @throws std::invalid_argument if the control volume is empty, inverted or not finite
+template <Polytope Shape, class S = SpaceOf<Shape>>
+typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
+                                  const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
+  require_control_volume(control_volume, "clipped_volume");
+  // From the grain's centre, so that no digits go into its distance from the origin.
+  const Aabb<S> limits{control_volume.lower - pose.position, control_volume.upper - pose.position};
+  const typename S::Scalar reach = shape.circumradius();
+  if (limits.lower.maxCoeff() >= reach || limits.upper.minCoeff() <= -reach) return 0;
+  if (limits.lower.maxCoeff() <= -reach && limits.upper.minCoeff() >= reach) return shape.volume();
+
+  const Aabb<S> around = detail::turn_vertices(shape, pose, workspace);
+  if (limits.contains(around)) return shape.volume();
+  if (!limits.overlaps(around)) return 0;
+  return detail::volume_between(shape, around, limits, workspace);
+}
+
+}  // namespace moreau

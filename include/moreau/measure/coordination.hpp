@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// How many neighbours carry a grain.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/error.hpp"
+
+namespace moreau {
+
+struct Coordination {
+  std::size_t grains = 0;    ///< counted: all, without the rattlers if those are left out
+  std::size_t rattlers = 0;  ///< left out
+  std::size_t points = 0;    ///< contact points with normal impulse > 0 between what is counted
+  std::size_t pairs = 0;     ///< pairs of bodies with such a point
+  /// Bodies that push on a grain, mean over the grains counted. A pair of grains adds two, a grain
+  /// and a wall one; a pair counts once however many points it has.
+  double neighbours = 0;
+  double points_per_grain = 0;  ///< the same with points in place of pairs
+};
+
+/// Counts contacts that carry force; keeps its buffers from call to call.
+template <class S>
+class CoordinationCounter {
+ public:
+  /// @param points     sorted by (a, b), as Contacts<S> keeps them
+  /// @param impulses   of the points, contact frames, normal first [N s]
+  /// @param body_count number of bodies, walls included
+  /// @param is_grain   body -> false for a wall
+  /// @param fewest     grains with fewer neighbours are rattlers: they are taken away, again and
+  ///                   again until none is left, each time with their contacts. 0 keeps all.
+  ///                   Frictionless rigid spheres need S::dim + 1; with friction a grain can stand
+  ///                   between two.
+  /// @throws std::invalid_argument if points and impulses differ in number
+  Coordination count(std::span<const Contact<S>> points,
+                     std::span<const typename S::Vector> impulses, std::size_t body_count,
+                     const auto& is_grain, std::size_t fewest = 0) {
+    require(points.size() == impulses.size(), "CoordinationCounter::count", "impulses.size()",
+            impulses.size(), "must be the number of points");
+    find_pairs(points, impulses, body_count);
+    Coordination result;
+    taken_.assign(body_count, 0);
+    while (std::size_t found = take_rattlers(is_grain, fewest)) result.rattlers += found;
+    std::size_t ends = 0, point_ends = 0;
+    for (const Pair& pair : pairs_) {
+      if (taken_[pair.a] != 0 || taken_[pair.b] != 0) continue;
+      const std::size_t grains = (is_grain(pair.a) ? 1u : 0u) + (is_grain(pair.b) ? 1u : 0u);
+      ++result.pairs;
+      result.points += pair.points;
+      ends += grains;
+      point_ends += grains * pair.points;
+    }
+    for (std::uint32_t body = 0; body < body_count; ++body)
+      if (is_grain(body) && taken_[body] == 0) ++result.grains;
+    if (result.grains == 0) return result;
+    result.neighbours = double(ends) / double(result.grains);
+    result.points_per_grain = double(point_ends) / double(result.grains);
+    return result;
+  }
+
+ private:
+  struct Pair {
+    std::uint32_t a, b;
+    std::size_t points;
+  };
+
+  void find_pairs(std::span<const Contact<S>> points, std::span<const typename S::Vector> impulses,
+                  std::size_t body_count) {
+    pairs_.clear();
+    neighbours_.assign(body_count, 0);
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      const auto [a, b] = std::pair(points[c].a, points[c].b);
+      if (!(impulses[c][0] > 0)) continue;
+      if (pairs_.empty() || pairs_.back().a != a || pairs_.back().b != b) {
+        MOREAU_ASSERT(a < body_count && b < body_count);
+        pairs_.push_back({a, b, 0});
+        ++neighbours_[a];
+        ++neighbours_[b];
+      }
+      ++pairs_.back().points;
+    }
+  }
+
+  std::size_t take_rattlers(const auto& is_grain, std::size_t fewest) {
+    std::size_t found = 0;
+    for (std::uint32_t body = 0; body < taken_.size(); ++body) {
+      if (taken_[body] != 0 || !is_grain(body) || neighbours_[body] >= fewest) continue;
+      taken_[body] = 1;
+      ++found;
+    }
+    if (found == 0) return 0;
+    std::fill(neighbours_.begin(), neighbours_.end(), 0);
+    for (const Pair& pair : pairs_) {
+      if (taken_[pair.a] != 0 || taken_[pair.b] != 0) continue;
+      ++neighbours_[pair.a];
+      ++neighbours_[pair.b];
+    }
+    return found;
+  }
+
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> neighbours_;
+  std::vector<char> taken_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Energy and momentum of rigid bodies.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// A moving body, all in world axes.
+template <class S>
+struct BodyMotion {
+  typename S::Scalar mass = 0;                       ///< [kg]
+  typename S::Inertia inertia = S::Inertia::Zero();  ///< about the centre of mass [kg m^2]
+  typename S::Vector position = S::Vector::Zero();   ///< of the centre of mass [m]
+  typename S::Twist velocity = S::Twist::Zero();     ///< (v, w) [m/s, rad/s]
+};
+
+template <class S>
+struct KineticEnergy {
+  typename S::Scalar translation = 0;  ///< [J]
+  typename S::Scalar rotation = 0;     ///< [J]
+
+  typename S::Scalar total() const { return translation + rotation; }
+};
+
+template <class S>
+struct Momentum {
+  typename S::Vector linear = S::Vector::Zero();     ///< [kg m/s]
+  typename S::Angular angular = S::Angular::Zero();  ///< about the origin asked for [kg m^2/s]
+};
+
+/// m v^2/2 and w.I w/2 of one body.
+template <class S>
+KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
+  const auto v = body.velocity.template head<S::dim>();
+  const auto w = body.velocity.template tail<S::angular_dim>();
+  return {body.mass * v.squaredNorm() / 2, w.dot(body.inertia * w) / 2};
+}
+
+/// m v, and I w + r x m v with r from `origin` [m] to the centre of the body.
+template <class S>
+Momentum<S> momentum(const BodyMotion<S>& body,
+                     const typename S::Vector& origin = S::Vector::Zero()) {
+  const typename S::Vector linear = body.mass * body.velocity.template head<S::dim>();
+  return {linear, body.inertia * body.velocity.template tail<S::angular_dim>() +
+                      S::moment(body.position - origin, linear)};
+}
+
+/// Sum over bodies.
+/// @param motion_of k -> BodyMotion<S> of body k
+template <class S, class MotionOf>
+KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
+  KineticEnergy<S> sum;
+  for (std::size_t k = 0; k < count; ++k) {
+    const KineticEnergy<S> part = kinetic_energy<S>(motion_of(k));
+    sum.translation += part.translation;
+    sum.rotation += part.rotation;
+  }
+  return sum;
+}
+
+/// Sum over bodies, angular momentum about the origin [m].
+/// @param motion_of k -> BodyMotion<S> of body k
+template <class S, class MotionOf>
+Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
+                     const typename S::Vector& origin = S::Vector::Zero()) {
+  Momentum<S> sum;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Momentum<S> part = momentum<S>(motion_of(k), origin);
+    sum.linear += part.linear;
+    sum.angular += part.angular;
+  }
+  return sum;
+}
+
+}  // namespace moreau

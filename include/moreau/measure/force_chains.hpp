@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Contacts as segments between the centres of their bodies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/error.hpp"
+
+namespace moreau {
+
+/// One contact point. A wall has no centre: on its side the segment ends at the contact point.
+template <class S>
+struct ContactSegment {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  std::uint32_t a, b;          ///< bodies
+  Vector from;                 ///< centre of a [m]
+  Vector to;                   ///< centre of b [m]
+  Vector point;                ///< contact point [m]
+  Scalar normal_force;         ///< > 0 pushes [N]
+  Scalar friction_force;       ///< magnitude of the tangential force [N]
+  Scalar gap;                  ///< [m], < 0 is penetration
+  ContactClass contact_class;  ///< of the pair
+};
+
+/// The segment of point c.
+/// @param step        impulses are divided by it [s]
+/// @param position_of body -> its centre of mass in world axes [m]
+/// @param is_grain    body -> false for a wall
+template <class S>
+ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
+                                  typename S::Scalar step, const auto& position_of,
+                                  const auto& is_grain) {
+  const Contact<S>& contact = contacts.points[c];
+  const typename S::Vector& impulse = contacts.impulses[c];
+  const std::uint32_t grain = is_grain(contact.a) ? contact.a : contact.b;
+  const typename S::Vector point =
+      position_of(grain) + (grain == contact.a ? contact.lever_a : contact.lever_b);
+  ContactSegment<S> segment{contact.a,
+                            contact.b,
+                            point,
+                            point,
+                            point,
+                            impulse[0] / step,
+                            impulse.template tail<S::dim - 1>().norm() / step,
+                            contact.gap,
+                            contacts.classes[c]};
+  if (is_grain(contact.a)) segment.from = position_of(contact.a);
+  if (is_grain(contact.b)) segment.to = position_of(contact.b);
+  return segment;
+}
+
+/// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`.
+/// @throws std::invalid_argument if the step is not positive
+template <class S>
+void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
+                  const auto& is_grain, std::vector<ContactSegment<S>>& segments) {
+  require(step > 0, "force_chains", "step", step, "must be > 0");
+  segments.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    if (contacts.impulses[c][0] > 0)
+      segments.push_back(contact_segment(contacts, c, step, position_of, is_grain));
+}
+
+/// Fills `segments` with every contact, those without force too.
+/// @throws std::invalid_argument if the step is not positive
+template <class S>
+void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
+                      const auto& is_grain, std::vector<ContactSegment<S>>& segments) {
+  require(step > 0, "contact_segments", "step", step, "must be > 0");
+  segments.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    segments.push_back(contact_segment(contacts, c, step, position_of, is_grain));
+}
+
+}  // namespace moreau

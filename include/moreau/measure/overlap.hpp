@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// How deep contacts overlap.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "moreau/contact/contact.hpp"
+
+namespace moreau {
+
+/// Overlap is -gap, > 0 [m]. Zero where nothing overlaps.
+template <class T>
+struct OverlapStatistics {
+  std::size_t points = 0;  ///< contact points with gap < 0
+  std::size_t pairs = 0;   ///< pairs of bodies with such a point
+  T mean = 0;              ///< over these points
+  T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point
+  T max = 0;
+
+  /// Adds points of another set, e.g. of another step.
+  void merge(const OverlapStatistics& other) {
+    const auto join = [](T a, std::size_t n, T b, std::size_t m) {
+      return n + m == 0 ? T(0) : (a * T(n) + b * T(m)) / T(n + m);
+    };
+    mean = join(mean, points, other.mean, other.points);
+    mean_of_pairs = join(mean_of_pairs, pairs, other.mean_of_pairs, other.pairs);
+    points += other.points;
+    pairs += other.pairs;
+    max = std::max(max, other.max);
+  }
+};
+
+/// @param points sorted by (a, b), as Contacts<S> keeps them
+template <class S>
+OverlapStatistics<typename S::Scalar> overlap_statistics(std::span<const Contact<S>> points) {
+  using Scalar = typename S::Scalar;
+  OverlapStatistics<Scalar> sum;
+  Scalar deepest = 0;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const Contact<S>& contact = points[c];
+    if (contact.gap < 0) {
+      ++sum.points;
+      sum.mean -= contact.gap;
+      deepest = std::max(deepest, -contact.gap);
+    }
+    const bool last_of_pair =
+        c + 1 == points.size() || points[c + 1].a != contact.a || points[c + 1].b != contact.b;
+    if (!last_of_pair || !(deepest > 0)) continue;
+    ++sum.pairs;
+    sum.mean_of_pairs += deepest;
+    sum.max = std::max(sum.max, deepest);
+    deepest = 0;
+  }
+  if (sum.points > 0) sum.mean /= Scalar(sum.points);
+  if (sum.pairs > 0) sum.mean_of_pairs /= Scalar(sum.pairs);
+  return sum;
+}
+
+}  // namespace moreau

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The mean stress of an assembly from its contact forces.
+#pragma once
+
+#include <cstddef>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/measure/control_volume.hpp"
+
+namespace moreau {
+
+/// The Love-Weber stress, sigma_ij = (1/V) sum over contact points of l_i f_j, with f the force
+/// that b receives and l the branch vector from the centre of a to the centre of b, both in world
+/// axes. Compression is positive. Counted are the points that lie in the control volume, each with
+/// its whole branch; at a wall, which has no centre, the branch ends at the contact point.
+/// Symmetric up to the spin accelerations of the grains; in the plane per unit of thickness.
+/// @param step           impulses are divided by it [s], > 0
+/// @param control_volume world axes [m]
+/// @param position_of    body -> its centre of mass in world axes [m]
+/// @param is_grain       body -> false for a wall
+/// @returns [Pa], in the plane [N/m]
+/// @throws std::invalid_argument if the step is not positive or the control volume is no box
+/// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.
+/// (1998).
+template <class S>
+typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scalar step,
+                                  const Aabb<S>& control_volume, const auto& position_of,
+                                  const auto& is_grain) {
+  using Vector = typename S::Vector;
+  require(step > 0, "contact_stress", "step", step, "must be > 0");
+  require_control_volume(control_volume, "contact_stress");
+  typename S::Matrix sum = S::Matrix::Zero();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Contact<S>& contact = contacts.points[c];
+    const bool a_is_grain = is_grain(contact.a), b_is_grain = is_grain(contact.b);
+    const Vector point = a_is_grain ? Vector(position_of(contact.a) + contact.lever_a)
+                                    : Vector(position_of(contact.b) + contact.lever_b);
+    const bool inside = (control_volume.lower.array() <= point.array()).all() &&
+                        (point.array() <= control_volume.upper.array()).all();
+    if (!inside) continue;
+    Vector branch = Vector::Zero();
+    if (a_is_grain) branch += contact.lever_a;
+    if (b_is_grain) branch -= contact.lever_b;
+    sum += branch * (contact.frame * contacts.impulses[c]).transpose();
+  }
+  return sum / (step * volume(control_volume));
+}
+
+}  // namespace moreau

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// The mean velocity of grains in the vertical section, and whether it is a roll.
+//
+// The section is spanned by the first axis, x, drawn to the right, and the last one (z in space, y
+// in the plane), drawn upwards. Turning is positive counter-clockwise as one sees it in that
+// picture; a field that goes right above the centre and left below it is clockwise, negative.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "moreau/measure/control_volume.hpp"
+
+namespace moreau {
+
+/// A point of the section and the mean velocity there: (first axis, last axis).
+template <class T>
+struct SectionSample {
+  Eigen::Matrix<T, 2, 1> position;  ///< centre of the cell [m]
+  Eigen::Matrix<T, 2, 1> velocity;  ///< mean over the grains in the cell [m/s]
+  std::size_t grains;
+};
+
+/// How much a velocity field turns as a whole.
+template <class T>
+struct Roll {
+  T angular_velocity = 0;  ///< sum r x v / sum r^2, > 0 counter-clockwise [rad/s]
+  T strength = 0;   ///< sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1]; +-1 is a rigid rotation
+  T agreement = 0;  ///< share of the samples, by weight, that turn as the whole does, in [0, 1]
+};
+
+/// Mean velocity of the grains whose centres lie in each cell of a grid over the section of a
+/// control volume.
+template <class S>
+class VelocityField {
+ public:
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Sample = SectionSample<Scalar>;
+
+  /// @param columns,rows number of cells along the first and the last axis, > 0
+  /// @throws std::invalid_argument for no cells or a control volume that is no box
+  VelocityField(const Aabb<S>& control_volume, std::size_t columns, std::size_t rows)
+      : box_(control_volume), columns_(columns), rows_(rows), cells_(columns * rows) {
+    require_control_volume(control_volume, "VelocityField");
+    require(columns > 0, "VelocityField", "columns", columns, "must be > 0");
+    require(rows > 0, "VelocityField", "rows", rows, "must be > 0");
+  }
+
+  void clear() { cells_.assign(cells_.size(), Cell{}); }
+
+  /// Counts a grain if its centre lies in the control volume; call it over several steps to
+  /// average in time.
+  void add(const Vector& position, const Vector& velocity) {
+    const Vector share = (position - box_.lower).cwiseQuotient(box_.upper - box_.lower);
+    if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
+    Cell& cell = cells_[index(share[S::dim - 1], rows_) * columns_ + index(share[0], columns_)];
+    cell.velocity += section(velocity);
+    ++cell.grains;
+  }
+
+  std::size_t columns() const { return columns_; }
+  std::size_t rows() const { return rows_; }
+  /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
+  Sample sample(std::size_t column, std::size_t row) const {
+    const Cell& cell = cells_[row * columns_ + column];
+    const Section extent = section(box_.upper - box_.lower);
+    const Section share{(Scalar(column) + Scalar(0.5)) / Scalar(columns_),
+                        (Scalar(row) + Scalar(0.5)) / Scalar(rows_)};
+    const Scalar grains = cell.grains > 0 ? Scalar(cell.grains) : Scalar(1);
+    return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
+  }
+
+  /// Turning about the centre of the cells that hold grains, their mean velocity taken off, so that
+  /// a translation is no roll. Every such cell counts the same.
+  Roll<Scalar> roll() const {
+    Section centre = Section::Zero(), drift = Section::Zero();
+    Scalar count = 0;
+    for_each([&](const Sample& s) {
+      centre += s.position;
+      drift += s.velocity;
+      count += 1;
+    });
+    if (count == 0) return {};
+    Scalar turning = 0, opposite = 0, arms = 0, speeds = 0;
+    for_each([&](const Sample& s) {
+      const Section r = s.position - centre / count, v = s.velocity - drift / count;
+      const Scalar part = r.x() * v.y() - r.y() * v.x();
+      turning += part;
+      opposite += part < 0 ? -part : Scalar(0);
+      arms += r.squaredNorm();
+      speeds += v.squaredNorm();
+    });
+    if (!(arms > 0) || !(speeds > 0)) return {};
+    const Scalar all = turning + 2 * opposite;
+    const Scalar with = turning < 0 ? opposite : all - opposite;
+    return {turning / arms, turning / std::sqrt(arms * speeds), all > 0 ? with / all : Scalar(0)};
+  }
+
+ private:
+  using Section = Eigen::Matrix<Scalar, 2, 1>;
+  struct Cell {
+    Section velocity = Section::Zero();
+    std::size_t grains = 0;
+  };
+
+  static Section section(const Vector& x) { return {x[0], x[S::dim - 1]}; }
+  static std::size_t index(Scalar share, std::size_t cells) {
+    const auto i = static_cast<std::size_t>(share * Scalar(cells));
+    return i < cells ? i : cells - 1;
+  }
+  void for_each(const auto& visit) const {
+    for (std::size_t row = 0; row < rows_; ++row)
+      for (std::size_t column = 0; column < columns_; ++column)
+        if (cells_[row * columns_ + column].grains > 0) visit(sample(column, row));
+  }
+
+  Aabb<S> box_;
+  std::size_t columns_, rows_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The core of moreau in one include. Files (io/) and the sample generators (sample/) are taken
+// singly.
+#pragma once
+
+#include "moreau/law/materials.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/half_space.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/version.hpp"
+#include "moreau/world/simulation.hpp"

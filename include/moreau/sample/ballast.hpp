@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Random grain shapes that look like railway ballast: crushed rock, angular, roughly equant.
+//
+// In space: hulls of jittered ellipsoids with the semi-axes 1, e, e f; the elongation e and the
+// flatness f lie between 0.7 and 1. Points in random directions, none too close to another, are
+// pulled inwards by up to a fifth, so that facets differ in size and corners in sharpness; the hull
+// is taken when it has the number of vertices that was drawn for it. The ratios of the axes of the
+// hulls themselves (of ellipsoids of the same inertia) then lie between about 0.55 and 1, most
+// around 0.83: crushed rock is a little flatter than that on average, seldom as equant as a sphere.
+// A hull fills 0.37 of its circumscribed ball on average. Faces are triangles: V vertices make 2 V
+// - 4. In the plane: the same with 5 to 7 corners on an ellipse of axes 1, e.
+//
+// All shapes are scaled to circumradius 1 (to rounding), their largest distance from the centre of
+// mass to a vertex.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+
+namespace moreau {
+
+/// How grains of a shape are drawn; specialise it for a shape of your own. draw(random) gives
+/// a random one of circumradius 1.
+template <class Shape>
+struct Ballast;
+
+template <class Shape>
+concept BallastShape = requires(std::mt19937_64& random) {
+  { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
+};
+
+/// What the shapes are drawn from. Lengths are relative to the largest semi-axis.
+struct BallastParameters {
+  double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
+  double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
+  double spacing = 0.55;  ///< least distance of two directions, in that of V points spread evenly
+  double lowest_inradius = 0.35;  ///< over the circumradius: no splinters, no flakes
+};
+
+namespace detail {
+
+inline double uniform(double low, double high, std::mt19937_64& random) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+/// A direction drawn uniformly.
+template <int Dim>
+Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
+  Eigen::Matrix<double, Dim, 1> x;
+  do {
+    for (int k = 0; k < Dim; ++k) x[k] = uniform(-1, 1, random);
+  } while (x.squaredNorm() > 1 || x.squaredNorm() < 1e-4);
+  return x.normalized();
+}
+
+/// Directions no two of which are closer (as chords) than the spacing; where none is left to be
+/// found, fewer than asked for.
+template <int Dim>
+std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, double spacing,
+                                                             std::mt19937_64& random) {
+  std::vector<Eigen::Matrix<double, Dim, 1>> directions;
+  for (std::size_t trial = 0; trial < 100 * count && directions.size() < count; ++trial) {
+    const auto x = random_direction<Dim>(random);
+    bool free = true;
+    for (const auto& y : directions) free = free && (x - y).norm() >= spacing;
+    if (free) directions.push_back(x);
+  }
+  return directions;
+}
+
+/// Points on an ellipsoid with the semi-axes 1, e, e f, .., pulled inwards at random.
+template <class S>
+std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spacing,
+                                                   std::mt19937_64& random) {
+  const BallastParameters parameters;
+  Eigen::Matrix<double, S::dim, 1> axes;
+  axes[0] = 1;
+  for (int k = 1; k < S::dim; ++k) {
+    axes[k] = axes[k - 1] * uniform(parameters.lowest_axis_ratio, 1, random);
+  }
+  std::vector<typename S::Vector> points;
+  for (const auto& direction : spaced_directions<S::dim>(count, spacing, random)) {
+    const double radius = uniform(1 - parameters.pull, 1, random);
+    points.push_back((radius * axes.cwiseProduct(direction)).template cast<typename S::Scalar>());
+  }
+  return points;
+}
+
+/// The hull of the points at circumradius 1; nothing unless every point is a vertex and the hull is
+/// neither splinter nor flake.
+template <class Shape>
+std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
+                                std::size_t vertices) {
+  if (points.size() < vertices) return std::nullopt;
+  const Shape hull(points);
+  const BallastParameters parameters;
+  if (hull.vertex_count() != vertices) return std::nullopt;
+  if (hull.inradius() < parameters.lowest_inradius * hull.circumradius()) return std::nullopt;
+  return hull.scaled(1 / hull.circumradius());
+}
+
+}  // namespace detail
+
+/// 8 to 37 vertices, 12 to 70 faces, all triangles.
+template <std::floating_point T>
+struct Ballast<Polyhedron<T>> {
+  static Polyhedron<T> draw(std::mt19937_64& random) {
+    using S = Space<3, T>;
+    const auto count = std::uniform_int_distribution<std::size_t>(8, 37)(random);
+    const double even = std::sqrt(4 * std::numbers::pi / static_cast<double>(count));
+    for (;;) {
+      // More points than vertices: some of those pulled inwards end inside the hull.
+      const std::size_t extra = std::uniform_int_distribution<std::size_t>(0, count / 2)(random);
+      const auto points =
+          detail::jittered_ellipsoid<S>(count + extra, BallastParameters{}.spacing * even, random);
+      const auto hull = detail::sound_hull<Polyhedron<T>>(points, count);
+      if (hull && hull->face_count() == hull->triangle_count()) return *hull;
+    }
+  }
+};
+
+/// 5 to 7 sides.
+template <std::floating_point T>
+struct Ballast<Polygon<T>> {
+  static Polygon<T> draw(std::mt19937_64& random) {
+    using S = Space<2, T>;
+    const auto count = std::uniform_int_distribution<std::size_t>(5, 7)(random);
+    const double even = 2 * std::numbers::pi / static_cast<double>(count);
+    for (;;) {
+      const auto points =
+          detail::jittered_ellipsoid<S>(count, BallastParameters{}.spacing * even, random);
+      if (const auto hull = detail::sound_hull<Polygon<T>>(points, count)) return *hull;
+    }
+  }
+};
+
+/// The reference without corners: all the same.
+template <class S>
+struct Ballast<Sphere<S>> {
+  static Sphere<S> draw(std::mt19937_64&) { return Sphere<S>(1); }
+};
+
+/// Random grain shapes of circumradius 1, each drawn by Ballast<Shape>.
+/// @param count how many, at least 1
+/// @throws std::invalid_argument for count = 0
+template <BallastShape Shape>
+std::vector<Shape> ballast_shapes(std::size_t count, std::mt19937_64& random) {
+  require(count > 0, "ballast_shapes", "count", count, "must be at least 1");
+  std::vector<Shape> shapes;
+  shapes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) shapes.push_back(Ballast<Shape>::draw(random));
+  return shapes;
+}
+
+}  // namespace moreau

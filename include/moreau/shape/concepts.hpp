@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What the library asks of a shape. A shape is immutable geometry in its own (body) frame, with the
+// centre of mass at the origin; where it stands is a Pose that others hold.
+#pragma once
+
+#include <concepts>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/shape/mass_properties.hpp"
+
+namespace moreau {
+
+/// The space a shape lives in.
+template <class Shape>
+using SpaceOf = typename Shape::Space;
+
+/// Anything with a mass and a box around it.
+template <class T>
+concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<SpaceOf<T>> pose) {
+  { shape.mass_properties(density) } -> std::same_as<MassProperties<SpaceOf<T>>>;
+  { shape.bounding_box(pose) } -> std::same_as<Aabb<SpaceOf<T>>>;
+};
+
+/// Convex: the farthest point in a direction (any length but zero) is all that is asked, in body
+/// coordinates. Enough for a user's own shape.
+template <class T>
+concept ConvexShape = Shape<T> && requires(const T shape, typename T::Space::Vector direction) {
+  { shape.support(direction) } -> std::same_as<typename T::Space::Vector>;
+};
+
+/// A convex shape with flat faces. vertices(): N x D, one row each; face_normals(): F x D, unit and
+/// outward; face_offsets(): F, the distance of each face's plane from the origin, normal . x =
+/// offset on it. In the plane the faces are the edges: face i runs from vertex i to vertex i + 1.
+template <class T>
+concept Polytope = ConvexShape<T> && requires(const T shape) {
+  shape.vertices();
+  shape.face_normals();
+  shape.face_offsets();
+};
+
+}  // namespace moreau

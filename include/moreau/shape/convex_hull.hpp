@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Convex hulls of points in the plane and in space.
+//
+// Three steps make them safe for any finite input. Points closer together than the tolerance are
+// taken as one. The hull of what is left is built with exact signs (orientation.hpp), hence closed
+// and convex without exception. Then what is flat within the tolerance is joined: collinear
+// edges in the plane, coplanar triangles in space (face_merging.hpp). All of it runs over the
+// points in lexicographic order, so that the order of the input cannot change the result.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "moreau/shape/face_merging.hpp"
+#include "moreau/shape/hull_input.hpp"
+#include "moreau/shape/orientation.hpp"
+#include "moreau/shape/triangle_hull.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// The first point whose measure is largest.
+template <class Point, class Measure>
+std::uint32_t farthest(const std::vector<Point>& points, const Measure& measure) {
+  std::uint32_t best = 0;
+  for (std::uint32_t i = 1; i < points.size(); ++i) {
+    if (measure(points[i]) > measure(points[best])) best = i;
+  }
+  return best;
+}
+
+/// Four points that span a fat tetrahedron: the first, the farthest from it, from the line of those
+/// two, from the plane of those three.
+/// @throws std::invalid_argument if the last distance is too small
+inline std::array<std::uint32_t, 4> seed_of(const HullInput<3>& input, std::string_view function) {
+  const auto& x = input.points;
+  const auto along = [&](const auto& p) { return (p - x[0]).norm(); };
+  const std::uint32_t b = farthest(x, along);
+  if (along(x[b]) <= input.thin) input.throw_thin(function, along(x[b]), "they coincide");
+  const Eigen::Vector3d axis = (x[b] - x[0]).normalized();
+  const auto aside = [&](const auto& p) { return axis.cross(p - x[0]).norm(); };
+  const std::uint32_t c = farthest(x, aside);
+  if (aside(x[c]) <= input.thin) input.throw_thin(function, aside(x[c]), "they are collinear");
+  const Eigen::Vector3d normal = axis.cross(x[c] - x[0]).normalized();
+  const auto above = [&](const auto& p) { return std::abs(normal.dot(p - x[0])); };
+  const std::uint32_t d = farthest(x, above);
+  if (above(x[d]) <= input.thin) input.throw_thin(function, above(x[d]), "they are coplanar");
+  return {0, b, c, d};
+}
+
+/// @throws std::invalid_argument if all points are near one line
+inline void require_width(const HullInput<2>& input, std::string_view function) {
+  const auto& x = input.points;
+  const auto along = [&](const auto& p) { return (p - x[0]).norm(); };
+  const std::uint32_t b = farthest(x, along);
+  if (along(x[b]) <= input.thin) input.throw_thin(function, along(x[b]), "they coincide");
+  const auto aside = [&](const auto& p) {
+    return std::abs(orientation(x[0], x[b], p)) / (x[b] - x[0]).norm();
+  };
+  const double width = aside(x[farthest(x, aside)]);
+  if (width <= input.thin) input.throw_thin(function, width, "they are collinear");
+}
+
+/// Drops the vertex nearest to the line of its neighbours while that distance is within the
+/// tolerance.
+inline void drop_collinear(std::vector<std::uint32_t>& ring, const HullInput<2>& input) {
+  const auto bulge = [&](std::size_t i) {
+    const auto& x = input.points;
+    const std::size_t n = ring.size();
+    const Eigen::Vector2d a = x[ring[(i + n - 1) % n]], c = x[ring[(i + 1) % n]];
+    return std::abs(orientation(a, x[ring[i]], c)) / (c - a).norm();
+  };
+  while (ring.size() > 2) {
+    std::size_t flattest = 0;
+    for (std::size_t i = 1; i < ring.size(); ++i) {
+      if (bulge(i) < bulge(flattest)) flattest = i;
+    }
+    if (bulge(flattest) > input.flat) return;
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(flattest));
+  }
+}
+
+/// Rotates a cycle so that it begins with its smallest element.
+inline void begin_with_smallest(std::vector<std::uint32_t>& cycle) {
+  std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+}
+
+}  // namespace detail
+
+/// The hull of points in the plane: indices of its vertices, counter-clockwise, the smallest first;
+/// points inside or on an edge are not among them.
+/// @param function named in errors
+/// @throws std::invalid_argument for fewer than 3 points, one that is not finite, or collinear ones
+/// Source: A. M. Andrew, Inf. Process. Lett. 9 (1979).
+template <std::floating_point T>
+std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> vertices,
+                                       std::string_view function = "convex_hull") {
+  const detail::HullInput<2> input(vertices, function);
+  detail::require_width(input, function);
+  const auto& x = input.points;
+  std::vector<std::uint32_t> ring;
+  const auto chain = [&](auto begin, auto end) {  // ends with the last point, not included
+    const std::size_t first = ring.size();
+    for (auto i = begin; i != end; ++i) {
+      while (ring.size() > first + 1 &&
+             orientation(x[ring[ring.size() - 2]], x[ring.back()], x[*i]) <= 0) {
+        ring.pop_back();
+      }
+      ring.push_back(*i);
+    }
+    ring.pop_back();
+  };
+  std::vector<std::uint32_t> order(x.size());
+  std::iota(order.begin(), order.end(), 0U);
+  chain(order.begin(), order.end());
+  chain(order.rbegin(), order.rend());
+
+  detail::drop_collinear(ring, input);
+  for (std::uint32_t& i : ring) i = input.labels[i];
+  detail::begin_with_smallest(ring);
+  return ring;
+}
+
+/// The hull of points in space: its faces, each a cycle of vertex indices, counter-clockwise from
+/// outside, the smallest first; points inside, on a face or on an edge are in none of them.
+/// Triangles that are coplanar within HullTolerance are one face.
+/// @param function named in errors
+/// @throws std::invalid_argument for fewer than 4 points, one that is not finite, or coplanar ones
+template <std::floating_point T>
+std::vector<std::vector<std::uint32_t>> convex_hull(
+    std::span<const Eigen::Matrix<T, 3, 1>> vertices, std::string_view function = "convex_hull") {
+  const detail::HullInput<3> input(vertices, function);
+  const detail::TriangleHull hull(input.points, detail::seed_of(input, function));
+  auto faces = detail::merged_faces(hull.triangles(), input.points, input.flat, input.rounding);
+  for (auto& face : faces) {
+    for (std::uint32_t& v : face) v = input.labels[v];
+    detail::begin_with_smallest(face);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+}  // namespace moreau

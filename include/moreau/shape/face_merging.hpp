@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Joins the coplanar triangles of a convex surface to faces.
+//
+// A face grows from the largest triangle that is left: neighbours whose corners lie within the
+// tolerance of its plane join, the plane is fitted again to all of them, until none joins. Growing
+// from large to small makes slivers harmless: they join a face whose plane is well known, and
+// their own normal is not asked for. Vertices that meet fewer than three faces then lie inside
+// a face or on an edge, and are dropped.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "moreau/shape/face_plane.hpp"
+#include "moreau/shape/triangle_hull.hpp"
+
+namespace moreau::detail {
+
+using FaceList = std::vector<std::vector<std::uint32_t>>;
+
+/// Sorted directed edges of faces.
+inline std::vector<std::array<std::uint32_t, 2>> directed_edges(const FaceList& faces) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const auto& face : faces) {
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      edges.push_back({face[k], face[(k + 1) % face.size()]});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// True if every edge is there once in each direction and V - E + F = 2.
+inline bool is_closed_surface(const FaceList& faces) {
+  const auto edges = directed_edges(faces);
+  std::size_t vertices = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const std::array<std::uint32_t, 2> back{edges[i][1], edges[i][0]};
+    if (i > 0 && edges[i] == edges[i - 1]) return false;
+    if (!std::binary_search(edges.begin(), edges.end(), back)) return false;
+    if (i == 0 || edges[i][0] != edges[i - 1][0]) ++vertices;
+  }
+  return vertices + faces.size() == edges.size() / 2 + 2;
+}
+
+class FaceMerging {
+ public:
+  FaceMerging(std::span<const HullTriangle> triangles, std::span<const Eigen::Vector3d> points,
+              double tolerance)
+      : triangles_(triangles), points_(points), tolerance_(tolerance) {
+    area_.reserve(triangles.size());
+    for (const HullTriangle& t : triangles) {
+      const auto& [a, b, c] = t.vertex;
+      area_.push_back((points[b] - points[a]).cross(points[c] - points[a]));
+    }
+    std::vector<std::uint32_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return area_[a].squaredNorm() > area_[b].squaredNorm();
+    });
+    group_.assign(triangles.size(), none);
+    for (const std::uint32_t t : order) {
+      if (group_[t] == none) grow(t);
+    }
+  }
+
+  /// The faces; nothing if the tolerance has joined what does not bound a solid.
+  std::optional<FaceList> faces() const {
+    FaceList faces;
+    for (std::uint32_t g = 0; g < members_.size(); ++g) {
+      auto boundary = boundary_of(g);
+      if (!boundary) return std::nullopt;
+      faces.push_back(std::move(*boundary));
+    }
+    drop_flat_vertices(faces);
+    if (!is_closed_surface(faces)) return std::nullopt;
+    return faces;
+  }
+
+ private:
+  static constexpr std::uint32_t none = ~0U;
+
+  void grow(std::uint32_t seed) {
+    const auto g = static_cast<std::uint32_t>(members_.size());
+    auto& members = members_.emplace_back(1, seed);
+    group_[seed] = g;
+    for (std::size_t before = 0; before != members.size();) {
+      before = members.size();
+      fit_plane(members);
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        for (const std::uint32_t t : triangles_[members[i]].neighbour) {
+          if (group_[t] != none || !lies_on_plane(t)) continue;
+          group_[t] = g;
+          members.push_back(t);
+        }
+      }
+    }
+  }
+
+  void fit_plane(std::span<const std::uint32_t> members) {
+    Eigen::Vector3d area = Eigen::Vector3d::Zero(), sum = Eigen::Vector3d::Zero();
+    for (const std::uint32_t t : members) {
+      area += area_[t];
+      for (const std::uint32_t v : triangles_[t].vertex) sum += points_[v];
+    }
+    normal_ = area.normalized();
+    center_ = sum / static_cast<double>(3 * members.size());
+  }
+
+  bool lies_on_plane(std::uint32_t t) const {
+    return std::all_of(triangles_[t].vertex.begin(), triangles_[t].vertex.end(), [&](auto v) {
+      return std::abs(normal_.dot(points_[v] - center_)) <= tolerance_;
+    });
+  }
+
+  /// The one cycle of edges around a group.
+  std::optional<std::vector<std::uint32_t>> boundary_of(std::uint32_t g) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> next;
+    for (const std::uint32_t t : members_[g]) {
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (group_[triangles_[t].neighbour[e]] == g) continue;
+        next.emplace_back(triangles_[t].vertex[e], triangles_[t].vertex[(e + 1) % 3]);
+      }
+    }
+    if (next.empty()) return std::nullopt;
+    std::sort(next.begin(), next.end());
+    std::vector<std::uint32_t> cycle{next.front().first};
+    while (cycle.size() <= next.size()) {
+      const auto at = std::lower_bound(next.begin(), next.end(), std::pair(cycle.back(), 0U));
+      if (at->second == cycle.front()) break;
+      cycle.push_back(at->second);
+    }
+    if (cycle.size() != next.size()) return std::nullopt;
+    return cycle;
+  }
+
+  /// Drops vertices of fewer than three faces, and faces of fewer than three vertices.
+  void drop_flat_vertices(FaceList& faces) const {
+    for (bool changed = true; changed;) {
+      changed = false;
+      std::vector<int> faces_at(points_.size(), 0);
+      for (const auto& face : faces) {
+        for (const std::uint32_t v : face) ++faces_at[v];
+      }
+      for (auto& face : faces) {
+        changed |= std::erase_if(face, [&](std::uint32_t v) { return faces_at[v] < 3; }) > 0;
+      }
+      std::erase_if(faces, [](const auto& face) { return face.size() < 3; });
+    }
+  }
+
+  std::span<const HullTriangle> triangles_;
+  std::span<const Eigen::Vector3d> points_;
+  double tolerance_;
+  std::vector<Eigen::Vector3d> area_;  ///< outward, twice the area long
+  std::vector<std::uint32_t> group_;
+  std::vector<std::vector<std::uint32_t>> members_;
+  Eigen::Vector3d normal_, center_;
+};
+
+/// True if the plane of each face has all points on or below it and its own vertices on it, within
+/// the tolerance, even after vertices have moved by the rounding: that tilts a face of width w
+/// about its long axis by rounding / w.
+inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::Vector3d> points,
+                                  double tolerance, double rounding) {
+  return std::all_of(faces.begin(), faces.end(), [&](const auto& face) {
+    const auto plane =
+        face_plane<double>(face.size(), [&](std::size_t k) { return points[face[k]]; });
+    const Eigen::Vector3d across = plane.normal.cross(plane.axis);
+    const auto height = [&](const Eigen::Vector3d& x) {
+      return plane.normal.dot(x - plane.center);
+    };
+    const auto tilt = [&](const Eigen::Vector3d& x) {
+      return rounding / plane.width * std::abs(across.dot(x - plane.center));
+    };
+    return std::all_of(points.begin(), points.end(),
+                       [&](const auto& x) { return height(x) + tilt(x) <= tolerance; }) &&
+           std::all_of(face.begin(), face.end(),
+                       [&](std::uint32_t v) { return height(points[v]) >= -tolerance; });
+  });
+}
+
+/// The faces of a closed convex surface of triangles, coplanar ones joined.
+/// Where points scatter about a plane by just the tolerance, some of them stay out, and between
+/// them slivers whose normals mean nothing. A larger tolerance then joins these too.
+/// @param tolerance vertices this close to a plane lie on it; a length
+/// @param rounding  by how much the points may still move, well below the tolerance
+inline FaceList merged_faces(std::span<const HullTriangle> triangles,
+                             std::span<const Eigen::Vector3d> points, double tolerance,
+                             double rounding) {
+  for (double factor = 1; factor <= 64; factor *= 2) {
+    const auto faces = FaceMerging(triangles, points, factor * tolerance).faces();
+    if (faces && has_supporting_planes(*faces, points, 2 * factor * tolerance, rounding)) {
+      return *faces;
+    }
+  }
+  FaceList faces;
+  for (const HullTriangle& t : triangles) faces.emplace_back(t.vertex.begin(), t.vertex.end());
+  return faces;
+}
+
+}  // namespace moreau::detail

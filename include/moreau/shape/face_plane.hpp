@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+
+namespace moreau {
+
+/// The plane of a face of a polyhedron.
+template <class T>
+struct FacePlane {
+  using Vector = Eigen::Matrix<T, 3, 1>;
+
+  Vector center = Vector::Zero();  ///< the mean of the vertices [m]
+  Vector axis = Vector::Zero();    ///< unit, from there to the farthest vertex: its long direction
+  Vector normal = Vector::Zero();  ///< unit, outward
+  T width = 0;                     ///< across the axis, roughly: the area over the length [m]
+};
+
+/// The plane of the polygon with the vertices at(0) .. at(count - 1), counter-clockwise from
+/// outside: through their mean, normal to the area vector.
+/// The area vector of a sliver is a small difference of large products; its error along the sliver
+/// would tilt the plane most. The normal is therefore made orthogonal to the long axis.
+template <class T, class At>
+FacePlane<T> face_plane(std::size_t count, const At& at) {
+  using Vector = Eigen::Matrix<T, 3, 1>;
+  FacePlane<T> plane;
+  for (std::size_t k = 0; k < count; ++k) plane.center += at(k);
+  plane.center /= static_cast<T>(count);
+  Vector area = Vector::Zero(), longest = Vector::Zero();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector x = at(k) - plane.center;
+    area += x.cross(at(k + 1 == count ? 0 : k + 1) - plane.center) / T(2);
+    if (x.squaredNorm() > longest.squaredNorm()) longest = x;
+  }
+  plane.axis = longest.normalized();
+  plane.normal = (area - plane.axis * plane.axis.dot(area)).normalized();
+  plane.width = area.norm() / longest.norm();
+  return plane;
+}
+
+}  // namespace moreau

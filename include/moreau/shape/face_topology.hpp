@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Which vertices, edges and faces of a polyhedron meet.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+
+namespace moreau {
+
+/// Lists of indices of varying length, one after the other in one array.
+class IndexLists {
+ public:
+  std::size_t size() const { return begins_.size() - 1; }
+  std::size_t total() const { return items_.size(); }
+  std::span<const std::uint32_t> operator[](std::size_t i) const {
+    MOREAU_ASSERT(i < size());
+    return {items_.data() + begins_[i], begins_[i + 1] - begins_[i]};
+  }
+  void push_back(std::span<const std::uint32_t> list) {
+    items_.insert(items_.end(), list.begin(), list.end());
+    begins_.push_back(static_cast<std::uint32_t>(items_.size()));
+  }
+
+ private:
+  std::vector<std::uint32_t> begins_{0}, items_;
+};
+
+/// An edge and the two faces that share it: face[0] has it running from vertex[0] to vertex[1],
+/// face[1] the other way.
+struct PolyhedronEdge {
+  std::array<std::uint32_t, 2> vertex;
+  std::array<std::uint32_t, 2> face;
+};
+
+/// The incidences of a closed surface, derived from its faces.
+struct FaceTopology {
+  IndexLists faces;         ///< vertices of each face, counter-clockwise from outside
+  IndexLists face_edges;    ///< edge k of a face runs between its vertices k and k + 1
+  IndexLists vertex_faces;  ///< faces at each vertex, ascending
+  IndexLists vertex_edges;  ///< edges at each vertex, ascending
+  std::vector<PolyhedronEdge> edges;
+
+  FaceTopology() = default;
+
+  /// @param vertex_count number of vertices; each must be in a face
+  /// @param function     named in errors
+  /// @throws std::invalid_argument for an index out of range, a face of fewer than three vertices
+  /// or
+  ///   with a vertex twice, an edge that does not occur once in each direction, a vertex in fewer
+  ///   than three faces, or a surface of more than one piece or with a hole through it (V - E + F
+  ///   is not 2)
+  FaceTopology(std::size_t vertex_count, std::span<const std::vector<std::uint32_t>> face_list,
+               std::string_view function) {
+    for (std::size_t f = 0; f < face_list.size(); ++f) {
+      const std::string name = "faces[" + std::to_string(f) + "]";
+      require(face_list[f].size() >= 3, function, name + ".size()", face_list[f].size(),
+              "must be at least 3");
+      for (auto v = face_list[f].begin(); v != face_list[f].end(); ++v) {
+        require(*v < vertex_count, function, "a vertex of " + name, *v,
+                "must be below the number of vertices, " + std::to_string(vertex_count));
+        require(std::find(face_list[f].begin(), v, *v) == v, function, "a vertex of " + name, *v,
+                "must not occur twice");
+      }
+      faces.push_back(face_list[f]);
+    }
+    pair_edges(function);
+    collect(vertex_count, function);
+    const auto euler = static_cast<std::ptrdiff_t>(vertex_count + faces.size()) -
+                       static_cast<std::ptrdiff_t>(edges.size());
+    require(euler == 2, function, "V - E + F", euler, "must be 2: one closed surface, no holes");
+  }
+
+ private:
+  static std::string name(std::uint32_t a, std::uint32_t b) {
+    std::string text(1, '(');  // appended to: g++ 12 warns of "literal" + std::string
+    text.append(std::to_string(a)).append(", ").append(std::to_string(b)).append(1, ')');
+    return text;
+  }
+
+  void pair_edges(std::string_view function) {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> open;  // waiting for their reverse
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      const auto face = faces[f];
+      std::vector<std::uint32_t> of_face(face.size());
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
+        const auto reverse = open.find({b, a});
+        if (reverse != open.end()) {
+          of_face[k] = reverse->second;
+          edges[reverse->second].face[1] = f;
+          open.erase(reverse);
+          continue;
+        }
+        of_face[k] = static_cast<std::uint32_t>(edges.size());
+        require(open.emplace(std::array{a, b}, of_face[k]).second, function, "edge", name(a, b),
+                "must not run the same way in two faces");
+        edges.push_back({{a, b}, {f, f}});
+      }
+      face_edges.push_back(of_face);
+    }
+    if (open.empty()) return;
+    const auto [a, b] = open.begin()->first;
+    throw_invalid(function, "edge", name(a, b),
+                  "must run back in another face: the surface is not closed");
+  }
+
+  void collect(std::size_t vertex_count, std::string_view function) {
+    std::vector<std::vector<std::uint32_t>> faces_at(vertex_count), edges_at(vertex_count);
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      for (const std::uint32_t v : faces[f]) faces_at[v].push_back(f);
+    }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      for (const std::uint32_t v : edges[e].vertex) edges_at[v].push_back(e);
+    }
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      require(faces_at[v].size() >= 3, function,
+              "number of faces at vertices[" + std::to_string(v) + "]", faces_at[v].size(),
+              "must be at least 3");
+      vertex_faces.push_back(faces_at[v]);
+      vertex_edges.push_back(edges_at[v]);
+    }
+  }
+};
+
+}  // namespace moreau

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// All points on one side of a plane (in the plane: of a line) through the body's origin: the solid
+/// is { x : normal . x <= 0 }. It models a wall; it has no mass and no box, so it is no Shape.
+template <class S>
+class HalfSpace {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// @param normal points out of the solid, body coordinates; of any length but zero
+  /// @throws std::invalid_argument if the normal is not finite or its length is zero
+  explicit HalfSpace(const Vector& normal) : normal_(normal.stableNormalized()) {
+    require(normal.allFinite(), "HalfSpace", "normal", normal, "must be finite");
+    require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");
+  }
+
+  /// Unit, points out of the solid.
+  const Vector& normal() const { return normal_; }
+
+ private:
+  Vector normal_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What a convex hull is built from: the points given, checked, scaled, sorted, without doubles.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "moreau/shape/vertices.hpp"
+
+namespace moreau {
+
+/// Lengths below which a hull takes things for flat, in units of the machine epsilon of the scalar
+/// times the size of the input, its largest coordinate.
+struct HullTolerance {
+  double flat = 32;   ///< vertices this close to the plane of a face (line of an edge) lie on it
+  double thin = 512;  ///< a hull this thin is coplanar (collinear): an error
+};
+
+namespace detail {
+
+/// The points in double, scaled by a power of two (so exactly) to coordinates of order one, without
+/// those within the tolerance of an earlier one, in lexicographic order.
+template <int Dim>
+struct HullInput {
+  using Point = Eigen::Matrix<double, Dim, 1>;
+
+  std::vector<Point> points;
+  std::vector<std::uint32_t> labels;  ///< the index of each point in what the caller gave
+  double unit = 1;                    ///< [m] per unit of the coordinates
+  double rounding = 0;                ///< of a coordinate of the size of the input, in units
+  double flat = 0, thin = 0;          ///< HullTolerance, in units
+
+  template <class Vector>
+  HullInput(std::span<const Vector> given, std::string_view function) {
+    require(given.size() > Dim, function, "vertices.size()", given.size(),
+            "must be at least " + std::to_string(Dim + 1));
+    require_finite(given, function);
+    double size = 0;
+    for (const Vector& x : given) {
+      size = std::max(size, x.template cast<double>().cwiseAbs().maxCoeff());
+    }
+    unit = size > 0 ? std::ldexp(1.0, std::ilogb(size)) : 1.0;
+    rounding = std::numeric_limits<typename Vector::Scalar>::epsilon() * size / unit;
+    flat = HullTolerance{}.flat * rounding;
+    thin = HullTolerance{}.thin * rounding;
+    sort(given);
+  }
+
+  /// @throws std::invalid_argument because an extent [units] is too small, which shows that the
+  ///   points are what is said: they coincide, ..
+  [[noreturn]] void throw_thin(std::string_view function, double extent,
+                               std::string_view finding) const {
+    throw_invalid(function, "thickness of vertices", extent * unit,
+                  "m must not vanish: " + std::string(finding));
+  }
+
+ private:
+  template <class Vector>
+  void sort(std::span<const Vector> given) {
+    std::vector<std::uint32_t> order(given.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const auto &x = given[a], &y = given[b];
+      if (x != y) return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+      return a < b;
+    });
+    for (const std::uint32_t i : order) {
+      const Point x = given[i].template cast<double>() / unit;
+      if (has_neighbour(x)) continue;
+      points.push_back(x);
+      labels.push_back(i);
+    }
+  }
+  bool has_neighbour(const Point& x) const {
+    for (auto y = points.rbegin(); y != points.rend() && x[0] - (*y)[0] <= flat; ++y) {
+      if ((x - *y).norm() <= flat) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace detail
+
+}  // namespace moreau

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Exact volume, centre and second moment of a polytope, as a sum over simplices.
+//
+// A polytope is cut into simplices (triangles, tetrahedra) with one corner at the origin and the
+// others v_1..v_D on its surface; their signed volumes add up. For one of them, with s = sum v_k,
+//
+//     V = det[v_1..v_D] / D!      int x = V s / (D+1)
+//     int x x^T = V / ((D+1)(D+2)) (sum v_k v_k^T + s s^T)
+//
+// Source: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its
+// vertex coordinates", J. Math. Stat. 1 (2005); the form above holds in any dimension.
+#pragma once
+
+#include <cmath>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// Moments of a body of density one about the origin.
+template <class S>
+struct Moments {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
+
+  Scalar volume = 0;               ///< [m^D]
+  Vector first = Vector::Zero();   ///< int x [m^(D+1)]
+  Matrix second = Matrix::Zero();  ///< int x x^T [m^(D+2)]
+
+  /// Adds the simplex of the origin and the columns of v; negative if they are left-handed.
+  void add_simplex(const Matrix& v) {
+    const Scalar part = v.determinant() / factorial(S::dim);
+    const Vector s = v.rowwise().sum();
+    volume += part;
+    first += part / Scalar(S::dim + 1) * s;
+    second += part / Scalar((S::dim + 1) * (S::dim + 2)) * (v * v.transpose() + s * s.transpose());
+  }
+
+  static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
+
+  /// The moments of the same body, all lengths times the factor.
+  Moments scaled(Scalar factor) const {
+    const Scalar of_volume = std::pow(factor, Scalar(S::dim));
+    return {of_volume * volume, of_volume * factor * first, of_volume * factor * factor * second};
+  }
+
+  /// int lever(x)^T lever(x): the inertia about the origin at density one.
+  typename S::Inertia inertia() const {
+    typename S::Inertia sum = S::Inertia::Zero();
+    for (int i = 0; i < S::dim; ++i) {
+      for (int j = 0; j < S::dim; ++j) {
+        sum += second(i, j) *
+               (S::lever(Vector::Unit(i)).transpose() * S::lever(Vector::Unit(j))).eval();
+      }
+    }
+    return sum;
+  }
+};
+
+}  // namespace moreau

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/convex_hull.hpp"
+#include "moreau/shape/moments.hpp"
+#include "moreau/shape/vertices.hpp"
+
+namespace moreau {
+
+/// A convex polygon. Its body frame has the axes of the input and its origin at the centre of mass.
+/// Face i is the edge from vertex i to vertex i + 1; they run counter-clockwise.
+template <std::floating_point T = double>
+class Polygon {
+ public:
+  using Space = moreau::Space<2, T>;
+  using Scalar = T;
+  using Vector = typename Space::Vector;
+  using FaceOffsets = Eigen::Array<T, Eigen::Dynamic, 1>;
+
+  /// The convex hull of the vertices [m]; those inside or on an edge are dropped, the others keep
+  /// their cyclic order, the first of the input first.
+  /// @throws std::invalid_argument for fewer than 3, one that is not finite, or collinear ones
+  explicit Polygon(std::span<const Vector> vertices) {
+    const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");
+    vertices_.resize(static_cast<Eigen::Index>(ring.size()), 2);
+    for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
+      vertices_.row(i) =
+          (vertices[ring[static_cast<std::size_t>(i)]] - vertices[ring[0]]).transpose();
+    }
+    const Moments<Space> rough = moments();
+    require(std::isfinite(rough.volume) && rough.volume > T(0), "Polygon", "area", rough.volume,
+            "m^2 must be positive and finite");
+    const Vector center = rough.first / rough.volume;
+    centroid_of_input_ = vertices[ring[0]] + center;
+    vertices_.rowwise() -= center.transpose();
+    moments_ = moments();
+    circumradius_ = vertices_.rowwise().norm().maxCoeff();
+    set_faces();
+  }
+
+  const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 2 [m]
+  const VertexMatrix<Space>& face_normals() const {
+    return face_normals_;
+  }                                                                  ///< N x 2, unit, outward
+  const FaceOffsets& face_offsets() const { return face_offsets_; }  ///< N, normal . x on it [m]
+  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }
+  std::size_t face_count() const { return vertex_count(); }
+  std::size_t edge_count() const { return vertex_count(); }
+
+  /// Where the centre of mass was in the coordinates of the input [m].
+  const Vector& centroid_of_input() const { return centroid_of_input_; }
+  T area() const { return moments_.volume; }        ///< [m^2]
+  T volume() const { return moments_.volume; }      ///< the area, under its uniform name [m^2]
+  T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
+  T inradius() const {
+    return face_offsets_.minCoeff();
+  }  ///< from the origin to the nearest face [m]
+
+  /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
+  std::size_t support_vertex(const Vector& direction) const {
+    return farthest_vertex<Space>(vertices_, direction);
+  }
+  Vector support(const Vector& direction) const {
+    return vertices_.row(static_cast<Eigen::Index>(support_vertex(direction))).transpose();
+  }
+
+  /// @param density per area [kg/m^2], > 0
+  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  MassProperties<Space> mass_properties(T density) const {
+    detail::require_positive(density, "Polygon::mass_properties", "density");
+    return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
+  }
+  Aabb<Space> bounding_box(const Pose<Space>& pose) const {
+    return box_around<Space>(vertices_, pose);
+  }
+
+  /// The same polygon, all lengths times the factor, > 0.
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  Polygon scaled(T factor) const {
+    detail::require_positive(factor, "Polygon::scaled", "factor");
+    Polygon copy = *this;
+    copy.vertices_ *= factor;
+    copy.face_offsets_ *= factor;
+    copy.circumradius_ *= factor;
+    copy.centroid_of_input_ *= factor;
+    copy.moments_ = moments_.scaled(factor);
+    return copy;
+  }
+
+ private:
+  Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
+
+  Moments<Space> moments() const {
+    Moments<Space> sum;
+    for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
+      typename Space::Matrix corners;
+      corners << vertex(i), vertex(i + 1);
+      sum.add_simplex(corners);
+    }
+    return sum;
+  }
+
+  void set_faces() {
+    face_normals_.resize(vertices_.rows(), 2);
+    face_offsets_.resize(vertices_.rows());
+    for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
+      const Vector along = vertex(i + 1) - vertex(i);
+      const Vector normal = Vector(along.y(), -along.x()).normalized();
+      face_normals_.row(i) = normal.transpose();
+      face_offsets_[i] = normal.dot(vertex(i) + vertex(i + 1)) / T(2);
+    }
+  }
+
+  VertexMatrix<Space> vertices_, face_normals_;
+  FaceOffsets face_offsets_;
+  Vector centroid_of_input_ = Vector::Zero();
+  T circumradius_ = 0;
+  Moments<Space> moments_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/convex_hull.hpp"
+#include "moreau/shape/face_plane.hpp"
+#include "moreau/shape/face_topology.hpp"
+#include "moreau/shape/moments.hpp"
+#include "moreau/shape/vertices.hpp"
+
+namespace moreau {
+
+/// A convex polyhedron. Its body frame has the axes of the input and its origin at the centre of
+/// mass. No two of its faces are coplanar.
+template <std::floating_point T = double>
+class Polyhedron {
+ public:
+  using Space = moreau::Space<3, T>;
+  using Scalar = T;
+  using Vector = typename Space::Vector;
+  using FaceOffsets = Eigen::Array<T, Eigen::Dynamic, 1>;
+  using Edge = PolyhedronEdge;
+
+  /// The convex hull of the vertices [m]; those inside, on a face or on an edge are dropped, the
+  /// others keep their order. Coplanar triangles are one face.
+  /// @throws std::invalid_argument for fewer than 4, one that is not finite, or coplanar ones
+  explicit Polyhedron(std::span<const Vector> vertices) {
+    auto faces = convex_hull(vertices, "Polyhedron");
+    const std::vector<Vector> kept = drop_unused(vertices, faces);
+    build(kept, faces, "Polyhedron");
+  }
+
+  /// From vertices [m] and faces given as cycles of them, counter-clockwise from outside.
+  /// @throws std::invalid_argument unless the vertices are finite, every one is in 3 faces, every
+  ///   edge is in two faces, once in each direction, and every face is planar and has all other
+  ///   vertices strictly below it; coplanar neighbours have to be one face
+  static Polyhedron from_faces(std::span<const Vector> vertices,
+                               std::span<const std::vector<std::uint32_t>> faces) {
+    constexpr std::string_view function = "Polyhedron::from_faces";
+    require(vertices.size() >= 4, function, "vertices.size()", vertices.size(),
+            "must be at least 4");
+    detail::require_finite(vertices, function);
+    Polyhedron polyhedron;
+    polyhedron.build(vertices, faces, function);
+    polyhedron.require_convex(vertices, function);
+    return polyhedron;
+  }
+
+  const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 3 [m]
+  const VertexMatrix<Space>& face_normals() const {
+    return face_normals_;
+  }                                                                  ///< F x 3, unit, outward
+  const FaceOffsets& face_offsets() const { return face_offsets_; }  ///< F, normal . x on it [m]
+  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }
+  std::size_t face_count() const { return topology_.faces.size(); }
+  std::size_t edge_count() const { return topology_.edges.size(); }
+  /// Triangles that its surface consists of if every face is cut into triangles: 2 V - 4.
+  std::size_t triangle_count() const { return 2 * vertex_count() - 4; }
+
+  /// The vertices of face f, counter-clockwise seen from outside.
+  std::span<const std::uint32_t> face(std::size_t f) const { return topology_.faces[f]; }
+  /// The edges of face f; the k-th runs between face(f)[k] and face(f)[k + 1].
+  std::span<const std::uint32_t> face_edges(std::size_t f) const { return topology_.face_edges[f]; }
+  std::span<const Edge> edges() const { return topology_.edges; }
+  std::span<const std::uint32_t> vertex_faces(std::size_t v) const {
+    return topology_.vertex_faces[v];
+  }
+  std::span<const std::uint32_t> vertex_edges(std::size_t v) const {
+    return topology_.vertex_edges[v];
+  }
+
+  /// Where the centre of mass was in the coordinates of the input [m].
+  const Vector& centroid_of_input() const { return centroid_of_input_; }
+  T volume() const { return moments_.volume; }      ///< [m^3]
+  T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
+  T inradius() const {
+    return face_offsets_.minCoeff();
+  }  ///< from the origin to the nearest face [m]
+
+  /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
+  std::size_t support_vertex(const Vector& direction) const {
+    return farthest_vertex<Space>(vertices_, direction);
+  }
+  Vector support(const Vector& direction) const { return vertex(support_vertex(direction)); }
+
+  /// @param density [kg/m^3], > 0
+  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  MassProperties<Space> mass_properties(T density) const {
+    detail::require_positive(density, "Polyhedron::mass_properties", "density");
+    return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
+  }
+  Aabb<Space> bounding_box(const Pose<Space>& pose) const {
+    return box_around<Space>(vertices_, pose);
+  }
+
+  /// The same polyhedron, all lengths times the factor, > 0.
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  Polyhedron scaled(T factor) const {
+    detail::require_positive(factor, "Polyhedron::scaled", "factor");
+    Polyhedron copy = *this;
+    copy.vertices_ *= factor;
+    copy.face_offsets_ *= factor;
+    copy.circumradius_ *= factor;
+    copy.centroid_of_input_ *= factor;
+    copy.moments_ = moments_.scaled(factor);
+    return copy;
+  }
+
+ private:
+  Polyhedron() = default;
+
+  Vector vertex(std::size_t i) const {
+    return vertices_.row(static_cast<Eigen::Index>(i)).transpose();
+  }
+
+  /// The vertices that faces name, in their order; the faces then name those.
+  static std::vector<Vector> drop_unused(std::span<const Vector> vertices,
+                                         std::vector<std::vector<std::uint32_t>>& faces) {
+    constexpr std::uint32_t unused = ~0U;
+    std::vector<std::uint32_t> renamed(vertices.size(), unused);
+    for (const auto& face : faces) {
+      for (const std::uint32_t v : face) renamed[v] = 0;
+    }
+    std::vector<Vector> kept;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (renamed[v] == unused) continue;
+      renamed[v] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(vertices[v]);
+    }
+    for (auto& face : faces) {
+      for (std::uint32_t& v : face) v = renamed[v];
+    }
+    return kept;
+  }
+
+  void build(std::span<const Vector> vertices, std::span<const std::vector<std::uint32_t>> faces,
+             std::string_view function) {
+    topology_ = FaceTopology(vertices.size(), faces, function);
+    vertices_.resize(static_cast<Eigen::Index>(vertices.size()), 3);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      vertices_.row(static_cast<Eigen::Index>(i)) = (vertices[i] - vertices[0]).transpose();
+    }
+    const Moments<Space> rough = moments();
+    require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");
+    require(rough.volume > T(0), function, "volume", rough.volume,
+            "m^3 must be positive: faces run counter-clockwise seen from outside");
+    const Vector center = rough.first / rough.volume;
+    centroid_of_input_ = vertices[0] + center;
+    vertices_.rowwise() -= center.transpose();
+    moments_ = moments();
+    circumradius_ = vertices_.rowwise().norm().maxCoeff();
+    set_planes();
+  }
+
+  Moments<Space> moments() const {
+    Moments<Space> sum;
+    for (std::size_t f = 0; f < face_count(); ++f) {
+      const auto loop = face(f);
+      for (std::size_t k = 2; k < loop.size(); ++k) {
+        typename Space::Matrix corners;
+        corners << vertex(loop[0]), vertex(loop[k - 1]), vertex(loop[k]);
+        sum.add_simplex(corners);
+      }
+    }
+    return sum;
+  }
+
+  /// In long double, because the area of a sliver is a small difference.
+  void set_planes() {
+    using Wide = Eigen::Matrix<long double, 3, 1>;
+    face_normals_.resize(static_cast<Eigen::Index>(face_count()), 3);
+    face_offsets_.resize(face_normals_.rows());
+    for (std::size_t f = 0; f < face_count(); ++f) {
+      const auto row = static_cast<Eigen::Index>(f);
+      const auto plane = face_plane<long double>(face(f).size(), [&](std::size_t k) -> Wide {
+        return vertex(face(f)[k]).template cast<long double>();
+      });
+      face_normals_.row(row) = plane.normal.template cast<T>().transpose();
+      face_offsets_[row] = static_cast<T>(plane.normal.dot(plane.center));
+    }
+  }
+
+  /// Every vertex lies on the faces that name it and strictly below the others, within the rounding
+  /// of the input.
+  void require_convex(std::span<const Vector> input, std::string_view function) const {
+    T size = 0;
+    for (const Vector& x : input) size = std::max(size, x.cwiseAbs().maxCoeff());
+    const T flat = static_cast<T>(HullTolerance{}.flat) * std::numeric_limits<T>::epsilon() * size;
+    for (std::size_t f = 0; f < face_count(); ++f) {
+      const std::string name = "faces[" + std::to_string(f) + "]";
+      const auto row = static_cast<Eigen::Index>(f);
+      for (std::size_t v = 0; v < vertex_count(); ++v) {
+        const T height = face_normals_.row(row).dot(vertices_.row(static_cast<Eigen::Index>(v))) -
+                         face_offsets_[row];
+        const bool on_face = std::binary_search(vertex_faces(v).begin(), vertex_faces(v).end(),
+                                                static_cast<std::uint32_t>(f));
+        const std::string what = "height of vertices[" + std::to_string(v) + "] above " + name;
+        if (on_face) {
+          require(std::abs(height) <= flat, function, what, height, "m must be 0: planar faces");
+        } else {
+          require(height < -flat, function, what, height,
+                  "m must be negative: convex, coplanar neighbours joined");
+        }
+      }
+    }
+  }
+
+  FaceTopology topology_;
+  VertexMatrix<Space> vertices_, face_normals_;
+  FaceOffsets face_offsets_;
+  Vector centroid_of_input_ = Vector::Zero();
+  T circumradius_ = 0;
+  Moments<Space> moments_;
+};
+
+}  // namespace moreau

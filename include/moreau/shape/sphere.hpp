@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/vertices.hpp"
+
+namespace moreau {
+
+/// A full ball in space, a full disk in the plane, about the body's origin.
+template <class S>
+class Sphere {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// @param radius [m], > 0
+  /// @throws std::invalid_argument unless the radius is finite and greater than zero
+  explicit Sphere(Scalar radius) : radius_(radius) {
+    detail::require_positive(radius, "Sphere", "radius");
+  }
+
+  Scalar radius() const { return radius_; }
+  Scalar circumradius() const { return radius_; }  ///< farthest point from the origin [m]
+  Scalar inradius() const { return radius_; }      ///< nearest point of the surface [m]
+  /// [m^D]: pi r^2 in the plane, pi r^2 (4 r / 3) in space.
+  Scalar volume() const {
+    return std::numbers::pi_v<Scalar> * radius_ * radius_ *
+           std::pow(Scalar(4) / Scalar(3) * radius_, Scalar(S::dim - 2));
+  }
+
+  /// The farthest point in the direction (any length but zero), body coordinates [m].
+  Vector support(const Vector& direction) const {
+    MOREAU_ASSERT(direction.squaredNorm() > 0);
+    return radius_ * direction.normalized();
+  }
+
+  /// @param density [kg/m^D], > 0
+  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  MassProperties<S> mass_properties(Scalar density) const {
+    detail::require_positive(density, "Sphere::mass_properties", "density");
+    MassProperties<S> properties;
+    properties.mass = density * volume();
+    // 2/5 m r^2 in space, 1/2 m r^2 in the plane.
+    properties.inertia = Scalar(2) / Scalar(S::dim + 2) * properties.mass * radius_ * radius_ *
+                         S::Inertia::Identity();
+    return properties;
+  }
+
+  Aabb<S> bounding_box(const Pose<S>& pose) const {
+    return {pose.position.array() - radius_, pose.position.array() + radius_};
+  }
+
+  /// A sphere of radius() times the factor, > 0.
+  Sphere scaled(Scalar factor) const {
+    detail::require_positive(factor, "Sphere::scaled", "factor");
+    return Sphere(radius_ * factor);
+  }
+
+ private:
+  Scalar radius_;
+};
+
+template <std::floating_point T = double>
+using Disk = Sphere<moreau::Space<2, T>>;
+template <std::floating_point T = double>
+using Ball = Sphere<moreau::Space<3, T>>;
+
+}  // namespace moreau

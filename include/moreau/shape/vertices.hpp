@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What the polytopes of both dimensions do with their vertices, kept as an N x D matrix whose
+// columns (all x, all y, ...) are contiguous.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/pose.hpp"
+
+namespace moreau {
+
+template <class S>
+using VertexMatrix = Eigen::Matrix<typename S::Scalar, Eigen::Dynamic, S::dim>;
+
+/// The first vertex that lies farthest in the direction (any length but zero).
+template <class S>
+std::size_t farthest_vertex(const VertexMatrix<S>& vertices, const typename S::Vector& direction) {
+  MOREAU_ASSERT(direction.squaredNorm() > 0);
+  Eigen::Index farthest = 0;
+  auto reach = vertices.row(0).dot(direction);
+  for (Eigen::Index i = 1; i < vertices.rows(); ++i) {
+    const auto here = vertices.row(i).dot(direction);
+    if (here > reach) {
+      reach = here;
+      farthest = i;
+    }
+  }
+  return static_cast<std::size_t>(farthest);
+}
+
+/// The box in world axes around the vertices at the pose [m].
+template <class S>
+Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
+  const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
+  Aabb<S> box;
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+    box.merge(rotation * vertices.row(i).transpose());
+  }
+  box.lower += pose.position;
+  box.upper += pose.position;
+  return box;
+}
+
+namespace detail {
+
+/// @throws std::invalid_argument naming the first vertex that is not finite
+template <class Vector>
+void require_finite(std::span<const Vector> vertices, std::string_view function) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i].allFinite()) continue;
+    throw_invalid(function, "vertices[" + std::to_string(i) + "]", vertices[i], "must be finite");
+  }
+}
+
+/// @throws std::invalid_argument unless the value is finite and greater than zero
+template <class T>
+void require_positive(T value, std::string_view function, std::string_view argument) {
+  require(std::isfinite(value) && value > T(0), function, argument, value,
+          "must be finite and greater than zero");
+}
+
+}  // namespace detail
+
+}  // namespace moreau

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Non-linear Gauss-Seidel: sweep over the contacts, solve each exactly with all others held, apply
+// what changed at once (M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/solve/report.hpp"
+#include "moreau/solve/residual.hpp"
+
+namespace moreau {
+
+/// Which quantity has to fall below the tolerance.
+enum class StopTest {
+  natural_map,  ///< SolveReport::residual
+  qm16,  ///< LMGC90's: quad_dv, quad_dvr <= tolerance and maxm_dv, maxm_dvr <= 16.67 tolerance. It
+         ///< measures the change per sweep and is weaker than the residual.
+};
+
+/// Order of the contacts in consecutive sweeps.
+enum class SweepOrder {
+  forward,
+  symmetric,  ///< forward and backward in turn
+};
+
+struct GaussSeidelOptions {
+  double tolerance = 1e-4;
+  StopTest stop_test = StopTest::natural_map;
+  int max_sweeps = 2000;
+  int check_interval = 10;  ///< sweeps between two stopping tests
+  double relaxation = 1;    ///< factor on each impulse change, in (0, 1]; checks use a plain sweep
+  SweepOrder order = SweepOrder::forward;
+};
+
+class NonlinearGaussSeidel {
+ public:
+  using Options = GaussSeidelOptions;
+
+  /// @throws std::invalid_argument for a tolerance or relaxation out of range or a cap below 1
+  explicit NonlinearGaussSeidel(const Options& options = {}) : options_(options) {
+    constexpr const char* self = "NonlinearGaussSeidel";
+    require(options.tolerance > 0 && std::isfinite(options.tolerance), self, "tolerance",
+            options.tolerance, "must be finite and > 0");
+    require(options.relaxation > 0 && options.relaxation <= 1, self, "relaxation",
+            options.relaxation, "must lie in (0, 1]");
+    require(options.max_sweeps >= 1, self, "max_sweeps", options.max_sweeps, "must be at least 1");
+    require(options.check_interval >= 1, self, "check_interval", options.check_interval,
+            "must be at least 1");
+  }
+
+  const Options& options() const { return options_; }
+
+  /// Solves u = W r + b with the law of every contact.
+  /// @param op       the operator W with the free velocities b, no impulse applied yet
+  /// @param laws     table of laws; law_of[c] names the entry of contact c
+  /// @param impulses in: the warm start, out: the solution; in each contact's frame [N s]
+  /// @returns what was reached; never throws on failure to converge
+  template <class Operator, class Law>
+  SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
+                    std::span<typename Operator::Vector> impulses) {
+    SolveReport report;
+    for (std::size_t c = 0; c < op.size(); ++c)
+      if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
+    if (op.size() == 0) return report;
+    report.converged = false;
+    while (!report.converged && report.sweeps < options_.max_sweeps) {
+      const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
+      for (int k = 1; k < block; ++k) sweep(op, laws, law_of, impulses, report.sweeps++);
+      measuring_sweep(op, laws, law_of, impulses, report);
+      ++report.sweeps;
+      report.converged = passes(op, laws, law_of, impulses, report);
+    }
+    report.capped = !report.converged;
+    // Once more from the impulses alone: what many small changes rounded off must not stay.
+    op.clear();
+    for (std::size_t c = 0; c < op.size(); ++c)
+      if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
+    measure_residual(op, laws, law_of, std::span<const typename Operator::Vector>(impulses),
+                     report);
+    return report;
+  }
+
+ private:
+  /// The change of one contact's impulse that solves its local problem.
+  template <class Operator, class Law>
+  static typename Operator::Vector improve(const Operator& op, const Law& law, std::size_t c,
+                                           const typename Operator::Vector& impulse) {
+    using Vector = typename Operator::Vector;
+    const bool open = impulse[0] == 0;
+    if (open && op.normal_velocity(c) >= 0) return Vector::Zero();
+    Vector b = op.velocity(c);
+    if (!open) b -= op.block(c) * impulse;
+    return law.solve(op.block(c), b, impulse) - impulse;
+  }
+
+  template <class Operator, class Law>
+  void sweep(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
+             std::span<typename Operator::Vector> impulses, int number) const {
+    using Vector = typename Operator::Vector;
+    const auto relaxation = static_cast<typename Operator::Scalar>(options_.relaxation);
+    const bool backward = options_.order == SweepOrder::symmetric && number % 2 == 1;
+    const std::size_t count = op.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t c = backward ? count - 1 - k : k;
+      const Vector change = relaxation * improve(op, laws[law_of[c]], c, impulses[c]);
+      if (change.isZero(0)) continue;
+      impulses[c] += change;
+      op.apply(c, change);
+    }
+  }
+
+  /// One plain sweep that also takes LMGC90's measures of what it changed.
+  template <class Operator, class Law>
+  void measuring_sweep(Operator& op, std::span<const Law> laws,
+                       std::span<const std::uint32_t> law_of,
+                       std::span<typename Operator::Vector> impulses, SolveReport& report) const {
+    using Vector = typename Operator::Vector;
+    double dv2 = 0, dvr2 = 0, max_dv2 = 0, max_dvr2 = 0, wr2 = 0, rwr = 0;
+    std::size_t acting = 0;
+    for (std::size_t c = 0; c < op.size(); ++c) {
+      const Vector change = improve(op, laws[law_of[c]], c, impulses[c]);
+      const auto& delassus = op.block(c);
+      if (!change.isZero(0)) {
+        impulses[c] += change;
+        op.apply(c, change);
+      }
+      if (impulses[c].isZero(0)) continue;
+      ++acting;
+      const Vector dv = delassus * change, wr = delassus * impulses[c];
+      const double change2 = double(dv.squaredNorm());
+      const double weighted = change2 * double(impulses[c].squaredNorm());
+      dv2 += change2;
+      dvr2 += weighted;
+      max_dv2 = std::max(max_dv2, change2);
+      max_dvr2 = std::max(max_dvr2, weighted);
+      wr2 += double(wr.squaredNorm());
+      rwr += double(impulses[c].dot(wr));
+    }
+    if (acting == 0) {
+      report.quad_dv = report.quad_dvr = report.maxm_dv = report.maxm_dvr = 0;
+      return;
+    }
+    const double n = double(acting);
+    report.quad_dv = std::sqrt(dv2 / wr2);
+    report.quad_dvr = std::sqrt(dvr2 / n) / (rwr / n);
+    report.maxm_dv = std::sqrt(max_dv2 / (wr2 / n));
+    report.maxm_dvr = std::sqrt(max_dvr2) / (rwr / n);
+  }
+
+  template <class Operator, class Law>
+  bool passes(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
+              std::span<const typename Operator::Vector> impulses, SolveReport& report) const {
+    if (options_.stop_test == StopTest::qm16) {
+      const double quad = std::max(report.quad_dv, report.quad_dvr);
+      const double maxm = std::max(report.maxm_dv, report.maxm_dvr);
+      return quad <= options_.tolerance && maxm <= 16.67 * options_.tolerance;
+    }
+    measure_residual(op, laws, law_of, impulses, report);
+    return report.residual <= options_.tolerance;
+  }
+
+  Options options_;
+};
+
+}  // namespace moreau

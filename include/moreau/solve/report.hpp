@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace moreau {
+
+/// How well one step's contact problem was solved. Always filled; not converging is no error.
+struct SolveReport {
+  int sweeps = 0;         ///< passes over all contacts
+  bool converged = true;  ///< the stopping test was met
+  bool capped = false;    ///< the cap on sweeps was hit first
+
+  /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1.
+  /// Absolute where r = 0.
+  double residual = 0;
+  double quad_dv = 0;   ///< LMGC90: sqrt<|dv|^2> / sqrt<|W r|^2>
+  double quad_dvr = 0;  ///< LMGC90: sqrt<|dv|^2 |r|^2> / <r . W r>
+  double maxm_dv = 0;   ///< the same with the maximum in the numerator
+  double maxm_dvr = 0;
+
+  double worst_velocity = 0;  ///< largest -(u_n + offset) > 0 [m/s]: approach left over
+  double worst_cone =
+      0;  ///< largest excess of |r_t| over mu r_n [N s], by the law's own projection
+  double worst_complementarity = 0;   ///< largest |(u_n + offset) r_n| [J]
+  double wrong_sign_dissipation = 0;  ///< sum of positive u_t . r_t: friction that drives [J]
+};
+
+}  // namespace moreau

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// How far impulses and velocities are from solving the contact problem.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "moreau/solve/report.hpp"
+
+namespace moreau {
+
+/// One pass over all contacts: the natural-map residual and the separate violations of the law.
+/// Fills residual, worst_* and wrong_sign_dissipation of the report.
+/// @param op       the operator, carrying the velocities that the impulses make
+/// @param laws     the table of laws; law_of[c] is the entry of contact c
+/// @param impulses one per contact, normal first [N s]
+template <class Operator, class Law>
+void measure_residual(const Operator& op, std::span<const Law> laws,
+                      std::span<const std::uint32_t> law_of,
+                      std::span<const typename Operator::Vector> impulses, SolveReport& report) {
+  using Vector = typename Operator::Vector;
+  double trace = 0, map = 0, norm = 0;
+  report.worst_velocity = report.worst_cone = report.worst_complementarity = 0;
+  report.wrong_sign_dissipation = 0;
+  for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
+  constexpr int rows = Vector::RowsAtCompileTime;
+  const double entries = double(op.size()) * rows;
+  const double scale = trace > 0 ? trace / entries : 1;
+  for (std::size_t c = 0; c < op.size(); ++c) {
+    const Vector& r = impulses[c];
+    if (r[0] == 0 && op.normal_velocity(c) >= 0) continue;
+    const Vector u = op.velocity(c);
+    if (!std::isfinite(u[0])) continue;  // cannot act in this step
+    const Vector scaled = r * static_cast<typename Operator::Scalar>(scale);
+    map += double(laws[law_of[c]].natural_map(u, scaled).squaredNorm());
+    norm += double(scaled.squaredNorm());
+    constexpr int tangents = Vector::RowsAtCompileTime - 1;
+    const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));
+    report.worst_velocity = std::max(report.worst_velocity, -double(u[0]));
+    report.worst_complementarity =
+        std::max(report.worst_complementarity, std::abs(double(u[0] * r[0])));
+    report.wrong_sign_dissipation += std::max(0.0, power);
+    report.worst_cone =
+        std::max(report.worst_cone, double((r - laws[law_of[c]].project(r)).norm()));
+  }
+  report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
+}
+
+}  // namespace moreau

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+// Rigid grains and walls under contact dynamics. The shape decides the space: the same text runs
+// polyhedra and polygons.
+//
+// One step, data in one direction:
+//   predict_configuration -> detect -> overlap correction -> free velocity -> assemble -> warm
+//   start
+//   -> solve impulses -> advance_configuration
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/warm_start.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/detect/broad_phase.hpp"
+#include "moreau/detect/reduce.hpp"
+#include "moreau/detect/sweep_and_prune.hpp"
+#include "moreau/integrate/bodies.hpp"
+#include "moreau/integrate/concepts.hpp"
+#include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/materials.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/half_space.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/world/contact_detector.hpp"
+#include "moreau/world/overlap_correction.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau {
+
+/// Lengths that act as tolerances, each relative to the grain size.
+struct Tolerances {
+  double margin = 0.02;  ///< alert distance: a contact enters at this gap; must exceed speed x step
+  double skin = 0.05;    ///< the pair list is kept until a box has moved this far
+};
+
+/// @tparam ShapeT     of the grains; its Space is the simulation's
+/// @tparam Law        contact law between two materials
+/// @tparam Integrator time stepping
+/// @tparam Broad      broad phase
+/// @tparam Solver     of the contact problem
+template <Shape ShapeT, class Law, class Integrator = MoreauJean,
+          class Broad = SweepAndPrune<SpaceOf<ShapeT>>, class Solver = NonlinearGaussSeidel>
+requires SetValuedLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>>
+class Simulation {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Twist = typename S::Twist;
+
+  /// @param grain_size the smallest grain's size [m]; all tolerances are relative to it
+  /// @param materials  the law for every pair of materials
+  /// @throws std::invalid_argument for a size that is not positive or tolerances out of range
+  Simulation(Scalar grain_size, const Materials<Law>& materials, const Solver& solver = Solver{},
+             const Tolerances& tolerances = {}, const OverlapCorrectionOptions& correction = {},
+             const Integrator& integrator = Integrator{})
+      : grain_size_(grain_size),
+        tolerances_(tolerances),
+        materials_(materials),
+        solver_(solver),
+        correction_(correction),
+        integrator_(integrator) {
+    require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
+            "must be finite and > 0");
+    require(tolerances.margin > 0, "Simulation", "margin", tolerances.margin, "must be > 0");
+    require(tolerances.skin >= 0, "Simulation", "skin", tolerances.skin, "must be >= 0");
+  }
+
+  /// Adds a shape that grains can share.
+  ShapeId add_shape(const ShapeT& shape) {
+    shapes_.push_back(shape);
+    return ShapeId(shapes_.size() - 1);
+  }
+
+  /// Adds a grain at rest.
+  /// @param density [kg/m^3], in the plane [kg/m^2], > 0
+  /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite, a
+  ///         density that is not positive, a shape whose centre of mass is not its origin
+  BodyId add_grain(ShapeId shape, const Pose<S>& pose, Scalar density,
+                   MaterialId material = MaterialId(0)) {
+    constexpr const char* self = "Simulation::add_grain";
+    require(shape.index() < shapes_.size(), self, "shape", shape, "must be the id of a shape");
+    require(pose.is_finite(), self, "pose.position", pose.position, "must be finite");
+    require(S::is_rotation(pose.rotation), self, "pose.rotation", "(not a unit quaternion)",
+            "must be a rotation");
+    require(std::isfinite(density) && density > 0, self, "density", density,
+            "must be finite and > 0");
+    const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
+    require(std::isfinite(mass.mass) && mass.mass > 0, self, "mass", mass.mass,
+            "must be finite and > 0");
+    require(mass.center.norm() <= Scalar(1e-3) * grain_size_, self, "center of mass", mass.center,
+            "must be the origin of the shape's frame");
+    const BodyId body = push_body(pose, material, self);
+    set_inertia(body.index(), Vector::Constant(1 / mass.mass), mass.inertia, mass.mass);
+    detector_.add_grain(body, shapes_[shape.index()]);
+    grains_.push_back({body, shape});
+    return body;
+  }
+
+  /// Adds a half-space as a wall: fixed, or moving at the velocity that set_velocity gives.
+  /// @param normal unit vector out of the solid, towards the grains
+  /// @param point  any point of its plane [m]
+  BodyId add_wall(const Vector& normal, const Vector& point, MaterialId material = MaterialId(0)) {
+    constexpr const char* self = "Simulation::add_wall";
+    require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
+    require(point.allFinite(), self, "point", point, "must be finite");
+    Pose<S> pose;
+    pose.position = point;
+    pose.rotation = S::normalized(typename S::Rotation(S::contact_frame(normal)));
+    const BodyId body = push_body(pose, material, self);
+    set_inertia(body.index(), Vector::Zero(), S::Inertia::Zero(), 0);
+    detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
+    walls_.push_back(body);
+    return body;
+  }
+
+  /// Lets a wall move along its normal as a body of this mass, under set_force and the contacts.
+  /// Gravity does not act on walls. An infinite mass makes it a fixed or driven wall again.
+  /// @throws std::invalid_argument for a body that is no wall or a mass that is not positive
+  void set_wall_mass(BodyId wall, Scalar mass) {
+    require_wall(wall, "Simulation::set_wall_mass");
+    require(mass > 0, "Simulation::set_wall_mass", "mass", mass, "must be > 0");
+    bodies_.inverse_mass[wall.index()] = Vector::UnitX() / mass;
+  }
+  /// External force on a body, world axes [N]; stays until set again.
+  void set_force(BodyId body, const Vector& force) {
+    require_body(body, "Simulation::set_force");
+    require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
+    bodies_.force[body.index()].template head<S::dim>() = force;
+  }
+  /// Velocity of the centre, world axes [m/s]. Axes without inverse mass keep it.
+  void set_velocity(BodyId body, const Vector& velocity) {
+    require_body(body, "Simulation::set_velocity");
+    require(velocity.allFinite(), "Simulation::set_velocity", "velocity", velocity,
+            "must be finite");
+    bodies_.velocity[body.index()].template head<S::dim>() = velocity;
+  }
+  /// Angular velocity, world axes [rad/s].
+  void set_spin(BodyId body, const typename S::Angular& spin) {
+    require_body(body, "Simulation::set_spin");
+    require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
+    bodies_.velocity[body.index()].template tail<S::angular_dim>() = spin;
+  }
+  void set_pose(BodyId body, const Pose<S>& pose) {
+    require_body(body, "Simulation::set_pose");
+    require(pose.is_finite(), "Simulation::set_pose", "pose.position", pose.position,
+            "must be finite");
+    bodies_.pose[body.index()] = pose;
+  }
+  /// Acceleration of gravity, world axes [m/s^2]; acts on grains.
+  void set_gravity(const Vector& gravity) {
+    require(gravity.allFinite(), "Simulation::set_gravity", "gravity", gravity, "must be finite");
+    gravity_ = gravity;
+  }
+  /// Another solver, or the same with other options, from the next step on.
+  void set_solver(const Solver& solver) { solver_ = solver; }
+  void set_correction(const OverlapCorrectionOptions& options) {
+    correction_ = OverlapCorrection<S>(options);
+  }
+  /// Other laws, from the next step on; as many materials as before.
+  void set_materials(const Materials<Law>& materials) {
+    require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
+            materials.count(), "must stay as it was");
+    materials_ = materials;
+  }
+
+  /// Advances the time by `step` [s].
+  /// @throws std::invalid_argument for a step that is not positive or not finite
+  StepReport step(Scalar step) {
+    require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
+            "must be finite and > 0");
+    const auto start = Clock::now();
+    StepReport report;
+    resize_buffers();
+    integrator_.predict_configuration(bodies_, std::span(momentum_), step);
+    detect(report);
+    const auto detected = Clock::now();
+    assemble(step, report);
+    report.solve =
+        solver_.solve(operator_, std::span<const Law>(materials_.laws()),
+                      std::span<const std::uint32_t>(law_of_), std::span(contacts_.impulses));
+    const auto solved = Clock::now();
+    velocities_after(report);
+    integrator_.advance_configuration(bodies_, std::span<const Twist>(after_), step);
+    time_ += step;
+    report.ms_detect = milliseconds(start, detected);
+    report.ms_solve = milliseconds(detected, solved);
+    report.ms_total = milliseconds(start, Clock::now());
+    return report;
+  }
+
+  Scalar time() const { return time_; }              ///< [s]
+  Scalar grain_size() const { return grain_size_; }  ///< [m]
+  const Bodies<S>& bodies() const { return bodies_; }
+  const Contacts<S>& contacts() const { return contacts_; }
+  const Materials<Law>& materials() const { return materials_; }
+  const OverlapCorrection<S>& correction() const { return correction_; }
+  const Vector& gravity() const { return gravity_; }
+  std::size_t grain_count() const { return grains_.size(); }
+  BodyId grain(std::size_t k) const { return grains_[k].body; }
+  const ShapeT& shape_of_grain(std::size_t k) const { return shapes_[grains_[k].shape.index()]; }
+  std::span<const BodyId> walls() const { return walls_; }
+  bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }
+
+  /// Sum of the contact impulses on a body in the last step, world axes [N s].
+  Vector contact_impulse(BodyId body) const {
+    Vector sum = Vector::Zero();
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const Contact<S>& contact = contacts_.points[c];
+      if (contact.a != body.value && contact.b != body.value) continue;
+      const Vector impulse = contact.frame * contacts_.impulses[c];
+      sum += contact.b == body.value ? impulse : Vector(-impulse);
+    }
+    return sum;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Grain {
+    BodyId body;
+    ShapeId shape;
+  };
+
+  static double milliseconds(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+  }
+  void require_body(BodyId body, const char* function) const {
+    require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
+  }
+  void require_wall(BodyId body, const char* function) const {
+    bool found = false;
+    for (const BodyId wall : walls_) found = found || wall == body;
+    require(found, function, "wall", body, "must be the id of a wall");
+  }
+
+  BodyId push_body(const Pose<S>& pose, MaterialId material, const char* function) {
+    require(material.index() < materials_.count(), function, "material", material,
+            "must be the id of a material");
+    bodies_.pose.push_back(pose);
+    bodies_.velocity.push_back(Twist::Zero());
+    bodies_.force.push_back(Twist::Zero());
+    bodies_.inverse_mass.push_back(Vector::Zero());
+    bodies_.inertia_body.push_back(S::Inertia::Zero());
+    bodies_.inverse_inertia_root_body.push_back(S::Inertia::Zero());
+    bodies_.weight.push_back(0);
+    bodies_.material.push_back(material);
+    return BodyId(bodies_.size() - 1);
+  }
+
+  void set_inertia(std::size_t i, const Vector& inverse_mass, const typename S::Inertia& inertia,
+                   Scalar weight) {
+    bodies_.inverse_mass[i] = inverse_mass;
+    bodies_.inertia_body[i] = inertia;
+    bodies_.weight[i] = weight;
+    bodies_.inverse_inertia_root_body[i] =
+        weight > 0 ? inverse_root<S>(inertia) : S::Inertia::Zero().eval();
+  }
+
+  void resize_buffers() {
+    momentum_.resize(bodies_.size());
+    free_.resize(bodies_.size());
+    after_.resize(bodies_.size());
+    roots_.resize(bodies_.size());
+  }
+
+  void detect(StepReport& report) {
+    const DetectionLengths<Scalar> lengths{static_cast<Scalar>(tolerances_.margin) * grain_size_,
+                                           static_cast<Scalar>(tolerances_.skin) * grain_size_};
+    const std::span<const Pose<S>> poses(bodies_.pose);
+    std::swap(contacts_, previous_);
+    detector_.place(poses, [&](std::size_t k) -> const ShapeT& { return shape_of_grain(k); });
+    detector_.find_pairs(lengths);
+    detector_.detect(lengths, poses, std::span<const MaterialId>(bodies_.material), materials_,
+                     contacts_);
+    report.candidate_pairs = detector_.pair_count();
+    report.pairs = detector_.touching_count();
+    report.points = contacts_.size();
+    std::size_t overlapping = 0;
+    for (const Contact<S>& contact : contacts_.points) {
+      if (!(contact.gap < 0)) continue;
+      report.max_overlap = std::max(report.max_overlap, -double(contact.gap));
+      report.mean_overlap -= double(contact.gap);
+      ++overlapping;
+    }
+    if (overlapping > 0) report.mean_overlap /= double(overlapping);
+  }
+
+  /// Rows and blocks; overlap correction; free velocities with the law's offsets.
+  void assemble(Scalar step, StepReport& report) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) roots_[i] = bodies_.mobility_root(i);
+    integrator_.free_velocity(bodies_, gravity_, std::span(momentum_), std::span(free_), step);
+    operator_.assemble(contacts_.points, roots_, free_);
+    report.warm_started = warm_start(previous_, contacts_);
+    if (correction_.solve(operator_, contacts_.points, roots_, grain_size_, report.correction))
+      shift_bodies(report.correction);
+    law_of_.resize(contacts_.size());
+    before_.resize(contacts_.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const Contact<S>& contact = contacts_.points[c];
+      law_of_[c] = contact.law;
+      before_[c] = BodyDelassus<S>::relative_velocity(contact, bodies_.velocity[contact.a],
+                                                      bodies_.velocity[contact.b]);
+      const Scalar offset =
+          materials_.laws()[contact.law].velocity_offset(contact.gap, before_[c][0], step);
+      if (!std::isfinite(offset)) contacts_.impulses[c].setZero();
+      operator_.offset_normal(c, offset);
+    }
+  }
+
+  void shift_bodies(OverlapCorrectionReport& report) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Twist& shift = correction_.shifts()[i];
+      const Vector move = shift.template head<S::dim>();
+      const Vector force = bodies_.force[i].template head<S::dim>() + bodies_.weight[i] * gravity_;
+      report.work += double(force.dot(move));
+      report.largest_shift = std::max(report.largest_shift, double(move.norm()));
+      bodies_.pose[i].position += move;
+      bodies_.pose[i].rotation =
+          S::normalized(S::exp(shift.template tail<S::angular_dim>()) * bodies_.pose[i].rotation);
+    }
+  }
+
+  /// V = V_free + M^-1/2 y, and the energy that the impulses took: -sum r . (u before + u after)/2.
+  void velocities_after(StepReport& report) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const auto y = operator_.scaled_velocity(i);
+      after_[i] = free_[i];
+      after_[i].template head<S::dim>() += roots_[i].linear * y.template head<S::dim>();
+      after_[i].template tail<S::angular_dim>() +=
+          roots_[i].angular * y.template tail<S::angular_dim>();
+    }
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (contacts_.impulses[c].isZero(0)) continue;
+      const Contact<S>& contact = contacts_.points[c];
+      const Vector mean = (before_[c] + BodyDelassus<S>::relative_velocity(
+                                            contact, after_[contact.a], after_[contact.b])) /
+                          2;
+      report.dissipation -= double(contacts_.impulses[c].dot(mean));
+    }
+  }
+
+  Scalar grain_size_;
+  Tolerances tolerances_;
+  Materials<Law> materials_;
+  Solver solver_;
+  OverlapCorrection<S> correction_;
+  Integrator integrator_;
+  Vector gravity_ = Vector::Zero();
+  Scalar time_ = 0;
+
+  std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
+  std::vector<Grain> grains_;
+  std::vector<BodyId> walls_;
+  Bodies<S> bodies_;
+  ContactDetector<ShapeT, Broad> detector_;
+  Contacts<S> contacts_, previous_;
+  BodyDelassus<S> operator_;
+
+  std::vector<typename S::Angular> momentum_;
+  std::vector<Twist> free_, after_;
+  std::vector<MobilityRoot<S>> roots_;
+  std::vector<std::uint32_t> law_of_;
+  std::vector<Vector> before_;
+};
+
+}  // namespace moreau

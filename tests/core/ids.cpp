@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/core/ids.hpp"
+
+#include <cstddef>
+#include <doctest/doctest.h>
+#include <sstream>
+#include <type_traits>
+
+namespace {
+
+using moreau::BodyId;
+using moreau::MaterialId;
+using moreau::ShapeId;
+
+// The point of a strong id: none of these conversions exists.
+static_assert(!std::is_convertible_v<BodyId, ShapeId>);
+static_assert(!std::is_constructible_v<BodyId, ShapeId>);
+static_assert(!std::is_convertible_v<std::size_t, BodyId>);
+static_assert(!std::is_convertible_v<BodyId, std::size_t>);
+static_assert(std::is_trivially_copyable_v<BodyId>);
+static_assert(sizeof(BodyId) == 4);
+
+TEST_CASE("an id keeps its index, its order and its text") {
+  constexpr BodyId third(std::size_t{3});
+  static_assert(third.index() == 3);
+  CHECK(BodyId().index() == 0);
+  CHECK(third == BodyId(std::size_t{3}));
+  CHECK(third != BodyId(std::size_t{4}));
+  CHECK(third < BodyId(std::size_t{4}));
+  std::ostringstream text;
+  text << MaterialId(std::size_t{7});
+  CHECK(text.str() == "7");
+}
+
+}  // namespace

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+// One suite of laws for every space and scalar: what the mechanics relies on holds in each.
+#include "moreau/core/space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <type_traits>
+
+namespace {
+
+using moreau::Space;
+
+#define MOREAU_SPACES Space<2, double>, Space<3, double>, Space<2, float>, Space<3, float>
+
+template <class S>
+struct Draw {
+  using T = typename S::Scalar;
+  std::mt19937_64 engine{20080711};
+
+  template <class Matrix>
+  Matrix uniform(T scale = T(1)) {
+    std::uniform_real_distribution<T> distribution(-scale, scale);
+    return Matrix::NullaryExpr([&] { return distribution(engine); });
+  }
+  typename S::Vector vector(T scale = T(1)) { return uniform<typename S::Vector>(scale); }
+  typename S::Angular angular(T scale = T(1)) { return uniform<typename S::Angular>(scale); }
+  typename S::Rotation rotation() { return S::exp(angular(T(3))); }
+  typename S::Vector unit() {
+    typename S::Vector v = vector();
+    while (v.norm() < T(0.1)) v = vector();
+    return v.normalized();
+  }
+  /// Symmetric, positive definite.
+  typename S::Inertia inertia() {
+    const auto a = uniform<typename S::Inertia>();
+    return a * a.transpose() + S::Inertia::Identity();
+  }
+};
+
+template <class S>
+constexpr typename S::Scalar epsilon = std::numeric_limits<typename S::Scalar>::epsilon();
+
+/// Of two vectors or matrices: one function for all expressions keeps the compile time down.
+template <class Matrix>
+auto distance(const Matrix& a, const Matrix& b) {
+  return (a - b).norm();
+}
+
+template <class S>
+auto matrix_of(const typename S::Rotation& q) {
+  return typename S::Matrix(q.toRotationMatrix());
+}
+
+/// Largest entry of R^T R - 1, or of det R - 1.
+template <class Matrix>
+auto rotation_defect(const Matrix& r) {
+  const auto defect = (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff();
+  return std::max(defect, std::abs(r.determinant() - 1));
+}
+
+TEST_CASE_TEMPLATE("dimensions of the types", S, MOREAU_SPACES) {
+  static_assert(S::angular_dim == S::dim * (S::dim - 1) / 2);
+  static_assert(S::dofs == S::dim + S::angular_dim);
+  static_assert(S::Vector::RowsAtCompileTime == S::dim);
+  static_assert(S::Angular::RowsAtCompileTime == S::angular_dim);
+  static_assert(S::Lever::RowsAtCompileTime == S::dim);
+  static_assert(S::Lever::ColsAtCompileTime == S::angular_dim);
+  static_assert(S::Inertia::RowsAtCompileTime == S::angular_dim);
+  static_assert(S::Twist::RowsAtCompileTime == S::dofs);
+  static_assert(std::is_same_v<typename S::Vector::Scalar, typename S::Scalar>);
+  CHECK(S::is_finite(S::identity()));
+}
+
+TEST_CASE_TEMPLATE("lever, spin and moment say the same", S, MOREAU_SPACES) {
+  Draw<S> draw;
+  const auto tolerance = 8 * epsilon<S>;
+  for (int i = 0; i < 100; ++i) {
+    const auto r = draw.vector();
+    const auto f = draw.vector();
+    const auto w = draw.angular();
+    CHECK(distance<typename S::Vector>(S::lever(r) * w, S::spin(w, r)) <= tolerance);
+    CHECK(distance<typename S::Angular>(S::lever(r).transpose() * f, S::moment(r, f)) <= tolerance);
+    // Power of a force through a rotation, written as force times velocity or torque times spin.
+    CHECK(std::abs(f.dot(S::spin(w, r)) - S::moment(r, f).dot(w)) <= tolerance);
+    CHECK(std::abs(r.dot(S::spin(w, r))) <= tolerance);
+    CHECK(S::moment(r, r).norm() <= tolerance);
+  }
+}
+
+TEST_CASE_TEMPLATE("positive rotations go from x to y", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  // The last angular component is the rotation about z, or the only one in the plane.
+  typename S::Angular w = S::Angular::Zero();
+  w[S::angular_dim - 1] = T(2);
+  CHECK(distance<Vector>(S::spin(w, Vector::UnitX()), T(2) * Vector::UnitY()) == T(0));
+  CHECK(S::moment(Vector::UnitX(), Vector::UnitY())[S::angular_dim - 1] == T(1));
+  w[S::angular_dim - 1] = std::numbers::pi_v<T> / 2;
+  CHECK(distance<Vector>(S::exp(w) * Vector::UnitX(), Vector::UnitY()) <= 4 * epsilon<S>);
+}
+
+TEST_CASE_TEMPLATE("spin is the derivative of exp", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  Draw<S> draw;
+  const T h = std::cbrt(epsilon<S>);
+  for (int i = 0; i < 50; ++i) {
+    const auto r = draw.vector();
+    const auto w = draw.angular();
+    const typename S::Vector forward = S::exp(h * w) * r;
+    const typename S::Vector backward = S::exp(-h * w) * r;
+    const typename S::Vector difference = (forward - backward) / (2 * h);
+    CHECK(distance(difference, S::spin(w, r)) <= 10 * h * h);
+  }
+}
+
+TEST_CASE_TEMPLATE("exp is a rotation at any angle, tiny or huge", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  Draw<S> draw;
+  for (int exponent = -30; exponent <= 3; ++exponent) {
+    const T angle = std::pow(T(10), T(exponent));
+    CAPTURE(angle);
+    const typename S::Angular w = draw.angular().normalized() * angle;
+    const auto q = S::exp(w);
+    REQUIRE(S::is_finite(q));
+    CHECK(rotation_defect(matrix_of<S>(q)) <= 8 * epsilon<S>);
+    // The inverse of a rotation is the rotation back.
+    const typename S::Matrix there_and_back = matrix_of<S>(q * S::exp(-w));
+    CHECK(distance<typename S::Matrix>(there_and_back, S::Matrix::Identity()) <= 16 * epsilon<S>);
+  }
+  CHECK(matrix_of<S>(S::exp(S::Angular::Zero())) == S::Matrix::Identity());
+}
+
+TEST_CASE_TEMPLATE("rotations about one axis add", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  Draw<S> draw;
+  for (int i = 0; i < 50; ++i) {
+    const typename S::Angular axis = draw.angular().normalized();
+    const T a = draw.vector(T(3))[0];
+    const T b = draw.vector(T(3))[0];
+    const auto sum = matrix_of<S>(S::exp((a + b) * axis));
+    CHECK(distance(matrix_of<S>(S::exp(a * axis) * S::exp(b * axis)), sum) <= 40 * epsilon<S>);
+  }
+}
+
+TEST_CASE_TEMPLATE("exp agrees with Eigen's angle and axis", T, double, float) {
+  using S = Space<3, T>;
+  Draw<S> draw;
+  // 2e-2 is the full angle at which exp changes from the series to the quotient.
+  for (const T angle : {T(0), T(1e-20), T(1e-8), T(1e-3), T(0.0199), T(0.02), T(0.0201), T(1),
+                        std::numbers::pi_v<T>, T(4), T(6.28), T(100)}) {
+    CAPTURE(angle);
+    const typename S::Vector axis = draw.unit();
+    const typename S::Rotation expected(Eigen::AngleAxis<T>(angle, axis));
+    const auto defect = (S::exp(angle * axis).coeffs() - expected.coeffs()).norm();
+    CHECK(defect <= (4 + angle) * epsilon<S>);
+    // A small vector part keeps its relative digits.
+    if (angle > 0 && angle < T(1))
+      CHECK((S::exp(angle * axis).vec() - expected.vec()).norm() <= 4 * epsilon<S> * angle);
+  }
+}
+
+TEST_CASE_TEMPLATE("is_finite sees what is not", S, MOREAU_SPACES) {
+  const auto nan = std::numeric_limits<typename S::Scalar>::quiet_NaN();
+  CHECK_FALSE(S::is_finite(S::exp(S::Angular::Constant(nan))));
+}
+
+TEST_CASE_TEMPLATE("normalized ends the drift of many small rotations", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  Draw<S> draw;
+  auto q = S::identity();
+  for (int i = 0; i < 10'000; ++i) q = S::normalized(S::exp(draw.angular(T(0.1))) * q);
+  CHECK(rotation_defect(matrix_of<S>(q)) <= 8 * epsilon<S>);
+}
+
+TEST_CASE_TEMPLATE("adjoint turns angular quantities as the rotation turns levers", S,
+                   MOREAU_SPACES) {
+  Draw<S> draw;
+  for (int i = 0; i < 50; ++i) {
+    const auto q = draw.rotation();
+    const auto r = draw.vector();
+    const auto f = draw.vector();
+    const auto ad = S::adjoint(q);
+    CHECK(rotation_defect(ad) <= 8 * epsilon<S>);
+    // The torque of the turned force at the turned point is the turned torque ...
+    CHECK(distance<typename S::Angular>(S::moment(q * r, q * f), ad * S::moment(r, f)) <=
+          16 * epsilon<S>);
+    // ... and lever(q r) Ad(q) = q lever(r).
+    CHECK(distance<typename S::Lever>(S::lever(q * r) * ad, matrix_of<S>(q) * S::lever(r)) <=
+          16 * epsilon<S>);
+    const auto p = draw.rotation();
+    CHECK(distance<typename S::Inertia>(S::adjoint(p * q), S::adjoint(p) * ad) <= 32 * epsilon<S>);
+  }
+}
+
+TEST_CASE_TEMPLATE("gyroscopic term does no work and is w x I w", S, MOREAU_SPACES) {
+  Draw<S> draw;
+  for (int i = 0; i < 50; ++i) {
+    const auto inertia = draw.inertia();
+    const auto w = draw.angular();
+    CHECK(std::abs(S::gyroscopic(inertia, w).dot(w)) <= 32 * epsilon<S>);
+    // Torque-free: the angular momentum I w stays, so d(I w)/dt = 0 with the body turning at w.
+    // Along a principal axis there is no term at all.
+    CHECK(S::gyroscopic(S::Inertia::Identity(), w).norm() <= 4 * epsilon<S>);
+  }
+}
+
+TEST_CASE_TEMPLATE("gyroscopic_jacobian is the derivative of I(q) w along a rotation", S,
+                   MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  Draw<S> draw;
+  const T h = std::cbrt(epsilon<S>);
+  for (int i = 0; i < 50; ++i) {
+    const auto inertia = draw.inertia();
+    const auto w = draw.angular();
+    const auto dw = draw.angular();
+    const auto momentum = [&](const typename S::Angular& turn) {
+      const auto ad = S::adjoint(S::exp(turn));
+      return typename S::Angular(ad * inertia * ad.transpose() * w);
+    };
+    const typename S::Angular difference = (momentum(h * dw) - momentum(-h * dw)) / (2 * h);
+    const typename S::Angular derivative = S::gyroscopic_jacobian(inertia, w) * dw;
+    CHECK(distance(difference, derivative) <= 100 * h * h);
+    // Along w itself the derivative is the gyroscopic term: d(I w)/dt at fixed w.
+    const typename S::Angular along_w = S::gyroscopic_jacobian(inertia, w) * w;
+    CHECK(distance(along_w, S::gyroscopic(inertia, w)) <= 32 * epsilon<S>);
+  }
+}
+
+template <class S>
+void check_frame(const typename S::Vector& n) {
+  CAPTURE(n.transpose());
+  const auto frame = S::contact_frame(n);
+  CHECK(frame.col(0) == n);
+  CHECK(rotation_defect(typename S::Matrix(frame)) <= 16 * epsilon<S>);
+}
+
+TEST_CASE_TEMPLATE("contact_frame is orthonormal and right-handed", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  Draw<S> draw;
+  for (int i = 0; i < 1000; ++i) check_frame<S>(draw.unit());
+  // Axes of either sign, and normals that just miss them: the last one is where a frame built on
+  // one fixed direction breaks down.
+  for (int axis = 0; axis < S::dim; ++axis) {
+    for (const T sign : {T(1), T(-1)}) {
+      for (const T tilt : {T(0), std::numeric_limits<T>::min(), epsilon<S>, T(1e-5), T(1e-3)}) {
+        for (int other = 0; other < S::dim; ++other) {
+          Vector n = sign * Vector::Unit(axis);
+          if (other != axis) n[other] = tilt;
+          check_frame<S>(n.normalized());
+          if (other != axis) n[other] = -tilt;
+          check_frame<S>(n.normalized());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("contact_frame accepts zeros of either sign", T, double, float) {
+  using S = Space<3, T>;
+  for (const T zero : {T(0), T(-0.0)}) {
+    check_frame<S>({T(1), T(0), zero});
+    check_frame<S>({T(-1), zero, zero});
+    check_frame<S>({zero, zero, T(-1)});
+    check_frame<S>({T(0.6), T(0.8), zero});
+  }
+}
+
+}  // namespace

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/io/csv.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "temporary_folder.hpp"
+
+using namespace moreau;
+
+TEST_CASE("a table has its header and its numbers, shortest form") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "wall.csv";
+  {
+    CsvWriter csv(path, {"t", "f", "x", "v", "f_g"});
+    CHECK(read(path) == "t,f,x,v,f_g\n");
+    csv.row(2e-4, 6000.0, -0.1, 0.1f, 1u);
+    CHECK(read(path) == "t,f,x,v,f_g\n2e-04,6000,-0.1,0.1,1\n");
+    csv.row(std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity(), 0.0,
+            -0.0, std::size_t(1) << 63);
+    CHECK(csv.rows() == 2);
+  }
+  CHECK(read(path) == "t,f,x,v,f_g\n2e-04,6000,-0.1,0.1,1\nnan,-inf,0,-0,9223372036854775808\n");
+}
+
+TEST_CASE("numbers read back to the same bits") {
+  const TemporaryFolder folder("csv");
+  std::mt19937_64 random(1);
+  std::vector<double> numbers = {5e-324, std::numeric_limits<double>::max(), 0.1 + 0.2};
+  while (numbers.size() < 2000) {
+    const std::uint64_t bits = random();
+    double x;
+    std::memcpy(&x, &bits, sizeof x);
+    if (std::isfinite(x)) numbers.push_back(x);
+  }
+  CsvWriter csv(folder / "bits.csv", {"x"}, 64);
+  for (const double x : numbers) csv.row(x);
+  csv.close();
+  std::istringstream text(read(folder / "bits.csv"));
+  std::string line;
+  std::getline(text, line);
+  for (const double x : numbers) {
+    std::getline(text, line);
+    double back = 0;
+    std::from_chars(line.data(), line.data() + line.size(), back);
+    CHECK(std::memcmp(&back, &x, sizeof x) == 0);
+  }
+}
+
+TEST_CASE("rows are held back by whole lines only") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "rows.csv";
+  CsvWriter csv(path, {"i", "square"}, 3);
+  for (int i = 0; i < 5; ++i) csv.row(i, i * i);
+  CHECK(read(path) == "i,square\n0,0\n1,1\n2,4\n");
+  csv.flush();
+  CHECK(read(path) == "i,square\n0,0\n1,1\n2,4\n3,9\n4,16\n");
+}
+
+TEST_CASE("bad tables are refused") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "bad.csv";
+  CHECK_THROWS_AS(CsvWriter(path, {}), std::invalid_argument);
+  CHECK_THROWS_AS(CsvWriter(path, {"a", ""}), std::invalid_argument);
+  CHECK_THROWS_AS(CsvWriter(path, {"a,b"}), std::invalid_argument);
+  CHECK_THROWS_AS(CsvWriter(path, {"a"}, 0), std::invalid_argument);
+  CHECK_FALSE(std::filesystem::exists(path));
+  CsvWriter csv(path, {"a", "b"});
+  CHECK_THROWS_AS(csv.row(1.0), std::invalid_argument);
+  CHECK_THROWS_AS(csv.row(1, 2, 3), std::invalid_argument);
+  CHECK(read(path) == "a,b\n");
+}
+
+TEST_CASE("files that cannot be written are named") {
+  const TemporaryFolder folder("csv");
+  const auto nowhere = folder / "missing" / "wall.csv";
+  try {
+    CsvWriter csv(nowhere, {"t"});
+    FAIL("did not throw");
+  } catch (const std::system_error& error) {
+    CHECK(std::string(error.what()).find(nowhere.string()) != std::string::npos);
+    CHECK(error.code() == std::errc::no_such_file_or_directory);
+  }
+  if (!std::filesystem::exists("/dev/full")) return;
+  try {
+    CsvWriter csv("/dev/full", {"t"});
+    FAIL("did not throw");
+  } catch (const std::system_error& error) {
+    CHECK(std::string(error.what()).find("/dev/full") != std::string::npos);
+    CHECK(error.code() == std::errc::no_space_on_device);
+  }
+}
+
+TEST_CASE("a file is replaced as a whole or left as it was") {
+  const TemporaryFolder folder("atomic");
+  const auto path = folder / "series.pvd";
+  write_atomically(path, "first");
+  write_atomically(path, "second");
+  CHECK(read(path) == "second");
+  CHECK_FALSE(std::filesystem::exists(folder / "series.pvd.part"));
+  std::filesystem::create_directory(folder / "taken");
+  std::ofstream(folder / "taken" / "file") << "x";
+  CHECK_THROWS_AS(write_atomically(folder / "taken", "x"), std::system_error);
+  CHECK_FALSE(std::filesystem::exists(folder / "taken.part"));
+  CHECK_THROWS_AS(write_atomically(folder / "missing" / "file", "x"), std::system_error);
+}

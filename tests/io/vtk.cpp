@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/io/vtk.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <doctest/doctest.h>
+#include <map>
+#include <vector>
+
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+#include "temporary_folder.hpp"
+
+namespace {
+
+using namespace moreau;
+using On = VtkPolyData::On;
+
+/// Reads back what VtkPolyData writes; knows of XML only that.
+class Vtp {
+ public:
+  explicit Vtp(const std::filesystem::path& path) : text_(read(path)) {
+    const std::string marker = "<AppendedData encoding=\"raw\">\n_";
+    const auto start = text_.find(marker);
+    REQUIRE(start != std::string::npos);
+    bytes_ = start + marker.size();
+    end_ = text_.rfind("\n</AppendedData>\n</VTKFile>\n");
+    REQUIRE(end_ != std::string::npos);
+    CHECK(text_.find("header_type=\"UInt64\"") < start);
+    CHECK(text_.find("byte_order=\"LittleEndian\"") < start);
+  }
+  std::size_t count(const std::string& what) const {
+    return std::stoul(attribute(text_.find("<Piece"), "NumberOf" + what));
+  }
+  /// The array of a name within a section, e.g. "CellData".
+  template <class T>
+  std::vector<T> array(const std::string& section, const std::string& name) const {
+    const auto begin = text_.find("<" + section + ">");
+    const auto at = text_.find("Name=\"" + name + "\"", begin);
+    REQUIRE(at < text_.find("</" + section + ">", begin));
+    const auto tag = text_.rfind("<DataArray", at);
+    CHECK(attribute(tag, "type") == vtk_type_name<T>());
+    CHECK(attribute(tag, "format") == "appended");
+    const std::size_t offset = bytes_ + std::stoul(attribute(tag, "offset"));
+    std::uint64_t size = 0;
+    std::memcpy(&size, text_.data() + offset, sizeof size);
+    REQUIRE(offset + sizeof size + size <= end_);
+    std::vector<T> values(size / sizeof(T));
+    std::memcpy(values.data(), text_.data() + offset + sizeof size, size);
+    return values;
+  }
+
+ private:
+  std::string attribute(std::size_t from, const std::string& name) const {
+    const auto at = text_.find(name + "=\"", from) + name.size() + 2;
+    return text_.substr(at, text_.find('"', at) - at);
+  }
+  std::string text_;
+  std::size_t bytes_ = 0, end_ = 0;
+};
+
+Polyhedron<double> tetrahedron() {
+  using V = Space<3>::Vector;
+  const std::vector<V> v = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  return Polyhedron<double>(std::span<const V>(v));
+}
+
+template <class S>
+ContactSegment<S> segment(const typename S::Vector& from, const typename S::Vector& to,
+                          double force) {
+  return {0, 1, from, to, (from + to) / 2, force, force / 4, -1e-6, ContactClass::face_face};
+}
+
+}  // namespace
+
+TEST_CASE("polyhedra are written as their faces with the grain's values on each") {
+  using S = Space<3>;
+  const TemporaryFolder folder("vtk");
+  const auto path = folder / "grains_000.vtp";
+  const Polyhedron<double> shape = tetrahedron();
+  const Pose<S> poses[] = {{S::Vector(0, 0, 0), S::exp({0, 0, 0.5})},
+                           {S::Vector(5, 6, 7), S::exp({1, 0, 0})}};
+  VtkWriter<S> writer;
+  for (int again = 0; again < 2; ++again)
+    writer.write_grains(
+        path, 2, [&](std::size_t) -> const auto& { return shape; },
+        [&](std::size_t k) { return poses[k]; },
+        [](std::size_t k) -> S::Twist { return S::Twist::Constant(double(k)); });
+  const Vtp file(path);
+  CHECK(file.count("Points") == 8);
+  CHECK(file.count("Polys") == 8);
+  CHECK(file.count("Verts") == 0);
+  const auto points = file.array<float>("Points", "Points");
+  const auto corners = file.array<std::int32_t>("Polys", "connectivity");
+  const auto ends = file.array<std::int32_t>("Polys", "offsets");
+  const auto id = file.array<std::int32_t>("CellData", "id");
+  const auto velocity = file.array<float>("CellData", "velocity");
+  REQUIRE(points.size() == 24);
+  REQUIRE(corners.size() == 24);
+  CHECK(ends == std::vector<std::int32_t>{3, 6, 9, 12, 15, 18, 21, 24});
+  CHECK(id == std::vector<std::int32_t>{0, 0, 0, 0, 1, 1, 1, 1});
+  CHECK(velocity.size() == 24);
+  CHECK(velocity[23] == 1);
+  CHECK(file.array<float>("CellData", "size")[0] ==
+        doctest::Approx(2 * shape.circumradius()).epsilon(1e-6));
+  CHECK(file.array<float>("CellData", "speed")[7] == doctest::Approx(std::sqrt(3.0)));
+
+  // The surface that was written encloses each grain's volume: points, faces and their sense.
+  for (int grain = 0; grain < 2; ++grain) {
+    double volume = 0;
+    for (int f = 4 * grain; f < 4 * grain + 4; ++f) {
+      Eigen::Matrix3d x;
+      for (int k = 0; k < 3; ++k)
+        for (int axis = 0; axis < 3; ++axis)
+          x(axis, k) = double(points[std::size_t(3 * corners[std::size_t(3 * f + k)] + axis)]);
+      volume += (x.colwise() - poses[grain].position).determinant() / 6;
+    }
+    CHECK(volume == doctest::Approx(1.0 / 6).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("polygons are one cell each, disks and balls points") {
+  const TemporaryFolder folder("vtk");
+  const auto still = [](auto twist) { return [twist](std::size_t) { return twist; }; };
+  {
+    using S = Space<2, float>;
+    const std::vector<S::Vector> v = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const Polygon<float> square{std::span<const S::Vector>(v)};
+    VtkWriter<S>().write_grains(
+        folder / "polygons.vtp", 3, [&](std::size_t) -> const auto& { return square; },
+        [](std::size_t k) {
+          return Pose<S>{S::Vector(float(k), 0), S::identity()};
+        },
+        still(S::Twist(1, 2, 3)));
+    const Vtp file(folder / "polygons.vtp");
+    CHECK(file.count("Points") == 12);
+    CHECK(file.count("Polys") == 3);
+    CHECK(file.array<std::int32_t>("Polys", "offsets") == std::vector<std::int32_t>{4, 8, 12});
+    CHECK(file.array<float>("CellData", "velocity")[4] == 2);
+    CHECK(file.array<float>("CellData", "velocity")[5] == 0);
+    CHECK(file.array<float>("CellData", "spin")[2] == 3);
+    CHECK(file.array<float>("Points", "Points")[35] == 0);
+  }
+  using S = Space<3>;
+  VtkWriter<S>().write_grains(
+      folder / "balls.vtp", 4, [](std::size_t k) { return Ball<double>(double(k + 1)); },
+      [](std::size_t k) {
+        return Pose<S>{S::Vector::Constant(double(k)), S::identity()};
+      },
+      still(S::Twist(S::Twist::Zero())));
+  const Vtp file(folder / "balls.vtp");
+  CHECK(file.count("Verts") == 4);
+  CHECK(file.array<std::int32_t>("Verts", "connectivity") == std::vector<std::int32_t>{0, 1, 2, 3});
+  CHECK(file.array<float>("PointData", "size") == std::vector<float>{2, 4, 6, 8});
+}
+
+TEST_CASE("contacts are lines with their force, boxes their edges") {
+  const TemporaryFolder folder("vtk");
+  using S = Space<3>;
+  VtkWriter<S> writer;
+  const std::vector<ContactSegment<S>> contacts = {segment<S>({0, 0, 0}, {0, 0, 2}, 8),
+                                                   segment<S>({1, 1, 1}, {0, 0, 2}, 0)};
+  writer.write_contacts(folder / "contacts.vtp", contacts);
+  const Vtp lines(folder / "contacts.vtp");
+  CHECK(lines.count("Lines") == 2);
+  CHECK(lines.array<float>("CellData", "normal_force") == std::vector<float>{8, 0});
+  CHECK(lines.array<float>("CellData", "friction_force") == std::vector<float>{2, 0});
+  CHECK(lines.array<float>("CellData", "gap")[0] == -1e-6f);
+  CHECK(lines.array<std::int32_t>("CellData", "class")[1] == 5);
+  CHECK(lines.array<float>("CellData", "point")[2] == 1);
+  CHECK(lines.array<float>("Points", "Points")[5] == 2);
+
+  writer.write_box(folder / "box.vtp", {S::Vector::Zero(), S::Vector(1, 2, 3)});
+  const Vtp box(folder / "box.vtp");
+  CHECK(box.count("Points") == 8);
+  CHECK(box.count("Lines") == 12);
+  writer.write_contacts(folder / "none.vtp", {});
+  CHECK(Vtp(folder / "none.vtp").count("Points") == 0);
+}
+
+TEST_CASE("arrays that do not fit and folders that do not exist are refused") {
+  const TemporaryFolder folder("vtk");
+  VtkPolyData data;
+  data.add_point(Eigen::Vector2f(1, 2));
+  const std::vector<double> two = {1, 2};
+  CHECK_NOTHROW(data.add_array<double>(On::points, "uv", 2, two));
+  CHECK_THROWS_AS(data.add_array<double>(On::points, "u", 1, two), std::invalid_argument);
+  CHECK_THROWS_AS(data.add_array<double>(On::cells, "u", 2, two), std::invalid_argument);
+  CHECK_THROWS_AS(data.add_array<double>(On::points, "a<b", 2, two), std::invalid_argument);
+  CHECK_THROWS_AS(data.write(folder / "missing" / "x.vtp"), std::system_error);
+  data.write(folder / "x.vtp");
+  CHECK(Vtp(folder / "x.vtp").array<double>("PointData", "uv") == two);
+}
+
+TEST_CASE("the series is whole after every snapshot") {
+  const TemporaryFolder folder("vtk");
+  PvdSeries series(folder / "grains.pvd");
+  series.add(0, "grains_0.vtp");
+  CHECK(read(folder / "grains.pvd").ends_with("</Collection>\n</VTKFile>\n"));
+  series.add(0.1, "grains_1.vtp");
+  series.add(0.1, "contacts_1.vtp", 1);
+  const std::string text = read(folder / "grains.pvd");
+  CHECK(text.ends_with("</Collection>\n</VTKFile>\n"));
+  CHECK(text.find("<DataSet timestep=\"0.10000000000000001\" part=\"1\" "
+                  "file=\"contacts_1.vtp\"/>") != std::string::npos);
+  CHECK_THROWS_AS(PvdSeries(folder / "missing" / "x.pvd").add(0, "x"), std::system_error);
+}
+
+// Where VTK's Python module is installed, its own reader has the last word.
+TEST_CASE("VTK reads the files") {
+  std::string python;
+  for (const std::string candidate : {"python3", "/usr/bin/python3"})
+    if (python.empty() &&
+        std::system((candidate + " -c 'import vtk' > /dev/null 2>&1").c_str()) == 0)
+      python = candidate;
+  if (python.empty()) {
+    MESSAGE("VTK's Python module is not installed: skipped");
+    return;
+  }
+  const TemporaryFolder folder("vtk");
+  using S = Space<3>;
+  const Polyhedron<double> shape = tetrahedron();
+  VtkWriter<S> writer;
+  const auto pose_of = [](std::size_t k) {
+    return Pose<S>{S::Vector::Constant(2 * double(k)), S::identity()};
+  };
+  const auto twist_of = [](std::size_t k) -> S::Twist { return S::Twist::Constant(double(k)); };
+  writer.write_grains(
+      folder / "grains.vtp", 5, [&](std::size_t) -> const auto& { return shape; }, pose_of,
+      twist_of);
+  writer.write_grains(
+      folder / "balls.vtp", 5, [](std::size_t) { return Ball<double>(0.5); }, pose_of, twist_of);
+  const std::vector<ContactSegment<S>> contacts = {segment<S>({0, 0, 0}, {0, 0, 2}, 8)};
+  writer.write_contacts(folder / "contacts.vtp", contacts);
+  std::ofstream(folder / "check.py") << R"(
+import sys, vtk
+def load(name):
+    reader = vtk.vtkXMLPolyDataReader()
+    failed = []
+    reader.AddObserver('ErrorEvent', lambda *_: failed.append(1))
+    reader.SetFileName(sys.argv[1] + '/' + name)
+    reader.Update()
+    assert not failed, name
+    return reader.GetOutput()
+grains = load('grains.vtp')
+assert grains.GetNumberOfPoints() == 20 and grains.GetNumberOfPolys() == 20
+assert grains.GetCellData().GetArray('velocity').GetTuple3(19) == (4, 4, 4)
+assert grains.GetCellData().GetArray('id').GetValue(19) == 4
+mass = vtk.vtkMassProperties()
+mass.SetInputData(grains)
+assert abs(mass.GetVolume() - 5 / 6) < 1e-5, mass.GetVolume()
+balls = load('balls.vtp')
+assert balls.GetNumberOfVerts() == 5
+assert balls.GetPointData().GetArray('size').GetValue(4) == 1
+contacts = load('contacts.vtp')
+assert contacts.GetNumberOfLines() == 1
+assert contacts.GetCellData().GetArray('normal_force').GetValue(0) == 8
+)";
+  const std::string command =
+      python + " '" + (folder / "check.py").string() + "' '" + (folder / "").string() + "'";
+  CHECK(std::system(command.c_str()) == 0);
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/law/signorini_coulomb.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/materials.hpp"
+
+using moreau::LocalBlock;
+using moreau::SignoriniCoulomb;
+using moreau::Space;
+
+static_assert(moreau::SetValuedLaw<SignoriniCoulomb<double>, Space<2>>);
+static_assert(moreau::SetValuedLaw<SignoriniCoulomb<double>, Space<3>>);
+static_assert(moreau::SetValuedLaw<SignoriniCoulomb<float>, Space<3, float>>);
+
+namespace {
+
+/// A random block of condition up to about 1e4 and a velocity.
+template <class S>
+struct LocalProblem {
+  LocalBlock<S> block;
+  typename S::Vector velocity;
+};
+
+template <class S>
+LocalProblem<S> random_problem(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  LocalProblem<S> problem;
+  typename S::Matrix a;
+  for (auto& x : a.reshaped()) x = static_cast<typename S::Scalar>(normal(random));
+  for (auto& x : problem.velocity) x = static_cast<typename S::Scalar>(normal(random));
+  typename S::Matrix w = a * a.transpose() + typename S::Scalar(1e-3) * S::Matrix::Identity();
+  w /= w.trace();
+  Eigen::Matrix<typename S::Scalar, S::dim - 1, S::dim - 1> turn;
+  problem.block = moreau::align_tangents<S>(w, turn);
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S, Space<2>,
+                   Space<3>, Space<2, float>, Space<3, float>) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  double worst = 0;
+  int stick = 0, slip = 0, open = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto problem = random_problem<S>(random);
+    typename S::Vector guess;
+    for (auto& x : guess) x = static_cast<T>(normal(random));
+    if (i % 3 == 0) guess.setZero();
+    const SignoriniCoulomb<T> law(static_cast<T>(std::abs(normal(random))));
+    const typename S::Vector r = law.solve(problem.block, problem.velocity, guess);
+    const typename S::Vector u = problem.block * r + problem.velocity;
+    worst = std::max(worst,
+                     double(law.natural_map(u, r).norm() / (r.norm() + problem.velocity.norm())));
+    CHECK(r[0] >= 0);
+    r.isZero(0) ? ++open : (u.norm() < T(1e-4) ? ++stick : ++slip);
+  }
+  CHECK(worst < 1e4 * double(std::numeric_limits<T>::epsilon()));
+  CHECK(stick > 1000);
+  CHECK(slip > 1000);
+  CHECK(open > 1000);
+}
+
+TEST_CASE_TEMPLATE("turning the tangents keeps W", S, Space<2>, Space<3>, Space<3, float>) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 1000; ++i) {
+    typename S::Matrix a;
+    for (auto& x : a.reshaped()) x = static_cast<T>(normal(random));
+    const typename S::Matrix w = a * a.transpose() + S::Matrix::Identity();
+    Eigen::Matrix<T, S::dim - 1, S::dim - 1> turn;
+    const auto block = moreau::align_tangents<S>(w, turn);
+    typename S::Matrix frame = S::Matrix::Identity();
+    frame.template bottomRightCorner<S::dim - 1, S::dim - 1>() = turn;
+    CHECK((frame * block.matrix() * frame.transpose() - w).norm() <
+          T(20) * std::numeric_limits<T>::epsilon() * w.norm());
+    CHECK(turn.determinant() == doctest::Approx(1));
+    CHECK(std::abs(block.trace() - w.trace()) <
+          T(20) * std::numeric_limits<T>::epsilon() * w.trace());
+  }
+}
+
+TEST_CASE_TEMPLATE("without friction only the normal acts", S, Space<2>, Space<3>) {
+  std::mt19937_64 random(3);
+  const SignoriniCoulomb<double> law(0);
+  for (int i = 0; i < 100; ++i) {
+    auto problem = random_problem<S>(random);
+    problem.velocity[0] = -1;
+    const typename S::Vector r = law.solve(problem.block, problem.velocity, S::Vector::Zero());
+    CHECK(r[0] == doctest::Approx(1 / problem.block.normal));
+    CHECK(r.tail(S::dim - 1).norm() == 0);
+  }
+}
+
+TEST_CASE_TEMPLATE("projection on the cone is the nearest point", S, Space<2>, Space<3>) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  const SignoriniCoulomb<double> law(0.4);
+  for (int i = 0; i < 1000; ++i) {
+    typename S::Vector x, y;
+    for (auto& v : x) v = normal(random);
+    for (auto& v : y) v = normal(random);
+    const typename S::Vector p = law.project(x);
+    CHECK(p.tail(S::dim - 1).norm() <= 0.4 * p[0] + 1e-14);
+    // Moreau: x - p is normal to the cone at p.
+    CHECK(std::abs((x - p).dot(p)) < 1e-14);
+    CHECK((x - p).dot(law.project(y)) < 1e-14);
+  }
+}
+
+TEST_CASE("what the law adds to the normal velocity") {
+  const SignoriniCoulomb<double> plastic(0.4), elastic(0.4, 0.5);
+  CHECK(plastic.velocity_offset(1e-4, -1, 1e-3) == doctest::Approx(0.1));
+  CHECK(plastic.velocity_offset(-1e-4, -1, 1e-3) == 0);
+  CHECK(std::isinf(elastic.velocity_offset(1e-4, -1, 1e-3)));
+  CHECK(elastic.velocity_offset(0, -2, 1e-3) == doctest::Approx(-1));
+  CHECK(elastic.velocity_offset(-1e-5, 2, 1e-3) == 0);
+}
+
+TEST_CASE("bad values are named") {
+  CHECK_THROWS_WITH_AS(SignoriniCoulomb<double>(-0.1),
+                       "SignoriniCoulomb: friction = -0.1 must be finite and >= 0",
+                       std::invalid_argument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(static_cast<void>(SignoriniCoulomb<double>{nan}), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(SignoriniCoulomb<double>(0.1, 1.5),
+                       "SignoriniCoulomb: restitution = 1.5 must lie in [0, 1]",
+                       std::invalid_argument);
+  using Table = moreau::Materials<SignoriniCoulomb<double>>;
+  CHECK_THROWS_WITH_AS(Table(0), "Materials: count = 0 must be at least 1", std::invalid_argument);
+  Table table(2, SignoriniCoulomb<double>(0.3));
+  CHECK_THROWS_WITH_AS(
+      table.set(moreau::MaterialId(0), moreau::MaterialId(2), SignoriniCoulomb<double>()),
+      "Materials::set: b = 2 must be the id of a material", std::invalid_argument);
+  table.set(moreau::MaterialId(0), moreau::MaterialId(1), SignoriniCoulomb<double>(0.7));
+  CHECK(table(moreau::MaterialId(1), moreau::MaterialId(0)).friction() == 0.7);
+  CHECK(table(moreau::MaterialId(1), moreau::MaterialId(1)).friction() == 0.3);
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/measure/velocity_field.hpp"
+
+#include <doctest/doctest.h>
+#include <random>
+
+namespace {
+
+using namespace moreau;
+
+/// Grains spread over a box, with the velocity that `flow` (section) gives.
+template <class S, class Flow>
+VelocityField<S> sampled(const Flow& flow) {
+  using V = typename S::Vector;
+  const Aabb<S> box{V::Constant(1), V::Constant(3)};
+  VelocityField<S> field(box, 8, 6);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0.5, 3.5);
+  for (int i = 0; i < 30000; ++i) {
+    V x, v = V::Constant(100);  // the axis across the section must not count
+    for (auto& component : x) component = uniform(random);
+    const Eigen::Vector2d u = flow(x[0] - 2, x[S::dim - 1] - 2);
+    v[0] = u.x();
+    v[S::dim - 1] = u.y();
+    field.add(x, v);
+  }
+  return field;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a rigid rotation is a perfect roll with its own angular velocity", S, Space<2>,
+                   Space<3>) {
+  for (const double spin : {2.0, -0.5}) {  // x right, last axis up: counter-clockwise is positive
+    const auto field = sampled<S>([&](double x, double z) {
+      return Eigen::Vector2d(7 - spin * z, -3 + spin * x);  // and a drift, which is no roll
+    });
+    const auto roll = field.roll();
+    CHECK(roll.angular_velocity == doctest::Approx(spin).epsilon(0.03));
+    CHECK(std::abs(roll.strength) > 0.99);
+    CHECK(roll.strength * spin > 0);
+    CHECK(roll.agreement == doctest::Approx(1).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a convection roll that dies out at the walls has the sign of its middle") {
+  const auto field = sampled<Space<3>>([](double x, double z) {
+    const double pi = std::acos(-1.0);  // stream function cos cos: clockwise
+    return Eigen::Vector2d(std::cos(pi * x / 2) * std::sin(pi * z / 2),
+                           -std::sin(pi * x / 2) * std::cos(pi * z / 2));
+  });
+  CHECK(field.roll().angular_velocity < 0);
+  CHECK(field.roll().strength < -0.8);
+  CHECK(field.roll().agreement > 0.99);
+}
+
+TEST_CASE("pure strain and translation are no roll") {
+  const auto strain = sampled<Space<2>>([](double x, double z) { return Eigen::Vector2d(-x, z); });
+  CHECK(std::abs(strain.roll().strength) < 0.05);
+  const auto rest = sampled<Space<2>>([](double, double) { return Eigen::Vector2d(5, 4); });
+  CHECK(std::abs(rest.roll().angular_velocity) < 1e-12);
+  CHECK(VelocityField<Space<2>>({{0, 0}, {1, 1}}, 2, 2).roll().strength == 0);
+}
+
+TEST_CASE("cells hold means, outsiders are left out") {
+  using V = Space<3>::Vector;
+  VelocityField<Space<3>> field({V(0, 0, 0), V(4, 1, 2)}, 4, 2);
+  field.add(V(2.5, 0.5, 1.5), V(1, 9, 2));
+  field.add(V(2.9, 0.1, 1.1), V(3, 9, 4));
+  field.add(V(2.5, 1.5, 1.5), V(50, 50, 50));  // beside the box
+  const auto cell = field.sample(2, 1);
+  CHECK(cell.position == Eigen::Vector2d(2.5, 1.5));
+  CHECK(cell.velocity == Eigen::Vector2d(2, 3));
+  CHECK(cell.grains == 2);
+  CHECK(field.sample(0, 0).grains == 0);
+  field.clear();
+  CHECK(field.sample(2, 1).grains == 0);
+  CHECK_THROWS_AS(VelocityField<Space<3>>({V(0, 0, 0), V(4, 1, 2)}, 0, 2), std::invalid_argument);
+  CHECK_THROWS_AS(VelocityField<Space<3>>({V(0, 0, 0), V(4, 1, 2)}, 2, 0), std::invalid_argument);
+  CHECK_THROWS_AS(VelocityField<Space<3>>({V(0, 0, 0), V(4, 0, 2)}, 2, 2), std::invalid_argument);
+}

@@ -1,0 +1,17 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Installs what the project needs (Debian), builds the tests and runs them. Arguments go to ctest:
+#   tests/run.sh                 all but the long tests
+#   tests/run.sh -R detect       those whose name contains detect
+#   PRESET=asan tests/run.sh     another preset of CMakePresets.json than release
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=${PRESET:-release}
+jobs=$(nproc)
+
+.ci/require cmake g++ ninja-build pkg-config libeigen3-dev doctest-dev libcli11-dev \
+  nlohmann-json3-dev libbenchmark-dev
+case $preset in clang | asan) .ci/require clang libclang-rt-14-dev ;; esac
+cmake --preset "$preset"
+cmake --build --preset "$preset" --target moreau_tests --parallel "$jobs"
+ctest --preset "$preset" --parallel "$jobs" "$@"

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/shape/sphere.hpp"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <numbers>
+
+#include "shape/message_of.hpp"
+
+namespace {
+
+using moreau::Ball;
+using moreau::Disk;
+
+TEST_CASE_TEMPLATE("ball and disk: volume, inertia, box, support, for every space", Shape,
+                   Ball<double>, Ball<float>, Disk<double>, Disk<float>) {
+  using S = typename Shape::Space;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  static_assert(moreau::ConvexShape<Shape>);
+
+  const Shape sphere(2);
+  CHECK(sphere.radius() == 2);
+  CHECK(sphere.circumradius() == 2);
+  CHECK(sphere.inradius() == 2);
+  const double pi = std::numbers::pi, volume = S::dim == 3 ? 32 * pi / 3 : 4 * pi;
+  CHECK(sphere.volume() == doctest::Approx(volume).epsilon(1e-6));
+  const auto mass = sphere.mass_properties(3);
+  CHECK(mass.mass == doctest::Approx(3 * volume).epsilon(1e-6));
+  CHECK(mass.center == Vector::Zero());
+  const double inertia = (S::dim == 3 ? 0.4 : 0.5) * 3 * volume * 4;
+  CHECK(mass.inertia.isApprox(S::Inertia::Identity() * static_cast<T>(inertia), T(1e-6)));
+
+  moreau::Pose<S> pose;
+  pose.position = Vector::LinSpaced(1, S::dim);
+  CHECK(sphere.bounding_box(pose).lower == (pose.position.array() - 2).matrix());
+  CHECK(sphere.bounding_box(pose).upper == (pose.position.array() + 2).matrix());
+  CHECK(sphere.support(Vector::Constant(T(1e-3)))
+            .isApprox(Vector::Constant(2 / std::sqrt(static_cast<T>(S::dim))), T(1e-6)));
+  CHECK(sphere.scaled(T(0.5)).radius() == 1);
+}
+
+TEST_CASE_TEMPLATE("bad arguments are named", Shape, Ball<double>, Disk<float>) {
+  using T = typename Shape::Scalar;
+  const T inf = std::numeric_limits<T>::infinity();
+  CHECK(message_of([] { Shape{0}; }) == "Sphere: radius = 0 must be finite and greater than zero");
+  CHECK(message_of([] { Shape{-1}; }) ==
+        "Sphere: radius = -1 must be finite and greater than zero");
+  CHECK(message_of([=] { Shape{inf}; }) ==
+        "Sphere: radius = inf must be finite and greater than zero");
+  const Shape sphere(1);
+  CHECK(message_of([&] { sphere.mass_properties(-3); }) ==
+        "Sphere::mass_properties: density = -3 must be finite and greater than zero");
+  CHECK(message_of([&] { sphere.scaled(0); }) ==
+        "Sphere::scaled: factor = 0 must be finite and greater than zero");
+}
+
+}  // namespace

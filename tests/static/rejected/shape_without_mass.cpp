@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A simulation of a shape without mass properties names the expression that is missing.
+// expect: shape.mass_properties\(density\)
+#include "moreau/shape/sphere.hpp"
+
+struct Bubble {
+  using Space = moreau::Space<3>;
+  moreau::Aabb<Space> bounding_box(const moreau::Pose<Space>& pose) const;
+#ifdef MOREAU_CORRECTED
+  moreau::MassProperties<Space> mass_properties(double density) const;
+#endif
+};
+
+template <moreau::Shape T>
+struct Grain {};
+
+Grain<Bubble> grain;

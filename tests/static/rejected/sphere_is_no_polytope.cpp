@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// expect: shape.vertices\(\)
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+
+template <moreau::Polytope T>
+struct Clipped {};
+
+#ifdef MOREAU_CORRECTED
+Clipped<moreau::Polyhedron<double>> clipped;
+#else
+Clipped<moreau::Ball<double>> clipped;
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Which shape models which concept, for both dimensions and scalars.
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/half_space.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+
+namespace {
+
+using moreau::ConvexShape;
+using moreau::Polytope;
+using moreau::Shape;
+
+static_assert(ConvexShape<moreau::Disk<double>> && ConvexShape<moreau::Disk<float>>);
+static_assert(ConvexShape<moreau::Ball<double>> && ConvexShape<moreau::Ball<float>>);
+static_assert(!Polytope<moreau::Disk<double>> && !Polytope<moreau::Ball<double>>);
+
+static_assert(Polytope<moreau::Polygon<double>> && Polytope<moreau::Polygon<float>>);
+static_assert(Polytope<moreau::Polyhedron<double>> && Polytope<moreau::Polyhedron<float>>);
+
+// A wall has no mass and no box.
+static_assert(!Shape<moreau::HalfSpace<moreau::Space<2>>>);
+static_assert(!Shape<moreau::HalfSpace<moreau::Space<3>>>);
+static_assert(!Shape<int>);
+
+/// Offers what a Shape is asked for and nothing else.
+template <class S>
+struct Minimal {
+  using Space = S;
+  moreau::MassProperties<S> mass_properties(typename S::Scalar density) const;
+  moreau::Aabb<S> bounding_box(const moreau::Pose<S>& pose) const;
+};
+
+template <class S>
+struct MinimalConvex : Minimal<S> {
+  typename S::Vector support(const typename S::Vector& direction) const;
+};
+
+static_assert(Shape<Minimal<moreau::Space<2>>> && !ConvexShape<Minimal<moreau::Space<2>>>);
+static_assert(Shape<Minimal<moreau::Space<3, float>>>);
+static_assert(ConvexShape<MinimalConvex<moreau::Space<2>>>);
+static_assert(ConvexShape<MinimalConvex<moreau::Space<3>>>);
+static_assert(!Polytope<MinimalConvex<moreau::Space<3>>>);
+
+/// Hands out an Eigen expression, which would refer to what is gone by the time it is read.
+template <class S>
+struct LeaksExpression : Minimal<S> {
+  auto support(const typename S::Vector& direction) const { return 2 * direction; }
+};
+static_assert(!ConvexShape<LeaksExpression<moreau::Space<3>>>);
+
+/// Changes as it answers.
+template <class S>
+struct SupportNotConst : Minimal<S> {
+  typename S::Vector support(const typename S::Vector& direction);
+};
+static_assert(!ConvexShape<SupportNotConst<moreau::Space<3>>>);
+
+/// In the plane with a box in space.
+struct MixedSpaces {
+  using Space = moreau::Space<2>;
+  moreau::MassProperties<moreau::Space<2>> mass_properties(double density) const;
+  moreau::Aabb<moreau::Space<3>> bounding_box(const moreau::Pose<moreau::Space<2>>& pose) const;
+};
+static_assert(!Shape<MixedSpaces>);
+
+// The space of a shape follows from it.
+static_assert(std::same_as<moreau::SpaceOf<moreau::Disk<float>>, moreau::Space<2, float>>);
+static_assert(std::same_as<moreau::SpaceOf<moreau::Polyhedron<double>>, moreau::Space<3>>);
+
+}  // namespace

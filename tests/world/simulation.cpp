@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/world/simulation.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <doctest/doctest.h>
+#include <limits>
+#include <vector>
+
+#include "world/assemblies.hpp"
+
+using moreau::BodyId;
+using moreau::MaterialId;
+using moreau::Polygon;
+using moreau::Polyhedron;
+using moreau::Pose;
+using moreau::ShapeId;
+using moreau::Space;
+using moreau::Sphere;
+using scenes::BoxOfGrains;
+
+TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", ShapeT, Polyhedron<>,
+                   Polygon<>, Sphere<Space<3>>, Sphere<Space<2>>) {
+  BoxOfGrains<ShapeT> scene(27);
+  using Vector = typename BoxOfGrains<ShapeT>::Vector;
+  const double h = 5e-4;
+  Vector weight = Vector::Zero();
+  for (const BodyId grain : scene.grains)
+    weight += scene.simulation.bodies().weight[grain.index()] * scene.simulation.gravity();
+  double worst = 0, reactions = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Vector before = scene.momentum();
+    const auto report = scene.simulation.step(h);
+    CHECK(report.solve.converged);
+    Vector walls = Vector::Zero();
+    for (const BodyId wall : scene.walls) walls += scene.simulation.contact_impulse(wall);
+    const Vector error = scene.momentum() - before - h * weight + walls;
+    worst = std::max(worst, error.norm() / (h * weight.norm()));
+    reactions = std::max(reactions, walls.norm());
+  }
+  CHECK(worst < 1e-10);
+  CHECK(reactions > 0.1 * h * weight.norm());
+}
+
+TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", ShapeT, Polyhedron<>,
+                   Polygon<>, Sphere<Space<3>>, Sphere<Space<2>>, Polyhedron<float>,
+                   Polygon<float>) {
+  BoxOfGrains<ShapeT> scene(27);
+  double overlap = 0;
+  for (int k = 0; k < 1500; ++k)
+    overlap = std::max(overlap, scene.simulation.step(5e-4f).max_overlap);
+  CHECK(overlap < 1e-2 * 0.02);
+  for (const BodyId grain : scene.grains)
+    CHECK(scene.simulation.bodies().pose[grain.index()].position.minCoeff() > 0);
+}
+
+TEST_CASE_TEMPLATE("the same scene gives the same bits", ShapeT, Polyhedron<>, Polygon<>) {
+  BoxOfGrains<ShapeT> one(27), two(27);
+  for (int k = 0; k < 300; ++k) {
+    one.simulation.step(5e-4);
+    two.simulation.step(5e-4);
+  }
+  using Twist = typename BoxOfGrains<ShapeT>::S::Twist;
+  const auto& a = one.simulation.bodies().velocity;
+  const auto& b = two.simulation.bodies().velocity;
+  CHECK(std::memcmp(a.data(), b.data(), a.size() * sizeof(Twist)) == 0);
+}
+
+TEST_CASE_TEMPLATE("a driven wall pushes at its velocity, a wall with mass obeys its force", ShapeT,
+                   Polyhedron<>, Polygon<>) {
+  using Scene = BoxOfGrains<ShapeT>;
+  using Vector = typename Scene::Vector;
+  Scene scene(9);
+  const BodyId wall = scene.walls[1];
+  scene.simulation.set_velocity(wall, -0.1 * Vector::UnitX());
+  for (int k = 0; k < 100; ++k) scene.simulation.step(5e-4);
+  CHECK(scene.simulation.bodies().pose[wall.index()].position[0] ==
+        doctest::Approx(0.08 - 0.1 * 0.05));
+  scene.simulation.set_velocity(wall, Vector::Zero());
+  scene.simulation.set_wall_mass(wall, 2.0);
+  scene.simulation.set_force(wall, -3 * Vector::UnitX());
+  for (int k = 0; k < 20; ++k) {
+    const double before = scene.simulation.bodies().velocity[wall.index()][0];
+    scene.simulation.step(5e-4);
+    const double after = scene.simulation.bodies().velocity[wall.index()][0];
+    const double reaction = scene.simulation.contact_impulse(wall)[0] / 5e-4;
+    CHECK(2.0 * (after - before) / 5e-4 == doctest::Approx(reaction - 3).epsilon(1e-9));
+  }
+  CHECK(scene.simulation.bodies().velocity[wall.index()].tail(1).norm() == 0);
+}
+
+TEST_CASE("the order in which walls and grains are added does not matter to the sorted contacts") {
+  using S = Space<2>;
+  using Law = moreau::SignoriniCoulomb<double>;
+  moreau::Simulation<Sphere<S>, Law> simulation(0.02, moreau::Materials<Law>(1, Law(0.3)));
+  simulation.add_wall(S::Vector::UnitY(), S::Vector::Zero());
+  const auto shape = simulation.add_shape(Sphere<S>(0.01));
+  for (int k = 0; k < 3; ++k)
+    simulation.add_grain(shape, {S::Vector(0.02 * k, 0.01), S::identity()}, 1000);
+  simulation.set_gravity(S::Vector(0, -9.81));
+  for (int k = 0; k < 5; ++k) {
+    const auto report = simulation.step(1e-4);
+    CHECK(std::is_sorted(simulation.contacts().keys.begin(), simulation.contacts().keys.end()));
+    if (k > 0) CHECK(report.warm_started == report.points);
+  }
+}
+
+TEST_CASE("bad input is named") {
+  using S = Space<3>;
+  using Law = moreau::SignoriniCoulomb<double>;
+  using Sim = moreau::Simulation<Sphere<S>, Law>;
+  const moreau::Materials<Law> laws(1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH_AS(Sim(0, laws), "Simulation: grain_size = 0 must be finite and > 0",
+                       std::invalid_argument);
+  Sim simulation(0.02, laws);
+  CHECK_THROWS_WITH_AS(simulation.add_grain(ShapeId(0), {}, 1000),
+                       "Simulation::add_grain: shape = 0 must be the id of a shape",
+                       std::invalid_argument);
+  const ShapeId shape = simulation.add_shape(Sphere<S>(0.01));
+  CHECK_THROWS_WITH_AS(simulation.add_grain(shape, {}, -1),
+                       "Simulation::add_grain: density = -1 must be finite and > 0",
+                       std::invalid_argument);
+  Pose<S> bad;
+  bad.position[1] = nan;
+  CHECK_THROWS_WITH_AS(simulation.add_grain(shape, bad, 1000),
+                       "Simulation::add_grain: pose.position = (0, nan, 0) must be finite",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(simulation.add_grain(shape, {}, 1000, MaterialId(3)), std::invalid_argument);
+  CHECK_THROWS_AS(simulation.add_wall(S::Vector(0, 0, 2), S::Vector::Zero()),
+                  std::invalid_argument);
+  const BodyId grain = simulation.add_grain(shape, {}, 1000);
+  CHECK_THROWS_WITH_AS(simulation.set_wall_mass(grain, 1),
+                       "Simulation::set_wall_mass: wall = 0 must be the id of a wall",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(simulation.set_force(BodyId(7), S::Vector::Zero()), std::invalid_argument);
+  CHECK_THROWS_AS(simulation.set_force(grain, S::Vector(nan, 0, 0)), std::invalid_argument);
+  CHECK_THROWS_AS(simulation.set_gravity(S::Vector(nan, 0, 0)), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(simulation.step(-1e-3),
+                       "Simulation::step: step = -0.001 must be finite and > 0",
+                       std::invalid_argument);
+}
