@@ -8,6 +8,7 @@
 static bool eigen_complained = false;
 
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <new>
@@ -15,31 +16,112 @@ static bool eigen_complained = false;
 #include "world/assemblies.hpp"
 
 namespace {
-std::atomic<long> allocations{0};
-}
 
-[[gnu::noinline]] void* operator new(std::size_t size) {
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size) noexcept {
   ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
+  return std::malloc(size);
 }
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+void* counted(std::size_t size, std::align_val_t alignment) noexcept {
   ++allocations;
   const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
+  return std::aligned_alloc(a, (size + a - 1) / a * a);
+}
+void* or_throw(void* p) {
+  if (!p) throw std::bad_alloc();
+  return p;
+}
+
+using Size = std::size_t;
+using Align = std::align_val_t;
+using Nothrow = std::nothrow_t;
+
+}  // namespace
+
+// All forms: where a library brings its own new[] or nothrow new, these would go uncounted, and be
+// freed by another's delete. Not inline, or the compiler sees malloc and delete as a mismatch.
+[[gnu::noinline]] void* operator new(Size n) {
+  return or_throw(counted(n));
+}
+[[gnu::noinline]] void* operator new[](Size n) {
+  return or_throw(counted(n));
+}
+[[gnu::noinline]] void* operator new(Size n, Align a) {
+  return or_throw(counted(n, a));
+}
+[[gnu::noinline]] void* operator new[](Size n, Align a) {
+  return or_throw(counted(n, a));
+}
+[[gnu::noinline]] void* operator new(Size n, const Nothrow&) noexcept {
+  return counted(n);
+}
+[[gnu::noinline]] void* operator new[](Size n, const Nothrow&) noexcept {
+  return counted(n);
+}
+[[gnu::noinline]] void* operator new(Size n, Align a, const Nothrow&) noexcept {
+  return counted(n, a);
+}
+[[gnu::noinline]] void* operator new[](Size n, Align a, const Nothrow&) noexcept {
+  return counted(n, a);
 }
 [[gnu::noinline]] void operator delete(void* p) noexcept {
   std::free(p);
 }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* p, Size) noexcept {
   std::free(p);
 }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept {
+[[gnu::noinline]] void operator delete(void* p, Align) noexcept {
   std::free(p);
 }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+[[gnu::noinline]] void operator delete(void* p, Size, Align) noexcept {
   std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, const Nothrow&) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, Align, const Nothrow&) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete[](void* p) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete[](void* p, Size) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete[](void* p, Align) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete[](void* p, Size, Align) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete[](void* p, const Nothrow&) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete[](void* p, Align, const Nothrow&) noexcept {
+  std::free(p);
+}
+
+TEST_CASE("every form of new is counted") {
+  struct alignas(128) Wide {
+    char bytes[128];
+  };
+  // Stored where the compiler cannot tell that nobody reads it, or it may leave out the pair.
+  void* volatile seen = nullptr;
+  const auto keep = [&](auto* p) {
+    seen = p;
+    return p;
+  };
+  const long before = allocations;
+  delete keep(new int);
+  delete[] keep(new int[3]);
+  delete keep(new Wide);
+  delete[] keep(new Wide[3]);
+  delete keep(new (std::nothrow) int);
+  delete[] keep(new (std::nothrow) int[3]);
+  delete keep(new (std::nothrow) Wide);
+  delete[] keep(new (std::nothrow) Wide[3]);
+  CHECK(allocations == before + 8);
 }
 
 TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau::Polyhedron<>,
