@@ -28,7 +28,7 @@ struct OnFloor {
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
-  moreau::Simulation<ShapeT, Law> simulation;
+  scenes::World<ShapeT> simulation;
   BodyId grain;
 
   OnFloor(const ShapeT& shape, double height, const Law& law, double tilt = 0)
@@ -144,8 +144,8 @@ TEST_CASE_TEMPLATE("column: each contact carries the weight above it", ShapeT, S
     else
       return scenes::cuboid<ShapeT>(Vector::Constant(0.05));
   }();
-  moreau::Simulation<ShapeT, Law> simulation(0.1, moreau::Materials<Law>(1, Law(0.4)),
-                                             moreau::NonlinearGaussSeidel(tight()));
+  scenes::World<ShapeT> simulation(0.1, moreau::Materials<Law>(1, Law(0.4)),
+                                   moreau::NonlinearGaussSeidel(tight()));
   const auto id = simulation.add_shape(shape);
   for (int k = 0; k < count; ++k) {
     moreau::Pose<S> pose;
@@ -176,8 +176,8 @@ TEST_CASE_TEMPLATE("a stack of boxes does not creep: ten seconds within the resi
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
-  moreau::Simulation<ShapeT, Law> simulation(0.1, moreau::Materials<Law>(1, Law(0.4)),
-                                             moreau::NonlinearGaussSeidel(tight()));
+  scenes::World<ShapeT> simulation(0.1, moreau::Materials<Law>(1, Law(0.4)),
+                                   moreau::NonlinearGaussSeidel(tight()));
   const auto id = simulation.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(0.05)));
   for (int k = 0; k < 3; ++k) {
     moreau::Pose<S> pose;

@@ -92,7 +92,7 @@ TEST_CASE_TEMPLATE("a driven wall pushes at its velocity, a wall with mass obeys
 TEST_CASE("the order in which walls and grains are added does not matter to the sorted contacts") {
   using S = Space<2>;
   using Law = moreau::SignoriniCoulomb<double>;
-  moreau::Simulation<Sphere<S>, Law> simulation(0.02, moreau::Materials<Law>(1, Law(0.3)));
+  scenes::World<Sphere<S>> simulation(0.02, moreau::Materials<Law>(1, Law(0.3)));
   simulation.add_wall(S::Vector::UnitY(), S::Vector::Zero());
   const auto shape = simulation.add_shape(Sphere<S>(0.01));
   for (int k = 0; k < 3; ++k)
@@ -108,7 +108,7 @@ TEST_CASE("the order in which walls and grains are added does not matter to the 
 TEST_CASE("bad input is named") {
   using S = Space<3>;
   using Law = moreau::SignoriniCoulomb<double>;
-  using Sim = moreau::Simulation<Sphere<S>, Law>;
+  using Sim = scenes::World<Sphere<S>>;
   const moreau::Materials<Law> laws(1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(Sim(0, laws), "Simulation: grain_size = 0 must be finite and > 0",
