@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <new>
 
+#include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
 namespace {
@@ -121,11 +122,11 @@ TEST_CASE("every form of new is counted") {
 TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau::Polyhedron<>,
                    moreau::Polygon<>, moreau::Sphere<moreau::Space<3>>,
                    moreau::Sphere<moreau::Space<2>>) {
-  scenes::BoxOfGrains<ShapeT> scene(27);
+  scenes::BoxOfGrains<ShapeT> scene(std::size_t(rounds(27)));
   for (int k = 0; k < 1500; ++k) scene.simulation.step(5e-4);
   const long before = allocations;
   Eigen::internal::set_is_malloc_allowed(false);
-  for (int k = 0; k < 200; ++k) scene.simulation.step(5e-4);
+  for (int k = 0; k < rounds(200); ++k) scene.simulation.step(5e-4);
   Eigen::internal::set_is_malloc_allowed(true);
   CHECK(allocations == before);
 }

@@ -10,6 +10,7 @@
 
 #include "detect/oracle.hpp"
 #include "detect/shapes.hpp"
+#include "sanitized.hpp"
 
 using namespace moreau;
 
@@ -124,7 +125,7 @@ TEST_CASE("polyhedra: gap, normal and points against exhaustive search, around t
   std::mt19937_64 random(1);
   const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> offset(-0.005, 0.005);
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < rounds(150); ++i) {
     Pair pair = touching_pair(shapes, random);
     pair.pose_b.position *= 1 + offset(random);
     check_against_oracle(pair, 0.004 * pair.size);
@@ -135,7 +136,7 @@ TEST_CASE("polyhedra: gap, normal and points against exhaustive search, deep and
   std::mt19937_64 random(2);
   const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> factor(0, 1.3);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < rounds(100); ++i) {
     Pair pair = touching_pair(shapes, random);
     pair.pose_b.position *= factor(random);
     check_against_oracle(pair, 0.1 * pair.size);
@@ -146,7 +147,7 @@ TEST_CASE("polyhedra: gaps of 1e-15 to 1e-3 of the size keep their digits") {
   std::mt19937_64 random(3);
   const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> exponent(-15, -3);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < rounds(100); ++i) {
     Pair pair = touching_pair(shapes, random);
     const double change = std::pow(10., exponent(random));
     pair.pose_b.position *= 1 + (i % 2 ? change : -change);
@@ -158,7 +159,7 @@ TEST_CASE("polyhedra: needles, plates, prisms, tetrahedra, boxes, sizes 1 to 100
   std::mt19937_64 random(4);
   const auto shapes = nasty_shapes(random);
   std::uniform_real_distribution<double> factor(-1, 1);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < rounds(200); ++i) {
     Pair pair = touching_pair(shapes, random);
     pair.pose_b.position *= i % 2 ? 1 + 0.01 * factor(random) : std::abs(factor(random));
     check_against_oracle(pair, 0.01 * pair.size);
@@ -191,7 +192,7 @@ TEST_CASE("polyhedra: the manifold does not know which shape is called a, nor wh
   std::mt19937_64 random(7);
   const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> offset(-0.003, 0.003);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < rounds(500); ++i) {
     Pair pair = touching_pair(shapes, random);
     pair.pose_b.position *= 1 + offset(random);
     const double margin = 0.0031 * pair.size;
@@ -221,7 +222,7 @@ TEST_CASE("polyhedra: a cache changes nothing, whatever it holds") {
   std::mt19937_64 random(8);
   const auto shapes = grains(20, random);
   std::uniform_real_distribution<double> offset(-0.01, 0.01);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < rounds(500); ++i) {
     Pair pair = touching_pair(shapes, random);
     pair.pose_b.position *= 1 + offset(random);
     const Placed<Solid> a(*pair.a, pair.pose_a), b(*pair.b, pair.pose_b);
@@ -316,7 +317,7 @@ TEST_CASE("polyhedra: keys of a flush stack outlive trembling below the toleranc
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> tremble(-1e-10, 1e-10);
   std::vector<FeatureKey> keys;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < rounds(100); ++i) {
     Pose<S> above{Vector(tremble(random), tremble(random), 1 + tremble(random)),
                   S::exp(Vector(tremble(random), tremble(random), tremble(random)))};
     Manifold<S> manifold;
@@ -331,7 +332,7 @@ TEST_CASE("polyhedra: keys of a flush stack outlive trembling below the toleranc
 TEST_CASE("polyhedra in float: gap to a few roundings") {
   std::mt19937_64 random(10);
   using F = Space<3, float>;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < rounds(200); ++i) {
     const auto shape_a = samples::grain(F{}, random), shape_b = samples::grain(F{}, random);
     const Pose<F> pose_a{F::Vector::Zero(), samples::rotation(F{}, random)};
     const Pose<F> pose_b{1.2f * samples::direction<F>(random), samples::rotation(F{}, random)};

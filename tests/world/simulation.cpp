@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
 using moreau::BodyId;
@@ -28,7 +29,7 @@ TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", Sh
   for (const BodyId grain : scene.grains)
     weight += scene.simulation.bodies().weight[grain.index()] * scene.simulation.gravity();
   double worst = 0, reactions = 0;
-  for (int k = 0; k < 400; ++k) {
+  for (int k = 0; k < rounds(400); ++k) {
     const Vector before = scene.momentum();
     const auto report = scene.simulation.step(h);
     CHECK(report.solve.converged);
@@ -47,7 +48,7 @@ TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", Sh
                    Polygon<float>) {
   BoxOfGrains<ShapeT> scene(27);
   double overlap = 0;
-  for (int k = 0; k < 1500; ++k)
+  for (int k = 0; k < rounds(1500); ++k)
     overlap = std::max(overlap, scene.simulation.step(5e-4f).max_overlap);
   CHECK(overlap < 1e-2 * 0.02);
   for (const BodyId grain : scene.grains)
@@ -56,7 +57,7 @@ TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", Sh
 
 TEST_CASE_TEMPLATE("the same scene gives the same bits", ShapeT, Polyhedron<>, Polygon<>) {
   BoxOfGrains<ShapeT> one(27), two(27);
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < rounds(300); ++k) {
     one.simulation.step(5e-4);
     two.simulation.step(5e-4);
   }
