@@ -3,9 +3,11 @@
 #   WAY       find_package | build_tree | add_subdirectory | fetch_content | pkg_config
 #   LIBRARY   this project's source    BUILD     its build folder
 #   COMPILER  the C++ compiler         GENERATOR of build files
-#   WORK      scratch folder, emptied first
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
+
+execute_process(COMMAND mktemp -d OUTPUT_VARIABLE WORK OUTPUT_STRIP_TRAILING_WHITESPACE
+                COMMAND_ERROR_IS_FATAL ANY)
 
 function(run)
   execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result
@@ -16,7 +18,6 @@ function(run)
   endif()
 endfunction()
 
-file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/project)
 if(EXISTS ${LIBRARY}/examples/hello/hello.cpp)
   file(COPY_FILE ${LIBRARY}/examples/hello/hello.cpp ${WORK}/project/hello.cpp)
@@ -36,6 +37,7 @@ if(WAY STREQUAL "pkg_config")
              $(pkg-config --cflags moreau | sed 's/-I\\([^ ]*eigen3\\)/-isystem \\1/') \
              project/hello.cpp -o hello")
   run(./hello)
+  file(REMOVE_RECURSE ${WORK})
   return()
 endif()
 
@@ -61,3 +63,4 @@ file(COPY_FILE ${LIBRARY}/tests/consumer/${project}/CMakeLists.txt ${WORK}/proje
 run(${CMAKE_COMMAND} -S project -B build ${options})
 run(${CMAKE_COMMAND} --build build)
 run(build/hello)
+file(REMOVE_RECURSE ${WORK})
