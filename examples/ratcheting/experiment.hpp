@@ -57,9 +57,9 @@ class Experiment {
   /// over.
   /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
   void prepare(const Progress& progress) {
-    moreau::GaussSeidelOptions options = solver_options(parameters_);
+    moreau::ColouredOptions options = solver_options(parameters_);
     options.max_sweeps = std::min(options.max_sweeps, parameters_.preparation_sweeps);
-    simulation_.set_solver(moreau::NonlinearGaussSeidel(options));
+    simulation_.set_solver(moreau::ColouredGaussSeidel(options));
     const double force = parameters_.lid_force * mass_ * 9.81;
     const double size = simulation_.grain_size();
     const double speed = 0.4 * parameters_.margin * size / parameters_.step;
@@ -77,7 +77,7 @@ class Experiment {
     const double still = 1e-6 * force * size * double(simulation_.grain_count());
     for (int k = 0; k < 20 || kinetic_energy() > still; ++k)
       progress("compressing", simulation_.step(parameters_.step));
-    simulation_.set_solver(moreau::NonlinearGaussSeidel(solver_options(parameters_)));
+    simulation_.set_solver(moreau::ColouredGaussSeidel(solver_options(parameters_)));
     fix_lid();
   }
 
@@ -144,8 +144,8 @@ class Experiment {
   }
 
  private:
-  static moreau::GaussSeidelOptions solver_options(const Parameters& p) {
-    moreau::GaussSeidelOptions options;
+  static moreau::ColouredOptions solver_options(const Parameters& p) {
+    moreau::ColouredOptions options;
     options.tolerance = p.tolerance;
     options.stop_test = p.stop_test;
     options.max_sweeps = p.max_sweeps;
@@ -160,7 +160,7 @@ class Experiment {
     moreau::OverlapCorrectionOptions correction;
     correction.enabled = p.correction;
     return Simulation(moreau::SizeDistribution::azema2008().smallest(), laws,
-                      moreau::NonlinearGaussSeidel(solver_options(p)), tolerances, correction);
+                      moreau::ColouredGaussSeidel(solver_options(p)), tolerances, correction);
   }
 
   /// L = W from V = rho L^D H/L at the solid fraction that the lid's compression leaves: about 0.53

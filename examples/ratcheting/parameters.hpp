@@ -10,7 +10,7 @@
 #include <string>
 
 #include "moreau/sample/size_distribution.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/solve/coloured_gauss_seidel.hpp"
 
 namespace ratcheting {
 

@@ -9,6 +9,6 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/sphere.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/version.hpp"
 #include "moreau/world/simulation.hpp"

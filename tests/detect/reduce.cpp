@@ -103,3 +103,18 @@ TEST_CASE("feature keys: parts and the other side") {
                           Kind::vertex_vertex, Kind::vertex_edge, Kind::edge_vertex})
     CHECK(FeatureKey(kind, 1, 2).swapped().swapped() == FeatureKey(kind, 1, 2));
 }
+
+TEST_CASE("reduce: points within the resolution are one, thin triangles two") {
+  Reduction reduction;
+  reduction.resolution = 0.1;
+  const auto reduced = [&](const std::vector<std::array<double, 3>>& points) {
+    Manifold<S> manifold = manifold_of(points);
+    reduce(manifold, 3, {}, reduction);
+    return kept(manifold);
+  };
+  CHECK(reduced({{0, 0, 0}, {0.09, 0, -.1}}) == std::vector<std::size_t>{1});
+  CHECK(reduced({{0, 0, 0}, {0.11, 0, -.1}}) == std::vector<std::size_t>{0, 1});
+  CHECK(reduced({{0, 0, -.1}, {1, 0, 0}, {0.5, 0.09, 0}}) == std::vector<std::size_t>{0, 1});
+  CHECK(reduced({{0, 0, -.1}, {1, 0, 0}, {0.5, 0.11, 0}}) == std::vector<std::size_t>{0, 1, 2});
+  CHECK(reduced({{0, 0, 0}}) == std::vector<std::size_t>{0});
+}

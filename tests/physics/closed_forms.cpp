@@ -15,8 +15,8 @@ namespace {
 
 using Law = moreau::SignoriniCoulomb<double>;
 
-moreau::GaussSeidelOptions tight() {
-  moreau::GaussSeidelOptions options;
+moreau::ColouredOptions tight() {
+  moreau::ColouredOptions options;
   options.tolerance = 1e-12;
   options.max_sweeps = 20000;
   return options;
@@ -32,7 +32,7 @@ struct OnFloor {
   BodyId grain;
 
   OnFloor(const ShapeT& shape, double height, const Law& law, double tilt = 0)
-      : simulation(0.1, moreau::Materials<Law>(1, law), moreau::NonlinearGaussSeidel(tight())) {
+      : simulation(0.1, moreau::Materials<Law>(1, law), moreau::ColouredGaussSeidel(tight())) {
     moreau::Pose<S> pose;
     pose.position[up] = height;
     grain = simulation.add_grain(simulation.add_shape(shape), pose, 1000);
@@ -145,7 +145,7 @@ TEST_CASE_TEMPLATE("column: each contact carries the weight above it", ShapeT, S
       return scenes::cuboid<ShapeT>(Vector::Constant(0.05));
   }();
   scenes::World<ShapeT> simulation(0.1, moreau::Materials<Law>(1, Law(0.4)),
-                                   moreau::NonlinearGaussSeidel(tight()));
+                                   moreau::ColouredGaussSeidel(tight()));
   const auto id = simulation.add_shape(shape);
   for (int k = 0; k < count; ++k) {
     moreau::Pose<S> pose;
@@ -177,7 +177,7 @@ TEST_CASE_TEMPLATE("a stack of boxes does not creep: ten seconds within the resi
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
   scenes::World<ShapeT> simulation(0.1, moreau::Materials<Law>(1, Law(0.4)),
-                                   moreau::NonlinearGaussSeidel(tight()));
+                                   moreau::ColouredGaussSeidel(tight()));
   const auto id = simulation.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(0.05)));
   for (int k = 0; k < 3; ++k) {
     moreau::Pose<S> pose;

@@ -39,7 +39,7 @@ struct BoxOfGrains {
   World<ShapeT> simulation;
   std::vector<BodyId> grains, walls;
 
-  explicit BoxOfGrains(std::size_t count, const moreau::GaussSeidelOptions& options = {},
+  explicit BoxOfGrains(std::size_t count, const moreau::ColouredOptions& options = {},
                        T friction = T(0.4), std::uint64_t seed = 1);
 
   Vector momentum() const {

@@ -16,10 +16,10 @@ moreau::StepReport World<ShapeT>::step(typename moreau::SpaceOf<ShapeT>::Scalar 
 }
 
 template <class ShapeT>
-BoxOfGrains<ShapeT>::BoxOfGrains(std::size_t count, const moreau::GaussSeidelOptions& options,
+BoxOfGrains<ShapeT>::BoxOfGrains(std::size_t count, const moreau::ColouredOptions& options,
                                  T friction, std::uint64_t seed)
     : simulation(T(0.02), moreau::Materials<LawOf<ShapeT>>(1, LawOf<ShapeT>(friction)),
-                 moreau::NonlinearGaussSeidel(options)) {
+                 moreau::ColouredGaussSeidel(options)) {
   std::mt19937_64 random(seed);
   const std::vector<ShapeT> shapes = moreau::ballast_shapes<ShapeT>(8, random);
   std::uniform_real_distribution<T> jitter(T(-1e-3), T(1e-3));

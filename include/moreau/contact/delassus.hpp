@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -71,6 +72,13 @@ class BodyDelassus {
 
   /// W_cc in the contact's frame.
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
+  /// The two bodies of a contact, a and b.
+  std::array<std::uint32_t, 2> bodies(std::size_t c) const { return {rows_[c].a, rows_[c].b}; }
+  /// Scaled rows J M^-1/2 of a contact at its two bodies.
+  const WideRows& rows_a(std::size_t c) const { return rows_[c].ja; }
+  const WideRows& rows_b(std::size_t c) const { return rows_[c].jb; }
+  /// Relative velocity without any impulse, with the law's offset [m/s].
+  const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
   /// Adds to the free normal velocity of a contact [m/s].
   void offset_normal(std::size_t c, Scalar offset) { rows_[c].free[0] += offset; }
 
@@ -92,9 +100,6 @@ class BodyDelassus {
   }
   /// Undoes all impulses: every body back at its free velocity.
   void clear() { scaled_.assign(scaled_.size(), Wide::Zero()); }
-  /// The scaled rows of the normal component at a and at b.
-  auto normal_row_a(std::size_t c) const { return rows_[c].ja.col(0); }
-  auto normal_row_b(std::size_t c) const { return rows_[c].jb.col(0); }
   /// M^1/2 (V - V_free) of a body.
   auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
 

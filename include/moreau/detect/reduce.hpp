@@ -22,6 +22,9 @@ struct Reduction {
   /// Three points whose triangle is flatter than this fraction of extent squared say no more than
   /// two.
   double flat = 1e-6;
+  /// Points closer together than this, and a triangle lower than this, say no more than one point,
+  /// or two [m]. Two points at nearly one place make the contact problem nearly singular.
+  double resolution = 0;
 };
 
 namespace detail {
@@ -117,21 +120,26 @@ template <class S>
 void reduce(Manifold<S>& manifold, std::size_t max_points,
             std::span<const FeatureKey> previous = {}, const Reduction& reduction = {}) {
   using T = typename S::Scalar;
-  if (manifold.points.size() <= max_points) return;
+  if (manifold.points.size() <= max_points &&
+      (reduction.resolution <= 0 || manifold.points.size() <= 1))
+    return;
   const detail::PointChoice<S> choice(manifold.points, reduction);
   std::array<std::size_t, 3> chosen{choice.first(), choice.first(), choice.first()};
-  const auto widest =
-      max_points >= 3 ? choice.widest() : std::array{choice.first(), choice.first()};
-  const T area2 = choice.area2(widest[0], widest[1]);
-  const T flat = static_cast<T>(reduction.flat) * choice.extent2();
-  const T keep = static_cast<T>(reduction.keep);
-  std::array<std::size_t, 2> old;
-  if (max_points >= 3 && area2 > flat * flat) {
-    const bool stays = detail::find_previous(manifold, previous, choice.first(), old) &&
-                       choice.area2(old[0], old[1]) >= keep * keep * area2;
-    std::copy_n((stays ? old : widest).begin(), 2, chosen.begin() + 1);
-  } else if (max_points >= 2) {
-    chosen[1] = choice.farthest();
+  const T resolution2 = static_cast<T>(reduction.resolution * reduction.resolution);
+  const std::size_t farthest = choice.farthest();
+  if (max_points >= 2 && choice.distance2(farthest) > resolution2) {
+    chosen[1] = farthest;
+    const auto widest =
+        max_points >= 3 ? choice.widest() : std::array{choice.first(), choice.first()};
+    const T area2 = choice.area2(widest[0], widest[1]);
+    const T flat = static_cast<T>(reduction.flat) * choice.extent2();
+    const T keep = static_cast<T>(reduction.keep);
+    if (area2 > flat * flat && area2 > resolution2 * choice.extent2()) {
+      std::array<std::size_t, 2> old;
+      const bool stays = detail::find_previous(manifold, previous, choice.first(), old) &&
+                         choice.area2(old[0], old[1]) >= keep * keep * area2;
+      std::copy_n((stays ? old : widest).begin(), 2, chosen.begin() + 1);
+    }
   }
   detail::keep_points(manifold, std::span<std::size_t>(chosen));
 }

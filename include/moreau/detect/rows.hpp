@@ -8,7 +8,7 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/detect/wide.hpp"
+#include "moreau/core/wide.hpp"
 
 namespace moreau::detail {
 

@@ -21,6 +21,7 @@
 #include "moreau/contact/local_problem.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/law/coulomb_lanes.hpp"
 
 namespace moreau {
 
@@ -140,6 +141,17 @@ class SignoriniCoulomb {
     const T limit = friction_ * r[0];
     if (limit >= T(0) && r.template tail<tangents>().squaredNorm() <= limit * limit) return r;
     return detail::solve_slip<T>(block, b, friction_, guess);
+  }
+
+  /// What two laws of this type differ in when they solve: the friction.
+  std::array<T, 1> lane_parameters() const { return {friction_}; }
+  /// One contact per lane; see CoulombLanes for what it returns of solve().
+  template <class S>
+  static typename LaneBlock<S>::Vector solve_lanes(
+      const LaneBlock<S>& block, const typename LaneBlock<S>::Vector& b,
+      const typename LaneBlock<S>::Vector& guess,
+      const std::array<typename LaneBlock<S>::Values, 1>& parameters) {
+    return detail::CoulombLanes<S>::solve(block, b, guess, parameters[0]);
   }
 
   /// r - P_K(r - (u + mu |u_t| n)), K the Coulomb cone. Zero iff (u, r) satisfies the law

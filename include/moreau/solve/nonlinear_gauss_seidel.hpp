@@ -13,6 +13,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/solve/report.hpp"
 #include "moreau/solve/residual.hpp"
+#include "moreau/solve/sweep_change.hpp"
 
 namespace moreau {
 
@@ -22,6 +23,12 @@ enum class StopTest {
   qm16,  ///< LMGC90's: quad_dv, quad_dvr <= tolerance and maxm_dv, maxm_dvr <= 16.67 tolerance. It
          ///< measures the change per sweep and is weaker than the residual.
 };
+
+/// LMGC90's criterion of that name, read from a report.
+inline bool passes_qm16(const SolveReport& report, double tolerance) {
+  return std::max(report.quad_dv, report.quad_dvr) <= tolerance &&
+         std::max(report.maxm_dv, report.maxm_dvr) <= 16.67 * tolerance;
+}
 
 /// Order of the contacts in consecutive sweeps.
 enum class SweepOrder {
@@ -41,6 +48,9 @@ struct GaussSeidelOptions {
 class NonlinearGaussSeidel {
  public:
   using Options = GaussSeidelOptions;
+  /// Needs no buffers.
+  template <class Operator, class Law>
+  struct Workspace {};
 
   /// @throws std::invalid_argument for a tolerance or relaxation out of range or a cap below 1
   explicit NonlinearGaussSeidel(const Options& options = {}) : options_(options) {
@@ -63,7 +73,8 @@ class NonlinearGaussSeidel {
   /// @returns what was reached; never throws on failure to converge
   template <class Operator, class Law>
   SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-                    std::span<typename Operator::Vector> impulses) {
+                    std::span<typename Operator::Vector> impulses,
+                    const Workspace<Operator, Law>& = {}) const {
     SolveReport report;
     for (std::size_t c = 0; c < op.size(); ++c)
       if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
@@ -121,8 +132,7 @@ class NonlinearGaussSeidel {
                        std::span<const std::uint32_t> law_of,
                        std::span<typename Operator::Vector> impulses, SolveReport& report) const {
     using Vector = typename Operator::Vector;
-    double dv2 = 0, dvr2 = 0, max_dv2 = 0, max_dvr2 = 0, wr2 = 0, rwr = 0;
-    std::size_t acting = 0;
+    detail::SweepChange sum;
     for (std::size_t c = 0; c < op.size(); ++c) {
       const Vector change = improve(op, laws[law_of[c]], c, impulses[c]);
       const auto& delassus = op.block(c);
@@ -131,36 +141,17 @@ class NonlinearGaussSeidel {
         op.apply(c, change);
       }
       if (impulses[c].isZero(0)) continue;
-      ++acting;
       const Vector dv = delassus * change, wr = delassus * impulses[c];
-      const double change2 = double(dv.squaredNorm());
-      const double weighted = change2 * double(impulses[c].squaredNorm());
-      dv2 += change2;
-      dvr2 += weighted;
-      max_dv2 = std::max(max_dv2, change2);
-      max_dvr2 = std::max(max_dvr2, weighted);
-      wr2 += double(wr.squaredNorm());
-      rwr += double(impulses[c].dot(wr));
+      sum.add(double(dv.squaredNorm()), double(impulses[c].squaredNorm()), double(wr.squaredNorm()),
+              double(impulses[c].dot(wr)));
     }
-    if (acting == 0) {
-      report.quad_dv = report.quad_dvr = report.maxm_dv = report.maxm_dvr = 0;
-      return;
-    }
-    const double n = double(acting);
-    report.quad_dv = std::sqrt(dv2 / wr2);
-    report.quad_dvr = std::sqrt(dvr2 / n) / (rwr / n);
-    report.maxm_dv = std::sqrt(max_dv2 / (wr2 / n));
-    report.maxm_dvr = std::sqrt(max_dvr2) / (rwr / n);
+    sum.write(report);
   }
 
   template <class Operator, class Law>
   bool passes(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
               std::span<const typename Operator::Vector> impulses, SolveReport& report) const {
-    if (options_.stop_test == StopTest::qm16) {
-      const double quad = std::max(report.quad_dv, report.quad_dvr);
-      const double maxm = std::max(report.maxm_dv, report.maxm_dvr);
-      return quad <= options_.tolerance && maxm <= 16.67 * options_.tolerance;
-    }
+    if (options_.stop_test == StopTest::qm16) return passes_qm16(report, options_.tolerance);
     measure_residual(op, laws, law_of, impulses, report);
     return report.residual <= options_.tolerance;
   }

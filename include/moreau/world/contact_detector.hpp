@@ -24,8 +24,9 @@ namespace moreau {
 /// The alert distance and the skin, in metres.
 template <class T>
 struct DetectionLengths {
-  T margin;  ///< contacts enter at this gap
-  T skin;    ///< the pair list outlives motions of this size
+  T margin;      ///< contacts enter at this gap
+  T skin;        ///< the pair list outlives motions of this size
+  T resolution;  ///< contact points closer together than this are one
 };
 
 template <class ShapeT, class BroadPhaseT>
@@ -74,24 +75,27 @@ class ContactDetector {
   }
 
   /// Contact points of all pairs, sorted by (a, b, feature), with zero impulse.
+  /// @param previous contacts of the step before, sorted alike: the memory of the choice of points
   template <class Law>
   void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
-              std::span<const MaterialId> materials, const Materials<Law>& laws, Contacts<S>& out) {
+              std::span<const MaterialId> materials, const Materials<Law>& laws,
+              const Contacts<S>& previous, Contacts<S>& out) {
     out.clear();
     touching_ = 0;
+    reduction_.resolution = static_cast<double>(lengths.resolution);
     std::size_t p = 0;
     for (std::size_t k = 0; k < grains_.size(); ++k) {
       const auto& a = grains_[k];
       for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
         const auto& b = grains_[pairs_[p].second];
         if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
-          emit(a.body, b.body, poses, materials, laws, out);
+          emit(a.body, b.body, poses, materials, laws, previous, out);
       }
       for (const Wall& wall : walls_) {
         if (!reaches(boxes_[k], wall.placed, lengths.margin)) continue;
         PairCache<S> none;
         if (collide(a.placed, wall.placed, lengths.margin, manifold_, none))
-          emit(a.body, wall.body, poses, materials, laws, out);
+          emit(a.body, wall.body, poses, materials, laws, previous, out);
       }
     }
     sort(out);
@@ -134,9 +138,10 @@ class ContactDetector {
 
   template <class Law>
   void emit(BodyId a, BodyId b, std::span<const Pose<S>> poses,
-            std::span<const MaterialId> materials, const Materials<Law>& laws, Contacts<S>& out) {
+            std::span<const MaterialId> materials, const Materials<Law>& laws,
+            const Contacts<S>& previous, Contacts<S>& out) {
     ++touching_;
-    reduce(manifold_, S::dim);
+    keep_few(a.value, b.value, previous);
     const typename S::Matrix frame = S::contact_frame(manifold_.normal);
     const auto law =
         static_cast<std::uint32_t>(laws.law_index(materials[a.index()], materials[b.index()]));
@@ -147,6 +152,18 @@ class ContactDetector {
       out.keys.push_back({a.value, b.value, point.feature});
       out.classes.push_back(manifold_.contact_class);
     }
+  }
+
+  /// At most as many points as there are dimensions, the same as the step before where they do.
+  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
+    kept_.clear();
+    if (manifold_.points.size() > S::dim) {
+      const ContactKey from{a, b, FeatureKey()};
+      for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
+           key != previous.keys.end() && key->a == a && key->b == b; ++key)
+        kept_.push_back(key->feature);
+    }
+    reduce(manifold_, S::dim, std::span<const FeatureKey>(kept_), reduction_);
   }
 
   /// Walls may carry lower ids than grains that came later; the order of the keys must not care.
@@ -175,6 +192,8 @@ class ContactDetector {
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<PairCache<S>> caches_, old_caches_;
   Manifold<S> manifold_;
+  Reduction reduction_;
+  std::vector<FeatureKey> kept_;
   Contacts<S> scratch_;
   std::vector<std::uint32_t> order_;
   std::size_t touching_ = 0;

@@ -83,7 +83,8 @@ class OverlapCorrection {
  private:
   /// First-order change of the gap of a contact under the present shifts [m].
   Scalar closing(const BodyDelassus<S>& op, std::size_t c, const Contact<S>& contact) const {
-    return op.normal_row_b(c).dot(scaled_[contact.b]) - op.normal_row_a(c).dot(scaled_[contact.a]);
+    return op.rows_b(c).col(0).dot(scaled_[contact.b]) -
+           op.rows_a(c).col(0).dot(scaled_[contact.a]);
   }
 
   void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
@@ -100,8 +101,8 @@ class OverlapCorrection {
         const Scalar change = push - pushes_[c];
         if (change == Scalar(0)) continue;
         pushes_[c] = push;
-        scaled_[contact.b] += change * op.normal_row_b(c);
-        scaled_[contact.a] -= change * op.normal_row_a(c);
+        scaled_[contact.b] += change * op.rows_b(c).col(0);
+        scaled_[contact.a] -= change * op.rows_a(c).col(0);
       }
     }
   }

@@ -30,7 +30,7 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
@@ -41,6 +41,7 @@ namespace moreau {
 struct Tolerances {
   double margin = 0.02;  ///< alert distance: a contact enters at this gap; must exceed speed x step
   double skin = 0.05;    ///< the pair list is kept until a box has moved this far
+  double resolution = 1e-3;  ///< contact points of a pair closer together than this are one
 };
 
 /// @tparam ShapeT     of the grains; its Space is the simulation's
@@ -49,7 +50,7 @@ struct Tolerances {
 /// @tparam Broad      broad phase
 /// @tparam Solver     of the contact problem
 template <Shape ShapeT, class Law, class Integrator = MoreauJean,
-          class Broad = SweepAndPrune<SpaceOf<ShapeT>>, class Solver = NonlinearGaussSeidel>
+          class Broad = SweepAndPrune<SpaceOf<ShapeT>>, class Solver = ColouredGaussSeidel>
 requires SetValuedLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>>
 class Simulation {
  public:
@@ -74,6 +75,8 @@ class Simulation {
             "must be finite and > 0");
     require(tolerances.margin > 0, "Simulation", "margin", tolerances.margin, "must be > 0");
     require(tolerances.skin >= 0, "Simulation", "skin", tolerances.skin, "must be >= 0");
+    require(tolerances.resolution >= 0, "Simulation", "resolution", tolerances.resolution,
+            "must be >= 0");
   }
 
   /// Adds a shape that grains can share.
@@ -186,9 +189,9 @@ class Simulation {
     detect(report);
     const auto detected = Clock::now();
     assemble(step, report);
-    report.solve =
-        solver_.solve(operator_, std::span<const Law>(materials_.laws()),
-                      std::span<const std::uint32_t>(law_of_), std::span(contacts_.impulses));
+    report.solve = solver_.solve(operator_, std::span<const Law>(materials_.laws()),
+                                 std::span<const std::uint32_t>(law_of_),
+                                 std::span(contacts_.impulses), workspace_);
     const auto solved = Clock::now();
     velocities_after(report);
     integrator_.advance_configuration(bodies_, std::span<const Twist>(after_), step);
@@ -274,14 +277,16 @@ class Simulation {
   }
 
   void detect(StepReport& report) {
-    const DetectionLengths<Scalar> lengths{static_cast<Scalar>(tolerances_.margin) * grain_size_,
-                                           static_cast<Scalar>(tolerances_.skin) * grain_size_};
+    const DetectionLengths<Scalar> lengths{
+        static_cast<Scalar>(tolerances_.margin) * grain_size_,
+        static_cast<Scalar>(tolerances_.skin) * grain_size_,
+        static_cast<Scalar>(tolerances_.resolution) * grain_size_};
     const std::span<const Pose<S>> poses(bodies_.pose);
     std::swap(contacts_, previous_);
     detector_.place(poses, [&](std::size_t k) -> const ShapeT& { return shape_of_grain(k); });
     detector_.find_pairs(lengths);
     detector_.detect(lengths, poses, std::span<const MaterialId>(bodies_.material), materials_,
-                     contacts_);
+                     previous_, contacts_);
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
@@ -365,6 +370,7 @@ class Simulation {
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
   BodyDelassus<S> operator_;
+  typename Solver::template Workspace<BodyDelassus<S>, Law> workspace_;
 
   std::vector<typename S::Angular> momentum_;
   std::vector<Twist> free_, after_;

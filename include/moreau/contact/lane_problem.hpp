@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The local problems of several independent contacts side by side, one per lane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "moreau/contact/local_problem.hpp"
+#include "moreau/core/wide.hpp"
+
+namespace moreau {
+
+/// LocalBlock of as many contacts as there are lanes, with the reciprocals that its solution needs.
+template <class S>
+struct LaneBlock {
+  static constexpr std::size_t dim = S::dim, tangents = dim - 1;
+  using W = detail::Wide<typename S::Scalar, detail::widest_bytes>;
+  using Values = typename W::Values;
+  using Vector = std::array<Values, dim>;
+  using Tangent = std::array<Values, tangents>;
+
+  Values normal, inverse_normal;
+  Tangent coupling, slip, inverse_slip;
+
+  /// An unloaded contact's: W = 1.
+  static LaneBlock unit() {
+    LaneBlock block{};
+    block.normal = block.inverse_normal = W::broadcast(1);
+    for (std::size_t t = 0; t < tangents; ++t)
+      block.slip[t] = block.inverse_slip[t] = W::broadcast(1);
+    return block;
+  }
+  void set(std::size_t lane, const LocalBlock<S>& block) {
+    normal[lane] = block.normal;
+    inverse_normal[lane] = 1 / block.normal;
+    for (std::size_t t = 0; t < tangents; ++t) {
+      coupling[t][lane] = block.coupling[Eigen::Index(t)];
+      slip[t][lane] = block.slip[Eigen::Index(t)];
+      inverse_slip[t][lane] = 1 / block.slip[Eigen::Index(t)];
+    }
+  }
+  LocalBlock<S> operator[](std::size_t lane) const {
+    LocalBlock<S> block;
+    block.normal = normal[lane];
+    for (std::size_t t = 0; t < tangents; ++t) {
+      block.coupling[Eigen::Index(t)] = coupling[t][lane];
+      block.slip[Eigen::Index(t)] = slip[t][lane];
+    }
+    return block;
+  }
+  /// W r.
+  Vector operator*(const Vector& r) const {
+    Values sum = r[0];
+    for (std::size_t t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];
+    Vector u;
+    u[0] = normal * sum;
+    for (std::size_t t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
+    return u;
+  }
+};
+
+}  // namespace moreau

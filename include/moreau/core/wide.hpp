@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// A few numbers at once: the compiler's vector types (g++ and clang++), as wide as the machine the
+// code is compiled for.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace moreau::detail {
+
+/// Bytes of a register that comparisons and shuffles work on at full speed.
+#if defined(__AVX__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+/// Bytes of the widest register. No more: wider ones would be passed differently by code that was
+/// compiled for another machine.
+#if defined(__AVX512F__)
+inline constexpr int widest_bytes = 64;
+#else
+inline constexpr int widest_bytes = register_bytes;
+#endif
+
+/// Vector registers of T. Loads accept any address.
+template <std::floating_point T, int Bytes = register_bytes>
+struct Wide {
+  static constexpr int lanes = Bytes / static_cast<int>(sizeof(T));
+  using Lane = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+  typedef T Values __attribute__((vector_size(Bytes)));
+  typedef Lane Indices __attribute__((vector_size(Bytes)));
+
+  static Values load(const T* from) {
+    Values v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+  }
+  static Values broadcast(T x) { return x - Values{}; }
+  /// Lane l becomes what lane l + shift was, around the end.
+  template <int Shift, class V>
+  static V rotated(const V& v) {
+    return rotate<Shift>(v, std::make_integer_sequence<int, lanes>{});
+  }
+  /// 0, 1, 2, ...
+  static Indices iota() {
+    Indices i{};
+    for (int l = 0; l < lanes; ++l) i[l] = l;
+    return i;
+  }
+  /// The bits set in all lanes.
+  static Lane common_bits(Indices v) {
+    return fold<lanes / 2>(v,
+                           [](const Indices& x, const Indices& y) -> Indices { return x & y; })[0];
+  }
+  /// Whether a comparison holds in any lane.
+  static bool any(const Indices& mask) {
+    if constexpr (Bytes == 64) {
+      typename Wide<T, 32>::Indices halves[2];
+      std::memcpy(halves, &mask, sizeof mask);
+      return Wide<T, 32>::any(halves[0] | halves[1]);
+#if defined(__AVX__)
+    } else if constexpr (Bytes == 32) {
+      // Comparisons set all bits of a lane, so its halves say the same.
+      typedef float Floats __attribute__((vector_size(32)));
+      return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)) != 0;
+#endif
+    } else {
+      return fold<lanes / 2>(
+                 mask, [](const Indices& x, const Indices& y) -> Indices { return x | y; })[0] != 0;
+    }
+  }
+  static Values square_root(const Values& v) {
+    Eigen::Array<T, lanes, 1> a;
+    std::memcpy(a.data(), &v, sizeof v);
+    return load(Eigen::Array<T, lanes, 1>(a.sqrt()).data());
+  }
+  static Values absolute(Values v) {
+    return v < Values{} ? -v : v;
+  }
+  static T sum(Values v) {
+    return fold<lanes / 2>(v, [](const Values& x, const Values& y) -> Values { return x + y; })[0];
+  }
+  /// Rows become columns: lane l of row i goes to lane i of row l.
+  static void transpose(Values (&rows)[std::size_t{lanes}]) {
+    transpose<1>(rows);
+  }
+
+  /// The largest lane, in every lane.
+  static Values maximum(Values v) {
+    return fold<lanes / 2>(v, [](const Values& x, const Values& y) { return x > y ? x : y; });
+  }
+  /// Folds the lanes by an associative, commutative operation; the result is in every lane.
+  template <int Shift, class V, class Operation>
+  static V fold(V v, const Operation& operation) {
+    if constexpr (Shift == 0) {
+      return v;
+    } else {
+      return fold<Shift / 2>(operation(v, rotated<Shift>(v)), operation);
+    }
+  }
+  /// The count n of rows, rounded up to whole registers.
+  static constexpr std::ptrdiff_t padded(std::ptrdiff_t n) {
+    return (n + lanes - 1) / lanes * lanes;
+  }
+
+ private:
+  /// Swaps the off-diagonal blocks of every square of 2 Size rows and lanes.
+  template <int Size>
+  static void transpose(Values (&rows)[std::size_t{lanes}]) {
+    if constexpr (Size < lanes) {
+      for (int i = 0; i < lanes; ++i) {
+        if (i & Size) continue;
+        const Values upper = rows[i], lower = rows[i | Size];
+        rows[i] = mix<Size, false>(upper, lower, std::make_integer_sequence<int, lanes>{});
+        rows[i | Size] = mix<Size, true>(upper, lower, std::make_integer_sequence<int, lanes>{});
+      }
+      transpose<2 * Size>(rows);
+    }
+  }
+  template <int Size, bool Lower, int... Number>
+  static Values mix(const Values& upper, const Values& lower,
+                    std::integer_sequence<int, Number...>) {
+    if constexpr (Lower)
+      return __builtin_shufflevector(upper, lower,
+                                     ((Number & Size) ? Number + lanes : (Number | Size))...);
+    else
+      return __builtin_shufflevector(upper, lower,
+                                     ((Number & Size) ? (Number ^ Size) + lanes : Number)...);
+  }
+  template <int Shift, class V, int... Number>
+  static V rotate(const V& v, std::integer_sequence<int, Number...>) {
+    return __builtin_shufflevector(v, v, ((Number + Shift) % lanes)...);
+  }
+};
+
+/// The largest (or smallest) of many numbers and where it is; the first of equals.
+template <class T>
+struct Extreme {
+  T value;
+  std::uint32_t index;
+};
+
+/// The running maximum in every lane, and its index.
+template <std::floating_point T>
+struct WideMaximum {
+  using W = Wide<T>;
+  typename W::Values value;
+  typename W::Indices index;
+
+  void take(typename W::Values v, typename W::Indices i) {
+    const auto larger = v > value;
+    value = larger ? v : value;
+    index = larger ? i : index;
+  }
+  /// Without branches: which lane wins is as good as random.
+  Extreme<T> reduce() const {
+    const auto top = W::maximum(value);
+    const auto none = typename W::Indices{} + std::numeric_limits<typename W::Lane>::max();
+    const typename W::Indices candidates = value == top ? index : none;
+    const auto first = W::template fold<W::lanes / 2>(
+        candidates, [](const auto& x, const auto& y) { return x < y ? x : y; });
+    return {top[0], static_cast<std::uint32_t>(first[0])};
+  }
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A law for one contact per lane, whether it knows lanes or not.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "moreau/contact/lane_problem.hpp"
+#include "moreau/law/concepts.hpp"
+
+namespace moreau::detail {
+
+/// Solves lane after lane by the law's scalar solution.
+template <class Law, class S>
+class LawLanes {
+ public:
+  using Block = LaneBlock<S>;
+  using Vector = typename Block::Vector;
+
+  void set(std::size_t lane, const Law& law) { law_[lane] = &law; }
+  Vector solve(const Block& block, const Vector& b, const Vector& guess) const {
+    Vector r{};
+    for (std::size_t lane = 0; lane < law_.size(); ++lane) {
+      if (!law_[lane]) continue;
+      typename S::Vector b_lane, guess_lane;
+      for (std::size_t d = 0; d < Block::dim; ++d) {
+        b_lane[Eigen::Index(d)] = b[d][lane];
+        guess_lane[Eigen::Index(d)] = guess[d][lane];
+      }
+      const typename S::Vector solution = law_[lane]->solve(block[lane], b_lane, guess_lane);
+      for (std::size_t d = 0; d < Block::dim; ++d) r[d][lane] = solution[Eigen::Index(d)];
+    }
+    return r;
+  }
+
+ private:
+  std::array<const Law*, std::size_t{Block::W::lanes}> law_{};  // the table outlives the solution
+};
+
+template <class Law, class S>
+requires LaneLaw<Law, S>
+class LawLanes<Law, S> {
+ public:
+  using Block = LaneBlock<S>;
+  using Vector = typename Block::Vector;
+
+  void set(std::size_t lane, const Law& law) {
+    const auto parameters = law.lane_parameters();
+    for (std::size_t k = 0; k < parameters.size(); ++k) parameters_[k][lane] = parameters[k];
+  }
+  Vector solve(const Block& block, const Vector& b, const Vector& guess) const {
+    return Law::solve_lanes(block, b, guess, parameters_);
+  }
+
+ private:
+  std::array<typename Block::Values, 1> parameters_{};
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Colours pairs of bodies so that no two pairs of one colour share a body that can move.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace moreau::detail {
+
+class PairColouring {
+ public:
+  static constexpr std::uint32_t colours = 64;
+  /// Pairs of a body with more than this many partners would each need a colour of their own.
+  static constexpr std::uint32_t hub = 48;
+
+  /// @param pairs  bodies of each pair
+  /// @param moves  whether a body can move, one entry per body
+  void assign(std::span<const std::array<std::uint32_t, 2>> pairs,
+              std::span<const unsigned char> moves) {
+    degree_.assign(moves.size(), 0);
+    used_.assign(moves.size(), 0);
+    colour_.resize(pairs.size());
+    for (const auto& [a, b] : pairs) ++degree_[a], ++degree_[b];
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [a, b] = pairs[k];
+      if ((moves[a] && degree_[a] > hub) || (moves[b] && degree_[b] > hub)) {
+        colour_[k] = colours;
+        continue;
+      }
+      const std::uint64_t taken = (moves[a] ? used_[a] : 0) | (moves[b] ? used_[b] : 0);
+      const auto free = static_cast<std::uint32_t>(std::countr_one(taken));
+      colour_[k] = free;
+      if (free == colours) continue;
+      used_[a] |= std::uint64_t{1} << free;
+      used_[b] |= std::uint64_t{1} << free;
+    }
+  }
+
+  /// Colour of a pair; `colours` for one that must be treated alone.
+  std::uint32_t operator[](std::size_t pair) const { return colour_[pair]; }
+
+ private:
+  std::vector<std::uint32_t> degree_, colour_;
+  std::vector<std::uint64_t> used_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "moreau/solve/report.hpp"
+
+namespace moreau::detail {
+
+/// What one plain sweep changed, in LMGC90's measures: dv = W (r_new - r_old) of each contact, sums
+/// and maxima over the contacts with r != 0.
+struct SweepChange {
+  double acting = 0;   ///< contacts with r != 0
+  double dv2 = 0;      ///< sum |dv|^2
+  double dvr2 = 0;     ///< sum |dv|^2 |r|^2
+  double max_dv2 = 0;  ///< largest |dv|^2
+  double max_dvr2 = 0;
+  double wr2 = 0;  ///< sum |W r|^2
+  double rwr = 0;  ///< sum r . W r
+
+  /// Counts a contact in, if it acts. All squared norms.
+  /// @param change2 |dv|^2
+  /// @param own2    |r|^2
+  /// @param pushed2 |W r|^2
+  /// @param work    r . W r
+  void add(double change2, double own2, double pushed2, double work) {
+    if (!(own2 > 0)) return;
+    ++acting;
+    dv2 += change2;
+    dvr2 += change2 * own2;
+    max_dv2 = std::max(max_dv2, change2);
+    max_dvr2 = std::max(max_dvr2, change2 * own2);
+    wr2 += pushed2;
+    rwr += work;
+  }
+
+  void write(SolveReport& report) const {
+    report.quad_dv = report.quad_dvr = report.maxm_dv = report.maxm_dvr = 0;
+    if (acting == 0) return;
+    report.quad_dv = std::sqrt(dv2 / wr2);
+    report.quad_dvr = std::sqrt(dvr2 / acting) / (rwr / acting);
+    report.maxm_dv = std::sqrt(max_dv2 / (wr2 / acting));
+    report.maxm_dvr = std::sqrt(max_dvr2) / (rwr / acting);
+  }
+};
+
+}  // namespace moreau::detail
