@@ -71,7 +71,11 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(CLI::IsMember({"qm16", "residual"}));
   app.add_option("--max-sweeps", p.max_sweeps, "cap per step; capped steps are counted")
       ->check(CLI::Range(1, 100000000));
-  app.add_option("--preparation-sweeps", p.preparation_sweeps, "the same during the preparation")
+  app.add_option("--preparation-step", p.preparation_step, "time step of the preparation [s]")
+      ->check(positive);
+  app.add_option("--preparation-tolerance", p.preparation_tolerance, "of its stopping test, qm16")
+      ->check(positive);
+  app.add_option("--preparation-sweeps", p.preparation_sweeps, "its cap per step")
       ->check(CLI::Range(1, 100000000));
   app.add_option("--margin", p.margin, "alert distance / smallest size")->check(positive);
   bool no_correction = false;

@@ -57,18 +57,21 @@ class Experiment {
   /// over.
   /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
   void prepare(const Progress& progress) {
-    moreau::ColouredOptions options = solver_options(parameters_);
-    options.max_sweeps = std::min(options.max_sweeps, parameters_.preparation_sweeps);
+    moreau::ColouredOptions options;
+    options.tolerance = parameters_.preparation_tolerance;
+    options.stop_test = moreau::StopTest::qm16;
+    options.max_sweeps = parameters_.preparation_sweeps;
+    const double step = parameters_.preparation_step;
     simulation_.set_solver(moreau::ColouredGaussSeidel(options));
     const double force = parameters_.lid_force * mass_ * 9.81;
     const double size = simulation_.grain_size();
-    const double speed = 0.4 * parameters_.margin * size / parameters_.step;
+    const double speed = 0.4 * parameters_.margin * size / step;
     const Vector up_axis = Vector::Unit(up);
     simulation_.set_velocity(lid_, -speed * up_axis);
     double reaction = 0;
     for (int k = 0; reaction < force; ++k) {
-      progress("closing", simulation_.step(parameters_.step));
-      const double now = simulation_.contact_impulse(lid_)[up] / parameters_.step;
+      progress("closing", simulation_.step(step));
+      const double now = simulation_.contact_impulse(lid_)[up] / step;
       reaction += 0.05 * (now - reaction);
     }
     simulation_.set_velocity(lid_, Vector::Zero());
@@ -76,8 +79,11 @@ class Experiment {
     simulation_.set_force(lid_, -force * up_axis);
     const double still = 1e-6 * force * size * double(simulation_.grain_count());
     for (int k = 0; k < 20 || kinetic_energy() > still; ++k)
-      progress("compressing", simulation_.step(parameters_.step));
+      progress("compressing", simulation_.step(step));
     simulation_.set_solver(moreau::ColouredGaussSeidel(solver_options(parameters_)));
+    moreau::OverlapCorrectionOptions correction;
+    correction.enabled = parameters_.correction;
+    simulation_.set_correction(correction);
     fix_lid();
   }
 
@@ -157,10 +163,8 @@ class Experiment {
     laws.set(moreau::MaterialId(0), moreau::MaterialId(2), Law(0));
     moreau::Tolerances tolerances;
     tolerances.margin = p.margin;
-    moreau::OverlapCorrectionOptions correction;
-    correction.enabled = p.correction;
     return Simulation(moreau::SizeDistribution::azema2008().smallest(), laws,
-                      moreau::ColouredGaussSeidel(solver_options(p)), tolerances, correction);
+                      moreau::ColouredGaussSeidel(solver_options(p)), tolerances);
   }
 
   /// L = W from V = rho L^D H/L at the solid fraction that the lid's compression leaves: about 0.53

@@ -34,9 +34,13 @@ struct Parameters {
   double tolerance = 1e-4;
   moreau::StopTest stop_test = moreau::StopTest::qm16;
   int max_sweeps = 2000;
-  int preparation_sweeps = 200;  ///< cap per step of the preparation
-  double margin = 0.02;          ///< alert distance, relative to the smallest size
-  bool correction = true;        ///< overlap correction outside the velocity problem
+  /// The preparation has a step, tolerance (QM/16) and cap of its own, so that runs which differ in
+  /// the others start from the same packing.
+  double preparation_step = 2e-4;  ///< [s]
+  double preparation_tolerance = 1e-4;
+  int preparation_sweeps = 200;
+  double margin = 0.02;    ///< alert distance, relative to the smallest size
+  bool correction = true;  ///< overlap correction outside the velocity problem
   int threads = 1;
   std::uint64_t seed = 1;
   int snapshots = 20;  ///< ParaView files over the duration; 0: none

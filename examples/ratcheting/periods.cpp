@@ -26,19 +26,18 @@ Period measure(const std::vector<WallSample>& wall, std::size_t first, std::size
     if (wall[k].x > wall[peak].x) peak = k;
   period.peak = wall[peak].t;
   period.dx_max = wall[peak].x - period.jam_before;
-  // While the wall is blocked it may creep inward a little: motion starts from the lowest point.
-  std::size_t blocked = first;
   for (std::size_t k = first; k <= peak; ++k)
-    if (wall[k].x < wall[blocked].x) blocked = k;
-  const double rise = wall[peak].x - wall[blocked].x;
+    period.v_max_active = std::max(period.v_max_active, wall[k].v);
+  // While the wall is blocked it creeps; the motion is what goes on to the peak without a halt.
+  const double halfway = (wall[peak].x + period.jam_before) / 2;
   std::size_t onset = peak;
-  while (onset > blocked && wall[onset - 1].x - wall[blocked].x > 0.02 * rise) --onset;
+  while (onset > first &&
+         (wall[onset - 1].x > halfway || wall[onset - 1].v > 0.05 * period.v_max_active))
+    --onset;
   period.onset = wall[onset].t;
   std::size_t outward = 0;
   for (std::size_t k = onset; k <= peak; ++k) {
-    period.v_max_active = std::max(period.v_max_active, wall[k].v);
-    const double share = (wall[k].x - wall[blocked].x) / rise;
-    if (!(share > 0.1 && share < 0.9)) continue;
+    if (wall[k].v < 0.2 * period.v_max_active) continue;
     period.f_g_active += wall[k].f_g;
     ++outward;
   }

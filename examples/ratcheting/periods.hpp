@@ -19,14 +19,13 @@ struct Period {
   double start = 0, finish = 0;  ///< times of the force maxima before and after [s]
   double jam_before = 0;         ///< x_j: position at the force maximum before [m]
   double jam_after = 0;          ///< x_j': position at the force maximum after [m]
-  double onset = 0;              ///< a: time when 2 % of the rise is passed [s]
+  double onset = 0;              ///< a: start of the motion that ends in the peak [s]
   double force_minimum = 0;      ///< time of the minimum of f [s]
   double peak = 0;               ///< b: time of the largest x [s]
   double dx_max = 0;             ///< largest x - jam_before [m]
   double v_max_active = 0;       ///< largest outward speed [m/s]
   double v_max_passive = 0;      ///< largest inward speed after the peak [m/s]
-  double f_g_active =
-      0;  ///< mean force of the grains on the wall between 10 and 90 % of the rise [N]
+  double f_g_active = 0;  ///< mean force of the grains on the wall while it moves outward [N]
 
   double delay() const { return peak - force_minimum; }  ///< delta t_r [s]
 };

@@ -26,6 +26,8 @@ Json to_json(const Parameters& p) {
           {"tolerance", p.tolerance},
           {"stop_test", p.stop_test == moreau::StopTest::qm16 ? "qm16" : "residual"},
           {"max_sweeps", p.max_sweeps},
+          {"preparation_step", p.preparation_step},
+          {"preparation_tolerance", p.preparation_tolerance},
           {"preparation_sweeps", p.preparation_sweeps},
           {"margin", p.margin},
           {"overlap_correction", p.correction},

@@ -225,7 +225,7 @@ struct ColouredOptions {
   double tolerance = 1e-4;
   StopTest stop_test = StopTest::natural_map;
   int max_sweeps = 2000;
-  int check_interval = 10;  ///< sweeps from one stopping test to the next
+  int check_interval = 20;  ///< sweeps from one stopping test to the next
   bool momentum = true;     ///< off: plain sweeps
 };
 

@@ -23,7 +23,7 @@ namespace moreau {
 
 struct OverlapCorrectionOptions {
   bool enabled = true;
-  double slop = 1e-4;  ///< overlap left alone, relative to the grain size
+  double slop = 2e-4;  ///< overlap left alone, relative to the grain size
   double rate = 0.2;   ///< share of the excess taken back per step, in (0, 1]
   int sweeps = 10;
 };
