@@ -70,7 +70,7 @@ class Recorder {
                 report.ms_total);
   }
 
-  void record_packing(const moreau::StepReport& report) {
+  void record_packing() {
     const auto& simulation = experiment_.simulation();
     const double inner = solid_fraction(inner_), whole = solid_fraction(experiment_.box());
     const auto position = [&](std::size_t body) -> const typename S::Vector& {
@@ -93,8 +93,8 @@ class Recorder {
     packing_samples_.push_back({experiment_.time(), experiment_.displacement(), inner, whole,
                                 stress(0, 0), stress(up, up), roll.angular_velocity,
                                 roll.strength});
-    packing_.row(experiment_.time(), inner, whole, experiment_.kinetic_energy(), report.points,
-                 coordination.neighbours);
+    packing_.row(experiment_.time(), inner, whole, experiment_.kinetic_energy(),
+                 simulation.contacts().size(), coordination.neighbours);
     state_.row(experiment_.time(), experiment_.displacement(), stress(0, 0), stress(up, up),
                roll.angular_velocity, roll.strength);
   }

@@ -51,7 +51,7 @@ int run(const Parameters& p) {
     });
     json.stage("prepare", watch.lap());
     recorder.set_control_volume();
-    recorder.record_packing({});
+    recorder.record_packing();
     Views<ShapeT> views(experiment, p.step, p.output);
     if (p.snapshots > 0) views.snapshot(0);
     const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
@@ -59,7 +59,7 @@ int run(const Parameters& p) {
     for (; done < total && !interrupted(); ++done) {
       const moreau::StepReport report = experiment.vibrate();
       recorder.record_step(done + 1, report, total);
-      if ((done + 1) % packing_interval == 0) recorder.record_packing(report);
+      if ((done + 1) % packing_interval == 0) recorder.record_packing();
       const double end = double(done + 1) * p.step;
       if (end >= active && end < active + p.step) views.picture("_active");
       if (end >= jammed && end < jammed + p.step) views.picture("_jammed");
