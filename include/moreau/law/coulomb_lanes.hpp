@@ -90,7 +90,7 @@ class CoulombLanes {
     }
     const Values alpha = above / (below > zero ? below : W::broadcast(1));
     const Values most = W::broadcast(std::numeric_limits<T>::max());
-    return (alpha > zero) & (alpha <= most) ? alpha : zero;
+    return ((alpha > zero) & (alpha <= most)) ? alpha : zero;
   }
 
   /// Tangential impulse of the lanes that slip in the plane: r_t = s mu r_n with a constant sign s.
@@ -134,7 +134,7 @@ class CoulombLanes {
       Values beyond = T(2) * lower;
       for (std::size_t t = 0; t < tangents; ++t) beyond += slip_[t];
       fallback = upper < most ? fallback : beyond;
-      alpha = (next > lower) & (next < upper) ? next : fallback;
+      alpha = ((next > lower) & (next < upper)) ? next : fallback;
     }
     return onto_cone(result);
   }

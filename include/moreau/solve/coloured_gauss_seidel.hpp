@@ -87,6 +87,7 @@ class ColouredSweeps {
       visit<true>(group, group.count, &change);
       rest_or_wake(k);
     }
+    momentum_.check(std::sqrt(change.dv2));
     beta_ = static_cast<T>(momentum_.next(double(W::sum(change2_))));
     return change;
   }
