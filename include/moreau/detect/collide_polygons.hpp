@@ -67,7 +67,7 @@ template <std::floating_point T>
 typename Space<2, T>::Vector middle_of_contact(const PolygonPair<T>& pair,
                                                const Axis<Space<2, T>>& axis) {
   auto best = witness_point(pair, axis);
-  const bool is_on_both = axis.kind == AxisKind::nearest_points ||
+  const bool is_on_both = axis.kind == AxisKind::vertices ||
                           (axis.kind == AxisKind::face_a
                                ? has_foot(pair.a, axis.a, pair.b.vertices()[axis.b] + pair.offset)
                                : has_foot(pair.b, axis.b, pair.a.vertices()[axis.a] - pair.offset));
@@ -96,7 +96,7 @@ void fill(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T margin,
     out.points.push_back(corner);
   });
   // Nearest vertices lie above each other, but no edge takes part.
-  const bool is_degenerate = axis.kind == AxisKind::nearest_points && out.points.size() == 1;
+  const bool is_degenerate = axis.kind == AxisKind::vertices && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
   if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding()))
     out.points.push_back(witness_point(pair, axis));

@@ -63,8 +63,7 @@ class PolygonPair {
 
   /// Of shapes that are apart: every vertex against every edge.
   Axis<S> nearest_points() const {
-    Axis<S> best{Vector::UnitX(), std::numeric_limits<T>::infinity(), AxisKind::nearest_points, 0,
-                 0};
+    Axis<S> best{Vector::UnitX(), std::numeric_limits<T>::infinity(), AxisKind::vertices, 0, 0};
     for (std::uint32_t i = 0; i < a.vertices().size(); ++i)
       for (std::uint32_t j = 0; j < b.vertices().size(); ++j) {
         try_point(a, i, b.vertices()[j] + offset, T(1), {AxisKind::face_a, i, j}, {i, j}, best);
@@ -119,7 +118,7 @@ class PolygonPair {
       if (gap >= T(0) && gap < best.gap)
         best = {sign * normal, gap, feature.kind, feature.a, feature.b};
     } else if (const T gap = apart.norm(); t <= T(0) && gap > T(0) && gap < best.gap) {
-      best = {sign / gap * apart, gap, AxisKind::nearest_points, vertices[0], vertices[1]};
+      best = {sign / gap * apart, gap, AxisKind::vertices, vertices[0], vertices[1]};
     }
   }
 };

@@ -62,7 +62,7 @@ std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
 template <std::floating_point T>
 typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
                                                const Axis<Space<3, T>>& axis,
-                                               const Simplex<T>& simplex) {
+                                               const Simplex<T>* simplex) {
   using Vector = typename Space<3, T>::Vector;
   const Witness<Vector> witness = witness_of(pair, axis, simplex);
   bool is_on_both = true;
@@ -86,7 +86,7 @@ typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
 
 /// Fills the manifold of a pair whose axis is known.
 template <std::floating_point T>
-void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>& simplex,
+void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>* simplex,
           T margin, Manifold<Space<3, T>>& out) {
   out.clear();
   out.normal = axis.normal;
@@ -102,7 +102,8 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
     out.points.push_back(corner);
   });
   // Nearest vertices lie above each other, but no face takes part.
-  const bool is_degenerate = axis.kind == AxisKind::nearest_points && out.points.size() == 1;
+  const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
+  const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
   if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) {
     const auto witness = witness_of(pair, axis, simplex);
@@ -110,7 +111,6 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
         {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
   }
   out.sort();
-  const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   switch (out.points.size()) {
     case 1:
       out.contact_class = class_of_point(out.points[0].feature);

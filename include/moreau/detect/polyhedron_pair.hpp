@@ -45,10 +45,13 @@ class PolyhedronPair {
 
   /// Whether an axis is at hand along which the shapes are farther apart than the margin.
   bool is_apart_at_once(T margin, PairCache<Space<3, T>>& cache) const {
-    if (cache.axis != Vector::Zero() && separation(cache.axis) > margin) return true;
+    if (cache.kind == AxisKind::none && cache.axis != Vector::Zero() &&
+        separation(cache.axis) > margin)
+      return true;
     const T reach = size + margin;
     if (!(offset.squaredNorm() > reach * reach)) return false;
     cache.axis = offset.normalized();
+    cache.kind = AxisKind::none;
     return true;
   }
 };

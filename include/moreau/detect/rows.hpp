@@ -63,6 +63,17 @@ class Rows {
     }
     return best.reduce();
   }
+  /// How many rows have direction . row >= lowest.
+  std::ptrdiff_t count_above(const Vector& direction, T lowest) const {
+    const auto d = broadcast(direction);
+    auto above = dot(0, d) >= lowest;
+    // The copies of the first row behind the last one do not count.
+    const std::ptrdiff_t copies = above[0] ? rows_.rows() - count_ : 0;
+    for (Eigen::Index i = W::lanes; i < rows_.rows(); i += W::lanes) above += dot(i, d) >= lowest;
+    return -W::template fold<W::lanes / 2>(above, [](const auto& x, const auto& y) {
+      return x + y;
+    })[0] - copies;
+  }
   /// The box around the rows.
   Aabb<S> bounding_box() const {
     Aabb<S> box;
