@@ -19,6 +19,20 @@ enum class AxisKind : std::uint8_t {
   nearest_points,  ///< other features, which happen to be where rounding decides
 };
 
+enum class FeatureKind : std::uint8_t { vertex, edge, face };
+/// What `Axis::a` counts; for `nearest_points`, a vertex.
+constexpr FeatureKind feature_of_a(AxisKind kind) {
+  if (kind == AxisKind::face_a) return FeatureKind::face;
+  const bool is_edge = kind == AxisKind::edges || kind == AxisKind::edge_vertex;
+  return is_edge ? FeatureKind::edge : FeatureKind::vertex;
+}
+/// What `Axis::b` counts.
+constexpr FeatureKind feature_of_b(AxisKind kind) {
+  if (kind == AxisKind::face_b) return FeatureKind::face;
+  const bool is_edge = kind == AxisKind::edges || kind == AxisKind::vertex_edge;
+  return is_edge ? FeatureKind::edge : FeatureKind::vertex;
+}
+
 /// The axis that gives a pair's signed gap.
 template <class S>
 struct Axis {

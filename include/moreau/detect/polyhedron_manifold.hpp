@@ -37,23 +37,35 @@ std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape,
   return best;
 }
 
+/// The face of one shape that looks along the direction at the feature that made the axis.
+/// @param id    the feature: a face, an edge or the top vertex along the direction
+/// @param slab  only vertices less than this below the top one can be within the margin [m]
+template <std::floating_point T>
+std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint32_t id,
+                          const typename Space<3, T>::Vector& direction, T slab) {
+  if (kind == FeatureKind::face) return id;
+  const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
+  if (kind == FeatureKind::vertex)
+    return facing_face(shape, shape.shape().vertex_faces(id), direction, height(id) - slab);
+  const auto& edge = shape.shape().edges()[id];
+  const T top = std::max(height(edge.vertex[0]), height(edge.vertex[1]));
+  return facing_face(shape, std::span<const std::uint32_t>(edge.face), direction, top - slab);
+}
+
 /// The two faces whose overlap is the region of contact. Only vertices within margin - gap of a
 /// shape's support plane can be within the margin of the other shape.
 template <std::floating_point T>
 std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
                                           const Axis<Space<3, T>>& axis, T margin) {
   const T slab = margin - axis.gap + pair.rounding();
-  const auto choose = [&](const Placed<Polyhedron<T>>& shape, bool is_own_face, std::uint32_t id,
-                          const typename Space<3, T>::Vector& direction) {
-    if (is_own_face) return id;
-    const Extreme<T> top = shape.vertices().farthest(direction);
-    const auto candidates = axis.kind == AxisKind::edges
-                                ? std::span<const std::uint32_t>(shape.shape().edges()[id].face)
-                                : shape.shape().vertex_faces(top.index);
-    return facing_face(shape, candidates, direction, top.value - slab);
-  };
-  return {choose(pair.a, axis.kind == AxisKind::face_a, axis.a, axis.normal),
-          choose(pair.b, axis.kind == AxisKind::face_b, axis.b, -axis.normal)};
+  std::uint32_t a = axis.a, b = axis.b;
+  if (axis.kind == AxisKind::nearest_points) {
+    a = pair.a.vertices().farthest(axis.normal).index;
+    b = pair.b.vertices().farthest(-axis.normal).index;
+  }
+  return {facing_face(pair.a, feature_of_a(axis.kind), a, axis.normal, slab),
+          facing_face(pair.b, feature_of_b(axis.kind), b,
+                      typename Space<3, T>::Vector(-axis.normal), slab)};
 }
 
 /// Midway between the surfaces where they are nearest or deepest, relative to the centre of a.

@@ -37,7 +37,9 @@ class PolyhedronPair {
     return {offset + (b.vertices()[j] - a.vertices()[i]), i, j};
   }
   /// The separation along a unit vector: a lower bound of the gap, whatever the vector.
-  T separation(const Vector& n) const { return n.dot(support(n).point); }
+  T separation(const Vector& n) const {
+    return n.dot(offset) - (a.vertices().reach(n) + b.vertices().reach(-n));
+  }
   /// From the centre of a to that of b, or anything if they coincide.
   Vector start() const {
     return offset.squaredNorm() > rounding() * rounding() ? offset : Vector(Vector::UnitX());
