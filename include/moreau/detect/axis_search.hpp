@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "moreau/detect/edge_search.hpp"
@@ -94,8 +95,9 @@ class AxisSearch {
 
   /// From the edges alone, if they are not so parallel that their ends say something else.
   void measure_again() {
-    Axis<S> axis;
-    if (measure_edges(pair_.a, axis_.a, pair_.b, axis_.b, pair_.offset, axis) &&
+    Axis<S> axis = axis_;
+    if (measure_edges(EdgeView<T>(pair_.a, axis_.a), EdgeView<T>(pair_.b, axis_.b), pair_.offset,
+                      axis) &&
         std::abs(axis.gap - axis_.gap) <= rounding_)
       axis_ = axis;
   }

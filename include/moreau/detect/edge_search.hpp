@@ -90,14 +90,9 @@ bool feet_are_within(const EdgeView<T>& a, const EdgeView<T>& b,
 /// @param offset  centre of b minus centre of a
 /// @returns whether the arcs of the edges cross
 template <std::floating_point T>
-[[gnu::noinline]] bool measure_edges(const Placed<Polyhedron<T>>& shape_a, std::uint32_t id_a,
-                                     const Placed<Polyhedron<T>>& shape_b, std::uint32_t id_b,
+[[gnu::noinline]] bool measure_edges(const EdgeView<T>& a, const EdgeView<T>& b,
                                      const typename Space<3, T>::Vector& offset,
                                      Axis<Space<3, T>>& axis) {
-  const EdgeView<T> a(shape_a, id_a), b(shape_b, id_b);
-  axis.kind = AxisKind::edges;
-  axis.a = id_a;
-  axis.b = id_b;
   if (!crossing_normal(a, b, axis.normal)) return false;
   const T top = std::max(axis.normal.dot(a.from), axis.normal.dot(a.from + a.direction));
   const T bottom = std::min(axis.normal.dot(b.from), axis.normal.dot(b.from + b.direction));

@@ -85,8 +85,11 @@ class PolyhedronRecall {
 
   // No face and no other edge may be parallel: the two ends are the only vertices on top.
   bool prove_edges(std::uint32_t id_a, std::uint32_t id_b) {
-    if (!measure_edges(pair_.a, id_a, pair_.b, id_b, pair_.offset, axis_)) return false;
     const EdgeView<T> a(pair_.a, id_a), b(pair_.b, id_b);
+    axis_.kind = AxisKind::edges;
+    axis_.a = id_a;
+    axis_.b = id_b;
+    if (!measure_edges(a, b, pair_.offset, axis_)) return false;
     return crosses_inside(a, b, clearance()) &&
            edge_is_top(pair_.a, id_a, axis_.normal, distinct) &&
            edge_is_top(pair_.b, id_b, -axis_.normal, distinct);
