@@ -40,7 +40,7 @@ class PolygonRecall {
   static constexpr T distinct = DetectionTolerance<T>::distinct;
 
   T clearance() const {
-    return needed_clearance(axis_.gap, axis_.normal.dot(pair_.offset),
+    return needed_clearance(axis_.gap, axis_.normal.dot(pair_.offset), pair_.offset.squaredNorm(),
                             pair_.a.shape().inradius() + pair_.b.shape().inradius(), pair_.size);
   }
   /// Whether no other vertex is so high that an edge there is perpendicular to a direction less

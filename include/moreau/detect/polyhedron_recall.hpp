@@ -55,7 +55,7 @@ class PolyhedronRecall {
   static constexpr T distinct = DetectionTolerance<T>::distinct;
 
   T clearance() const {
-    return needed_clearance(axis_.gap, axis_.normal.dot(pair_.offset),
+    return needed_clearance(axis_.gap, axis_.normal.dot(pair_.offset), pair_.offset.squaredNorm(),
                             pair_.a.shape().inradius() + pair_.b.shape().inradius(), pair_.size);
   }
   /// How many vertices lie within an angle of the top one: the only ones that can have a face or an
