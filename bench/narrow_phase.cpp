@@ -1,100 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Cost of the narrow phase for one pair, cold: nothing is known of the pair beforehand. One body
-// for every shape and dimension; the pairs are made, from a fixed seed, outside the timed loop.
+// Cost of the narrow phase for one pair: cold, nothing being known of the pair beforehand, and
+// coherent, along trajectories with a cache. One body for every shape and dimension.
 //
 // A shape of your own joins in by one line at the end, once Ballast<Shape> says how to draw one.
-#include <algorithm>
 #include <benchmark/benchmark.h>
-#include <random>
+#include <memory>
 #include <string>
-#include <vector>
 
-#include "moreau/detect/collide.hpp"
-#include "moreau/sample/ballast.hpp"
+#include "pairs.hpp"
 
 namespace {
 
 using namespace moreau;
 
-template <class S>
-typename S::Vector random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  typename S::Vector v;
-  for (auto& x : v) x = static_cast<typename S::Scalar>(normal(random));
-  return v.normalized();
-}
-template <class T>
-Eigen::Rotation2D<T> random_rotation(Space<2, T>, std::mt19937_64& random) {
-  return Eigen::Rotation2D<T>(
-      static_cast<T>(std::uniform_real_distribution<double>(-3.2, 3.2)(random)));
-}
-template <class T>
-Eigen::Quaternion<T> random_rotation(Space<3, T>, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Eigen::Quaternion<T> q;
-  for (auto& x : q.coeffs()) x = static_cast<T>(normal(random));
-  return q.normalized();
-}
-
-/// Where a pair stands: the distance of the centres is that of touching plus a part of the diameter
-/// drawn evenly between the two.
-struct Situation {
-  const char* name;
-  double from, to;
-};
-constexpr Situation touching{"touching", -0.005, 0.005};
-constexpr Situation overlapping{"overlapping", -0.02, -0.005};
-constexpr Situation near{"near", 0.006, 0.02};
-constexpr Situation apart{"apart", 0.01, 0.15};
-constexpr double margin_over_diameter = 0.005;
-
-/// Bodies at the origin, each in an orientation of its own, and pairs of them with the place of the
-/// second one. 600 bodies outgrow the caches next to the core, as those of a simulation do.
-template <class ShapeT>
-struct Pairs {
-  using S = SpaceOf<ShapeT>;
-  using T = typename S::Scalar;
-  using Vector = typename S::Vector;
-  struct Pair {
-    std::size_t a, b;
-    Vector offset;
-    T margin;
-  };
-  std::vector<ShapeT> shapes;
-  std::vector<Placed<ShapeT>> bodies;
-  std::vector<Pair> list;
-
-  Pairs(const Situation& situation, std::size_t count) {
-    std::mt19937_64 random(1);
-    shapes.reserve(200);
-    while (shapes.size() < 200) shapes.push_back(Ballast<ShapeT>::draw(random));
-    for (std::size_t k = 0; k < 3 * shapes.size(); ++k)
-      bodies.emplace_back(shapes[k % shapes.size()],
-                          Pose<S>{Vector::Zero(), random_rotation(S{}, random)});
-    while (list.size() < count) add(situation, random);
+/// The three queries. With a cache or, as it is then empty each time, without.
+struct Overlap {
+  static constexpr const char* name = "overlap";
+  template <class Body, class T, class... Cache>
+  bool operator()(const Body& a, const Body& b, T, Cache&... cache) const {
+    return overlap(a, b, cache...);
   }
-
- private:
-  void add(const Situation& situation, std::mt19937_64& random) {
-    const std::size_t a = random() % bodies.size(), b = random() % bodies.size();
-    const T diameter = 2 * std::min(bodies[a].radius(), bodies[b].radius());
-    const Vector line = random_direction<S>(random);
-    Placed<ShapeT> moving = bodies[b];
-    T inside = 0, outside = bodies[a].radius() + bodies[b].radius();
-    for (int k = 0; k < 50; ++k) {
-      const T middle = (inside + outside) / 2;
-      moving.move_to(middle * line);
-      (overlap(bodies[a], moving) ? inside : outside) = middle;
-    }
-    std::uniform_real_distribution<double> part(situation.from, situation.to);
-    list.push_back({a, b, (inside + diameter * static_cast<T>(part(random))) * line,
-                    static_cast<T>(margin_over_diameter) * diameter});
+};
+struct Distance {
+  static constexpr const char* name = "distance";
+  template <class Body, class T, class... Cache>
+  bool operator()(const Body& a, const Body& b, T, Cache&... cache) const {
+    const auto found = distance(a, b, cache...);
+    benchmark::DoNotOptimize(found.witness_a);
+    return found.gap <= 0;
+  }
+};
+template <class S>
+struct Collide {
+  static constexpr const char* name = "collide";
+  Manifold<S> manifold;
+  template <class Body, class T, class... Cache>
+  bool operator()(const Body& a, const Body& b, T margin, Cache&... cache) {
+    const bool touch = collide(a, b, margin, manifold, cache...);
+    benchmark::DoNotOptimize(manifold.points.data());
+    return touch;
   }
 };
 
 template <class ShapeT, class Query>
-void run(benchmark::State& state, const Situation& situation, Query query) {
-  Pairs<ShapeT> pairs(situation, 10000);
+void run_cold(benchmark::State& state, const pairs::Situation& situation,
+              const std::vector<ShapeT>& shapes, Query query) {
+  pairs::Pairs<ShapeT> pairs(situation, situation.faces_are_aligned ? 1000 : 10000, shapes);
   std::size_t i = 0, hits = 0;
   for ([[maybe_unused]] auto _ : state) {
     const auto& pair = pairs.list[i];
@@ -105,39 +56,75 @@ void run(benchmark::State& state, const Situation& situation, Query query) {
     b.move_to(stood_at);
     if (++i == pairs.list.size()) i = 0;
   }
-  state.counters["in_contact"] =
-      static_cast<double>(hits) / static_cast<double>(state.iterations());
+  state.counters["hits"] = static_cast<double>(hits) / static_cast<double>(state.iterations());
+}
+
+template <class ShapeT, class Query>
+void run_coherent(benchmark::State& state, const pairs::Situation& situation,
+                  const std::vector<ShapeT>& shapes, bool use_cache, Query query) {
+  const pairs::Trajectories<ShapeT> ways(situation, 20, shapes);
+  PairCache<SpaceOf<ShapeT>> cache;
+  std::size_t i = 0, k = 0, hits = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto& way = ways.list[i];
+    const Placed<ShapeT>& a = ways.pairs.bodies[way.a];
+    hits += use_cache ? query(a, way.b[k], way.margin, cache) : query(a, way.b[k], way.margin);
+    if (++k == way.b.size()) {
+      k = 0;
+      if (++i == ways.list.size()) i = 0;
+      cache = {};
+    }
+  }
+  state.counters["hits"] = static_cast<double>(hits) / static_cast<double>(state.iterations());
+}
+
+template <class ShapeT, class Query>
+void register_query(const std::string& shape, const std::vector<ShapeT>& shapes, Query query) {
+  const auto name = [&](const pairs::Situation& situation, const char* kind) {
+    return shape + '/' + Query::name + '/' + situation.name + kind;
+  };
+  for (const auto& situation :
+       {pairs::touching, pairs::overlapping, pairs::near, pairs::apart, pairs::aligned}) {
+    if (situation.faces_are_aligned && !Polytope<ShapeT>) continue;
+    benchmark::RegisterBenchmark(name(situation, "").c_str(), [=](benchmark::State& state) {
+      run_cold<ShapeT>(state, situation, shapes, query);
+    });
+    for (const bool use_cache : {false, true})
+      benchmark::RegisterBenchmark(
+          name(situation, use_cache ? "/coherent_cached" : "/coherent_cold").c_str(),
+          [=](benchmark::State& state) {
+            run_coherent<ShapeT>(state, situation, shapes, use_cache, query);
+          });
+  }
 }
 
 template <class ShapeT>
+void register_shape(const std::string& shape, const std::vector<ShapeT>& shapes) {
+  register_query<ShapeT>(shape, shapes, Overlap{});
+  register_query<ShapeT>(shape, shapes, Distance{});
+  register_query<ShapeT>(shape, shapes, Collide<SpaceOf<ShapeT>>{});
+}
+template <class ShapeT>
 void register_shape(const std::string& shape) {
-  const auto add = [&](const char* query_name, const Situation& situation, auto query) {
-    benchmark::RegisterBenchmark(
-        (shape + "/" + query_name + "/" + situation.name).c_str(),
-        [=](benchmark::State& state) { run<ShapeT>(state, situation, query); });
-  };
-  using Body = Placed<ShapeT>;
-  using T = typename Body::Scalar;
-  for (const Situation& situation : {touching, overlapping, near, apart}) {
-    add("overlap", situation, [](const Body& a, const Body& b, T) { return overlap(a, b); });
-    add("distance", situation, [](const Body& a, const Body& b, T) {
-      const auto found = distance(a, b);
-      benchmark::DoNotOptimize(found.witness_a);
-      return found.gap <= 0;
-    });
-    add("collide", situation,
-        [manifold = Manifold<SpaceOf<ShapeT>>()](const Body& a, const Body& b, T margin) mutable {
-          const bool touch = collide(a, b, margin, manifold);
-          benchmark::DoNotOptimize(manifold.points.data());
-          return touch;
-        });
+  register_shape<ShapeT>(shape, pairs::ballast<ShapeT>(200));
+}
+
+/// The same by number of vertices.
+template <class ShapeT>
+void register_sizes(const std::string& shape, std::initializer_list<std::size_t> sizes) {
+  for (const std::size_t size : sizes) {
+    std::mt19937_64 random(3);
+    std::vector<ShapeT> shapes;
+    while (shapes.size() < 40)
+      shapes.push_back(pairs::with_vertices(SpaceOf<ShapeT>{}, size, random));
+    register_shape<ShapeT>(shape + '_' + std::to_string(size), shapes);
   }
 }
 
 template <class ShapeT>
 void register_update(const std::string& shape) {
   benchmark::RegisterBenchmark((shape + "/place").c_str(), [](benchmark::State& state) {
-    Pairs<ShapeT> pairs(touching, 0);
+    pairs::Pairs<ShapeT> pairs(pairs::touching, 0, pairs::ballast<ShapeT>(200));
     const Pose<SpaceOf<ShapeT>> pose;
     std::size_t i = 0;
     for ([[maybe_unused]] auto _ : state) {
@@ -156,6 +143,8 @@ int main(int argc, char** argv) {
   register_shape<Polygon<double>>("polygons");
   register_shape<Ball<double>>("balls");
   register_shape<Disk<double>>("disks");
+  register_sizes<Polyhedron<double>>("polyhedra", {4, 8, 16, 24, 37, 100});
+  register_sizes<Polygon<double>>("polygons", {4, 8, 16});
   register_update<Polyhedron<double>>("polyhedra");
   register_update<Polygon<double>>("polygons");
   benchmark::Initialize(&argc, argv);

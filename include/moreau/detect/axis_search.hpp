@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "moreau/detect/edge_search.hpp"
@@ -50,6 +51,7 @@ class AxisSearch {
     if (of_b.is_found && is_proved(pair.b, of_b, Vector(-pair.offset), pair.a, below_b)) return;
     search_edges(edges_left(pair.a, below_a), edges_left(pair.b, below_b));
     if (axis_.gap <= T(0)) is_exact_ = true;
+    if (axis_.kind == AxisKind::edges) measure_again();
   }
 
   const Axis<S>& axis() const { return axis_; }
@@ -89,6 +91,15 @@ class AxisSearch {
     if (!(separation > axis_.gap + rounding_)) return;
     axis_ = {n, separation, AxisKind::edges, id_a, id_b};
     is_exact_ = separation > T(0) && feet_are_within(a, b, apart, n);
+  }
+
+  /// From the edges alone, if they are not so parallel that their ends say something else.
+  void measure_again() {
+    Axis<S> axis = axis_;
+    if (measure_edges(EdgeView<T>(pair_.a, axis_.a), EdgeView<T>(pair_.b, axis_.b), pair_.offset,
+                      axis) &&
+        std::abs(axis.gap - axis_.gap) <= rounding_)
+      axis_ = axis;
   }
 
   const PolyhedronPair<T>& pair_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The narrow phase: all pairs of shapes, in either order.
 //
-//   bool collide(a, b, margin, manifold[, cache])   contact points, if the gap is at most the
-//   margin SignedDistance distance(a, b)                   gap, normal, nearest points bool
-//   overlap(a, b)                              gap <= 0
+//   bool           overlap(a, b[, cache])                    whether they have a point in common
+//   SignedDistance distance(a, b[, cache])                   gap, normal, nearest points
+//   bool           collide(a, b, margin, manifold[, cache])  contact points, if gap <= margin
 //
 // a and b are Placed shapes. Each unordered pair of shapes has one function, found by the types of
 // its arguments, for the shape of lower rank first; the other order is made here. A shape of one's
@@ -63,6 +63,17 @@ bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar
 template <class A, class B>
 bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return distance(a, b).gap <= 0;
+}
+
+/// Of pairs that have nothing to remember.
+template <class A, class B>
+SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
+                                    PairCache<SpaceOf<A>>&) {
+  return distance(a, b);
+}
+template <class A, class B>
+bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>&) {
+  return overlap(a, b);
 }
 
 }  // namespace moreau

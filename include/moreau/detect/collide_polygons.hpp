@@ -2,28 +2,35 @@
 // Polygon against polygon.
 #pragma once
 
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
 #include "moreau/detect/contact_class.hpp"
 #include "moreau/detect/contact_segment.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/polygon_axis.hpp"
+#include "moreau/detect/polygon_recall.hpp"
 
 namespace moreau {
 
 namespace detail {
 
-/// Of the two edges at the top vertex along the direction: the one with both ends at or above the
-/// height, or else the one that faces it more.
+/// The edge of one shape that looks along the direction: its own, if the axis is an edge's; or of
+/// the two at the top vertex the one with both ends less than the slab [m] below it, or else the
+/// one that faces the direction more.
 template <std::floating_point T>
-std::uint32_t facing_edge(const Placed<Polygon<T>>& shape, std::uint32_t top,
-                          const typename Space<2, T>::Vector& direction, T height) {
+std::uint32_t facing_edge(const Placed<Polygon<T>>& shape, FeatureKind kind, std::uint32_t id,
+                          const typename Space<2, T>::Vector& direction, T slab) {
+  if (kind == FeatureKind::face) return id;
   const auto count = static_cast<std::uint32_t>(shape.vertices().size());
-  const std::uint32_t before = (top + count - 1) % count, after = (top + 1) % count;
+  const std::uint32_t before = (id > 0 ? id : count) - 1, after = id + 1 < count ? id + 1 : 0;
+  const T height = direction.dot(shape.vertices()[id]) - slab;
   const bool has_before = direction.dot(shape.vertices()[before]) >= height;
   const bool has_after = direction.dot(shape.vertices()[after]) >= height;
-  if (has_before != has_after) return has_before ? before : top;
-  return direction.dot(shape.normals()[before]) > direction.dot(shape.normals()[top]) ? before
-                                                                                      : top;
+  if (has_before != has_after) return has_before ? before : id;
+  return direction.dot(shape.normals()[before]) > direction.dot(shape.normals()[id]) ? before : id;
 }
 
 /// The point of contact if the edges' overlap does not hold it.
@@ -46,13 +53,9 @@ template <std::floating_point T>
 ContactSegment<T> contact_segment(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis,
                                   T margin) {
   const T slab = margin - axis.gap + pair.rounding();
-  const auto facing = [&](const Placed<Polygon<T>>& shape,
-                          const typename Space<2, T>::Vector& direction) {
-    const Extreme<T> top = shape.vertices().farthest(direction);
-    return facing_edge(shape, top.index, direction, top.value - slab);
-  };
-  const auto edge_a = axis.kind == AxisKind::face_a ? axis.a : facing(pair.a, axis.normal);
-  const auto edge_b = axis.kind == AxisKind::face_b ? axis.b : facing(pair.b, -axis.normal);
+  const auto edge_a = facing_edge(pair.a, feature_of_a(axis.kind), axis.a, axis.normal, slab);
+  const auto edge_b = facing_edge(pair.b, feature_of_b(axis.kind), axis.b,
+                                  typename Space<2, T>::Vector(-axis.normal), slab);
   return {pair.a,
           edge_a,
           pair.b,
@@ -67,7 +70,7 @@ template <std::floating_point T>
 typename Space<2, T>::Vector middle_of_contact(const PolygonPair<T>& pair,
                                                const Axis<Space<2, T>>& axis) {
   auto best = witness_point(pair, axis);
-  const bool is_on_both = axis.kind == AxisKind::nearest_points ||
+  const bool is_on_both = axis.kind == AxisKind::vertices ||
                           (axis.kind == AxisKind::face_a
                                ? has_foot(pair.a, axis.a, pair.b.vertices()[axis.b] + pair.offset)
                                : has_foot(pair.b, axis.b, pair.a.vertices()[axis.a] - pair.offset));
@@ -96,13 +99,33 @@ void fill(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T margin,
     out.points.push_back(corner);
   });
   // Nearest vertices lie above each other, but no edge takes part.
-  const bool is_degenerate = axis.kind == AxisKind::nearest_points && out.points.size() == 1;
+  const bool is_degenerate = axis.kind == AxisKind::vertices && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
   if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding()))
     out.points.push_back(witness_point(pair, axis));
   out.sort();
   out.contact_class =
       out.points.size() == 1 ? class_of_point(out.points[0].feature) : ContactClass::edge_edge;
+}
+
+/// The axis, proved from the features of the step before or searched for.
+/// @param margin  a gap larger than this need not be known exactly [m]
+/// @returns whether the gap is at most the margin
+template <std::floating_point T>
+bool find_axis(const PolygonPair<T>& pair, T margin, PairCache<Space<2, T>>& cache,
+               Axis<Space<2, T>>& axis) {
+  if (PolygonRecall<T> recall(pair);
+      recall.prove(cache) && std::abs(recall.axis().gap - margin) > pair.rounding()) {
+    axis = recall.axis();
+    return axis.gap <= margin;
+  }
+  const auto found = pair.edge_axis(margin);
+  axis = found.axis;
+  if (axis.gap <= margin && !found.is_exact) axis = pair.nearest_points();
+  cache.remember(axis);
+  if (axis.gap <= margin) return true;
+  cache.kind = AxisKind::none;
+  return false;
 }
 
 }  // namespace detail
@@ -116,30 +139,37 @@ bool collide(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
              PairCache<Space<2, T>>& cache) {
   MOREAU_ASSERT(margin >= T(0));
   const detail::PolygonPair<T> pair(a, b);
-  const T reach = pair.size + margin;
-  if (pair.offset.squaredNorm() > reach * reach) return false;
-  if (!cache.axis.isZero(0) && pair.separation(cache.axis) > margin) return false;
-  auto [axis, is_exact] = pair.edge_axis(margin);
-  cache.axis = axis.normal;
-  if (axis.gap > margin) return false;
-  if (!is_exact) {
-    axis = pair.nearest_points();
-    cache.axis = axis.normal;
-    if (axis.gap > margin) return false;
-  }
+  if (pair.is_apart_at_once(margin, cache)) return false;
+  detail::Axis<Space<2, T>> axis;
+  if (!detail::find_axis(pair, margin, cache, axis)) return false;
   detail::fill(pair, axis, margin, out);
   return true;
 }
 
 template <std::floating_point T>
-SignedDistance<Space<2, T>> distance(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b) {
+SignedDistance<Space<2, T>> distance(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
+                                     PairCache<Space<2, T>>& cache) {
   using Vector = typename Space<2, T>::Vector;
   const detail::PolygonPair<T> pair(a, b);
-  auto [axis, is_exact] = pair.edge_axis(std::numeric_limits<T>::infinity());
-  if (!is_exact) axis = pair.nearest_points();
+  detail::Axis<Space<2, T>> axis;
+  detail::find_axis(pair, std::numeric_limits<T>::infinity(), cache, axis);
   const Vector witness = detail::middle_of_contact(pair, axis);
   const Vector half = T(0.5) * axis.gap * axis.normal;
   return {axis.gap, axis.normal, a.center() + (witness - half), a.center() + (witness + half)};
+}
+
+template <std::floating_point T>
+SignedDistance<Space<2, T>> distance(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b) {
+  PairCache<Space<2, T>> none;
+  return distance(a, b, none);
+}
+
+template <std::floating_point T>
+bool overlap(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
+             PairCache<Space<2, T>>& cache) {
+  const detail::PolygonPair<T> pair(a, b);
+  detail::Axis<Space<2, T>> axis;
+  return !pair.is_apart_at_once(T(0), cache) && detail::find_axis(pair, T(0), cache, axis);
 }
 
 template <std::floating_point T>

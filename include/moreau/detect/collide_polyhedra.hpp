@@ -3,13 +3,50 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/polyhedron_manifold.hpp"
+#include "moreau/detect/polyhedron_recall.hpp"
 
 namespace moreau {
+
+namespace detail {
+
+/// The axis of a pair: proved from the features of the step before, or searched for.
+template <std::floating_point T>
+class FoundAxis {
+ public:
+  using S = Space<3, T>;
+
+  /// @param margin  a gap larger than this need not be known exactly [m]
+  FoundAxis(const PolyhedronPair<T>& pair, T margin, PairCache<S>& cache) {
+    if (PolyhedronRecall<T> recall(pair);
+        recall.prove(cache) && std::abs(recall.axis().gap - margin) > pair.rounding()) {
+      axis_ = recall.axis();
+      is_beyond_ = axis_.gap > margin;
+      return;
+    }
+    search_.emplace(pair, margin);
+    axis_ = search_->axis();
+    is_beyond_ = search_->is_beyond();
+    cache.remember(axis_);
+    if (is_beyond_) cache.kind = AxisKind::none;
+  }
+
+  bool is_beyond() const { return is_beyond_; }
+  const Axis<S>& axis() const { return axis_; }
+  const Simplex<T>* simplex() const { return search_ ? &search_->simplex() : nullptr; }
+
+ private:
+  std::optional<PolyhedronAxis<T>> search_;
+  Axis<S> axis_;
+  bool is_beyond_;
+};
+
+}  // namespace detail
 
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
@@ -21,19 +58,18 @@ bool collide(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
   MOREAU_ASSERT(margin >= T(0));
   const detail::PolyhedronPair<T> pair(a, b);
   if (pair.is_apart_at_once(margin, cache)) return false;
-  const detail::PolyhedronAxis<T> found(pair, margin);
-  cache.axis = found.axis().normal;
+  const detail::FoundAxis<T> found(pair, margin, cache);
   if (found.is_beyond()) return false;
   detail::fill(pair, found.axis(), found.simplex(), margin, out);
   return true;
 }
 
 template <std::floating_point T>
-SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a,
-                                     const Placed<Polyhedron<T>>& b) {
+SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
+                                     PairCache<Space<3, T>>& cache) {
   using Vector = typename Space<3, T>::Vector;
   const detail::PolyhedronPair<T> pair(a, b);
-  const detail::PolyhedronAxis<T> found(pair, std::numeric_limits<T>::infinity());
+  const detail::FoundAxis<T> found(pair, std::numeric_limits<T>::infinity(), cache);
   const auto& axis = found.axis();
   const Vector middle = detail::middle_of_contact(pair, axis, found.simplex());
   const Vector half = T(0.5) * axis.gap * axis.normal;
@@ -41,22 +77,30 @@ SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a,
 }
 
 template <std::floating_point T>
+SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a,
+                                     const Placed<Polyhedron<T>>& b) {
+  PairCache<Space<3, T>> none;
+  return distance(a, b, none);
+}
+
+/// With a cache, the features are found along with the answer, so that they can be remembered.
+template <std::floating_point T>
 bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
              PairCache<Space<3, T>>& cache) {
   const detail::PolyhedronPair<T> pair(a, b);
   if (pair.is_apart_at_once(T(0), cache)) return false;
-  detail::Simplex<T> simplex(pair.support(pair.start()));
-  typename Space<3, T>::Vector axis = pair.start();
-  const auto proximity = detail::approach<T>([&](const auto& n) { return pair.support(n); },
-                                             simplex, axis, T(0), pair.size, detail::all_steps);
-  cache.axis = axis.normalized();
-  return proximity == detail::Proximity::touching;
+  return !detail::FoundAxis<T>(pair, T(0), cache).is_beyond();
 }
 
 template <std::floating_point T>
 bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b) {
+  const detail::PolyhedronPair<T> pair(a, b);
   PairCache<Space<3, T>> none;
-  return overlap(a, b, none);
+  if (pair.is_apart_at_once(T(0), none)) return false;
+  detail::Simplex<T> simplex(pair.support(pair.start()));
+  typename Space<3, T>::Vector axis = pair.start();
+  return detail::approach<T>([&](const auto& n) { return pair.support(n); }, simplex, axis, T(0),
+                             pair.size, detail::all_steps) == detail::Proximity::touching;
 }
 
 }  // namespace moreau

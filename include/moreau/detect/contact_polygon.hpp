@@ -104,7 +104,7 @@ class ContactPolygon {
   bool is_corner_of_a(std::size_t j) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t before = (i + n - 1) % n;
+      const std::size_t before = i > 0 ? i - 1 : n - 1;
       if (beside_a_[before * m + j] == T(0) && beside_a_[i * m + j] == T(0) &&
           is_inside(beside_b_, n, i, m))
         return true;
@@ -127,7 +127,7 @@ class ContactPolygon {
     use(point(along(p, p1, t, 0), along(p, p1, t, 1), along(p, p1, t, 2),
               along(corners_b_ + 3 * j, corners_b_ + 3 * j1, u, 2),
               FeatureKey(FeatureKey::Kind::edge_edge, a_.shape().face_edges(face_a_)[i],
-                         edges_b[(2 * m - 2 - j) % m])));
+                         edges_b[j + 1 < m ? m - 2 - j : m - 1])));
   }
 
   /// h = plane[0] + plane[1] x + plane[2] y on a face.

@@ -62,7 +62,7 @@ class ContactSegment {
   };
 
   Segment project(const Shape& shape, std::uint32_t edge, const Vector& offset) const {
-    const auto next = static_cast<std::uint32_t>((edge + 1) % shape.vertices().size());
+    const std::uint32_t next = edge + 1 < shape.vertices().size() ? edge + 1 : 0;
     const auto end = [&](std::uint32_t v) -> End {
       const Vector x = shape.vertices()[v] + offset;
       return {frame_.col(1).dot(x), frame_.col(0).dot(x), v};

@@ -85,4 +85,19 @@ bool feet_are_within(const EdgeView<T>& a, const EdgeView<T>& b,
   return t >= T(0) && t <= T(1) && u >= T(0) && u <= T(1);
 }
 
+/// The common normal of two edges and the separation of their end points along it. One function for
+/// the search and for what is remembered, so that both give the same bits.
+/// @param offset  centre of b minus centre of a
+/// @returns whether the arcs of the edges cross
+template <std::floating_point T>
+[[gnu::noinline]] bool measure_edges(const EdgeView<T>& a, const EdgeView<T>& b,
+                                     const typename Space<3, T>::Vector& offset,
+                                     Axis<Space<3, T>>& axis) {
+  if (!crossing_normal(a, b, axis.normal)) return false;
+  const T top = std::max(axis.normal.dot(a.from), axis.normal.dot(a.from + a.direction));
+  const T bottom = std::min(axis.normal.dot(b.from), axis.normal.dot(b.from + b.direction));
+  axis.gap = axis.normal.dot(offset) + (bottom - top);
+  return true;
+}
+
 }  // namespace moreau::detail

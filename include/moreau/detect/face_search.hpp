@@ -180,6 +180,18 @@ struct FaceSeparation {
   bool is_found;               ///< whether it is larger than what was asked for
 };
 
+/// The separation along the normal of one face. One function for the search and for what is
+/// remembered, so that both give the same bits.
+template <std::floating_point T>
+[[gnu::noinline]] FaceSeparation<T> measure_face(const Placed<Polyhedron<T>>& own,
+                                                 std::uint32_t face,
+                                                 const Placed<Polyhedron<T>>& other,
+                                                 const typename Space<3, T>::Vector& offset) {
+  const typename Space<3, T>::Vector normal = own.normals()[face];
+  const std::uint32_t vertex = other.vertices().farthest(-normal).index;
+  return {height_above(own, face, other.vertices()[vertex] + offset), face, vertex, true};
+}
+
 /// @param offset    centre of other minus centre of own
 /// @param points    vertices of other relative to the centre of own, at least one; grows
 /// @param at_least  only larger separations count
@@ -189,11 +201,9 @@ FaceSeparation<T> search_faces(const Placed<Polyhedron<T>>& own, const Placed<Po
                                T at_least) {
   FaceSeparation<T> best{at_least, 0, 0, false};
   const auto look_at = [&](std::uint32_t face) {
-    const typename Space<3, T>::Vector normal = own.normals()[face];
-    const std::uint32_t vertex = other.vertices().farthest(-normal).index;
-    const T separation = height_above(own, face, other.vertices()[vertex] + offset);
-    if (separation > best.separation) best = {separation, face, vertex, true};
-    return vertex;
+    const FaceSeparation<T> found = measure_face(own, face, other, offset);
+    if (found.separation > best.separation) best = found;
+    return found.vertex;
   };
   while (!points.full()) {
     const Extreme<T> bound = highest_above(own, points);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "moreau/detect/placed.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
@@ -8,30 +10,33 @@
 namespace moreau::detail {
 
 /// Whether the foot of the perpendicular from the point, relative to the centre, is within the
-/// edge.
+/// edge, at least the clearance [m] from its ends.
 template <std::floating_point T>
 bool has_foot(const Placed<Polygon<T>>& shape, std::size_t edge,
-              const typename Space<2, T>::Vector& x) {
+              const typename Space<2, T>::Vector& x, T clearance = T(0)) {
   using Vector = typename Space<2, T>::Vector;
   const std::size_t next = edge + 1 < shape.vertices().size() ? edge + 1 : 0;
   const Vector from = shape.vertices()[edge];
   const Vector along = shape.vertices()[next] - from;
-  const T t = along.dot(x - from);
-  return t >= T(0) && t <= along.squaredNorm();
+  const T t = along.dot(x - from), length2 = along.squaredNorm();
+  const T inside = std::min(t, length2 - t);  // the distance from the nearer end times the length
+  return inside >= T(0) && inside * inside >= clearance * clearance * length2;
 }
 
 /// Whether the foot of the perpendicular from the point, relative to the centre, is
-/// within the face.
+/// within the face, at least the clearance [m] from its rim.
 template <std::floating_point T>
 bool has_foot(const Placed<Polyhedron<T>>& shape, std::size_t face,
-              const typename Space<3, T>::Vector& x) {
+              const typename Space<3, T>::Vector& x, T clearance = T(0)) {
   using Vector = typename Space<3, T>::Vector;
   const auto loop = shape.shape().face(face);
   const Vector normal = shape.normals()[face];
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Vector from = shape.vertices()[loop[k]];
     const Vector along = shape.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] - from;
-    if (normal.cross(along).dot(x - from) < T(0)) return false;
+    const T inside = normal.cross(along).dot(x - from);  // its distance times the edge's length
+    if (inside < T(0) || inside * inside < clearance * clearance * along.squaredNorm())
+      return false;
   }
   return true;
 }

@@ -41,7 +41,14 @@ class PolygonPair {
 
   /// The separation along a unit vector: a lower bound of the gap, whatever the vector.
   T separation(const Vector& n) const {
-    return n.dot(offset) - b.vertices().farthest(-n).value - a.vertices().farthest(n).value;
+    return n.dot(offset) - (a.vertices().reach(n) + b.vertices().reach(-n));
+  }
+
+  /// Whether an axis is at hand along which the shapes are farther apart than the margin.
+  bool is_apart_at_once(T margin, const PairCache<S>& cache) const {
+    const T reach = size + margin;
+    if (offset.squaredNorm() > reach * reach) return true;
+    return cache.kind == AxisKind::none && !cache.axis.isZero(0) && separation(cache.axis) > margin;
   }
 
   /// The best axis among the edges; exact if it says so.
@@ -51,10 +58,10 @@ class PolygonPair {
   };
   EdgeAxis edge_axis(T margin) const {
     const Extreme<T> of_a = best_edge(a, b, offset);
-    if (of_a.value > margin) return {from_edge_of_a(of_a), false};
+    if (of_a.value > margin) return {of_edge_of_a(of_a.index), false};
     const Extreme<T> of_b = best_edge(b, a, -offset);
     const bool take_b = of_b.value > of_a.value + rounding();
-    const Axis<S> axis = take_b ? from_edge_of_b(of_b) : from_edge_of_a(of_a);
+    const Axis<S> axis = take_b ? of_edge_of_b(of_b.index) : of_edge_of_a(of_a.index);
     const bool is_exact =
         axis.gap <= T(0) || (take_b ? has_foot(b, axis.b, a.vertices()[axis.a] - offset)
                                     : has_foot(a, axis.a, b.vertices()[axis.b] + offset));
@@ -63,14 +70,33 @@ class PolygonPair {
 
   /// Of shapes that are apart: every vertex against every edge.
   Axis<S> nearest_points() const {
-    Axis<S> best{Vector::UnitX(), std::numeric_limits<T>::infinity(), AxisKind::nearest_points, 0,
-                 0};
+    Axis<S> best{Vector::UnitX(), std::numeric_limits<T>::infinity(), AxisKind::vertices, 0, 0};
     for (std::uint32_t i = 0; i < a.vertices().size(); ++i)
       for (std::uint32_t j = 0; j < b.vertices().size(); ++j) {
         try_point(a, i, b.vertices()[j] + offset, T(1), {AxisKind::face_a, i, j}, {i, j}, best);
         try_point(b, j, a.vertices()[i] - offset, T(-1), {AxisKind::face_b, i, j}, {i, j}, best);
       }
-    return best;
+    return best.kind == AxisKind::vertices ? of_vertices(best.a, best.b) : best;
+  }
+
+  /// The axis of a feature. One function for the search and for what is remembered, so that both
+  /// give the same bits.
+  [[gnu::noinline]] Axis<S> of_edge_of_a(std::uint32_t edge) const {
+    const Vector n = a.normals()[edge];
+    const std::uint32_t vertex = b.vertices().farthest(-n).index;
+    return {n, n.dot(b.vertices()[vertex] + offset) - a.offset(edge), AxisKind::face_a, edge,
+            vertex};
+  }
+  [[gnu::noinline]] Axis<S> of_edge_of_b(std::uint32_t edge) const {
+    const Vector n = b.normals()[edge];
+    const std::uint32_t vertex = a.vertices().farthest(-n).index;
+    return {-n, n.dot(a.vertices()[vertex] - offset) - b.offset(edge), AxisKind::face_b, vertex,
+            edge};
+  }
+  [[gnu::noinline]] Axis<S> of_vertices(std::uint32_t i, std::uint32_t j) const {
+    const Vector apart = b.vertices()[j] + offset - a.vertices()[i];
+    const T gap = apart.norm();
+    return {apart / gap, gap, AxisKind::vertices, i, j};
   }
 
   static std::uint32_t next(const Shape& shape, std::uint32_t v) {
@@ -93,14 +119,6 @@ class PolygonPair {
     }
     return best.reduce();
   }
-  Axis<S> from_edge_of_a(const Extreme<T>& edge) const {
-    const Vector n = a.normals()[edge.index];
-    return {n, edge.value, AxisKind::face_a, edge.index, b.vertices().farthest(-n).index};
-  }
-  Axis<S> from_edge_of_b(const Extreme<T>& edge) const {
-    const Vector n = -b.normals()[edge.index];
-    return {n, edge.value, AxisKind::face_b, a.vertices().farthest(n).index, edge.index};
-  }
   struct Feature {
     AxisKind kind;
     std::uint32_t a, b;
@@ -119,7 +137,7 @@ class PolygonPair {
       if (gap >= T(0) && gap < best.gap)
         best = {sign * normal, gap, feature.kind, feature.a, feature.b};
     } else if (const T gap = apart.norm(); t <= T(0) && gap > T(0) && gap < best.gap) {
-      best = {sign / gap * apart, gap, AxisKind::nearest_points, vertices[0], vertices[1]};
+      best = {sign / gap * apart, gap, AxisKind::vertices, vertices[0], vertices[1]};
     }
   }
 };

@@ -6,6 +6,7 @@
 
 #include "moreau/detect/axis_search.hpp"
 #include "moreau/detect/gjk.hpp"
+#include "moreau/detect/nearest_axis.hpp"
 #include "moreau/detect/polyhedron_pair.hpp"
 
 namespace moreau::detail {
@@ -18,6 +19,7 @@ class PolyhedronAxis {
 
   PolyhedronAxis(const PolyhedronPair<T>& pair, T margin)
       : pair_(pair), simplex_(pair.support(pair.start())) {
+    axis_.kind = AxisKind::none;
     const Vector start = pair.start();
     const T separation = start.dot(simplex_[0].point);
     is_beyond_ =
@@ -68,13 +70,16 @@ class PolyhedronAxis {
   /// far away: theirs does not suffer from the rounding of a small difference.
   void take_nearest_points(T margin) {
     constexpr T aligned = DetectionTolerance<T>::aligned;
-    const T gap = simplex_.nearest().norm();
-    const Vector normal = simplex_.direction().normalized();
-    is_beyond_ = gap > margin;
-    if (axis_.gap >= gap - pair_.rounding() &&
-        (axis_.normal - normal).squaredNorm() < aligned * aligned)
+    Axis<S> nearest{simplex_.direction().normalized(), simplex_.nearest().norm(),
+                    AxisKind::nearest_points, 0, 0};
+    name_features(pair_, simplex_, nearest);
+    if (nearest.kind != AxisKind::nearest_points)
+      measure_nearest(pair_, nearest.kind, nearest.a, nearest.b, nearest);
+    is_beyond_ = nearest.gap > margin;
+    if (axis_.gap >= nearest.gap - pair_.rounding() &&
+        (axis_.normal - nearest.normal).squaredNorm() < aligned * aligned)
       return;
-    axis_ = {normal, gap, AxisKind::nearest_points, simplex_[0].a, simplex_[0].b};
+    axis_ = nearest;
   }
 
   const PolyhedronPair<T>& pair_;

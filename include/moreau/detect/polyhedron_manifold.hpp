@@ -37,23 +37,35 @@ std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape,
   return best;
 }
 
+/// The face of one shape that looks along the direction at the feature that made the axis.
+/// @param id    the feature: a face, an edge or the top vertex along the direction
+/// @param slab  only vertices less than this below the top one can be within the margin [m]
+template <std::floating_point T>
+std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint32_t id,
+                          const typename Space<3, T>::Vector& direction, T slab) {
+  if (kind == FeatureKind::face) return id;
+  const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
+  if (kind == FeatureKind::vertex)
+    return facing_face(shape, shape.shape().vertex_faces(id), direction, height(id) - slab);
+  const auto& edge = shape.shape().edges()[id];
+  const T top = std::max(height(edge.vertex[0]), height(edge.vertex[1]));
+  return facing_face(shape, std::span<const std::uint32_t>(edge.face), direction, top - slab);
+}
+
 /// The two faces whose overlap is the region of contact. Only vertices within margin - gap of a
 /// shape's support plane can be within the margin of the other shape.
 template <std::floating_point T>
 std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
                                           const Axis<Space<3, T>>& axis, T margin) {
   const T slab = margin - axis.gap + pair.rounding();
-  const auto choose = [&](const Placed<Polyhedron<T>>& shape, bool is_own_face, std::uint32_t id,
-                          const typename Space<3, T>::Vector& direction) {
-    if (is_own_face) return id;
-    const Extreme<T> top = shape.vertices().farthest(direction);
-    const auto candidates = axis.kind == AxisKind::edges
-                                ? std::span<const std::uint32_t>(shape.shape().edges()[id].face)
-                                : shape.shape().vertex_faces(top.index);
-    return facing_face(shape, candidates, direction, top.value - slab);
-  };
-  return {choose(pair.a, axis.kind == AxisKind::face_a, axis.a, axis.normal),
-          choose(pair.b, axis.kind == AxisKind::face_b, axis.b, -axis.normal)};
+  std::uint32_t a = axis.a, b = axis.b;
+  if (axis.kind == AxisKind::nearest_points) {
+    a = pair.a.vertices().farthest(axis.normal).index;
+    b = pair.b.vertices().farthest(-axis.normal).index;
+  }
+  return {facing_face(pair.a, feature_of_a(axis.kind), a, axis.normal, slab),
+          facing_face(pair.b, feature_of_b(axis.kind), b,
+                      typename Space<3, T>::Vector(-axis.normal), slab)};
 }
 
 /// Midway between the surfaces where they are nearest or deepest, relative to the centre of a.
@@ -62,7 +74,7 @@ std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
 template <std::floating_point T>
 typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
                                                const Axis<Space<3, T>>& axis,
-                                               const Simplex<T>& simplex) {
+                                               const Simplex<T>* simplex) {
   using Vector = typename Space<3, T>::Vector;
   const Witness<Vector> witness = witness_of(pair, axis, simplex);
   bool is_on_both = true;
@@ -86,7 +98,7 @@ typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
 
 /// Fills the manifold of a pair whose axis is known.
 template <std::floating_point T>
-void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>& simplex,
+void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>* simplex,
           T margin, Manifold<Space<3, T>>& out) {
   out.clear();
   out.normal = axis.normal;
@@ -102,7 +114,8 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
     out.points.push_back(corner);
   });
   // Nearest vertices lie above each other, but no face takes part.
-  const bool is_degenerate = axis.kind == AxisKind::nearest_points && out.points.size() == 1;
+  const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
+  const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
   if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) {
     const auto witness = witness_of(pair, axis, simplex);
@@ -110,7 +123,6 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
         {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
   }
   out.sort();
-  const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   switch (out.points.size()) {
     case 1:
       out.contact_class = class_of_point(out.points[0].feature);

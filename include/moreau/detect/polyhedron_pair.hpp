@@ -37,7 +37,9 @@ class PolyhedronPair {
     return {offset + (b.vertices()[j] - a.vertices()[i]), i, j};
   }
   /// The separation along a unit vector: a lower bound of the gap, whatever the vector.
-  T separation(const Vector& n) const { return n.dot(support(n).point); }
+  T separation(const Vector& n) const {
+    return n.dot(offset) - (a.vertices().reach(n) + b.vertices().reach(-n));
+  }
   /// From the centre of a to that of b, or anything if they coincide.
   Vector start() const {
     return offset.squaredNorm() > rounding() * rounding() ? offset : Vector(Vector::UnitX());
@@ -45,10 +47,13 @@ class PolyhedronPair {
 
   /// Whether an axis is at hand along which the shapes are farther apart than the margin.
   bool is_apart_at_once(T margin, PairCache<Space<3, T>>& cache) const {
-    if (cache.axis != Vector::Zero() && separation(cache.axis) > margin) return true;
+    if (cache.kind == AxisKind::none && cache.axis != Vector::Zero() &&
+        separation(cache.axis) > margin)
+      return true;
     const T reach = size + margin;
     if (!(offset.squaredNorm() > reach * reach)) return false;
     cache.axis = offset.normalized();
+    cache.kind = AxisKind::none;
     return true;
   }
 };

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "moreau/detect/manifold.hpp"
+#include "moreau/detect/nearest_axis.hpp"
 #include "moreau/detect/polyhedron_axis.hpp"
 
 namespace moreau::detail {
@@ -60,17 +61,7 @@ Witness<typename Space<3, T>::Vector> witness_of_nearest(const PolyhedronPair<T>
     witness.a += w * pair.a.vertices()[simplex[i].a];
     witness.b += w * (pair.b.vertices()[simplex[i].b] + pair.offset);
   }
-  using Kind = FeatureKey::Kind;
-  std::uint32_t other_a = simplex[0].a, other_b = simplex[0].b, edge = 0;
-  for (int i = 1; i < simplex.size(); ++i) {
-    if (simplex[i].a != simplex[0].a) other_a = simplex[i].a;
-    if (simplex[i].b != simplex[0].b) other_b = simplex[i].b;
-  }
-  witness.feature = FeatureKey(Kind::vertex_vertex, simplex[0].a, simplex[0].b);
-  if (find_edge(pair.a, simplex[0].a, other_a, edge))
-    witness.feature = FeatureKey(Kind::edge_vertex, edge, simplex[0].b);
-  else if (find_edge(pair.b, simplex[0].b, other_b, edge))
-    witness.feature = FeatureKey(Kind::vertex_edge, simplex[0].a, edge);
+  witness.feature = FeatureKey(FeatureKey::Kind::vertex_vertex, simplex[0].a, simplex[0].b);
   return witness;
 }
 
@@ -88,13 +79,35 @@ Witness<typename Space<3, T>::Vector> witness_of_face(const PolyhedronPair<T>& p
   return {on_a, on_a + across, FeatureKey(FeatureKey::Kind::vertex_face, axis.a, axis.b)};
 }
 
+/// Of a vertex and a vertex or edge.
+template <std::floating_point T>
+Witness<typename Space<3, T>::Vector> witness_of_vertex(const PolyhedronPair<T>& pair,
+                                                        const Axis<Space<3, T>>& axis) {
+  using Kind = FeatureKey::Kind;
+  const auto [on_a, on_b] = nearest_of(pair, axis.kind, axis.a, axis.b);
+  const Kind kind = axis.kind == AxisKind::vertices      ? Kind::vertex_vertex
+                    : axis.kind == AxisKind::vertex_edge ? Kind::vertex_edge
+                                                         : Kind::edge_vertex;
+  return {on_a, on_b, FeatureKey(kind, axis.a, axis.b)};
+}
+
 /// The nearest points of a pair whose axis is known.
+/// @param simplex  of the distance algorithm; read only for an axis of kind nearest_points
 template <std::floating_point T>
 Witness<typename Space<3, T>::Vector> witness_of(const PolyhedronPair<T>& pair,
                                                  const Axis<Space<3, T>>& axis,
-                                                 const Simplex<T>& simplex) {
-  if (axis.kind == AxisKind::nearest_points) return witness_of_nearest(pair, simplex);
-  return axis.kind == AxisKind::edges ? witness_of_edges(pair, axis) : witness_of_face(pair, axis);
+                                                 const Simplex<T>* simplex) {
+  switch (axis.kind) {
+    case AxisKind::face_a:
+    case AxisKind::face_b:
+      return witness_of_face(pair, axis);
+    case AxisKind::edges:
+      return witness_of_edges(pair, axis);
+    case AxisKind::nearest_points:
+      return witness_of_nearest(pair, *simplex);
+    default:
+      return witness_of_vertex(pair, axis);
+  }
 }
 
 }  // namespace moreau::detail

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstring>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
@@ -12,41 +13,55 @@
 
 namespace moreau::detail {
 
-/// The rows of an N x D matrix, each column contiguous. Behind the last row the first one is
-/// repeated up to a whole register, so that scans need no tail and never report a row that is not
-/// there: of equals they report the first.
+/// The rows of an N x D matrix in blocks of as many rows as a register has lanes: x of each, y of
+/// each, ... A scan reads memory in order, and a single row lies on a line or two of the cache.
+/// Behind the last row the first one is repeated up to a whole block, so that scans need no tail
+/// and never report a row that is not there: of equals they report the first.
 template <class S>
 class Rows {
  public:
   using T = typename S::Scalar;
   using W = Wide<T>;
   using Vector = typename S::Vector;
+  using Wides = std::array<typename W::Values, std::size_t{S::dim}>;
 
   /// The rows of the body's matrix, turned.
   template <class BodyRows>
   void assign(const BodyRows& body, const typename S::Matrix& rotation) {
     MOREAU_ASSERT(body.rows() > 0);
     count_ = body.rows();
-    rows_.resize(W::padded(count_), S::dim);
-    rows_.topRows(count_).noalias() = body.lazyProduct(rotation.transpose());
-    for (Eigen::Index i = count_; i < rows_.rows(); ++i) rows_.row(i) = rows_.row(0);
+    padded_ = W::padded(count_);
+    if (rows_.size() < S::dim * padded_) rows_.resize(S::dim * padded_);
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+      const Wides block = load(body, i);
+      for (Eigen::Index k = 0; k < S::dim; ++k) {
+        auto sum = rotation(k, 0) * block[0];
+        for (Eigen::Index l = 1; l < S::dim; ++l)
+          sum += rotation(k, l) * block[static_cast<std::size_t>(l)];
+        std::memcpy(rows_.data() + S::dim * i + k * W::lanes, &sum, sizeof sum);
+      }
+    }
   }
 
   std::size_t size() const { return static_cast<std::size_t>(count_); }
-  Eigen::Index padded_size() const { return rows_.rows(); }
+  Eigen::Index padded_size() const { return padded_; }
   Vector operator[](std::size_t i) const {
-    return rows_.row(static_cast<Eigen::Index>(i)).transpose();
+    constexpr std::size_t lanes = W::lanes;
+    const T* block = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
+    Vector row;
+    for (Eigen::Index k = 0; k < S::dim; ++k) row[k] = block[k * W::lanes];
+    return row;
   }
 
-  /// direction . row for a register of rows from row i on; the direction in every lane.
-  typename W::Values dot(Eigen::Index i, const std::array<typename W::Values, S::dim>& d) const {
-    const T* column = rows_.data() + i;
-    typename W::Values sum = d[0] * W::load(column);
-    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * W::load(column += rows_.rows());
+  /// direction . row for a block of rows from row i on; the direction in every lane.
+  typename W::Values dot(Eigen::Index i, const Wides& d) const {
+    const T* block = rows_.data() + S::dim * i;
+    typename W::Values sum = d[0] * W::load(block);
+    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * W::load(block += W::lanes);
     return sum;
   }
-  static std::array<typename W::Values, S::dim> broadcast(const Vector& v) {
-    std::array<typename W::Values, S::dim> wide;
+  static Wides broadcast(const Vector& v) {
+    Wides wide;
     for (std::size_t k = 0; k < S::dim; ++k)
       wide[k] = W::broadcast(v[static_cast<Eigen::Index>(k)]);
     return wide;
@@ -57,25 +72,48 @@ class Rows {
     const auto d = broadcast(direction);
     auto index = W::iota();
     WideMaximum<T> best{dot(0, d), index};
-    for (Eigen::Index i = W::lanes; i < rows_.rows(); i += W::lanes) {
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) {
       index += W::lanes;
       best.take(dot(i, d), index);
     }
     return best.reduce();
   }
+  /// The largest direction . row, without saying where.
+  T reach(const Vector& direction) const {
+    const auto d = broadcast(direction);
+    auto best = dot(0, d);
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) {
+      const auto here = dot(i, d);
+      best = here > best ? here : best;
+    }
+    return W::maximum(best)[0];
+  }
+  /// How many rows have direction . row >= lowest.
+  std::ptrdiff_t count_above(const Vector& direction, T lowest) const {
+    const auto d = broadcast(direction);
+    auto above = dot(0, d) >= lowest;
+    // The copies of the first row behind the last one do not count.
+    const std::ptrdiff_t copies = above[0] ? padded_ - count_ : 0;
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) above += dot(i, d) >= lowest;
+    const auto sum = W::template fold<W::lanes / 2>(
+        above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
+    return -std::ptrdiff_t{sum[0]} - copies;
+  }
   /// The box around the rows.
   Aabb<S> bounding_box() const {
-    Aabb<S> box;
-    for (Eigen::Index k = 0; k < S::dim; ++k) {
-      const T* column = rows_.data() + k * rows_.rows();
-      auto low = W::load(column), high = low;
-      for (Eigen::Index i = W::lanes; i < rows_.rows(); i += W::lanes) {
-        const auto x = W::load(column + i);
-        low = x < low ? x : low;
-        high = x > high ? x : high;
+    Wides low, high;
+    for (std::size_t k = 0; k < S::dim; ++k)
+      low[k] = high[k] = W::load(rows_.data() + k * std::size_t{W::lanes});
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes)
+      for (std::size_t k = 0; k < S::dim; ++k) {
+        const auto x = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
+        low[k] = x < low[k] ? x : low[k];
+        high[k] = x > high[k] ? x : high[k];
       }
-      box.lower[k] = -W::maximum(-low)[0];
-      box.upper[k] = W::maximum(high)[0];
+    Aabb<S> box;
+    for (std::size_t k = 0; k < S::dim; ++k) {
+      box.lower[static_cast<Eigen::Index>(k)] = -W::maximum(-low[k])[0];
+      box.upper[static_cast<Eigen::Index>(k)] = W::maximum(high[k])[0];
     }
     return box;
   }
@@ -83,7 +121,7 @@ class Rows {
   template <class Use>
   void for_each_above(const Vector& direction, T lowest, Use&& use) const {
     const auto d = broadcast(direction);
-    for (Eigen::Index i = 0; i < rows_.rows(); i += W::lanes) {
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
       const auto above = dot(i, d) >= lowest;
       for (int l = 0; l < W::lanes; ++l)
         if (above[l] && i + l < count_) use(static_cast<std::uint32_t>(i + l));
@@ -91,8 +129,23 @@ class Rows {
   }
 
  private:
-  Eigen::Matrix<T, Eigen::Dynamic, S::dim> rows_;
-  Eigen::Index count_ = 0;
+  /// Of a matrix whose columns are contiguous; the first row where there is none.
+  template <class BodyRows>
+  static Wides load(const BodyRows& body, Eigen::Index i) {
+    Wides block;
+    if (i + W::lanes <= body.rows()) {
+      for (std::size_t k = 0; k < S::dim; ++k)
+        block[k] = W::load(&body(i, static_cast<Eigen::Index>(k)));
+      return block;
+    }
+    for (std::size_t k = 0; k < S::dim; ++k)
+      for (int l = 0; l < W::lanes; ++l)
+        block[k][l] = body(i + l < body.rows() ? i + l : 0, static_cast<Eigen::Index>(k));
+    return block;
+  }
+
+  Eigen::Array<T, Eigen::Dynamic, 1> rows_;
+  Eigen::Index count_ = 0, padded_ = 0;
 };
 
 }  // namespace moreau::detail

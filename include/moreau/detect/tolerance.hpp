@@ -18,6 +18,10 @@ struct DetectionTolerance {
   /// Sine of the angle within which the direction of two nearest points is taken for the normal of
   /// a face, if that face is as far away.
   static constexpr T aligned = std::same_as<T, float> ? T(1e-3) : T(1e-5);
+  /// Angle [rad] between two axes above which one can be proved the better (local_proof.hpp).
+  static constexpr T distinct = std::same_as<T, float> ? T(1e-2) : T(1e-7);
+  /// Differences of separations that count as a proof.
+  static constexpr T doubt = T(16) * rounding;
 };
 
 }  // namespace moreau

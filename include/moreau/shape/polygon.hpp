@@ -57,9 +57,9 @@ class Polygon {
   T area() const { return moments_.volume; }        ///< [m^2]
   T volume() const { return moments_.volume; }      ///< the area, under its uniform name [m^2]
   T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
-  T inradius() const {
-    return face_offsets_.minCoeff();
-  }  ///< from the origin to the nearest face [m]
+  T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
+  /// The least distance of two face normals, as unit vectors: about the least angle [rad].
+  T normal_spacing() const { return normal_spacing_; }
 
   /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
   std::size_t support_vertex(const Vector& direction) const {
@@ -87,6 +87,7 @@ class Polygon {
     copy.vertices_ *= factor;
     copy.face_offsets_ *= factor;
     copy.circumradius_ *= factor;
+    copy.inradius_ *= factor;
     copy.centroid_of_input_ *= factor;
     copy.moments_ = moments_.scaled(factor);
     return copy;
@@ -114,12 +115,14 @@ class Polygon {
       face_normals_.row(i) = normal.transpose();
       face_offsets_[i] = normal.dot(vertex(i) + vertex(i + 1)) / T(2);
     }
+    inradius_ = face_offsets_.minCoeff();
+    normal_spacing_ = least_distance<Space>(face_normals_);
   }
 
   VertexMatrix<Space> vertices_, face_normals_;
   FaceOffsets face_offsets_;
   Vector centroid_of_input_ = Vector::Zero();
-  T circumradius_ = 0;
+  T circumradius_ = 0, inradius_ = 0, normal_spacing_ = 0;
   Moments<Space> moments_;
 };
 

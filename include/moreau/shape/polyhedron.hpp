@@ -82,9 +82,9 @@ class Polyhedron {
   const Vector& centroid_of_input() const { return centroid_of_input_; }
   T volume() const { return moments_.volume; }      ///< [m^3]
   T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
-  T inradius() const {
-    return face_offsets_.minCoeff();
-  }  ///< from the origin to the nearest face [m]
+  T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
+  /// The least distance of two face normals, as unit vectors: about the least angle [rad].
+  T normal_spacing() const { return normal_spacing_; }
 
   /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
   std::size_t support_vertex(const Vector& direction) const {
@@ -110,6 +110,7 @@ class Polyhedron {
     copy.vertices_ *= factor;
     copy.face_offsets_ *= factor;
     copy.circumradius_ *= factor;
+    copy.inradius_ *= factor;
     copy.centroid_of_input_ *= factor;
     copy.moments_ = moments_.scaled(factor);
     return copy;
@@ -187,6 +188,8 @@ class Polyhedron {
       face_normals_.row(row) = plane.normal.template cast<T>().transpose();
       face_offsets_[row] = static_cast<T>(plane.normal.dot(plane.center));
     }
+    inradius_ = face_offsets_.minCoeff();
+    normal_spacing_ = least_distance<Space>(face_normals_);
   }
 
   /// Every vertex lies on the faces that name it and strictly below the others, within the rounding
@@ -218,7 +221,7 @@ class Polyhedron {
   VertexMatrix<Space> vertices_, face_normals_;
   FaceOffsets face_offsets_;
   Vector centroid_of_input_ = Vector::Zero();
-  T circumradius_ = 0;
+  T circumradius_ = 0, inradius_ = 0, normal_spacing_ = 0;
   Moments<Space> moments_;
 };
 

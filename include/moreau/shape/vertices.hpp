@@ -3,9 +3,13 @@
 // columns (all x, all y, ...) are contiguous.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
@@ -43,6 +47,24 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   box.lower += pose.position;
   box.upper += pose.position;
   return box;
+}
+
+/// The least distance between two of the rows; infinite if there is only one. Sorted along x, few
+/// of them have to be compared.
+template <class S>
+typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
+  using T = typename S::Scalar;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(rows.rows()));
+  std::iota(order.begin(), order.end(), Eigen::Index(0));
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
+  T least = std::numeric_limits<T>::infinity();
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      if (!(rows(order[j], 0) - rows(order[i], 0) < least)) break;
+      least = std::min(least, (rows.row(order[j]) - rows.row(order[i])).norm());
+    }
+  return least;
 }
 
 namespace detail {

@@ -86,8 +86,10 @@ class ContactDetector {
     std::size_t p = 0;
     for (std::size_t k = 0; k < grains_.size(); ++k) {
       const auto& a = grains_[k];
+      const Aabb<S> reach = boxes_[k].inflated(lengths.margin);
       for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
         const auto& b = grains_[pairs_[p].second];
+        if (!reach.overlaps(boxes_[pairs_[p].second])) continue;
         if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
           emit(a.body, b.body, poses, materials, laws, previous, out);
       }

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Pairs of bodies to bench the narrow phase on, made from a fixed seed: one body for every shape
+// and dimension.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "moreau/detect/collide.hpp"
+#include "moreau/sample/ballast.hpp"
+
+namespace pairs {
+
+using moreau::Placed;
+using moreau::Pose;
+using moreau::Space;
+using moreau::SpaceOf;
+
+template <class S>
+typename S::Vector random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  typename S::Vector v;
+  for (auto& x : v) x = static_cast<typename S::Scalar>(normal(random));
+  return v.normalized();
+}
+template <class T>
+Eigen::Rotation2D<T> random_rotation(Space<2, T>, std::mt19937_64& random) {
+  return Eigen::Rotation2D<T>(
+      static_cast<T>(std::uniform_real_distribution<double>(-3.2, 3.2)(random)));
+}
+template <class T>
+Eigen::Quaternion<T> random_rotation(Space<3, T>, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Eigen::Quaternion<T> q;
+  for (auto& x : q.coeffs()) x = static_cast<T>(normal(random));
+  return q.normalized();
+}
+
+/// A polyhedron of as many vertices, all on an ellipsoid.
+template <class T>
+moreau::Polyhedron<T> with_vertices(Space<3, T>, std::size_t count, std::mt19937_64& random) {
+  using Vector = typename Space<3, T>::Vector;
+  std::vector<Vector> points;
+  while (points.size() < count) {
+    const Vector x = random_direction<Space<3, T>>(random);
+    // Evenly, so that four points do not make a splinter.
+    const bool is_near = std::any_of(points.begin(), points.end(), [&](const Vector& y) {
+      return (x - y).norm() * std::sqrt(static_cast<T>(count)) < T(1.6);
+    });
+    if (!is_near) points.push_back(x);
+  }
+  for (Vector& x : points) x = x.cwiseProduct(Vector(1, T(0.85), T(0.7)));
+  return moreau::Polyhedron<T>(std::span<const Vector>(points));
+}
+/// A polygon of as many vertices, all on an ellipse.
+template <class T>
+moreau::Polygon<T> with_vertices(Space<2, T>, std::size_t count, std::mt19937_64& random) {
+  using Vector = typename Space<2, T>::Vector;
+  std::uniform_real_distribution<double> part(0.2, 0.8);
+  std::vector<Vector> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(i) + part(random)) / static_cast<double>(count);
+    points.emplace_back(static_cast<T>(std::cos(angle)), static_cast<T>(0.8 * std::sin(angle)));
+  }
+  return moreau::Polygon<T>(std::span<const Vector>(points));
+}
+
+/// Where a pair stands: the distance of the centres is that of touching plus a part of the smaller
+/// diameter drawn evenly between the two.
+struct Situation {
+  const char* name;
+  double from, to;
+  bool faces_are_aligned = false;  ///< one of each, but for half a degree
+};
+inline constexpr Situation touching{"touching", -0.005, 0.005};
+inline constexpr Situation overlapping{"overlapping", -0.02, -0.005};
+inline constexpr Situation near{"near", 0.006, 0.02};
+inline constexpr Situation apart{"apart", 0.01, 0.15};
+inline constexpr Situation aligned{"aligned", -0.005, 0.005, true};
+inline constexpr double margin_over_diameter = 0.005;
+
+/// The distance of b's centre from a's along the line at which they touch.
+template <class ShapeT>
+auto touching_distance(const Placed<ShapeT>& a, Placed<ShapeT> b,
+                       const typename Placed<ShapeT>::Vector& line) {
+  auto inside = typename Placed<ShapeT>::Scalar(0), outside = a.radius() + b.radius();
+  for (int k = 0; k < 50; ++k) {
+    const auto middle = (inside + outside) / 2;
+    b.move_to(a.center() + middle * line);
+    (overlap(a, b) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+/// Bodies at the origin, each in an orientation of its own, and pairs of them with the place of the
+/// second one. 600 bodies outgrow the caches next to the core, as those of a simulation do.
+template <class ShapeT>
+struct Pairs {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  struct Pair {
+    std::size_t a, b;
+    Vector offset;
+    T margin;
+  };
+  std::vector<ShapeT> shapes;
+  std::vector<Pose<S>> poses;
+  std::vector<Placed<ShapeT>> bodies;
+  std::vector<Pair> list;
+
+  Pairs(const Situation& situation, std::size_t count, std::vector<ShapeT> shapes_in)
+      : shapes(std::move(shapes_in)) {
+    std::mt19937_64 random(1);
+    for (std::size_t k = 0; k < 3 * shapes.size(); ++k)
+      add_body(k % shapes.size(), random_rotation(S{}, random));
+    while (list.size() < count) add(situation, random);
+  }
+  T diameter(const Pair& pair) const {
+    return 2 * std::min(bodies[pair.a].radius(), bodies[pair.b].radius());
+  }
+
+ private:
+  void add_body(std::size_t shape, const typename S::Rotation& rotation) {
+    poses.push_back({Vector::Zero(), rotation});
+    bodies.emplace_back(shapes[shape], poses.back());
+  }
+  void add(const Situation& situation, std::mt19937_64& random) {
+    const std::size_t count = 3 * shapes.size();
+    const std::size_t a = random() % count;
+    std::size_t b = random() % count;
+    Vector line = random_direction<S>(random);
+    if constexpr (moreau::Polytope<ShapeT>)
+      if (situation.faces_are_aligned) {
+        // b turns so that its face looks against a's.
+        line = bodies[a].normals()[random() % bodies[a].normals().size()];
+        const auto& shape = shapes[b % shapes.size()];
+        const auto face = static_cast<Eigen::Index>(random() % shape.face_count());
+        const Vector normal = shape.face_normals().row(face).transpose();
+        const Vector askew = line + T(0.0087) * random_direction<S>(random);
+        add_body(b % shapes.size(), turn_onto(normal, Vector(-askew.normalized())));
+        b = bodies.size() - 1;
+      }
+    const T size = 2 * std::min(bodies[a].radius(), bodies[b].radius());
+    std::uniform_real_distribution<double> part(situation.from, situation.to);
+    const T distance = touching_distance(bodies[a], bodies[b], line);
+    list.push_back({a, b, (distance + size * static_cast<T>(part(random))) * line,
+                    static_cast<T>(margin_over_diameter) * size});
+  }
+  static Eigen::Quaternion<T> turn_onto(const Eigen::Matrix<T, 3, 1>& from,
+                                        const Eigen::Matrix<T, 3, 1>& to) {
+    return Eigen::Quaternion<T>::FromTwoVectors(from, to);
+  }
+  static Eigen::Rotation2D<T> turn_onto(const Eigen::Matrix<T, 2, 1>& from,
+                                        const Eigen::Matrix<T, 2, 1>& to) {
+    return Eigen::Rotation2D<T>(std::atan2(to.y(), to.x()) - std::atan2(from.y(), from.x()));
+  }
+};
+
+/// Pairs that move a little from step to step, 1e-4 of the diameter and 1e-4 rad, each in a random
+/// walk; every step is placed beforehand.
+template <class ShapeT>
+struct Trajectories {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  static constexpr std::size_t steps = 200;
+  struct Trajectory {
+    std::size_t a;
+    T margin;
+    std::vector<Pose<S>> poses;
+    std::vector<Placed<ShapeT>> b;
+  };
+  Pairs<ShapeT> pairs;
+  std::vector<Trajectory> list;
+
+  Trajectories(const Situation& situation, std::size_t count, std::vector<ShapeT> shapes)
+      : pairs(situation, count, std::move(shapes)) {
+    std::mt19937_64 random(2);
+    for (const auto& pair : pairs.list) {
+      Trajectory way{pair.a, pair.margin, {}, {}};
+      Pose<S> pose = pairs.poses[pair.b];
+      pose.position = pair.offset;
+      for (std::size_t k = 0; k < steps; ++k) {
+        way.poses.push_back(pose);
+        way.b.emplace_back(pairs.shapes[pair.b % pairs.shapes.size()], pose);
+        pose.position += T(1e-4) * pairs.diameter(pair) * random_direction<S>(random);
+        typename S::Angular turn = S::Angular::Zero();
+        turn[static_cast<Eigen::Index>(k) % turn.size()] = T(k % 2 ? 1e-4 : -1e-4);
+        pose.rotation = S::normalized(S::exp(turn) * pose.rotation);
+      }
+      list.push_back(std::move(way));
+    }
+  }
+};
+
+/// Random shapes, as a sample of the study has them.
+template <class ShapeT>
+std::vector<ShapeT> ballast(std::size_t count) {
+  std::mt19937_64 random(1);
+  return moreau::ballast_shapes<ShapeT>(count, random);
+}
+
+}  // namespace pairs

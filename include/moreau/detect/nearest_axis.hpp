@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The axis of two polyhedra that are apart with a vertex of one nearest to a vertex or an edge of
+// the other.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "moreau/detect/axis.hpp"
+#include "moreau/detect/polyhedron_pair.hpp"
+
+namespace moreau::detail {
+
+/// Where on the edge, as a fraction of it, its line is nearest to the point, both relative to the
+/// shape's centre; within the edge or not.
+template <std::floating_point T>
+T fraction_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
+                 const typename Space<3, T>::Vector& x) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto& ends = shape.shape().edges()[edge].vertex;
+  const Vector from = shape.vertices()[ends[0]];
+  const Vector along = shape.vertices()[ends[1]] - from;
+  return along.dot(x - from) / along.squaredNorm();
+}
+
+template <std::floating_point T>
+typename Space<3, T>::Vector point_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
+                                         T fraction) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto& ends = shape.shape().edges()[edge].vertex;
+  const Vector from = shape.vertices()[ends[0]];
+  return from + fraction * (shape.vertices()[ends[1]] - from);
+}
+
+/// The nearest points of the features, relative to the centre of a.
+template <std::floating_point T>
+std::array<typename Space<3, T>::Vector, 2> nearest_of(const PolyhedronPair<T>& pair, AxisKind kind,
+                                                       std::uint32_t a, std::uint32_t b) {
+  using Vector = typename Space<3, T>::Vector;
+  if (kind == AxisKind::edge_vertex) {
+    const Vector on_b = pair.b.vertices()[b] + pair.offset;
+    return {point_along(pair.a, a, fraction_along(pair.a, a, on_b)), on_b};
+  }
+  const Vector on_a = pair.a.vertices()[a];
+  if (kind == AxisKind::vertices) return {on_a, pair.b.vertices()[b] + pair.offset};
+  const T fraction = fraction_along(pair.b, b, Vector(on_a - pair.offset));
+  return {on_a, point_along(pair.b, b, fraction) + pair.offset};
+}
+
+/// The distance of the features and its direction. One function for the search and for what is
+/// remembered, so that both give the same bits.
+template <std::floating_point T>
+[[gnu::noinline]] void measure_nearest(const PolyhedronPair<T>& pair, AxisKind kind,
+                                       std::uint32_t a, std::uint32_t b, Axis<Space<3, T>>& axis) {
+  const auto [on_a, on_b] = nearest_of(pair, kind, a, b);
+  const typename Space<3, T>::Vector apart = on_b - on_a;
+  const T gap = apart.norm();
+  axis = {apart / gap, gap, kind, a, b};
+}
+
+/// What the nearest points of a simplex lie on; `nearest_points` if not on a vertex and an edge.
+template <std::floating_point T>
+void name_features(const PolyhedronPair<T>& pair, const Simplex<T>& simplex,
+                   Axis<Space<3, T>>& axis) {
+  axis.kind = AxisKind::nearest_points;
+  axis.a = simplex[0].a;
+  axis.b = simplex[0].b;
+  if (simplex.size() == 1) {
+    axis.kind = AxisKind::vertices;
+  } else if (simplex.size() == 2) {
+    if (simplex[1].b == axis.b && find_edge(pair.a, axis.a, simplex[1].a, axis.a))
+      axis.kind = AxisKind::edge_vertex;
+    else if (simplex[1].a == axis.a && find_edge(pair.b, axis.b, simplex[1].b, axis.b))
+      axis.kind = AxisKind::vertex_edge;
+  }
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// What is remembered of a pair changes no bit of any answer, however the pair moves and whatever
+// the memory holds.
+#include <array>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+#include <vector>
+
+#include "moreau/detect/collide.hpp"
+
+#include "detect/shapes.hpp"
+#include "sanitized.hpp"
+
+using namespace moreau;
+
+namespace {
+
+template <class S>
+bool is_same(const Manifold<S>& one, const Manifold<S>& other) {
+  if (one.gap != other.gap || one.normal != other.normal ||
+      one.contact_class != other.contact_class || one.points.size() != other.points.size())
+    return false;
+  for (std::size_t k = 0; k < one.points.size(); ++k)
+    if (one.points[k].feature != other.points[k].feature ||
+        one.points[k].gap != other.points[k].gap ||
+        one.points[k].position != other.points[k].position)
+      return false;
+  return true;
+}
+
+/// Two shapes with one memory for each query, which outlives every motion.
+template <class ShapeT>
+class Companions {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  Companions(const ShapeT& a, const ShapeT& b, std::mt19937_64& random)
+      : shape_a_(a), shape_b_(b), size_(a.circumradius() + b.circumradius()), a_(a), b_(b) {
+    pose_a_.rotation = samples::rotation(S{}, random);
+    touch_again(random);
+  }
+
+  T size() const { return size_; }
+  /// Anywhere near touching, in any orientation: a jump.
+  void touch_again(std::mt19937_64& random) {
+    pose_b_.rotation = samples::rotation(S{}, random);
+    const Vector line = samples::direction<S>(random);
+    T inside = 0, outside = size_ * T(1.001);
+    for (int k = 0; k < 30; ++k) {
+      pose_b_.position = pose_a_.position + (inside + outside) / 2 * line;
+      place();
+      (overlap(a_, b_) ? inside : outside) = (inside + outside) / 2;
+    }
+  }
+  /// Both shapes, by about the step times the size, and as many radians.
+  void move(T step, std::mt19937_64& random) {
+    for (Pose<S>* pose : {&pose_a_, &pose_b_}) {
+      pose->position += step * size_ * samples::direction<S>(random);
+      typename S::Angular turn;
+      for (auto& w : turn) w = step * samples::direction<S>(random)[0];
+      pose->rotation = S::normalized(S::exp(turn) * pose->rotation);
+    }
+    place();
+  }
+  void set_caches(const std::array<PairCache<S>, 3>& caches) { caches_ = caches; }
+  const std::array<PairCache<S>, 3>& caches() const { return caches_; }
+
+  /// All three queries, with what is remembered and without.
+  void check(T margin) {
+    Manifold<S> cold, cached;
+    const bool touch = collide(a_, b_, margin, cold);
+    CHECK(collide(a_, b_, margin, cached, caches_[0]) == touch);
+    if (touch) CHECK(is_same(cold, cached));
+    const SignedDistance<S> one = distance(a_, b_), other = distance(a_, b_, caches_[1]);
+    CHECK(one.gap == other.gap);
+    CHECK(one.normal == other.normal);
+    CHECK(one.witness_a == other.witness_a);
+    CHECK(one.witness_b == other.witness_b);
+    // The boolean has a way of its own when cold.
+    const T rounding = size_ * DetectionTolerance<T>::rounding;
+    const bool together = overlap(a_, b_, caches_[2]);
+    if (std::abs(one.gap) > rounding) {
+      CHECK(together == (one.gap <= 0));
+      CHECK(overlap(a_, b_) == together);
+    }
+  }
+
+ private:
+  void place() {
+    a_.update(shape_a_, pose_a_);
+    b_.update(shape_b_, pose_b_);
+  }
+
+  const ShapeT& shape_a_;
+  const ShapeT& shape_b_;
+  T size_;
+  Pose<S> pose_a_, pose_b_;
+  Placed<ShapeT> a_, b_;
+  std::array<PairCache<S>, 3> caches_;
+};
+
+template <class T>
+std::vector<Polyhedron<T>> shapes_to_try(Space<3, T> space, std::mt19937_64& random) {
+  std::vector<Polyhedron<T>> shapes;
+  for (int i = 0; i < 20; ++i) shapes.push_back(samples::grain(space, random));
+  for (const Polyhedron<T>& shape :
+       {samples::box<T>(1, 1, 1), samples::box<T>(1, 1, T(.01)), samples::box<T>(1, T(.02), T(.02)),
+        samples::tetrahedron<T>(T(.5)), samples::prism<T>(12, T(.5), 1),
+        samples::prism<T>(30, T(.5), T(.02))})
+    shapes.push_back(shape);
+  return shapes;
+}
+template <class T>
+std::vector<Polygon<T>> shapes_to_try(Space<2, T> space, std::mt19937_64& random) {
+  std::vector<Polygon<T>> shapes;
+  for (int i = 0; i < 20; ++i) shapes.push_back(samples::grain(space, random));
+  shapes.push_back(samples::box<T>(1, 1));
+  shapes.push_back(samples::box<T>(1, T(.01)));
+  return shapes;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a pair cache changes no bit, whatever the motion", ShapeT, Polyhedron<double>,
+                   Polyhedron<float>, Polygon<double>, Polygon<float>) {
+  using T = typename ShapeT::Scalar;
+  std::mt19937_64 random(1);
+  const auto shapes = shapes_to_try(SpaceOf<ShapeT>{}, random);
+  std::uniform_real_distribution<double> exponent(-6, -0.5);
+  for (int i = 0; i < rounds(1000); ++i) {
+    Companions<ShapeT> pair(shapes[random() % shapes.size()], shapes[random() % shapes.size()],
+                            random);
+    for (int k = 0; k < 60; ++k) {
+      // Small steps that drift, now and then a large one or a jump.
+      const double step = k % 10 == 9 ? std::pow(10., exponent(random)) : 1e-4;
+      if (k % 20 == 19) pair.touch_again(random);
+      pair.move(static_cast<T>(step), random);
+      pair.check(T(0.01) * pair.size());
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("a pair cache that holds another pair's features changes no bit", ShapeT,
+                   Polyhedron<double>, Polygon<double>) {
+  using S = SpaceOf<ShapeT>;
+  std::mt19937_64 random(2);
+  const auto shapes = shapes_to_try(S{}, random);
+  for (int i = 0; i < rounds(10000); ++i) {
+    Companions<ShapeT> pair(shapes[random() % shapes.size()], shapes[random() % shapes.size()],
+                            random);
+    std::array<PairCache<S>, 3> caches;
+    for (PairCache<S>& cache : caches) {
+      cache.kind = static_cast<detail::AxisKind>(random() % 8);
+      cache.a = static_cast<std::uint32_t>(random() % (i % 2 ? 12 : 100));
+      cache.b = static_cast<std::uint32_t>(random() % (i % 2 ? 12 : 100));
+      if (i % 3) cache.axis = samples::direction<S>(random);
+    }
+    pair.set_caches(caches);
+    pair.check(0.01 * pair.size());
+  }
+}
+
+TEST_CASE_TEMPLATE("aligned shapes: ties of features are not remembered wrongly", ShapeT,
+                   Polyhedron<double>, Polygon<double>) {
+  using S = SpaceOf<ShapeT>;
+  std::mt19937_64 random(3);
+  std::vector<ShapeT> shapes = shapes_to_try(S{}, random);
+  shapes.erase(shapes.begin(), shapes.begin() + 20);
+  for (const ShapeT& a : shapes)
+    for (const ShapeT& b : shapes) {
+      Pose<S> pose;
+      PairCache<S> cache;
+      const Placed<ShapeT> first(a);
+      Placed<ShapeT> second(b);
+      for (int k = 0; k < rounds(300); ++k) {
+        // A grid of places where faces, edges and vertices coincide, with and without trembling.
+        for (auto& x : pose.position) x = 0.125 * (static_cast<int>(random() % 17) - 8);
+        if (k % 3 == 1) pose.position += 1e-13 * samples::direction<S>(random);
+        typename S::Angular turn;
+        for (auto& w : turn) w = samples::direction<S>(random)[0];
+        turn *= k % 4 == 0 ? 0. : std::pow(10., -4. - static_cast<double>(random() % 11));
+        pose.rotation = S::exp(turn);
+        second.update(b, pose);
+        Manifold<S> cold, cached;
+        for (int again = 0; again < 2; ++again) {
+          const bool touch = collide(first, second, 0.01, cold);
+          CHECK(collide(first, second, 0.01, cached, cache) == touch);
+          if (touch) CHECK(is_same(cold, cached));
+        }
+      }
+    }
+}
+
+TEST_CASE("coherent pairs are proved, seldom searched") {
+  using S = Space<3>;
+  std::mt19937_64 random(4);
+  std::vector<Polyhedron<double>> shapes;
+  for (int i = 0; i < 20; ++i) shapes.push_back(samples::grain(S{}, random));
+  int proved = 0, asked = 0;
+  for (int i = 0; i < rounds(200); ++i) {
+    const auto& shape_a = shapes[random() % shapes.size()];
+    const auto& shape_b = shapes[random() % shapes.size()];
+    Companions<Polyhedron<double>> pair(shape_a, shape_b, random);
+    Pose<S> pose_a, pose_b{1.2 * samples::direction<S>(random), samples::rotation(S{}, random)};
+    const Placed<Polyhedron<double>> a(shape_a, pose_a);
+    const auto found = distance(a, Placed<Polyhedron<double>>(shape_b, pose_b));
+    pose_b.position -= (found.gap + 1e-3) * found.normal;
+    PairCache<S> cache;
+    for (int k = 0; k < 20; ++k) {
+      const Placed<Polyhedron<double>> b(shape_b, pose_b);
+      const detail::PolyhedronPair<double> both(a, b);
+      if (k > 0) {
+        proved += detail::PolyhedronRecall<double>(both).prove(cache);
+        ++asked;
+      }
+      distance(a, b, cache);
+      pose_b.position += 1e-4 * samples::direction<S>(random);
+      pose_b.rotation = S::exp(1e-4 * samples::direction<S>(random)) * pose_b.rotation;
+    }
+  }
+  MESSAGE("proved ", proved, " of ", asked);
+  CHECK(proved > 0.9 * asked);
+}
