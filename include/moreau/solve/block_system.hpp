@@ -13,12 +13,10 @@
 
 #include <cstddef>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 #include "moreau/law/coulomb_block.hpp"
 #include "moreau/solve/friction_problem.hpp"
-#include "moreau/solve/momentum.hpp"
 
 namespace moreau::detail {
 

@@ -13,6 +13,8 @@
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -29,10 +31,14 @@ class CoulombNewton {
 
   explicit CoulombNewton(const BlockSystem<S>& system) : system_(system) {}
 
-  /// Improves r while the steps reduce F, at most `iterations` times.
-  /// @returns the smallest residual met, that of r
+  /// Linear systems solved so far.
+  int steps() const { return steps_; }
+
+  /// Steps while they reduce F, at most `iterations` of them, and leaves the best result in r.
+  /// @returns its residual
   double improve(Eigen::VectorXd& r, double tolerance, int iterations) {
     double best = system_.residual(r);
+    recent_.clear();
     Eigen::VectorXd x = r;
     for (int k = 0; k < iterations && best > tolerance; ++k) {
       if (!step(x)) break;
@@ -91,18 +97,24 @@ class CoulombNewton {
     return std::sqrt(sum);
   }
 
-  /// One step with a line search on |F|.
+  /// One step with a line search: |F| below the largest of the last few (L. Grippo,
+  /// F. Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986) 707).
   /// @returns false where the derivative is singular or no step reduces |F|
   bool step(Eigen::VectorXd& r) {
     constexpr int halvings = 12;
     constexpr double decrease = 1e-4;
+    constexpr std::size_t memory = 10;
     Eigen::VectorXd direction;
     double before = 0;
+    ++steps_;
     if (!newton_direction(r, direction, before)) return false;
+    recent_.push_back(before);
+    if (recent_.size() > memory) recent_.erase(recent_.begin());
+    const double bound = *std::max_element(recent_.begin(), recent_.end());
     double length = 1;
     for (int k = 0; k < halvings; ++k, length /= 2) {
       const Eigen::VectorXd next = r + length * direction;
-      if (!(norm(next) < (1 - decrease * length) * before)) continue;
+      if (!(norm(next) < (1 - decrease * length) * bound)) continue;
       r = next;
       return true;
     }
@@ -165,6 +177,8 @@ class CoulombNewton {
   }
 
   const BlockSystem<S>& system_;
+  int steps_ = 0;
+  std::vector<double> recent_;  ///< |F| of the last iterates
   std::vector<Piece> pieces_;
   std::vector<Eigen::Index> number_;
   std::vector<Eigen::Triplet<double>> entries_;

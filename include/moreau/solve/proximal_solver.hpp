@@ -3,8 +3,9 @@
 //
 // Gauss-Seidel with momentum comes first and mostly suffices. Where it stalls, the proximal point
 // method takes over: W + epsilon I about the last result is well conditioned and has a solution
-// near by, which Gauss-Seidel and Newton's method in turn find to rounding; epsilon falls while
-// they do and rises where they fail.
+// near by, which Gauss-Seidel and Newton's method in turn find to rounding. Epsilon falls while
+// they do and rises where they fail (Siconos has solvers of this kind: V. Acary, M. Bremond and
+// O. Huber, in Advanced Topics in Nonsmooth Dynamics, Springer 2018, 375).
 #pragma once
 
 #include <Eigen/Core>
@@ -25,14 +26,15 @@ namespace moreau {
 struct ProximalOptions {
   double tolerance = 1e-10;  ///< on natural_map_residual()
   int max_sweeps = 1000000;  ///< of Gauss-Seidel, over all contacts
-  /// Time after which the best result so far is returned [s]. A result that comes before does not
-  /// depend on it.
+  /// Time after which the best result so far is returned [s], within one step of Newton's method. A
+  /// result that comes before does not depend on it.
   double max_seconds = std::numeric_limits<double>::infinity();
 };
 
 /// How well a problem was solved; not converging is no error.
 struct ProblemReport {
   int sweeps = 0;          ///< of Gauss-Seidel
+  int newton_steps = 0;    ///< each with a factorization
   int proximal_steps = 0;  ///< 0: Gauss-Seidel sufficed
   double residual = 0;     ///< natural_map_residual() of the result
   bool converged = false;
@@ -56,42 +58,24 @@ class ProximalSolver {
   /// @throws std::invalid_argument for a problem that is not valid or a start of another size
   template <class S>
   ProblemReport solve(const FrictionProblem<S>& problem, Eigen::VectorXd& impulses) const {
-    require_valid(problem, "ProximalSolver::solve");
+    constexpr const char* self = "ProximalSolver::solve";
+    require_valid(problem, self);
     const Eigen::Index rows = problem.free_velocity.size();
     if (impulses.size() == 0) impulses.setZero(rows);
-    require(impulses.size() == rows && impulses.allFinite(), "ProximalSolver::solve",
-            "impulses.size()", impulses.size(), "must be D times the contacts, all finite");
+    require(impulses.size() == rows, self, "impulses.size()", impulses.size(),
+            "must be D times the contacts");
+    require(impulses.allFinite(), self, "impulses", impulses.norm(), "must be finite");
     const double scale = delassus_scale(problem);
-    detail::BlockSystem<S> system(problem);
-    Run run{options_, {}, Clock::now()};
-    Eigen::VectorXd r = scale * impulses;
-    Best best{r, system.residual(r)};
-    for (double before = best.residual; !run.over(best.residual);) {
-      best.offer(r, sweeps(system, r, options_.tolerance, start_sweeps, run));
-      if (!(best.residual < progress * before)) break;
-      before = best.residual;
-    }
-    proximal_steps(system, best, run);
-    impulses = best.r / scale;
+    Run<S> run(problem, options_, scale * impulses);
+    run.start();
+    run.proximal_point();
+    impulses = run.best.r / scale;
     run.report.residual = natural_map_residual(problem, impulses);
     run.report.converged = run.report.residual <= options_.tolerance;
     return run.report;
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr int start_sweeps = 200, check_interval = 10;
-  static constexpr double progress = 0.3;
-
-  struct Run {
-    const Options& options;
-    ProblemReport report;
-    Clock::time_point start;
-    bool over(double residual) const {
-      return residual <= options.tolerance || report.sweeps >= options.max_sweeps ||
-             std::chrono::duration<double>(Clock::now() - start).count() > options.max_seconds;
-    }
-  };
   struct Best {
     Eigen::VectorXd r;
     double residual;
@@ -102,70 +86,94 @@ class ProximalSolver {
     }
   };
 
-  /// Gauss-Seidel with momentum; leaves the best result of its checks in r.
   template <class S>
-  static double sweeps(const detail::BlockSystem<S>& system, Eigen::VectorXd& r, double tolerance,
-                       int count, Run& run) {
-    detail::Momentum momentum;
-    Best best{r, system.residual(r)};
-    Eigen::VectorXd ahead = r, last = r;
-    for (int k = 1; k <= count && best.residual > tolerance; ++k) {
-      system.sweep(ahead);
-      ++run.report.sweeps;
-      const Eigen::VectorXd change = ahead - last;
-      last = ahead;
-      if (k % check_interval == 0 || k == count) {
-        best.offer(last, system.residual(last));
-        if (run.over(best.residual)) break;
-      }
-      ahead += momentum.next(change.squaredNorm()) * change;
-    }
-    r = best.r;
-    return best.residual;
-  }
+  struct Run {
+    Run(const FrictionProblem<S>& problem, const Options& asked, const Eigen::VectorXd& r)
+        : options(asked), system(problem), newton(system), best{r, system.residual(r)} {}
 
-  /// Gauss-Seidel and Newton in turn on the shifted problem.
-  template <class S>
-  static double inner_solve(const detail::BlockSystem<S>& system, Eigen::VectorXd& r,
-                            double tolerance, Run& run) {
-    detail::CoulombNewton<S> newton(system);
-    double residual = system.residual(r);
-    int count = 30;
-    for (int round = 0; round < 8 && !(residual <= tolerance); ++round, count += count / 2) {
-      residual = sweeps(system, r, tolerance, count, run);
-      if (residual <= tolerance || run.over(1)) break;
-      residual = newton.improve(r, tolerance, 20);
-    }
-    return residual;
-  }
-
-  template <class S>
-  void proximal_steps(detail::BlockSystem<S>& system, Best& best, Run& run) const {
-    constexpr double first = 0.1, least = 1e-9, most = 10;
-    double epsilon = first, outer = best.residual;
-    Eigen::VectorXd r = best.r;
-    while (!run.over(best.residual)) {
-      system.shift(epsilon, r);
-      Eigen::VectorXd next = r;
-      const double inner = inner_solve(
-          system, next, std::max(1e-14, std::min(1e-2 * outer, 0.1 * options_.tolerance)), run);
-      system.shift(0, r);
-      const double reached = system.residual(next);
-      ++run.report.proximal_steps;
-      best.offer(next, reached);
-#ifdef MOREAU_TRACE
-      printf("  prox %d eps %.1e inner %.1e outer %.2e step %.1e sweeps %d %.2fs\n",
-             run.report.proximal_steps, epsilon, inner, reached, (next - r).norm(),
-             run.report.sweeps, std::chrono::duration<double>(Clock::now() - run.start).count());
-#endif
-      const bool solved = inner < 0.1 * reached || reached <= options_.tolerance;
-      if (solved || inner < outer) {
-        r = next;
-        outer = reached;
+    /// Gauss-Seidel as long as it makes good progress.
+    void start() {
+      constexpr int block = 200;
+      constexpr double progress = 0.3;
+      double before = std::numeric_limits<double>::infinity();
+      Eigen::VectorXd r = best.r;
+      while (!over() && best.residual < progress * before) {
+        before = best.residual;
+        sweep(r, best, options.tolerance, block);
       }
-      epsilon = std::clamp(solved ? 0.3 * epsilon : 4 * epsilon, least, most);
     }
-  }
+
+    void proximal_point() {
+      constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4;
+      double epsilon = first, outer = best.residual;
+      Eigen::VectorXd centre = best.r;
+      while (!over()) {
+        system.shift(epsilon, centre);
+        const Best shifted = solve_shifted(centre, outer);
+        system.shift(0, centre);
+        const double reached = system.residual(shifted.r);
+        ++report.proximal_steps;
+        best.offer(shifted.r, reached);
+        const bool solved = shifted.residual < 0.1 * reached;
+        if (solved || shifted.residual < outer) {
+          centre = shifted.r;
+          outer = reached;
+        }
+        epsilon = std::clamp(epsilon * (solved ? down : up), least, most);
+      }
+    }
+
+    /// Gauss-Seidel and Newton's method in turn, until both make little progress.
+    Best solve_shifted(const Eigen::VectorXd& centre, double outer) {
+      constexpr int rounds = 8, patience = 2, newton_iterations = 40;
+      constexpr double rounding = 1e-14, progress = 0.5;
+      const double tolerance = std::max(rounding, std::min(1e-2 * outer, 0.1 * options.tolerance));
+      Best found{centre, system.residual(centre)};
+      Eigen::VectorXd r = centre;
+      double before = found.residual;
+      int count = 30;
+      for (int round = 0; round < rounds && found.residual > tolerance; ++round) {
+        sweep(r, found, tolerance, count);
+        if (found.residual <= tolerance || over()) break;
+        if (round >= patience && found.residual > progress * before) break;
+        if (round % patience == 0) before = found.residual;
+        Eigen::VectorXd polished = r;
+        found.offer(polished, newton.improve(polished, tolerance, newton_iterations));
+        report.newton_steps = newton.steps();
+        count += count / 2;
+      }
+      return found;
+    }
+
+    /// Gauss-Seidel with momentum. r goes on even where the residual rises; what was best is
+    /// offered to `found`.
+    void sweep(Eigen::VectorXd& r, Best& found, double tolerance, int count) {
+      constexpr int check_interval = 10;
+      detail::Momentum momentum;
+      Eigen::VectorXd ahead = r;
+      for (int k = 1; k <= count && found.residual > tolerance && !over(); ++k) {
+        system.sweep(ahead);
+        ++report.sweeps;
+        const Eigen::VectorXd change = ahead - r;
+        r = ahead;
+        if (k % check_interval == 0 || k == count) found.offer(r, system.residual(r));
+        ahead += momentum.next(change.squaredNorm()) * change;
+      }
+    }
+
+    bool over() const {
+      return best.residual <= options.tolerance || report.sweeps >= options.max_sweeps ||
+             std::chrono::duration<double>(Clock::now() - begin).count() > options.max_seconds;
+    }
+
+    using Clock = std::chrono::steady_clock;
+    const Options& options;
+    detail::BlockSystem<S> system;
+    detail::CoulombNewton<S> newton;
+    Best best;
+    ProblemReport report;
+    Clock::time_point begin = Clock::now();
+  };
 
   Options options_;
 };
