@@ -33,8 +33,12 @@ class BlockSystem {
     Matrix value;
   };
 
-  explicit BlockSystem(const FrictionProblem<S>& problem)
-      : free_(problem.free_velocity), friction_(problem.friction), shifted_free_(free_) {
+  /// @param guard factor on the residual of the velocities alone
+  BlockSystem(const FrictionProblem<S>& problem, double guard)
+      : guard_(guard),
+        free_(problem.free_velocity),
+        friction_(problem.friction),
+        shifted_free_(free_) {
     const double scale = delassus_scale(problem);
     std::vector<std::size_t> block_of(static_cast<std::size_t>(size()), none);
     first_.push_back(0);
@@ -90,9 +94,9 @@ class BlockSystem {
     for (Eigen::Index c = 0; c < size(); ++c) u.template segment<dim>(dim * c) += product(c, r);
     return u;
   }
+  /// See MapError::guarded.
   double residual(const Eigen::VectorXd& r) const {
-    const double e = natural_map_residual<S>(velocity(r), r, shifted_free_, friction_);
-    return e >= 0 ? e : std::numeric_limits<double>::infinity();  // where it is not a number
+    return map_error<S>(velocity(r), r, shifted_free_, friction_).guarded(guard_);
   }
 
   /// One pass of non-linear Gauss-Seidel.
@@ -120,6 +124,7 @@ class BlockSystem {
     blocks_[b].value(row, inner) += value;
   }
 
+  double guard_;
   Eigen::VectorXd free_, friction_, shifted_free_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> first_;

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -75,11 +76,24 @@ double delassus_scale(const FrictionProblem<S>& problem) {
 
 namespace detail {
 
-/// || r - P_K(r - (u + mu |u_t| n)) || over max(|b|, |r|, |u|), in whatever units; 0 where all of
-/// them are.
+/// The natural map || r - P_K(r - (u + mu |u_t| n)) || and what it is compared with, in whatever
+/// units.
+struct MapError {
+  double map, velocity, impulse;  ///< the map, max(|b|, |u|), |r|
+
+  double residual() const { return relative(std::max(velocity, impulse)); }
+  /// The residual, or that of the velocities alone times a factor. Without it impulses that grow
+  /// without bound, where there is no solution, would look like one.
+  double guarded(double factor) const { return std::max(residual(), factor * relative(velocity)); }
+  double relative(double norm) const {
+    const double e = norm > 0 ? map / norm : map;
+    return e >= 0 ? e : std::numeric_limits<double>::infinity();  // where it is not a number
+  }
+};
+
 template <class S>
-double natural_map_residual(const Eigen::VectorXd& u, const Eigen::VectorXd& r,
-                            const Eigen::VectorXd& b, const Eigen::VectorXd& friction) {
+MapError map_error(const Eigen::VectorXd& u, const Eigen::VectorXd& r, const Eigen::VectorXd& b,
+                   const Eigen::VectorXd& friction) {
   double map = 0;
   for (Eigen::Index c = 0; c < friction.size(); ++c) {
     const SignoriniCoulomb<double> law(friction[c]);
@@ -87,22 +101,22 @@ double natural_map_residual(const Eigen::VectorXd& u, const Eigen::VectorXd& r,
     const typename S::Vector r_c = r.template segment<S::dim>(S::dim * c);
     map += law.natural_map(u_c, r_c).squaredNorm();
   }
-  const double norm = std::max({b.norm(), r.norm(), u.norm()});
-  return norm > 0 ? std::sqrt(map) / norm : 0;
+  return {std::sqrt(map), std::max(b.norm(), u.norm()), r.norm()};
 }
 
 }  // namespace detail
 
 /// The residual by which a solution is judged: that of the natural map, with u = W r + b computed
-/// anew, after scaling W and r so that the mean of diag W is 1.
+/// anew, after scaling W and r so that the mean of diag W is 1, relative to max(|b|, |r|, |u|).
 /// @param impulses D n, in the units of the problem [N s]
 template <class S>
 double natural_map_residual(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
   require(impulses.size() == problem.free_velocity.size(), "natural_map_residual",
           "impulses.size()", impulses.size(), "must be D times the contacts");
   const Eigen::VectorXd u = problem.delassus * impulses + problem.free_velocity;
-  return detail::natural_map_residual<S>(u, delassus_scale(problem) * impulses,
-                                         problem.free_velocity, problem.friction);
+  return detail::map_error<S>(u, delassus_scale(problem) * impulses, problem.free_velocity,
+                              problem.friction)
+      .residual();
 }
 
 }  // namespace moreau

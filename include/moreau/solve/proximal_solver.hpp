@@ -37,6 +37,8 @@ struct ProblemReport {
   int newton_steps = 0;    ///< each with a factorization
   int proximal_steps = 0;  ///< 0: Gauss-Seidel sufficed
   double residual = 0;     ///< natural_map_residual() of the result
+  /// The residual is within the tolerance, and relative to the velocities alone within its root: a
+  /// problem without solution, where impulses grow without bound, does not pass.
   bool converged = false;
 };
 
@@ -71,7 +73,7 @@ class ProximalSolver {
     run.proximal_point();
     impulses = run.best.r / scale;
     run.report.residual = natural_map_residual(problem, impulses);
-    run.report.converged = run.report.residual <= options_.tolerance;
+    run.report.converged = std::max(run.report.residual, run.best.residual) <= options_.tolerance;
     return run.report;
   }
 
@@ -89,7 +91,10 @@ class ProximalSolver {
   template <class S>
   struct Run {
     Run(const FrictionProblem<S>& problem, const Options& asked, const Eigen::VectorXd& r)
-        : options(asked), system(problem), newton(system), best{r, system.residual(r)} {}
+        : options(asked),
+          system(problem, std::sqrt(asked.tolerance)),
+          newton(system),
+          best{r, system.residual(r)} {}
 
     /// Gauss-Seidel as long as it makes good progress.
     void start() {
@@ -103,17 +108,23 @@ class ProximalSolver {
       }
     }
 
+    /// Until the residual has not fallen for many steps: it is at rounding, or nothing helps.
     void proximal_point() {
-      constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4;
-      double epsilon = first, outer = best.residual;
+      constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4, progress = 0.9;
+      constexpr int most_idle = 200;
+      double epsilon = first, outer = best.residual, mark = best.residual;
       Eigen::VectorXd centre = best.r;
-      while (!over()) {
+      for (int idle = 0; idle < most_idle && !over(); ++idle) {
         system.shift(epsilon, centre);
         const Best shifted = solve_shifted(centre, outer);
         system.shift(0, centre);
         const double reached = system.residual(shifted.r);
         ++report.proximal_steps;
         best.offer(shifted.r, reached);
+        if (best.residual < progress * mark) {
+          mark = best.residual;
+          idle = 0;
+        }
         const bool solved = shifted.residual < 0.1 * reached;
         if (solved || shifted.residual < outer) {
           centre = shifted.r;
