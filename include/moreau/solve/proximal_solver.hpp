@@ -111,7 +111,7 @@ class ProximalSolver {
     /// Until the residual has not fallen for many steps: it is at rounding, or nothing helps.
     void proximal_point() {
       constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4, progress = 0.9;
-      constexpr int most_idle = 200;
+      constexpr int most_idle = 1000;
       double epsilon = first, outer = best.residual, mark = best.residual;
       Eigen::VectorXd centre = best.r;
       for (int idle = 0; idle < most_idle && !over(); ++idle) {
