@@ -29,3 +29,13 @@ if(MOREAU_SANITIZE)
   target_link_options(moreau_development INTERFACE ${sanitize})
   target_compile_definitions(moreau_development INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
+
+# Optional: the C library of HDF5, for moreau/io/fclib.hpp.
+find_path(MOREAU_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
+find_library(MOREAU_HDF5_LIBRARY NAMES hdf5 hdf5_serial PATH_SUFFIXES hdf5/serial)
+mark_as_advanced(MOREAU_HDF5_INCLUDE MOREAU_HDF5_LIBRARY)
+if(MOREAU_HDF5_INCLUDE AND MOREAU_HDF5_LIBRARY)
+  add_library(moreau_hdf5 INTERFACE)
+  target_include_directories(moreau_hdf5 SYSTEM INTERFACE ${MOREAU_HDF5_INCLUDE})
+  target_link_libraries(moreau_hdf5 INTERFACE ${MOREAU_HDF5_LIBRARY})
+endif()

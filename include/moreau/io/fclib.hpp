@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// Friction problems in the HDF5 form of FCLIB, the Frictional Contact Library (V. Acary et al.,
+// "FCLIB: a collection of discrete 3D Frictional Contact problems", INRIA RT-444, 2014):
+//
+//     /fclib_local/spacedim, W/{nzmax, m, n, nz, p, i, x}, vectors/{q, mu},
+//     /solution/{u, r}.
+//
+// OPTIONAL: needs the C library of HDF5 (its headers, and linking hdf5). No other header includes
+// this one.
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <filesystem>
+#include <hdf5.h>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/io/friction_file.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// An open object of the HDF5 library, closed with this one.
+class Hdf5Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  /// @throws std::runtime_error with the text if the id says that the call failed
+  Hdf5Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("HDF5: cannot " + what);
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  ~Hdf5Handle() { close_(id_); }
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): as in C
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// Keeps HDF5 from printing its own account of an error; the library's is an exception.
+class QuietHdf5 {
+ public:
+  QuietHdf5() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+inline hid_t hdf5_type(double) {
+  return H5T_NATIVE_DOUBLE;
+}
+inline hid_t hdf5_type(int) {
+  return H5T_NATIVE_INT;
+}
+
+template <class Number>
+std::vector<Number> read_hdf5(hid_t group, const std::string& name) {
+  const Hdf5Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), &H5Dclose, "open " + name);
+  const Hdf5Handle space(H5Dget_space(set), &H5Sclose, "read the size of " + name);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count < 0) throw std::runtime_error("HDF5: cannot read the size of " + name);
+  std::vector<Number> numbers(static_cast<std::size_t>(count));
+  if (count > 0 &&
+      H5Dread(set, hdf5_type(Number()), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0)
+    throw std::runtime_error("HDF5: cannot read " + name);
+  return numbers;
+}
+inline int read_hdf5_integer(hid_t group, const std::string& name) {
+  const std::vector<int> numbers = read_hdf5<int>(group, name);
+  require(numbers.size() == 1, "read_fclib", "size of " + name, numbers.size(), "must be 1");
+  return numbers[0];
+}
+
+template <class Number>
+void write_hdf5(hid_t group, const std::string& name, std::span<const Number> numbers) {
+  const hsize_t count = numbers.size();
+  const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), &H5Sclose, "write " + name);
+  const Hdf5Handle set(H5Dcreate2(group, name.c_str(), hdf5_type(Number()), space, H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                       &H5Dclose, "create " + name);
+  if (count > 0 &&
+      H5Dwrite(set, hdf5_type(Number()), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0)
+    throw std::runtime_error("HDF5: cannot write " + name);
+}
+inline void write_hdf5(hid_t group, const std::string& name, int number) {
+  write_hdf5(group, name, std::span<const int>(&number, 1));
+}
+inline void write_hdf5(hid_t group, const std::string& name, const Eigen::VectorXd& numbers) {
+  write_hdf5(group, name, std::span<const double>(numbers.data(), std::size_t(numbers.size())));
+}
+
+inline Hdf5Handle open_hdf5_group(hid_t parent, const std::string& name) {
+  return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), &H5Gclose, "open the group " + name};
+}
+inline Hdf5Handle create_hdf5_group(hid_t parent, const std::string& name) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), &H5Gclose,
+          "create the group " + name};
+}
+
+/// W in the storage of CSparse: nz = -2 compressed rows, -1 compressed columns, >= 0 that many
+/// triplets (p rows, i columns).
+inline void read_fclib_matrix(hid_t group, RawFrictionProblem& raw) {
+  constexpr const char* self = "read_fclib";
+  constexpr int compressed_rows = -2, compressed_columns = -1;
+  raw.rows = read_hdf5_integer(group, "m");
+  raw.columns = read_hdf5_integer(group, "n");
+  const int form = read_hdf5_integer(group, "nz");
+  const std::vector<int> p = read_hdf5<int>(group, "p"), index = read_hdf5<int>(group, "i");
+  const std::vector<double> x = read_hdf5<double>(group, "x");
+  require(raw.rows >= 0 && raw.columns >= 0, self, "W/m", raw.rows, "must be >= 0, as W/n");
+  if (form >= 0) {
+    const auto count = std::size_t(form);
+    require(count <= p.size() && count <= index.size() && count <= x.size(), self, "W/nz", form,
+            "must not exceed the entries of W/p, W/i and W/x");
+    for (std::size_t k = 0; k < count; ++k) raw.delassus.emplace_back(p[k], index[k], x[k]);
+    return;
+  }
+  require(form == compressed_rows || form == compressed_columns, self, "W/nz", form,
+          "must be -2, -1 or >= 0");
+  const bool by_rows = form == compressed_rows;
+  const auto outer = std::size_t(by_rows ? raw.rows : raw.columns);
+  require(p.size() > outer, self, "size of W/p", p.size(), "must exceed the rows or columns");
+  for (std::size_t o = 0; o < outer; ++o) {
+    require(p[o] >= 0 && p[o + 1] >= p[o], self, "W/p[" + std::to_string(o + 1) + "]", p[o + 1],
+            "must not fall");
+    const auto end = std::size_t(p[o + 1]);
+    require(end <= index.size() && end <= x.size(), self, "W/p[" + std::to_string(o + 1) + "]",
+            p[o + 1], "must not exceed the entries of W/i and W/x");
+    for (auto k = std::size_t(p[o]); k < end; ++k)
+      by_rows ? raw.delassus.emplace_back(int(o), index[k], x[k])
+              : raw.delassus.emplace_back(index[k], int(o), x[k]);
+  }
+}
+
+template <class S>
+void write_fclib_matrix(hid_t group, const FrictionProblem<S>& problem) {
+  auto w = problem.delassus;
+  w.makeCompressed();
+  const auto entries = std::size_t(w.nonZeros());
+  write_hdf5(group, "nzmax", int(entries));
+  write_hdf5(group, "m", int(w.rows()));
+  write_hdf5(group, "n", int(w.cols()));
+  write_hdf5(group, "nz", -2);
+  write_hdf5(group, "p", std::span<const int>(w.outerIndexPtr(), std::size_t(w.rows()) + 1));
+  write_hdf5(group, "i", std::span<const int>(w.innerIndexPtr(), entries));
+  write_hdf5(group, "x", std::span<const double>(w.valuePtr(), entries));
+}
+
+}  // namespace detail
+
+/// Whether a file is HDF5 at all.
+inline bool is_hdf5(const std::filesystem::path& path) {
+  const detail::QuietHdf5 quiet;
+  return H5Fis_hdf5(path.c_str()) > 0;
+}
+
+/// Reads the local problem of an FCLIB file.
+/// @throws std::runtime_error if the file cannot be opened or lacks a part
+/// @throws std::invalid_argument naming what is wrong if it is no valid problem, or if it has
+///         bilateral constraints beside the contacts (V, R, s), which this library does not solve
+inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
+  constexpr const char* self = "read_fclib";
+  const detail::QuietHdf5 quiet;
+  const detail::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose,
+                                "open " + path.string());
+  require(H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0, self, "path", path.string(),
+          "must hold a local problem (group fclib_local); global ones are not read");
+  const auto local = detail::open_hdf5_group(file, "fclib_local");
+  for (const char* bilateral : {"V", "R"})
+    require(H5Lexists(local, bilateral, H5P_DEFAULT) <= 0, self, "group", bilateral,
+            "must not be there: bilateral constraints are not solved");
+  detail::RawFrictionProblem raw;
+  raw.rows_per_contact = detail::read_hdf5_integer(local, "spacedim");
+  detail::read_fclib_matrix(detail::open_hdf5_group(local, "W"), raw);
+  const auto vectors = detail::open_hdf5_group(local, "vectors");
+  raw.free_velocity = detail::read_hdf5<double>(vectors, "q");
+  raw.friction = detail::read_hdf5<double>(vectors, "mu");
+  return detail::checked_problem(raw, self);
+}
+
+/// Writes a problem as an FCLIB file, W by compressed rows; an existing file is replaced.
+/// @param impulses r in the units of the problem, D n, or empty: with it goes a solution group with
+///                 r and u = W r + b
+/// @throws std::runtime_error if the file cannot be written
+/// @throws std::invalid_argument for a problem that is not valid or impulses of another size
+template <class S>
+void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& problem,
+                 const Eigen::VectorXd& impulses = {}) {
+  require_valid(problem, "write_fclib");
+  require(impulses.size() == 0 || impulses.size() == problem.free_velocity.size(), "write_fclib",
+          "impulses.size()", impulses.size(), "must be 0 or D times the contacts");
+  const detail::QuietHdf5 quiet;
+  const detail::Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                                &H5Fclose, "create " + path.string());
+  const auto local = detail::create_hdf5_group(file, "fclib_local");
+  detail::write_hdf5(local, "spacedim", int(S::dim));
+  detail::write_fclib_matrix(detail::create_hdf5_group(local, "W"), problem);
+  const auto vectors = detail::create_hdf5_group(local, "vectors");
+  detail::write_hdf5(vectors, "q", problem.free_velocity);
+  detail::write_hdf5(vectors, "mu", problem.friction);
+  if (impulses.size() > 0) {
+    const auto solution = detail::create_hdf5_group(file, "solution");
+    const Eigen::VectorXd u = problem.delassus * impulses + problem.free_velocity;
+    detail::write_hdf5(solution, "u", u);
+    detail::write_hdf5(solution, "r", impulses);
+  }
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0)
+    throw std::runtime_error("HDF5: cannot write " + path.string());
+}
+
+}  // namespace moreau

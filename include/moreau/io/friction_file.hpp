@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What the readers of friction problems share: the space of a problem is known only once its file
+// has been read.
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/solve/friction_problem.hpp"
+
+namespace moreau {
+
+/// A problem in the plane or in space.
+using AnyFrictionProblem = std::variant<FrictionProblem<Space<2>>, FrictionProblem<Space<3>>>;
+
+namespace detail {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// The numbers of a file before its space is known.
+struct RawFrictionProblem {
+  int rows_per_contact = 0;
+  int rows = 0, columns = 0;  ///< of W
+  Triplets delassus;
+  std::vector<double> free_velocity, friction;
+};
+
+template <class S>
+FrictionProblem<S> checked_problem(const RawFrictionProblem& raw, std::string_view function) {
+  for (const auto& entry : raw.delassus) {
+    require(entry.row() >= 0 && entry.row() < raw.rows, function, "row of an entry of W",
+            entry.row(), "must lie in W");
+    require(entry.col() >= 0 && entry.col() < raw.columns, function, "column of an entry of W",
+            entry.col(), "must lie in W");
+  }
+  FrictionProblem<S> problem;
+  problem.delassus.resize(raw.rows, raw.columns);
+  problem.delassus.setFromTriplets(raw.delassus.begin(), raw.delassus.end());
+  using Map = Eigen::Map<const Eigen::VectorXd>;
+  problem.free_velocity = Map(raw.free_velocity.data(), Eigen::Index(raw.free_velocity.size()));
+  problem.friction = Map(raw.friction.data(), Eigen::Index(raw.friction.size()));
+  require_valid(problem, function);
+  return problem;
+}
+
+inline AnyFrictionProblem checked_problem(const RawFrictionProblem& raw,
+                                          std::string_view function) {
+  switch (raw.rows_per_contact) {
+    case Space<2>::dim:
+      return checked_problem<Space<2>>(raw, function);
+    case Space<3>::dim:
+      return checked_problem<Space<3>>(raw, function);
+    default:
+      throw_invalid(function, "dimension", raw.rows_per_contact, "must be 2 or 3");
+  }
+}
+
+}  // namespace detail
+
+}  // namespace moreau

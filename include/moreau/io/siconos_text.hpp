@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// Friction problems in the text form that Siconos/Numerics dumps (github.com/siconos/siconos):
+// dimension, contacts, W in one of three storages, q, mu; normal first in every contact.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/io/friction_file.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// Words of a text between white space.
+class TextScanner {
+ public:
+  TextScanner(std::string_view text, std::string_view function)
+      : text_(text), function_(function) {}
+
+  /// The next word; empty at the end.
+  std::string_view word() {
+    const std::size_t start = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+    at_ = std::min(text_.find_first_of(" \t\r\n", start), text_.size());
+    return text_.substr(start, at_ - start);
+  }
+  double number(std::string_view name) {
+    const std::string_view next = word();
+    double value = 0;
+    if (!parse(next, value) || !std::isfinite(value))
+      throw_invalid(function_, name, next, "must be a finite number");
+    return value;
+  }
+  int integer(std::string_view name, int least = 0) {
+    std::string_view next = word();
+    if (next.ends_with(',')) next.remove_suffix(1);
+    double value = 0;  // large indices may be printed as 1e+06
+    if (!parse(next, value) || value != std::floor(value) ||
+        !(value >= least && value < 2147483647.))
+      throw_invalid(function_, name, next,
+                    least > 0 ? "must be a positive integer" : "must be an integer >= 0");
+    return static_cast<int>(value);
+  }
+  void expect(std::string_view expected) {
+    const std::string_view next = word();
+    if (next != expected)
+      throw_invalid(function_, "word", next, "must be '" + std::string(expected) + "'");
+  }
+  /// Numbers still to come at most, so that a wrong size does not ask for all memory.
+  void require_room(std::size_t count, std::string_view name) const {
+    require(2 * count <= text_.size() - at_ + 1, function_, name, count,
+            "must not exceed what the file holds");
+  }
+  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
+  std::string_view function() const { return function_; }
+
+ private:
+  static bool parse(std::string_view word, double& value) {
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
+  }
+
+  std::string_view text_, function_;
+  std::size_t at_ = 0;
+};
+
+inline std::vector<double> scan_numbers(TextScanner& scan, std::size_t count,
+                                        std::string_view name) {
+  scan.require_room(count, name);
+  std::vector<double> numbers(count);
+  for (double& x : numbers) x = scan.number(name);
+  return numbers;
+}
+inline std::vector<int> scan_integers(TextScanner& scan, int count, std::string_view name) {
+  scan.require_room(std::size_t(count), name);
+  std::vector<int> numbers(static_cast<std::size_t>(count));
+  for (int& x : numbers) x = scan.integer(name);
+  return numbers;
+}
+
+/// Storage 0: sizes again, then all values, column by column.
+inline void scan_dense(TextScanner& scan, RawFrictionProblem& raw) {
+  const int rows = scan.integer("rows"), columns = scan.integer("columns");
+  require(rows == raw.rows && columns == raw.columns, scan.function(), "size of dense W", rows,
+          "must be the size of W");
+  scan.require_room(std::size_t(rows) * std::size_t(columns), "W");
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < rows; ++row) {
+      const double value = scan.number("W");
+      if (value != 0) raw.delassus.emplace_back(row, column, value);
+    }
+}
+
+/// Start of each block of rows or columns from the cumulative sizes in the file.
+inline std::vector<int> scan_block_starts(TextScanner& scan, int blocks, int total) {
+  std::vector<int> starts = scan_integers(scan, blocks, "block size");
+  starts.insert(starts.begin(), 0);
+  for (std::size_t k = 1; k < starts.size(); ++k)
+    require(starts[k] > starts[k - 1], scan.function(), "cumulative block size", starts[k],
+            "must grow");
+  require(starts.back() == total, scan.function(), "cumulative block size", starts.back(),
+          "must end at the size of W");
+  return starts;
+}
+
+/// Storage 1: blocks by compressed rows, each with its number and its values column by column.
+inline void scan_blocks(TextScanner& scan, RawFrictionProblem& raw) {
+  const int blocks = scan.integer("number of blocks");
+  const int block_rows = scan.integer("block rows"), block_columns = scan.integer("block columns");
+  const std::vector<int> row_start = scan_block_starts(scan, block_rows, raw.rows);
+  const std::vector<int> column_start = scan_block_starts(scan, block_columns, raw.columns);
+  const int filled1 = scan.integer("filled1"), filled2 = scan.integer("filled2");
+  const std::vector<int> first = scan_integers(scan, filled1, "index1");
+  const std::vector<int> column_of = scan_integers(scan, filled2, "index2");
+  require(filled2 == blocks, scan.function(), "filled2", filled2, "must be the number of blocks");
+  for (int row = 0; row + 1 < filled1; ++row) {
+    const auto here = std::size_t(row);
+    require(first[here + 1] >= first[here] && first[here + 1] <= blocks, scan.function(), "index1",
+            first[here + 1], "must grow to the number of blocks");
+    if (first[here + 1] > first[here])
+      require(row < block_rows, scan.function(), "index1", row, "must have a row for each block");
+    for (int block = first[here]; block < first[here + 1]; ++block) {
+      const int column = column_of[std::size_t(block)];
+      require(column < block_columns, scan.function(), "index2", column, "must be a block column");
+      const int number = scan.integer("block number");
+      require(number == block, scan.function(), "block number", number, "must count up from 0");
+      for (int j = column_start[std::size_t(column)]; j < column_start[std::size_t(column) + 1];
+           ++j)
+        for (int i = row_start[here]; i < row_start[here + 1]; ++i)
+          raw.delassus.emplace_back(i, j, scan.number("W"));
+    }
+  }
+}
+
+/// Storage 2: what CSparse prints: triplets, or lists by columns (by rows where the origin says
+/// so).
+inline void scan_sparse(TextScanner& scan, RawFrictionProblem& raw) {
+  constexpr int compressed_rows = 3, half_of_symmetric = 4;
+  const int origin = scan.integer("origin of sparse W");
+  std::string_view word, before;
+  while ((word = scan.word()).find("-by-") == std::string_view::npos) {
+    require(!word.empty(), scan.function(), "sparse W", word, "must have a line with its size");
+    before = word;
+  }
+  scan.expect("nzmax:");
+  scan.word();
+  scan.expect("nnz:");
+  const int entries = scan.integer("nnz");
+  scan.require_room(std::size_t(entries), "nnz");
+  scan.skip_line();
+  const auto add = [&](int row, int column, double value) {
+    raw.delassus.emplace_back(row, column, value);
+    if (origin == half_of_symmetric && row != column) raw.delassus.emplace_back(column, row, value);
+  };
+  if (before == "triplet:") {
+    for (int k = 0; k < entries; ++k) {
+      const int row = scan.integer("row"), column = scan.integer("column");
+      scan.expect(":");
+      add(row, column, scan.number("W"));
+    }
+    return;
+  }
+  const bool by_rows = origin == compressed_rows;
+  for (int outer = 0; outer < (by_rows ? raw.rows : raw.columns); ++outer) {
+    scan.expect("col");
+    scan.integer("col");
+    scan.expect(":");
+    scan.expect("locations");
+    const int first = scan.integer("location");
+    scan.expect("to");
+    const std::string_view last_word = scan.word();
+    const int last = last_word == "-1" ? -1 : std::stoi(std::string(last_word));
+    for (int k = first; k <= last; ++k) {
+      const int inner = scan.integer("index");
+      scan.expect(":");
+      const double value = scan.number("W");
+      by_rows ? add(outer, inner, value) : add(inner, outer, value);
+    }
+  }
+}
+
+}  // namespace detail
+
+/// Reads a problem from the text of a dump.
+/// @throws std::invalid_argument naming what is wrong if the text is no valid problem
+inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
+  constexpr std::string_view self = "parse_siconos_text";
+  constexpr int dense = 0, sparse_blocks = 1, sparse = 2;
+  detail::TextScanner scan(text, self);
+  detail::RawFrictionProblem raw;
+  raw.rows_per_contact = scan.integer("dimension");
+  const int contacts = scan.integer("contacts");
+  const int storage = scan.integer("storage of W");
+  raw.rows = scan.integer("rows of W");
+  raw.columns = scan.integer("columns of W");
+  switch (storage) {
+    case dense:
+      detail::scan_dense(scan, raw);
+      break;
+    case sparse_blocks:
+      detail::scan_blocks(scan, raw);
+      break;
+    case sparse:
+      detail::scan_sparse(scan, raw);
+      break;
+    default:
+      throw_invalid(self, "storage of W", storage, "must be 0, 1 or 2");
+  }
+  raw.free_velocity = detail::scan_numbers(scan, std::size_t(raw.rows), "q");
+  raw.friction = detail::scan_numbers(scan, std::size_t(contacts), "mu");
+  return detail::checked_problem(raw, self);
+}
+
+/// Reads a problem from a file.
+/// @throws std::system_error naming the path if the file cannot be read
+/// @throws std::invalid_argument naming what is wrong if it is no valid problem
+inline AnyFrictionProblem read_siconos_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.is_open() || file.bad() || text.empty())
+    throw std::system_error(std::make_error_code(std::errc::io_error), path.string());
+  return parse_siconos_text(text);
+}
+
+}  // namespace moreau

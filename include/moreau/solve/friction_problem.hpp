@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// A frictional contact problem given by its matrices alone, without bodies: what other codes write
+// to files. Of each contact, normal first,
+//
+//     u = W r + b,        Signorini's condition and Coulomb's law between u and r.
+//
+// W is what it is: positive semi-definite in theory, of low rank where contacts are many, and
+// slightly asymmetric where another code assembled it so.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+namespace moreau {
+
+/// @tparam S the space; D numbers per contact, normal first
+template <class S>
+struct FrictionProblem {
+  using Space = S;
+  using Vector = typename S::Vector;
+
+  Eigen::SparseMatrix<double, Eigen::RowMajor> delassus;  ///< W, D n x D n [1/kg]
+  Eigen::VectorXd free_velocity;  ///< b, D n: relative velocities without impulses [m/s]
+  Eigen::VectorXd friction;       ///< mu, n [-]
+
+  /// Number of contacts.
+  Eigen::Index size() const { return friction.size(); }
+};
+
+/// Checks the sizes and the numbers of a problem.
+/// @param function the public name the caller used
+/// @throws std::invalid_argument if W is not square, sizes differ, a number is not finite, a
+///         friction is negative, or no diagonal entry of W is positive or one is negative
+template <class S>
+void require_valid(const FrictionProblem<S>& problem, std::string_view function) {
+  const auto& w = problem.delassus;
+  const Eigen::Index rows = S::dim * problem.size();
+  require(w.rows() == rows, function, "W.rows()", w.rows(), "must be D times the contacts");
+  require(w.cols() == rows, function, "W.cols()", w.cols(), "must be D times the contacts");
+  require(problem.free_velocity.size() == rows, function, "q.size()", problem.free_velocity.size(),
+          "must be D times the contacts");
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const double q = problem.free_velocity[row];
+    require(std::isfinite(q), function, "q[" + std::to_string(row) + "]", q, "must be finite");
+    for (typename std::decay_t<decltype(w)>::InnerIterator entry(w, row); entry; ++entry)
+      require(std::isfinite(entry.value()) && (entry.col() != row || entry.value() >= 0), function,
+              "W(" + std::to_string(row) + ", " + std::to_string(entry.col()) + ")", entry.value(),
+              "must be finite, and >= 0 on the diagonal");
+  }
+  for (Eigen::Index c = 0; c < problem.size(); ++c) {
+    const double mu = problem.friction[c];
+    require(std::isfinite(mu) && mu >= 0, function, "mu[" + std::to_string(c) + "]", mu,
+            "must be finite and >= 0");
+  }
+}
+
+/// Mean of the diagonal of W, by which W is divided and r multiplied to make them free of units
+/// [1/kg]; 1 where it is 0.
+template <class S>
+double delassus_scale(const FrictionProblem<S>& problem) {
+  if (problem.size() == 0) return 1;
+  const double mean = problem.delassus.diagonal().mean();
+  return mean > 0 ? mean : 1;
+}
+
+namespace detail {
+
+/// The natural map || r - P_K(r - (u + mu |u_t| n)) || and what it is compared with, in whatever
+/// units.
+struct MapError {
+  double map, velocity, impulse;  ///< the map, max(|b|, |u|), |r|
+
+  double residual() const { return relative(std::max(velocity, impulse)); }
+  /// The residual, or that of the velocities alone times a factor. Without it impulses that grow
+  /// without bound, where there is no solution, would look like one.
+  double guarded(double factor) const { return std::max(residual(), factor * relative(velocity)); }
+  double relative(double norm) const {
+    const double e = norm > 0 ? map / norm : map;
+    return e >= 0 ? e : std::numeric_limits<double>::infinity();  // where it is not a number
+  }
+};
+
+template <class S>
+MapError map_error(const Eigen::VectorXd& u, const Eigen::VectorXd& r, const Eigen::VectorXd& b,
+                   const Eigen::VectorXd& friction) {
+  double map = 0;
+  for (Eigen::Index c = 0; c < friction.size(); ++c) {
+    const SignoriniCoulomb<double> law(friction[c]);
+    const typename S::Vector u_c = u.template segment<S::dim>(S::dim * c);
+    const typename S::Vector r_c = r.template segment<S::dim>(S::dim * c);
+    map += law.natural_map(u_c, r_c).squaredNorm();
+  }
+  return {std::sqrt(map), std::max(b.norm(), u.norm()), r.norm()};
+}
+
+}  // namespace detail
+
+/// The residual by which a solution is judged: that of the natural map, with u = W r + b computed
+/// anew, after scaling W and r so that the mean of diag W is 1, relative to max(|b|, |r|, |u|).
+/// @param impulses D n, in the units of the problem [N s]
+template <class S>
+double natural_map_residual(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
+  require(impulses.size() == problem.free_velocity.size(), "natural_map_residual",
+          "impulses.size()", impulses.size(), "must be D times the contacts");
+  const Eigen::VectorXd u = problem.delassus * impulses + problem.free_velocity;
+  return detail::map_error<S>(u, delassus_scale(problem) * impulses, problem.free_velocity,
+                              problem.friction)
+      .residual();
+}
+
+}  // namespace moreau

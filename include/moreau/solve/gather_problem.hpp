@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The contact problem of one step as matrices, to be written to a file or handed to another solver.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/solve/friction_problem.hpp"
+
+namespace moreau {
+
+/// A problem and where its contacts come from.
+template <class S>
+struct GatheredProblem {
+  FrictionProblem<S> problem;
+  std::vector<std::size_t> contacts;  ///< index, in the step, of each contact of the problem
+};
+
+namespace detail {
+
+/// The entries of one block of W.
+template <int rows, class Block>
+void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
+               std::vector<Eigen::Triplet<double>>& entries) {
+  const Eigen::Matrix<double, rows, rows> block = product;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < rows; ++j)
+      if (block(i, j) != 0)
+        entries.emplace_back(int(rows * row) + i, int(rows * column) + j, block(i, j));
+}
+
+}  // namespace detail
+
+/// W = J M^-1 J^T over the contacts of a step that can act in it, each in its own frame. Contacts
+/// that a law switches off (their free velocity is infinite) are left out.
+/// @param op     the operator of the step, e.g. BodyDelassus
+/// @param laws   the table of laws; law_of[c] is the entry of contact c
+/// @throws std::invalid_argument if law_of has another size than the operator
+template <class Operator, class Law>
+auto gather_problem(const Operator& op, std::span<const Law> laws,
+                    std::span<const std::uint32_t> law_of) {
+  constexpr int rows = Operator::Space::dim;
+  using S = Space<rows>;  // in double, whatever the step has
+  require(law_of.size() == op.size(), "gather_problem", "law_of.size()", law_of.size(),
+          "must be the number of contacts");
+  GatheredProblem<S> gathered;
+  for (std::size_t c = 0; c < op.size(); ++c)
+    if (op.free_velocity(c).allFinite()) gathered.contacts.push_back(c);
+  const std::vector<std::size_t>& contacts = gathered.contacts;
+  const auto count = static_cast<Eigen::Index>(contacts.size());
+  FrictionProblem<S>& problem = gathered.problem;
+  problem.free_velocity.resize(rows * count);
+  problem.friction.resize(count);
+  struct Touch {
+    Eigen::Index contact;
+    Eigen::Matrix<double, Eigen::Dynamic, rows> rows_of_j;  // M^-1/2 J^T of this body
+  };
+  std::vector<std::vector<Touch>> touches(op.body_count());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::size_t c = contacts[std::size_t(k)];
+    problem.friction[k] = double(laws[law_of[c]].friction());
+    problem.free_velocity.template segment<rows>(rows * k) =
+        op.free_velocity(c).template cast<double>();
+    touches[op.bodies(c)[0]].push_back({k, -op.rows_a(c).template cast<double>()});
+    touches[op.bodies(c)[1]].push_back({k, op.rows_b(c).template cast<double>()});
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const std::vector<Touch>& body : touches)
+    for (const Touch& one : body)
+      for (const Touch& other : body)
+        detail::add_block<rows>(one.contact, other.contact,
+                                one.rows_of_j.transpose() * other.rows_of_j, entries);
+  problem.delassus.resize(rows * count, rows * count);
+  problem.delassus.setFromTriplets(entries.begin(), entries.end());
+  return gathered;
+}
+
+}  // namespace moreau

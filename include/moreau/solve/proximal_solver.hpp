@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Solves a friction problem given by its matrices, however ill-conditioned.
+//
+// Gauss-Seidel with momentum comes first and mostly suffices. Where it stalls, the proximal point
+// method takes over: W + epsilon I about the last result is well conditioned and has a solution
+// near by, which Gauss-Seidel and Newton's method in turn find to rounding. Epsilon falls while
+// they do and rises where they fail (Siconos has solvers of this kind: V. Acary, M. Bremond and
+// O. Huber, in Advanced Topics in Nonsmooth Dynamics, Springer 2018, 375).
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "moreau/core/error.hpp"
+#include "moreau/solve/block_system.hpp"
+#include "moreau/solve/coulomb_newton.hpp"
+#include "moreau/solve/friction_problem.hpp"
+#include "moreau/solve/momentum.hpp"
+
+namespace moreau {
+
+struct ProximalOptions {
+  double tolerance = 1e-10;  ///< on natural_map_residual()
+  int max_sweeps = 1000000;  ///< of Gauss-Seidel, over all contacts
+  /// Time after which the best result so far is returned [s], within one step of Newton's method. A
+  /// result that comes before does not depend on it.
+  double max_seconds = std::numeric_limits<double>::infinity();
+};
+
+/// How well a problem was solved; not converging is no error.
+struct ProblemReport {
+  int sweeps = 0;          ///< of Gauss-Seidel
+  int newton_steps = 0;    ///< each with a factorization
+  int proximal_steps = 0;  ///< 0: Gauss-Seidel sufficed
+  double residual = 0;     ///< natural_map_residual() of the result
+  /// The residual is within the tolerance, and relative to the velocities alone within its root: a
+  /// problem without solution, where impulses grow without bound, does not pass.
+  bool converged = false;
+};
+
+class ProximalSolver {
+ public:
+  using Options = ProximalOptions;
+
+  /// @throws std::invalid_argument for a tolerance, cap or time that is not positive
+  explicit ProximalSolver(const Options& options = {}) : options_(options) {
+    constexpr const char* self = "ProximalSolver";
+    require(options.tolerance > 0 && std::isfinite(options.tolerance), self, "tolerance",
+            options.tolerance, "must be finite and > 0");
+    require(options.max_sweeps >= 1, self, "max_sweeps", options.max_sweeps, "must be at least 1");
+    require(options.max_seconds > 0, self, "max_seconds", options.max_seconds, "must be > 0");
+  }
+
+  /// @param impulses in: the start, D n, or empty for zero; out: the best result, in the units of
+  ///                 the problem [N s]
+  /// @throws std::invalid_argument for a problem that is not valid or a start of another size
+  template <class S>
+  ProblemReport solve(const FrictionProblem<S>& problem, Eigen::VectorXd& impulses) const {
+    constexpr const char* self = "ProximalSolver::solve";
+    require_valid(problem, self);
+    const Eigen::Index rows = problem.free_velocity.size();
+    if (impulses.size() == 0) impulses.setZero(rows);
+    require(impulses.size() == rows, self, "impulses.size()", impulses.size(),
+            "must be D times the contacts");
+    require(impulses.allFinite(), self, "impulses", impulses.norm(), "must be finite");
+    const double scale = delassus_scale(problem);
+    Run<S> run(problem, options_, scale * impulses);
+    run.start();
+    run.proximal_point();
+    impulses = run.best.r / scale;
+    run.report.residual = natural_map_residual(problem, impulses);
+    run.report.converged = std::max(run.report.residual, run.best.residual) <= options_.tolerance;
+    return run.report;
+  }
+
+ private:
+  struct Best {
+    Eigen::VectorXd r;
+    double residual;
+    void offer(const Eigen::VectorXd& candidate, double its_residual) {
+      if (!(its_residual < residual)) return;
+      r = candidate;
+      residual = its_residual;
+    }
+  };
+
+  template <class S>
+  struct Run {
+    Run(const FrictionProblem<S>& problem, const Options& asked, const Eigen::VectorXd& r)
+        : options(asked),
+          system(problem, std::sqrt(asked.tolerance)),
+          newton(system),
+          best{r, system.residual(r)} {}
+
+    /// Gauss-Seidel as long as it makes good progress.
+    void start() {
+      constexpr int block = 200;
+      constexpr double progress = 0.3;
+      double before = std::numeric_limits<double>::infinity();
+      Eigen::VectorXd r = best.r;
+      while (!over() && best.residual < progress * before) {
+        before = best.residual;
+        sweep(r, best, options.tolerance, block);
+      }
+    }
+
+    /// Until the residual has not fallen for many steps: it is at rounding, or nothing helps.
+    void proximal_point() {
+      constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4, progress = 0.9;
+      constexpr int most_idle = 1000;
+      double epsilon = first, outer = best.residual, mark = best.residual;
+      Eigen::VectorXd centre = best.r;
+      for (int idle = 0; idle < most_idle && !over(); ++idle) {
+        system.shift(epsilon, centre);
+        const Best shifted = solve_shifted(centre, outer);
+        system.shift(0, centre);
+        const double reached = system.residual(shifted.r);
+        ++report.proximal_steps;
+        best.offer(shifted.r, reached);
+        if (best.residual < progress * mark) {
+          mark = best.residual;
+          idle = 0;
+        }
+        const bool solved = shifted.residual < 0.1 * reached;
+        if (solved || shifted.residual < outer) {
+          centre = shifted.r;
+          outer = reached;
+        }
+        epsilon = std::clamp(epsilon * (solved ? down : up), least, most);
+      }
+    }
+
+    /// Gauss-Seidel and Newton's method in turn, until both make little progress.
+    Best solve_shifted(const Eigen::VectorXd& centre, double outer) {
+      constexpr int rounds = 8, patience = 2, newton_iterations = 40;
+      constexpr double rounding = 1e-14, progress = 0.5;
+      const double tolerance = std::max(rounding, std::min(1e-2 * outer, 0.1 * options.tolerance));
+      Best found{centre, system.residual(centre)};
+      Eigen::VectorXd r = centre;
+      double before = found.residual;
+      int count = 30;
+      for (int round = 0; round < rounds && found.residual > tolerance; ++round) {
+        sweep(r, found, tolerance, count);
+        if (found.residual <= tolerance || over()) break;
+        if (round >= patience && found.residual > progress * before) break;
+        if (round % patience == 0) before = found.residual;
+        Eigen::VectorXd polished = r;
+        found.offer(polished, newton.improve(polished, tolerance, newton_iterations));
+        report.newton_steps = newton.steps();
+        count += count / 2;
+      }
+      return found;
+    }
+
+    /// Gauss-Seidel with momentum. r goes on even where the residual rises; what was best is
+    /// offered to `found`.
+    void sweep(Eigen::VectorXd& r, Best& found, double tolerance, int count) {
+      constexpr int check_interval = 10;
+      detail::Momentum momentum;
+      Eigen::VectorXd ahead = r;
+      for (int k = 1; k <= count && found.residual > tolerance && !over(); ++k) {
+        system.sweep(ahead);
+        ++report.sweeps;
+        const Eigen::VectorXd change = ahead - r;
+        r = ahead;
+        if (k % check_interval == 0 || k == count) found.offer(r, system.residual(r));
+        ahead += momentum.next(change.squaredNorm()) * change;
+      }
+    }
+
+    bool over() const {
+      return best.residual <= options.tolerance || report.sweeps >= options.max_sweeps ||
+             std::chrono::duration<double>(Clock::now() - begin).count() > options.max_seconds;
+    }
+
+    using Clock = std::chrono::steady_clock;
+    const Options& options;
+    detail::BlockSystem<S> system;
+    detail::CoulombNewton<S> newton;
+    Best best;
+    ProblemReport report;
+    Clock::time_point begin = Clock::now();
+  };
+
+  Options options_;
+};
+
+}  // namespace moreau

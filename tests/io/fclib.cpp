@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/io/fclib.hpp"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "moreau/io/siconos_text.hpp"
+#include "moreau/solve/proximal_solver.hpp"
+
+#include "temporary_folder.hpp"
+
+using namespace moreau;
+
+namespace {
+
+const std::string folder = MOREAU_TEST_DATA "fclib/";
+
+template <class S>
+void check_equal(const FrictionProblem<S>& a, const FrictionProblem<S>& b) {
+  CHECK(Eigen::MatrixXd(a.delassus) == Eigen::MatrixXd(b.delassus));
+  CHECK(a.free_velocity == b.free_velocity);
+  CHECK(a.friction == b.friction);
+}
+
+/// W of one contact in the plane, in any of the three storages.
+void write_storage(const std::filesystem::path& path, int nz, const std::vector<int>& p,
+                   const std::vector<int>& i, const std::vector<double>& x, int dimension = 2) {
+  using namespace moreau::detail;
+  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), &H5Fclose,
+                        "create");
+  const auto local = create_hdf5_group(file, "fclib_local");
+  write_hdf5(local, "spacedim", dimension);
+  const auto w = create_hdf5_group(local, "W");
+  write_hdf5(w, "nzmax", int(x.size()));
+  write_hdf5(w, "m", 2);
+  write_hdf5(w, "n", 2);
+  write_hdf5(w, "nz", nz);
+  write_hdf5(w, "p", std::span<const int>(p));
+  write_hdf5(w, "i", std::span<const int>(i));
+  write_hdf5(w, "x", std::span<const double>(x));
+  const auto vectors = create_hdf5_group(local, "vectors");
+  const std::vector<double> q{-1, 0.5}, mu{0.3};
+  write_hdf5(vectors, "q", std::span<const double>(q));
+  write_hdf5(vectors, "mu", std::span<const double>(mu));
+}
+
+Eigen::MatrixXd matrix(const std::filesystem::path& path) {
+  return std::get<FrictionProblem<Space<2>>>(read_fclib(path)).delassus;
+}
+
+}  // namespace
+
+TEST_CASE("a file of the library itself is read and solved") {
+  CHECK(is_hdf5(folder + "Capsules-i125-1213.hdf5"));
+  const AnyFrictionProblem any = read_fclib(folder + "Capsules-i125-1213.hdf5");
+  const auto& problem = std::get<FrictionProblem<Space<3>>>(any);
+  CHECK(problem.size() == 286);
+  CHECK(problem.friction.minCoeff() == 0.7);
+  Eigen::VectorXd r;
+  CHECK(ProximalSolver().solve(problem, r).converged);
+  CHECK(natural_map_residual(problem, r) <= 1e-10);
+}
+
+TEST_CASE("a problem is written and read back to the same bits") {
+  const TemporaryFolder temporary("fclib");
+  const auto path = temporary / "problem.hdf5";
+  for (const char* name : {"FrictionContact3D_1c.dat", "FrictionContactProblem00031.dat"}) {
+    const AnyFrictionProblem any = read_siconos_text(folder + name);
+    std::visit(
+        [&](const auto& problem) {
+          using Problem = std::decay_t<decltype(problem)>;
+          Eigen::VectorXd r;
+          ProximalSolver().solve(problem, r);
+          write_fclib(path, problem, r);
+          const AnyFrictionProblem back = read_fclib(path);
+          check_equal(problem, std::get<Problem>(back));
+          const detail::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                                        &H5Fclose, "open");
+          const auto written = detail::read_hdf5<double>(file, "solution/r");
+          CHECK(Eigen::Map<const Eigen::VectorXd>(written.data(), r.size()) == r);
+        },
+        any);
+  }
+}
+
+TEST_CASE("compressed rows, compressed columns and triplets") {
+  const TemporaryFolder temporary("fclib");
+  const auto path = temporary / "w.hdf5";
+  Eigen::Matrix2d w;
+  w << 1, 0, 0.5, 2.5;
+  write_storage(path, -2, {0, 1, 3}, {0, 0, 1}, {1, 0.5, 2.5});
+  CHECK(matrix(path) == w);
+  write_storage(path, -1, {0, 2, 3}, {0, 1, 1}, {1, 0.5, 2.5});
+  CHECK(matrix(path) == w);
+  write_storage(path, 3, {0, 1, 1}, {0, 0, 1}, {1, 0.5, 2.5});
+  CHECK(matrix(path) == w);
+}
+
+TEST_CASE("bad files are refused") {
+  const TemporaryFolder temporary("fclib");
+  const auto path = temporary / "w.hdf5";
+  CHECK_FALSE(is_hdf5(folder + "Rover1039.dat"));
+  CHECK_THROWS_AS(read_fclib(temporary / "missing"), std::runtime_error);
+  CHECK_THROWS_AS(read_fclib(folder + "Rover1039.dat"), std::runtime_error);
+  write_storage(path, -2, {0, 1, 4}, {0, 0, 1}, {1, 0.5, 2.5});
+  CHECK_THROWS_WITH_AS(read_fclib(path),
+                       "read_fclib: W/p[2] = 4 must not exceed the entries of W/i and W/x",
+                       std::invalid_argument);
+  write_storage(path, -2, {0, 1, 3}, {0, 0, 7}, {1, 0.5, 2.5});
+  CHECK_THROWS_WITH_AS(read_fclib(path), "read_fclib: column of an entry of W = 7 must lie in W",
+                       std::invalid_argument);
+  write_storage(path, -3, {0, 1, 3}, {0, 0, 1}, {1, 0.5, 2.5});
+  CHECK_THROWS_AS(read_fclib(path), std::invalid_argument);
+  write_storage(path, -2, {0, 1, 3}, {0, 0, 1}, {1, 0.5, 2.5}, 3);
+  CHECK_THROWS_WITH_AS(read_fclib(path), "read_fclib: W.rows() = 2 must be D times the contacts",
+                       std::invalid_argument);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  CHECK_THROWS_AS(read_fclib(path), std::runtime_error);
+  FrictionProblem<Space<2>> problem;
+  problem.friction.setOnes(1);
+  CHECK_THROWS_AS(write_fclib(path, problem), std::invalid_argument);
+}

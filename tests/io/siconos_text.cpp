@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/io/siconos_text.hpp"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <string>
+
+#include "moreau/solve/proximal_solver.hpp"
+
+#include "temporary_folder.hpp"
+
+using namespace moreau;
+
+namespace {
+
+const std::string folder = MOREAU_TEST_DATA "fclib/";
+
+double solved_residual(const AnyFrictionProblem& problem) {
+  return std::visit(
+      [](const auto& p) {
+        Eigen::VectorXd r;
+        ProximalSolver().solve(p, r);
+        return natural_map_residual(p, r);
+      },
+      problem);
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_siconos_text(text);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("dense: column by column") {
+  const AnyFrictionProblem any = read_siconos_text(folder + "FrictionContact3D_1c.dat");
+  const auto& problem = std::get<FrictionProblem<Space<3>>>(any);
+  Eigen::Matrix3d w;
+  w << 15, -1, -2, -1, 14, 1, -2, 1, 16;
+  CHECK(Eigen::MatrixXd(problem.delassus) == w);
+  CHECK(problem.free_velocity == Eigen::Vector3d(-1, 2, 3));
+  CHECK(problem.friction[0] == 0.1);
+  const AnyFrictionProblem turned =
+      parse_siconos_text("2 1 0 2 2 2 2  1 0.5  0.25 3  -1 0  +0.3 0");
+  const Eigen::MatrixXd skew = std::get<FrictionProblem<Space<2>>>(turned).delassus;
+  CHECK(skew(1, 0) == 0.5);
+  CHECK(skew(0, 1) == 0.25);
+}
+
+TEST_CASE("blocks: W comes out symmetric") {
+  const AnyFrictionProblem any = read_siconos_text(folder + "FrictionContactProblem00031.dat");
+  const auto& problem = std::get<FrictionProblem<Space<2>>>(any);
+  CHECK(problem.size() == 11);
+  const Eigen::MatrixXd w = problem.delassus;
+  CHECK((w - w.transpose()).norm() <= 1e-15);
+  CHECK(w(0, 0) == 4.435920e-01);
+  CHECK((w.array() != 0).count() > 22);
+}
+
+TEST_CASE("sparse: columns, rows, triplets and half of a symmetric matrix") {
+  const std::string head = "CSparse Version 3.1.9, May 4, 2016.  Copyright (c) Somebody\n";
+  const std::string tail = "\n-1 0.5\n0.3\n";
+  const std::string lists =
+      "2-by-2, nzmax: 3 nnz: 3, 1-norm: 2.5\n    col 0 : locations 0 to 1\n      0 : 1\n      1 : "
+      "0.5\n    col 1 : locations 2 to 2\n      1 : 2.5e+00\n";
+  Eigen::Matrix2d by_columns, by_rows, symmetric;
+  by_columns << 1, 0, 0.5, 2.5;
+  by_rows << 1, 0.5, 0, 2.5;
+  symmetric << 1, 0.5, 0.5, 2.5;
+  const auto w = [&](const std::string& origin, const std::string& body) {
+    const auto any = parse_siconos_text("2\n1\n2\n2\n2\n" + origin + "\n" + head + body + tail);
+    return Eigen::MatrixXd(std::get<FrictionProblem<Space<2>>>(any).delassus);
+  };
+  CHECK(w("2", lists) == by_columns);
+  CHECK(w("3", lists) == by_rows);
+  const std::string triplets =
+      "triplet: 2-by-2, nzmax: 9 nnz: 3\n 0 0 : 1\n 1 0 : 0.5\n 1 1 : 2.5\n";
+  CHECK(w("1", triplets) == by_columns);
+  CHECK(w("4", triplets) == symmetric);
+}
+
+TEST_CASE("what is read is solved") {
+  for (const char* name :
+       {"FrictionContact3D_1c.dat", "FrictionContactProblem00031.dat", "Rover1039.dat",
+        "FC2D_SliderCrankLagrangian00000.dat", "OneObject-i1028-138.hdf5.dat"})
+    CHECK_MESSAGE(solved_residual(read_siconos_text(folder + name)) <= 1e-10, name);
+}
+
+TEST_CASE("bad texts are refused by name") {
+  const std::string self = "parse_siconos_text: ";
+  CHECK(error_of("") == self + "dimension =  must be an integer >= 0");
+  CHECK(error_of("4 1 0 4 4 4 4 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0") ==
+        self + "dimension = 4 must be 2 or 3");
+  CHECK(error_of("2 1 7 2 2") == self + "storage of W = 7 must be 0, 1 or 2");
+  CHECK(error_of("2 1 0 2 2 2 2 1 0 0 nan -1 0 0.3") == self + "W = nan must be a finite number");
+  CHECK(error_of("2 1 0 2 2 2 2 1 0 0 -1 -1 0 0.3") ==
+        self + "W(1, 1) = -1 must be finite, and >= 0 on the diagonal");
+  CHECK(error_of("2 1 0 2 2 2 2 1 0 0 1 -1 0 -0.3") ==
+        self + "mu[0] = -0.3 must be finite and >= 0");
+  CHECK(error_of("2 2 0 2 2 2 2 1 0 0 1 -1 0 0.3 0.3") ==
+        self + "W.rows() = 2 must be D times the contacts");
+  CHECK(error_of("2 1 0 2000000000 2000000000 2000000000 2000000000 1").find("W = ") !=
+        std::string::npos);
+  CHECK(error_of("2 1 1 2 2 1 1 1 2 2 2 1 0 9 0 0 1 0 0 1 -1 0 0.3").find("index1") !=
+        std::string::npos);
+  CHECK(error_of("2 1 1 2 2 1 1 1 2 2 2 1 0 1 7 0 1 0 0 1 -1 0 0.3").find("index2") !=
+        std::string::npos);
+  CHECK(error_of("2 1 2 2 2 2 nothing here").find("sparse W") != std::string::npos);
+}
+
+TEST_CASE("every cut of a file is refused, never read beyond") {
+  const TemporaryFolder temporary("siconos");
+  for (const char* name : {"FrictionContact3D_1c.dat", "FrictionContactProblem00031.dat"}) {
+    std::string text = read(folder + name);
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+    // The last number may be cut and still be one.
+    const std::size_t last = text.find_last_of(" \n");
+    for (std::size_t size = 0; size < last - 40; size += 7)
+      CHECK_THROWS_AS(parse_siconos_text(std::string_view(text).substr(0, size)),
+                      std::invalid_argument);
+  }
+  CHECK_THROWS_AS(read_siconos_text(temporary / "missing"), std::system_error);
+}
