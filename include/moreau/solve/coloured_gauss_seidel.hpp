@@ -259,7 +259,7 @@ class ColouredGaussSeidel {
     report.converged = false;
     apply_all(op, impulses);
     sweeps.start(op, laws, law_of, impulses, options_.momentum);
-    double believed = 2 * options_.tolerance;  // change per sweep at which the residual may be met
+    double believed = 3 * options_.tolerance;  // change per sweep at which the residual may be met
     while (!report.converged && report.sweeps < options_.max_sweeps) {
       const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
       for (int k = 1; k < block; ++k) sweeps.sweep();
