@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -47,8 +48,7 @@ class TextScanner {
     double value = 0;  // large indices may be printed as 1e+06
     if (!parse(next, value) || value != std::floor(value) ||
         !(value >= least && value < 2147483647.))
-      throw_invalid(function_, name, next,
-                    least > 0 ? "must be a positive integer" : "must be an integer >= 0");
+      throw_invalid(function_, name, next, "must be an integer >= " + std::to_string(least));
     return static_cast<int>(value);
   }
   void expect(std::string_view expected) {
@@ -68,7 +68,10 @@ class TextScanner {
   static bool parse(std::string_view word, double& value) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc() && end == word.data() + word.size();
+    if (end != word.data() + word.size()) return false;
+    if (error == std::errc::result_out_of_range)  // 1e-400 is 0, 1e400 is inf
+      value = std::strtod(std::string(word).c_str(), nullptr);
+    return error == std::errc() || error == std::errc::result_out_of_range;
   }
 
   std::string_view text_, function_;
@@ -184,8 +187,7 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
     scan.expect("locations");
     const int first = scan.integer("location");
     scan.expect("to");
-    const std::string_view last_word = scan.word();
-    const int last = last_word == "-1" ? -1 : std::stoi(std::string(last_word));
+    const int last = scan.integer("location", -1);
     for (int k = first; k <= last; ++k) {
       const int inner = scan.integer("index");
       scan.expect(":");
