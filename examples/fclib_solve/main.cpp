@@ -47,7 +47,10 @@ int solve(const moreau::FrictionProblem<S>& problem, const CommandLine& line) {
   if (!line.output.empty())
     moreau::write_atomically(line.output, format_impulses(impulses, S::dim));
   if (report.converged) return 0;
-  std::fprintf(stderr, "%s: not solved to %g\n", line.file.c_str(), line.solver.tolerance);
+  if (report.residual <= line.solver.tolerance)
+    std::fprintf(stderr, "%s: the impulses grow without bound\n", line.file.c_str());
+  else
+    std::fprintf(stderr, "%s: not solved to %g\n", line.file.c_str(), line.solver.tolerance);
   return 1;
 }
 
@@ -67,6 +70,7 @@ int main(int argc, char** argv) {
   app.add_option("--output", line.output, "impulses as text, one contact per line, normal first");
   app.add_option("--time-limit", line.solver.max_seconds,
                  "the best result so far is given after this time [s]");
+  app.footer("Exit status: 0 solved, 1 not solved to the tolerance, 2 bad input.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

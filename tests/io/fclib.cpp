@@ -25,26 +25,38 @@ void check_equal(const FrictionProblem<S>& a, const FrictionProblem<S>& b) {
   CHECK(a.friction == b.friction);
 }
 
-/// W of one contact in the plane, in any of the three storages.
-void write_storage(const std::filesystem::path& path, int nz, const std::vector<int>& p,
-                   const std::vector<int>& i, const std::vector<double>& x, int dimension = 2) {
+using Numbers = std::vector<double>;
+
+/// A 2 x 2 matrix in any of the three storages.
+void write_matrix(hid_t parent, const std::string& name, int nz, const std::vector<int>& p,
+                  const std::vector<int>& i, const Numbers& x) {
   using namespace moreau::detail;
-  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), &H5Fclose,
-                        "create");
-  const auto local = create_hdf5_group(file, "fclib_local");
-  write_hdf5(local, "spacedim", dimension);
-  const auto w = create_hdf5_group(local, "W");
-  write_hdf5(w, "nzmax", int(x.size()));
-  write_hdf5(w, "m", 2);
-  write_hdf5(w, "n", 2);
-  write_hdf5(w, "nz", nz);
-  write_hdf5(w, "p", std::span<const int>(p));
-  write_hdf5(w, "i", std::span<const int>(i));
-  write_hdf5(w, "x", std::span<const double>(x));
-  const auto vectors = create_hdf5_group(local, "vectors");
-  const std::vector<double> q{-1, 0.5}, mu{0.3};
-  write_hdf5(vectors, "q", std::span<const double>(q));
-  write_hdf5(vectors, "mu", std::span<const double>(mu));
+  const auto matrix = create_hdf5_group(parent, name);
+  write_hdf5(matrix, "nzmax", int(x.size()));
+  write_hdf5(matrix, "m", 2);
+  write_hdf5(matrix, "n", 2);
+  write_hdf5(matrix, "nz", nz);
+  write_hdf5(matrix, "p", std::span<const int>(p));
+  write_hdf5(matrix, "i", std::span<const int>(i));
+  write_hdf5(matrix, "x", std::span<const double>(x));
+}
+void write_vector(hid_t group, const std::string& name, const Numbers& x) {
+  detail::write_hdf5(group, name, std::span<const double>(x));
+}
+detail::Hdf5Handle new_file(const std::filesystem::path& path) {
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), &H5Fclose, "create"};
+}
+
+/// One contact in the plane.
+void write_storage(const std::filesystem::path& path, int nz, const std::vector<int>& p,
+                   const std::vector<int>& i, const Numbers& x, int dimension = 2) {
+  const auto file = new_file(path);
+  const auto local = detail::create_hdf5_group(file, "fclib_local");
+  detail::write_hdf5(local, "spacedim", dimension);
+  write_matrix(local, "W", nz, p, i, x);
+  const auto vectors = detail::create_hdf5_group(local, "vectors");
+  write_vector(vectors, "q", {-1, 0.5});
+  write_vector(vectors, "mu", {0.3});
 }
 
 Eigen::MatrixXd matrix(const std::filesystem::path& path) {
@@ -95,8 +107,31 @@ TEST_CASE("compressed rows, compressed columns and triplets") {
   CHECK(matrix(path) == w);
   write_storage(path, -1, {0, 2, 3}, {0, 1, 1}, {1, 0.5, 2.5});
   CHECK(matrix(path) == w);
-  write_storage(path, 3, {0, 1, 1}, {0, 0, 1}, {1, 0.5, 2.5});
+  write_storage(path, 3, {0, 0, 1}, {0, 1, 1}, {1, 0.5, 2.5});
   CHECK(matrix(path) == w);
+}
+
+TEST_CASE("a global problem is condensed") {
+  const TemporaryFolder temporary("fclib");
+  const auto path = temporary / "global.hdf5";
+  {
+    const auto file = new_file(path);
+    const auto global = detail::create_hdf5_group(file, "fclib_global");
+    detail::write_hdf5(global, "spacedim", 2);
+    write_matrix(global, "M", -1, {0, 1, 2}, {0, 1}, {2, 4});
+    write_matrix(global, "H", -2, {0, 1, 3}, {0, 0, 1}, {1, 2, 8});  // 1 0; 2 8
+    const auto vectors = detail::create_hdf5_group(global, "vectors");
+    write_vector(vectors, "f", {4, -8});
+    write_vector(vectors, "w", {0.5, 0.25});
+    write_vector(vectors, "mu", {0.3});
+  }
+  const AnyFrictionProblem any = read_fclib(path);
+  const auto& problem = std::get<FrictionProblem<Space<2>>>(any);
+  Eigen::Matrix2d w;
+  w << 1.5, 4, 4, 16;
+  CHECK(Eigen::MatrixXd(problem.delassus).isApprox(w, 1e-14));
+  CHECK(problem.free_velocity.isApprox(Eigen::Vector2d(2 - 4 + 0.5, -16 + 0.25), 1e-14));
+  CHECK(problem.friction[0] == 0.3);
 }
 
 TEST_CASE("bad files are refused") {
@@ -107,10 +142,11 @@ TEST_CASE("bad files are refused") {
   CHECK_THROWS_AS(read_fclib(folder + "Rover1039.dat"), std::runtime_error);
   write_storage(path, -2, {0, 1, 4}, {0, 0, 1}, {1, 0.5, 2.5});
   CHECK_THROWS_WITH_AS(read_fclib(path),
-                       "read_fclib: W/p[2] = 4 must not exceed the entries of W/i and W/x",
+                       "read_fclib: W/p[2] = 4 must not exceed the entries of i and x",
                        std::invalid_argument);
   write_storage(path, -2, {0, 1, 3}, {0, 0, 7}, {1, 0.5, 2.5});
-  CHECK_THROWS_WITH_AS(read_fclib(path), "read_fclib: column of an entry of W = 7 must lie in W",
+  CHECK_THROWS_WITH_AS(read_fclib(path),
+                       "read_fclib: column of an entry of W = 7 must lie in the matrix",
                        std::invalid_argument);
   write_storage(path, -3, {0, 1, 3}, {0, 0, 1}, {1, 0.5, 2.5});
   CHECK_THROWS_AS(read_fclib(path), std::invalid_argument);

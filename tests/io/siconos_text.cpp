@@ -109,6 +109,10 @@ TEST_CASE("bad texts are refused by name") {
         std::string::npos);
   CHECK(error_of("2 1 1 2 2 1 1 1 2 2 2 1 0 1 7 0 1 0 0 1 -1 0 0.3").find("index2") !=
         std::string::npos);
+  CHECK(error_of("2 1 0 2 2 2 2 1 1e-400 0 1e400 -1 0 0.3") ==
+        self + "W = 1e400 must be a finite number");
+  CHECK(error_of("2 1 2 2 2 2 2-by-2, nzmax: 1 nnz: 1, 1-norm: 1\ncol 0 : locations 0 to x") ==
+        self + "location = x must be an integer >= -1");
   CHECK(error_of("2 1 2 2 2 2 nothing here").find("sparse W") != std::string::npos);
 }
 

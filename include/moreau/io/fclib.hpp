@@ -3,13 +3,16 @@
 // "FCLIB: a collection of discrete 3D Frictional Contact problems", INRIA RT-444, 2014):
 //
 //     /fclib_local/spacedim, W/{nzmax, m, n, nz, p, i, x}, vectors/{q, mu},
-//     /solution/{u, r}.
+//     /solution/{u, r},
+//
+// and, read only, /fclib_global with M and H in place of W, vectors/{f, w, mu}.
 //
 // OPTIONAL: needs the C library of HDF5 (its headers, and linking hdf5). No other header includes
 // this one.
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
 
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +20,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "moreau/core/error.hpp"
@@ -112,39 +114,65 @@ inline Hdf5Handle create_hdf5_group(hid_t parent, const std::string& name) {
           "create the group " + name};
 }
 
-/// W in the storage of CSparse: nz = -2 compressed rows, -1 compressed columns, >= 0 that many
-/// triplets (p rows, i columns).
-inline void read_fclib_matrix(hid_t group, RawFrictionProblem& raw) {
+/// A matrix in the storage of CSparse: nz = -2 compressed rows, -1 compressed columns, >= 0 that
+/// many triplets. Of these p holds the columns and i the rows, as in CSparse and as files are
+/// written; FCLIB's own header says the opposite.
+/// @param group holds the matrix as its subgroup `name`
+inline RowSparse read_fclib_matrix(hid_t group, const std::string& name) {
   constexpr const char* self = "read_fclib";
   constexpr int compressed_rows = -2, compressed_columns = -1;
-  raw.rows = read_hdf5_integer(group, "m");
-  raw.columns = read_hdf5_integer(group, "n");
-  const int form = read_hdf5_integer(group, "nz");
-  const std::vector<int> p = read_hdf5<int>(group, "p"), index = read_hdf5<int>(group, "i");
-  const std::vector<double> x = read_hdf5<double>(group, "x");
-  require(raw.rows >= 0 && raw.columns >= 0, self, "W/m", raw.rows, "must be >= 0, as W/n");
+  const auto matrix = open_hdf5_group(group, name);
+  const int rows = read_hdf5_integer(matrix, "m"), columns = read_hdf5_integer(matrix, "n");
+  const int form = read_hdf5_integer(matrix, "nz");
+  const std::vector<int> p = read_hdf5<int>(matrix, "p"), index = read_hdf5<int>(matrix, "i");
+  const std::vector<double> x = read_hdf5<double>(matrix, "x");
+  require(rows >= 0 && columns >= 0, self, name + "/m", rows, "must be >= 0, as must be n");
+  Triplets entries;
   if (form >= 0) {
     const auto count = std::size_t(form);
-    require(count <= p.size() && count <= index.size() && count <= x.size(), self, "W/nz", form,
-            "must not exceed the entries of W/p, W/i and W/x");
-    for (std::size_t k = 0; k < count; ++k) raw.delassus.emplace_back(p[k], index[k], x[k]);
-    return;
+    require(count <= p.size() && count <= index.size() && count <= x.size(), self, name + "/nz",
+            form, "must not exceed the entries of p, i and x");
+    for (std::size_t k = 0; k < count; ++k) entries.emplace_back(index[k], p[k], x[k]);
+    return checked_matrix(rows, columns, entries, self, name);
   }
-  require(form == compressed_rows || form == compressed_columns, self, "W/nz", form,
+  require(form == compressed_rows || form == compressed_columns, self, name + "/nz", form,
           "must be -2, -1 or >= 0");
   const bool by_rows = form == compressed_rows;
-  const auto outer = std::size_t(by_rows ? raw.rows : raw.columns);
-  require(p.size() > outer, self, "size of W/p", p.size(), "must exceed the rows or columns");
+  const auto outer = std::size_t(by_rows ? rows : columns);
+  require(p.size() > outer, self, "size of " + name + "/p", p.size(),
+          "must exceed the rows or columns");
   for (std::size_t o = 0; o < outer; ++o) {
-    require(p[o] >= 0 && p[o + 1] >= p[o], self, "W/p[" + std::to_string(o + 1) + "]", p[o + 1],
-            "must not fall");
+    const std::string where = name + "/p[" + std::to_string(o + 1) + "]";
+    require(p[o] >= 0 && p[o + 1] >= p[o], self, where, p[o + 1], "must not fall");
     const auto end = std::size_t(p[o + 1]);
-    require(end <= index.size() && end <= x.size(), self, "W/p[" + std::to_string(o + 1) + "]",
-            p[o + 1], "must not exceed the entries of W/i and W/x");
+    require(end <= index.size() && end <= x.size(), self, where, p[o + 1],
+            "must not exceed the entries of i and x");
     for (auto k = std::size_t(p[o]); k < end; ++k)
-      by_rows ? raw.delassus.emplace_back(int(o), index[k], x[k])
-              : raw.delassus.emplace_back(index[k], int(o), x[k]);
+      by_rows ? entries.emplace_back(int(o), index[k], x[k])
+              : entries.emplace_back(index[k], int(o), x[k]);
   }
+  return checked_matrix(rows, columns, entries, self, name);
+}
+
+/// The global form M v = H r + f, u = H^T v + w without v: W = H^T M^-1 H, b = H^T M^-1 f + w.
+inline void condense(const RowSparse& mass, const RowSparse& h, const std::vector<double>& f,
+                     const std::vector<double>& w, RawFrictionProblem& raw) {
+  constexpr const char* self = "read_fclib";
+  require(mass.rows() == mass.cols(), self, "M/n", mass.cols(), "must be M/m");
+  require(h.rows() == mass.rows(), self, "H/m", h.rows(), "must be the size of M");
+  require(Eigen::Index(f.size()) == h.rows(), self, "size of f", f.size(), "must be the size of M");
+  require(Eigen::Index(w.size()) == h.cols(), self, "size of w", w.size(),
+          "must be the columns of H");
+  using Sparse = Eigen::SparseMatrix<double>;
+  using Map = Eigen::Map<const Eigen::VectorXd>;
+  Eigen::SparseLU<Sparse> lu(Sparse{mass});
+  require(lu.info() == Eigen::Success, self, "M", mass.rows(), "must be regular");
+  const Sparse by_columns = h;
+  const Sparse inverse_h = lu.solve(by_columns);
+  raw.delassus = by_columns.transpose() * inverse_h;
+  const Eigen::VectorXd free =
+      by_columns.transpose() * lu.solve(Map(f.data(), h.rows())) + Map(w.data(), h.cols());
+  raw.free_velocity.assign(free.begin(), free.end());
 }
 
 template <class S>
@@ -169,27 +197,34 @@ inline bool is_hdf5(const std::filesystem::path& path) {
   return H5Fis_hdf5(path.c_str()) > 0;
 }
 
-/// Reads the local problem of an FCLIB file.
+/// Reads the problem of an FCLIB file. A global one is brought to its local form first.
 /// @throws std::runtime_error if the file cannot be opened or lacks a part
 /// @throws std::invalid_argument naming what is wrong if it is no valid problem, or if it has
-///         bilateral constraints beside the contacts (V, R, s), which this library does not solve
+///         bilateral constraints or rolling friction, which this library does not solve
 inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
   constexpr const char* self = "read_fclib";
   const detail::QuietHdf5 quiet;
   const detail::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose,
                                 "open " + path.string());
-  require(H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0, self, "path", path.string(),
-          "must hold a local problem (group fclib_local); global ones are not read");
-  const auto local = detail::open_hdf5_group(file, "fclib_local");
-  for (const char* bilateral : {"V", "R"})
-    require(H5Lexists(local, bilateral, H5P_DEFAULT) <= 0, self, "group", bilateral,
+  const bool is_local = H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0;
+  require(is_local || H5Lexists(file, "fclib_global", H5P_DEFAULT) > 0, self, "path", path.string(),
+          "must hold a group fclib_local or fclib_global");
+  const auto group = detail::open_hdf5_group(file, is_local ? "fclib_local" : "fclib_global");
+  for (const char* bilateral : {"V", "R", "G"})
+    require(H5Lexists(group, bilateral, H5P_DEFAULT) <= 0, self, "group", bilateral,
             "must not be there: bilateral constraints are not solved");
   detail::RawFrictionProblem raw;
-  raw.rows_per_contact = detail::read_hdf5_integer(local, "spacedim");
-  detail::read_fclib_matrix(detail::open_hdf5_group(local, "W"), raw);
-  const auto vectors = detail::open_hdf5_group(local, "vectors");
-  raw.free_velocity = detail::read_hdf5<double>(vectors, "q");
+  raw.rows_per_contact = detail::read_hdf5_integer(group, "spacedim");
+  const auto vectors = detail::open_hdf5_group(group, "vectors");
   raw.friction = detail::read_hdf5<double>(vectors, "mu");
+  if (is_local) {
+    raw.delassus = detail::read_fclib_matrix(group, "W");
+    raw.free_velocity = detail::read_hdf5<double>(vectors, "q");
+  } else {
+    detail::condense(detail::read_fclib_matrix(group, "M"), detail::read_fclib_matrix(group, "H"),
+                     detail::read_hdf5<double>(vectors, "f"),
+                     detail::read_hdf5<double>(vectors, "w"), raw);
+  }
   return detail::checked_problem(raw, self);
 }
 

@@ -5,9 +5,8 @@
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
+#include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -24,25 +23,33 @@ namespace detail {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
 /// The numbers of a file before its space is known.
 struct RawFrictionProblem {
   int rows_per_contact = 0;
-  int rows = 0, columns = 0;  ///< of W
-  Triplets delassus;
+  RowSparse delassus;
   std::vector<double> free_velocity, friction;
 };
 
+/// @throws std::invalid_argument for an entry outside the matrix
+inline RowSparse checked_matrix(int rows, int columns, const Triplets& entries,
+                                std::string_view function, const std::string& name) {
+  for (const auto& entry : entries) {
+    require(entry.row() >= 0 && entry.row() < rows, function, "row of an entry of " + name,
+            entry.row(), "must lie in the matrix");
+    require(entry.col() >= 0 && entry.col() < columns, function, "column of an entry of " + name,
+            entry.col(), "must lie in the matrix");
+  }
+  RowSparse matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 template <class S>
 FrictionProblem<S> checked_problem(const RawFrictionProblem& raw, std::string_view function) {
-  for (const auto& entry : raw.delassus) {
-    require(entry.row() >= 0 && entry.row() < raw.rows, function, "row of an entry of W",
-            entry.row(), "must lie in W");
-    require(entry.col() >= 0 && entry.col() < raw.columns, function, "column of an entry of W",
-            entry.col(), "must lie in W");
-  }
   FrictionProblem<S> problem;
-  problem.delassus.resize(raw.rows, raw.columns);
-  problem.delassus.setFromTriplets(raw.delassus.begin(), raw.delassus.end());
+  problem.delassus = raw.delassus;
   using Map = Eigen::Map<const Eigen::VectorXd>;
   problem.free_velocity = Map(raw.free_velocity.data(), Eigen::Index(raw.free_velocity.size()));
   problem.friction = Map(raw.friction.data(), Eigen::Index(raw.friction.size()));

@@ -3,9 +3,11 @@
 // dimension, contacts, W in one of three storages, q, mu; normal first in every contact.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -46,8 +48,7 @@ class TextScanner {
     double value = 0;  // large indices may be printed as 1e+06
     if (!parse(next, value) || value != std::floor(value) ||
         !(value >= least && value < 2147483647.))
-      throw_invalid(function_, name, next,
-                    least > 0 ? "must be a positive integer" : "must be an integer >= 0");
+      throw_invalid(function_, name, next, "must be an integer >= " + std::to_string(least));
     return static_cast<int>(value);
   }
   void expect(std::string_view expected) {
@@ -67,7 +68,10 @@ class TextScanner {
   static bool parse(std::string_view word, double& value) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc() && end == word.data() + word.size();
+    if (end != word.data() + word.size()) return false;
+    if (error == std::errc::result_out_of_range)  // 1e-400 is 0, 1e400 is inf
+      value = std::strtod(std::string(word).c_str(), nullptr);
+    return error == std::errc() || error == std::errc::result_out_of_range;
   }
 
   std::string_view text_, function_;
@@ -88,8 +92,13 @@ inline std::vector<int> scan_integers(TextScanner& scan, int count, std::string_
   return numbers;
 }
 
+struct TextMatrix {
+  int rows = 0, columns = 0;
+  Triplets entries;
+};
+
 /// Storage 0: sizes again, then all values, column by column.
-inline void scan_dense(TextScanner& scan, RawFrictionProblem& raw) {
+inline void scan_dense(TextScanner& scan, TextMatrix& raw) {
   const int rows = scan.integer("rows"), columns = scan.integer("columns");
   require(rows == raw.rows && columns == raw.columns, scan.function(), "size of dense W", rows,
           "must be the size of W");
@@ -97,7 +106,7 @@ inline void scan_dense(TextScanner& scan, RawFrictionProblem& raw) {
   for (int column = 0; column < columns; ++column)
     for (int row = 0; row < rows; ++row) {
       const double value = scan.number("W");
-      if (value != 0) raw.delassus.emplace_back(row, column, value);
+      if (value != 0) raw.entries.emplace_back(row, column, value);
     }
 }
 
@@ -114,7 +123,7 @@ inline std::vector<int> scan_block_starts(TextScanner& scan, int blocks, int tot
 }
 
 /// Storage 1: blocks by compressed rows, each with its number and its values column by column.
-inline void scan_blocks(TextScanner& scan, RawFrictionProblem& raw) {
+inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   const int blocks = scan.integer("number of blocks");
   const int block_rows = scan.integer("block rows"), block_columns = scan.integer("block columns");
   const std::vector<int> row_start = scan_block_starts(scan, block_rows, raw.rows);
@@ -137,14 +146,14 @@ inline void scan_blocks(TextScanner& scan, RawFrictionProblem& raw) {
       for (int j = column_start[std::size_t(column)]; j < column_start[std::size_t(column) + 1];
            ++j)
         for (int i = row_start[here]; i < row_start[here + 1]; ++i)
-          raw.delassus.emplace_back(i, j, scan.number("W"));
+          raw.entries.emplace_back(i, j, scan.number("W"));
     }
   }
 }
 
 /// Storage 2: what CSparse prints: triplets, or lists by columns (by rows where the origin says
 /// so).
-inline void scan_sparse(TextScanner& scan, RawFrictionProblem& raw) {
+inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
   constexpr int compressed_rows = 3, half_of_symmetric = 4;
   const int origin = scan.integer("origin of sparse W");
   std::string_view word, before;
@@ -159,8 +168,8 @@ inline void scan_sparse(TextScanner& scan, RawFrictionProblem& raw) {
   scan.require_room(std::size_t(entries), "nnz");
   scan.skip_line();
   const auto add = [&](int row, int column, double value) {
-    raw.delassus.emplace_back(row, column, value);
-    if (origin == half_of_symmetric && row != column) raw.delassus.emplace_back(column, row, value);
+    raw.entries.emplace_back(row, column, value);
+    if (origin == half_of_symmetric && row != column) raw.entries.emplace_back(column, row, value);
   };
   if (before == "triplet:") {
     for (int k = 0; k < entries; ++k) {
@@ -178,8 +187,7 @@ inline void scan_sparse(TextScanner& scan, RawFrictionProblem& raw) {
     scan.expect("locations");
     const int first = scan.integer("location");
     scan.expect("to");
-    const std::string_view last_word = scan.word();
-    const int last = last_word == "-1" ? -1 : std::stoi(std::string(last_word));
+    const int last = scan.integer("location", -1);
     for (int k = first; k <= last; ++k) {
       const int inner = scan.integer("index");
       scan.expect(":");
@@ -201,23 +209,25 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   raw.rows_per_contact = scan.integer("dimension");
   const int contacts = scan.integer("contacts");
   const int storage = scan.integer("storage of W");
-  raw.rows = scan.integer("rows of W");
-  raw.columns = scan.integer("columns of W");
+  detail::TextMatrix w;
+  w.rows = scan.integer("rows of W");
+  w.columns = scan.integer("columns of W");
   switch (storage) {
     case dense:
-      detail::scan_dense(scan, raw);
+      detail::scan_dense(scan, w);
       break;
     case sparse_blocks:
-      detail::scan_blocks(scan, raw);
+      detail::scan_blocks(scan, w);
       break;
     case sparse:
-      detail::scan_sparse(scan, raw);
+      detail::scan_sparse(scan, w);
       break;
     default:
       throw_invalid(self, "storage of W", storage, "must be 0, 1 or 2");
   }
-  raw.free_velocity = detail::scan_numbers(scan, std::size_t(raw.rows), "q");
+  raw.free_velocity = detail::scan_numbers(scan, std::size_t(w.rows), "q");
   raw.friction = detail::scan_numbers(scan, std::size_t(contacts), "mu");
+  raw.delassus = detail::checked_matrix(w.rows, w.columns, w.entries, self, "W");
   return detail::checked_problem(raw, self);
 }
 
