@@ -122,6 +122,8 @@ struct Pairs {
       add_body(k % shapes.size(), random_rotation(S{}, random));
     while (list.size() < count) add(situation, random);
   }
+  const ShapeT& shape_of(std::size_t body) const { return shapes[shape_index_[body]]; }
+  std::size_t shape_index(std::size_t body) const { return shape_index_[body]; }
   T diameter(const Pair& pair) const {
     return 2 * std::min(bodies[pair.a].radius(), bodies[pair.b].radius());
   }
@@ -129,6 +131,7 @@ struct Pairs {
  private:
   void add_body(std::size_t shape, const typename S::Rotation& rotation) {
     poses.push_back({Vector::Zero(), rotation});
+    shape_index_.push_back(shape);
     bodies.emplace_back(shapes[shape], poses.back());
   }
   void add(const Situation& situation, std::mt19937_64& random) {
@@ -153,6 +156,8 @@ struct Pairs {
     list.push_back({a, b, (distance + size * static_cast<T>(part(random))) * line,
                     static_cast<T>(margin_over_diameter) * size});
   }
+  std::vector<std::size_t> shape_index_;
+
   static Eigen::Quaternion<T> turn_onto(const Eigen::Matrix<T, 3, 1>& from,
                                         const Eigen::Matrix<T, 3, 1>& to) {
     return Eigen::Quaternion<T>::FromTwoVectors(from, to);
@@ -188,7 +193,7 @@ struct Trajectories {
       pose.position = pair.offset;
       for (std::size_t k = 0; k < steps; ++k) {
         way.poses.push_back(pose);
-        way.b.emplace_back(pairs.shapes[pair.b % pairs.shapes.size()], pose);
+        way.b.emplace_back(pairs.shape_of(pair.b), pose);
         pose.position += T(1e-4) * pairs.diameter(pair) * random_direction<S>(random);
         typename S::Angular turn = S::Angular::Zero();
         turn[static_cast<Eigen::Index>(k) % turn.size()] = T(k % 2 ? 1e-4 : -1e-4);
