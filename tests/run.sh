@@ -10,7 +10,7 @@ preset=${PRESET:-release}
 jobs=$(nproc)
 
 .ci/require cmake g++ ninja-build pkg-config libeigen3-dev doctest-dev libcli11-dev \
-  nlohmann-json3-dev libbenchmark-dev
+  nlohmann-json3-dev libbenchmark-dev libhdf5-dev
 case $preset in clang | asan) .ci/require clang libclang-rt-14-dev ;; esac
 cmake --preset "$preset"
 cmake --build --preset "$preset" --target moreau_tests --parallel "$jobs"

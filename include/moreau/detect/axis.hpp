@@ -36,10 +36,10 @@ constexpr FeatureKind feature_of_b(AxisKind kind) {
 /// The axis that gives a pair's signed gap.
 template <class S>
 struct Axis {
-  typename S::Vector normal;  ///< unit, from a to b
-  typename S::Scalar gap;     ///< the separation along it [m]
-  AxisKind kind;
-  std::uint32_t a, b;  ///< face, edge or vertex; opposite a face, the deepest vertex
+  typename S::Vector normal = S::Vector::Zero();  ///< unit, from a to b
+  typename S::Scalar gap = 0;                     ///< the separation along it [m]
+  AxisKind kind = AxisKind::none;
+  std::uint32_t a = 0, b = 0;  ///< face, edge or vertex; opposite a face, the deepest vertex
 };
 
 }  // namespace moreau::detail

@@ -43,7 +43,7 @@ class FoundAxis {
  private:
   std::optional<PolyhedronAxis<T>> search_;
   Axis<S> axis_;
-  bool is_beyond_;
+  bool is_beyond_ = false;
 };
 
 }  // namespace detail
