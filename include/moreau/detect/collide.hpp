@@ -6,10 +6,12 @@
 //   bool           collide(a, b, margin, manifold[, cache])  contact points, if gap <= margin
 //
 // a and b are Placed shapes. Each unordered pair of shapes has one function, found by the types of
-// its arguments, for the shape of lower rank first; the other order is made here. A shape of one's
-// own joins in by functions of these names in its own namespace.
+// its arguments, for the shape of lower rank first; the other order is made here. A convex shape of
+// one's own works by its support function alone, with one point of contact (collide_convex.hpp), or
+// joins in by functions of these names in its own namespace.
 #pragma once
 
+#include "moreau/detect/collide_convex.hpp"
 #include "moreau/detect/collide_half_space.hpp"
 #include "moreau/detect/collide_polygons.hpp"
 #include "moreau/detect/collide_polyhedra.hpp"

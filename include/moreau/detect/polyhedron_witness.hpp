@@ -43,18 +43,7 @@ template <std::floating_point T>
 Witness<typename Space<3, T>::Vector> witness_of_nearest(const PolyhedronPair<T>& pair,
                                                          const Simplex<T>& simplex) {
   using Vector = typename Space<3, T>::Vector;
-  std::array<T, 3> weight{T(1), T(0), T(0)};
-  const Vector& x = simplex.nearest();
-  if (simplex.size() == 2) {
-    const Vector along = simplex[1].point - simplex[0].point;
-    weight[1] = (x - simplex[0].point).dot(along) / along.squaredNorm();
-    weight[0] = T(1) - weight[1];
-  } else if (simplex.size() == 3) {
-    const Vector p = simplex[0].point - x, q = simplex[1].point - x, r = simplex[2].point - x;
-    const Vector n = (q - p).cross(r - p);
-    weight = {n.dot(q.cross(r)), n.dot(r.cross(p)), n.dot(p.cross(q))};
-    for (T& w : weight) w /= n.squaredNorm();
-  }
+  const std::array<T, 3> weight = weights_of(simplex);
   Witness<Vector> witness{Vector::Zero(), Vector::Zero(), FeatureKey()};
   for (int i = 0; i < simplex.size(); ++i) {
     const T w = weight[static_cast<std::size_t>(i)];

@@ -137,4 +137,23 @@ class Simplex {
   Vector nearest_, direction_;
 };
 
+/// The weights of the points in the nearest one.
+template <std::floating_point T>
+std::array<T, 3> weights_of(const Simplex<T>& simplex) {
+  using Vector = typename Space<3, T>::Vector;
+  std::array<T, 3> weight{T(1), T(0), T(0)};
+  const Vector& x = simplex.nearest();
+  if (simplex.size() == 2) {
+    const Vector along = simplex[1].point - simplex[0].point;
+    weight[1] = (x - simplex[0].point).dot(along) / along.squaredNorm();
+    weight[0] = T(1) - weight[1];
+  } else if (simplex.size() == 3) {
+    const Vector p = simplex[0].point - x, q = simplex[1].point - x, r = simplex[2].point - x;
+    const Vector n = (q - p).cross(r - p);
+    weight = {n.dot(q.cross(r)), n.dot(r.cross(p)), n.dot(p.cross(q))};
+    for (T& w : weight) w /= n.squaredNorm();
+  }
+  return weight;
+}
+
 }  // namespace moreau::detail
