@@ -134,7 +134,7 @@ class ContactGroups {
             std::uint32_t dummy) {
     Pairs group;
     group.first = static_cast<std::uint32_t>(points.size());
-    group.count = 0;
+    group.count = group.awake = 0;
     group.a.fill(dummy);
     group.b.fill(dummy);
     for (const Ordered& member : members)
@@ -154,7 +154,6 @@ class ContactGroups {
           set(points[p++], lane, op, laws[law_of[c]], impulses[c], c);
         }
     }
-    group.awake = group.count;
     pairs.push_back(group);
   }
 

@@ -30,6 +30,27 @@ inline bool passes_qm16(const SolveReport& report, double tolerance) {
          std::max(report.maxm_dv, report.maxm_dvr) <= 16.67 * tolerance;
 }
 
+namespace detail {
+
+/// @throws std::invalid_argument for a tolerance or a count out of range
+void require_stopping(const auto& options, const char* solver) {
+  require(options.tolerance > 0 && std::isfinite(options.tolerance), solver, "tolerance",
+          options.tolerance, "must be finite and > 0");
+  require(options.max_sweeps >= 1, solver, "max_sweeps", options.max_sweeps, "must be at least 1");
+  require(options.check_interval >= 1, solver, "check_interval", options.check_interval,
+          "must be at least 1");
+}
+
+/// Leaves the operator with the velocities that these impulses make, and nothing else.
+template <class Operator>
+void apply_alone(Operator& op, std::span<const typename Operator::Vector> impulses) {
+  op.clear();
+  for (std::size_t c = 0; c < op.size(); ++c)
+    if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
+}
+
+}  // namespace detail
+
 /// Order of the contacts in consecutive sweeps.
 enum class SweepOrder {
   forward,
@@ -55,19 +76,16 @@ class NonlinearGaussSeidel {
   /// @throws std::invalid_argument for a tolerance or relaxation out of range or a cap below 1
   explicit NonlinearGaussSeidel(const Options& options = {}) : options_(options) {
     constexpr const char* self = "NonlinearGaussSeidel";
-    require(options.tolerance > 0 && std::isfinite(options.tolerance), self, "tolerance",
-            options.tolerance, "must be finite and > 0");
+    detail::require_stopping(options, self);
     require(options.relaxation > 0 && options.relaxation <= 1, self, "relaxation",
             options.relaxation, "must lie in (0, 1]");
-    require(options.max_sweeps >= 1, self, "max_sweeps", options.max_sweeps, "must be at least 1");
-    require(options.check_interval >= 1, self, "check_interval", options.check_interval,
-            "must be at least 1");
   }
 
   const Options& options() const { return options_; }
 
   /// Solves u = W r + b with the law of every contact.
-  /// @param op       the operator W with the free velocities b, no impulse applied yet
+  /// @param op       the operator W with the free velocities b; it is left with what the impulses
+  /// make
   /// @param laws     table of laws; law_of[c] names the entry of contact c
   /// @param impulses in: the warm start, out: the solution; in each contact's frame [N s]
   /// @returns what was reached; never throws on failure to converge
@@ -76,8 +94,7 @@ class NonlinearGaussSeidel {
                     std::span<typename Operator::Vector> impulses,
                     const Workspace<Operator, Law>& = {}) const {
     SolveReport report;
-    for (std::size_t c = 0; c < op.size(); ++c)
-      if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
+    detail::apply_alone<Operator>(op, impulses);
     if (op.size() == 0) return report;
     report.converged = false;
     while (!report.converged && report.sweeps < options_.max_sweeps) {
@@ -89,9 +106,7 @@ class NonlinearGaussSeidel {
     }
     report.capped = !report.converged;
     // Once more from the impulses alone: what many small changes rounded off must not stay.
-    op.clear();
-    for (std::size_t c = 0; c < op.size(); ++c)
-      if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
+    detail::apply_alone<Operator>(op, impulses);
     measure_residual(op, laws, law_of, std::span<const typename Operator::Vector>(impulses),
                      report);
     return report;
