@@ -33,7 +33,7 @@ struct Parameters {
   double friction = 0.4;    ///< grain-grain and grain-horizontal wall; vertical walls have none
   double tolerance = 1e-4;
   moreau::StopTest stop_test = moreau::StopTest::qm16;
-  int max_sweeps = 2000;
+  int max_sweeps = 5000;
   /// The preparation has a step, tolerance (QM/16) and cap of its own, so that runs which differ in
   /// the others start from the same packing.
   double preparation_step = 2e-4;  ///< [s]

@@ -106,11 +106,11 @@ struct Assembly {
 };
 
 template <class S>
-ColouredOptions fast(double tolerance, bool momentum = true) {
+ColouredOptions fast(double tolerance, bool accelerate = true) {
   ColouredOptions options;
   options.tolerance = tolerance;
   options.max_sweeps = 20000;
-  options.momentum = momentum;
+  options.accelerate = accelerate;
   return options;
 }
 

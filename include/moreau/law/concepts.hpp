@@ -30,15 +30,21 @@ concept SetValuedLaw = std::copyable<L> &&
 
 /// A law that also solves one contact per lane.
 ///
-/// - lane_parameters(): all that the law differs in from others of its type
-/// - solve_lanes(block, b, guess, parameters): in every lane solve(), or a step towards it from the
-///   guess that stands still nowhere else
+/// - lane_parameters(): an array of all that the law differs in from others of its type
+/// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or a step
+///   towards it that stands still nowhere else. memory is the law's own: one number per contact, 0
+///   at first, kept from visit to visit. Where polish is set the impulse lies in the cone to the
+///   last digit; the next visit's starts from it.
 template <class L, class S>
 concept LaneLaw = SetValuedLaw<L, S> &&
-    requires(const L law, const LaneBlock<S> block, const typename LaneBlock<S>::Vector vector) {
-  { law.lane_parameters() } -> std::same_as<std::array<typename S::Scalar, 1>>;
+    requires(const L law, const LaneBlock<S> block, const typename LaneBlock<S>::Vector vector,
+             typename LaneBlock<S>::Values memory) {
+  std::tuple_size<decltype(law.lane_parameters())>::value;
   {
-    L::solve_lanes(block, vector, vector, {block.normal})
+    L::solve_lanes(block, vector, vector,
+                   std::array<typename LaneBlock<S>::Values,
+                              std::tuple_size_v<decltype(law.lane_parameters())>>{},
+                   memory, true)
     } -> std::same_as<typename LaneBlock<S>::Vector>;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The local solution of Signorini's and Coulomb's conditions, one contact per lane: what
 // SignoriniCoulomb::solve does, without branches. Two of its three cases are exact; slip in space
-// is iterated until one Newton step from the exact root at most a hundredth of the impulse is at
-// stake, and takes that step. From sweep to sweep the guess is the last impulse, so the error is
-// squared each time and the only fixed point is the exact solution.
+// is iterated until a Newton step is short, a few per cent. From sweep to sweep alpha is
+// remembered, so the error is squared each time and the only fixed point is the exact solution.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -13,7 +13,7 @@
 
 namespace moreau::detail {
 
-/// One local problem per lane, in units of the impulse that it would take without friction.
+/// One local problem per lane.
 template <class S>
 class CoulombLanes {
  public:
@@ -26,8 +26,10 @@ class CoulombLanes {
   using Tangent = typename Block::Tangent;
   static constexpr std::size_t tangents = Block::tangents;
 
-  static Vector solve(const Block& block, const Vector& b, const Vector& guess,
-                      const Values& friction) {
+  /// @param alpha  of u_t = -alpha r_t, from the last visit of this contact or 0; the new one
+  /// @param polish puts slipping impulses on the cone to the last digit
+  static Vector solve(const Block& block, const Vector& b, const Values& friction, Values& alpha,
+                      bool polish) {
     const Values zero{};
     const Indices acts = b[0] < zero;
     const Values free = -b[0] * block.inverse_normal;
@@ -43,10 +45,11 @@ class CoulombLanes {
     const Indices slips = acts & ~sticks;
     if (W::any(slips)) {
       const CoulombLanes problem(block, c, slips ? free : W::broadcast(1), friction);
-      const Tangent sliding = problem.slide(guess, slips & (friction > zero));
+      Tangent sliding = problem.slide(slips & (friction > zero), alpha);
+      if (polish) sliding = problem.onto_cone(sliding);
       normal = slips ? free : normal;
       for (std::size_t t = 0; t < tangents; ++t) {
-        tangent[t] = slips ? free * sliding[t] : tangent[t];
+        tangent[t] = slips ? sliding[t] : tangent[t];
         normal = slips ? normal - block.coupling[t] * tangent[t] : normal;
       }
     }
@@ -57,15 +60,14 @@ class CoulombLanes {
   }
 
  private:
-  /// |phi| relative to |r_t| + mu r_n within which one more Newton step is the last.
-  static constexpr T close = T(0.01);
+  /// A Newton step this short, relative to slip + alpha, is the last, if | |r_t| - mu r_n | is as
+  /// small too, relative to their sum.
+  static constexpr T close = T(0.05);
 
   /// @param c    b_t - q b_n
-  /// @param free impulse without friction, the unit of all that follows
+  /// @param free impulse without friction
   CoulombLanes(const Block& block, const Tangent& c, const Values& free, const Values& friction)
-      : coupling_(block.coupling), slip_(block.slip), friction_(friction), unit_(T(1) / free) {
-    for (std::size_t t = 0; t < tangents; ++t) c_[t] = c[t] * unit_;
-  }
+      : coupling_(block.coupling), slip_(block.slip), friction_(friction), free_(free), c_(c) {}
 
   static Values squared(const Tangent& r) {
     Values sum{};
@@ -74,69 +76,99 @@ class CoulombLanes {
   }
   /// mu r_n.
   Values limit(const Tangent& r) const {
-    Values sum = W::broadcast(1);
+    Values sum = free_;
     for (std::size_t t = 0; t < tangents; ++t) sum -= coupling_[t] * r[t];
     return friction_ * sum;
   }
 
-  /// alpha that the guess implies, u_t = -alpha r_t; 0 where it implies none.
-  Values start(const Vector& guess) const {
-    const Values zero{};
-    Values above{}, below{};
-    for (std::size_t t = 0; t < tangents; ++t) {
-      const Values g = guess[t + 1] * unit_;
-      above -= (c_[t] + slip_[t] * g) * g;
-      below += g * g;
-    }
-    const Values alpha = above / (below > zero ? below : W::broadcast(1));
-    const Values most = W::broadcast(std::numeric_limits<T>::max());
-    return ((alpha > zero) & (alpha <= most)) ? alpha : zero;
-  }
-
   /// Tangential impulse of the lanes that slip in the plane: r_t = s mu r_n with a constant sign s.
-  Tangent slide(const Vector&, const Indices&) const requires(tangents == 1) {
+  Tangent slide(const Indices&, const Values&) const requires(tangents == 1) {
     const Values s = c_[0] > Values{} ? -friction_ : friction_;
-    return {s / (T(1) + s * coupling_[0])};
+    return {s * free_ / (T(1) + s * coupling_[0])};
   }
 
-  /// The same in space; phi and the iteration as in solve_slip.
-  Tangent slide(const Vector& guess, Indices open) const requires(tangents > 1) {
+  /// r_t at some alpha, and what changes with alpha.
+  struct Point {
+    Tangent r, fall;            ///< r_t and -dr_t/dalpha
+    Values along, limit_slope;  ///< -|r_t| d|r_t|/dalpha and d(mu r_n)/dalpha
+    Values length2, limit;      ///< |r_t|^2 and mu r_n
+  };
+  /// @param unit by which impulses are multiplied
+  Point at(const Values& alpha, const Values& unit) const {
+    Point p{};
+    for (std::size_t t = 0; t < tangents; ++t) {
+      const Values inverse = T(1) / (slip_[t] + alpha);
+      p.r[t] = -unit * c_[t] * inverse;
+      p.fall[t] = p.r[t] * inverse;
+      p.along += p.r[t] * p.fall[t];
+      p.limit_slope += coupling_[t] * p.fall[t];
+    }
+    p.limit_slope *= friction_;
+    p.length2 = squared(p.r);
+    Values normal = unit * free_;
+    for (std::size_t t = 0; t < tangents; ++t) normal -= coupling_[t] * p.r[t];
+    p.limit = friction_ * normal;
+    return p;
+  }
+
+  Indices is_short(const Values& change, const Values& alpha) const {
+    Values least = slip_[0];
+    for (std::size_t t = 1; t < tangents; ++t) least = slip_[t] < least ? slip_[t] : least;
+    return W::absolute(change) <= close * (least + alpha);
+  }
+
+  /// In space. Mostly alpha of the last visit is so near that one Newton step on |r_t|^2 -
+  /// (mu r_n)^2, which needs no root, suffices.
+  Tangent slide(const Indices& open, Values& alpha) const requires(tangents > 1) {
+    const Values zero{};
+    const Point p = at(alpha, W::broadcast(1));
+    const Values limit2 = p.limit * p.limit, phi = p.length2 - limit2;
+    const Values slope = T(2) * (p.along + p.limit * p.limit_slope);
+    const Values change = phi / (slope > zero ? slope : W::broadcast(1));
+    const Values next = alpha + change;
+    const Indices near = (p.limit > zero) & (slope > zero) & is_short(change, alpha) &
+                         (next >= zero) & (W::absolute(phi) <= T(2) * close * (p.length2 + limit2));
+    if (W::any(open & ~near)) return search(open, alpha);
+    alpha = open ? next : alpha;
+    Tangent r;
+    for (std::size_t t = 0; t < tangents; ++t) r[t] = open ? p.r[t] - change * p.fall[t] : zero;
+    return r;
+  }
+
+  /// Newton's method inside a bracket from any alpha >= 0; phi and the iteration as in solve_slip,
+  /// in units of the impulse without friction.
+  Tangent search(Indices open, Values& alpha) const requires(tangents > 1) {
     const Values zero{}, most = W::broadcast(std::numeric_limits<T>::max());
-    Values lower{}, upper = most, alpha = start(guess);
+    const Values unit = T(1) / free_;
+    Values lower{}, upper = most, trial = alpha;
     Tangent result{};
     for (int iteration = 0; iteration < 100; ++iteration) {
-      Tangent r, fall;  // r_t and -dr_t/dalpha
-      Values along{}, limit_slope{};
-      for (std::size_t t = 0; t < tangents; ++t) {
-        const Values inverse = T(1) / (slip_[t] + alpha);
-        r[t] = -c_[t] * inverse;
-        fall[t] = r[t] * inverse;
-        along += r[t] * fall[t];
-        limit_slope += coupling_[t] * fall[t];
-      }
-      limit_slope *= friction_;
-      const Values length2 = squared(r), length = W::square_root(length2);
-      const Values most_r = limit(r), phi = length - most_r;
-      const Indices positive = most_r > zero;
-      const Values change = (positive ? phi * length2 * most_r : phi * length) /
-                            (positive ? limit_slope * length2 * length + along * most_r * most_r
-                                      : along + limit_slope * length);
-      lower = phi > zero ? alpha : lower;
-      upper = phi > zero ? upper : alpha;
-      const Indices near = W::absolute(phi) <= close * (length + W::absolute(most_r));
+      const Point p = at(trial, unit);
+      const Values length = W::square_root(p.length2), phi = length - p.limit;
+      const Indices positive = p.limit > zero;
+      const Values change =
+          (positive ? phi * p.length2 * p.limit : phi * length) /
+          (positive ? p.limit_slope * p.length2 * length + p.along * p.limit * p.limit
+                    : p.along + p.limit_slope * length);
+      lower = phi > zero ? trial : lower;
+      upper = phi > zero ? upper : trial;
+      // At a fold of phi the step may point away from the root.
+      const Values next = trial + change;
+      const Indices near = positive & is_short(change, trial) & (next >= lower) & (next <= upper) &
+                           (W::absolute(phi) <= close * (length + p.limit));
       const Indices narrow = (upper < most) & (upper - lower <= close * close * upper);
+      alpha = open ? (near ? next : trial) : alpha;
       for (std::size_t t = 0; t < tangents; ++t)
-        result[t] = open ? r[t] - (near ? change * fall[t] : zero) : result[t];
+        result[t] = open ? free_ * (p.r[t] - (near ? change * p.fall[t] : zero)) : result[t];
       open = open & ~near & ~narrow;
       if (!W::any(open)) break;
-      const Values next = alpha + change;
       Values fallback = (lower + upper) / T(2);
       Values beyond = T(2) * lower;
       for (std::size_t t = 0; t < tangents; ++t) beyond += slip_[t];
       fallback = upper < most ? fallback : beyond;
-      alpha = ((next > lower) & (next < upper)) ? next : fallback;
+      trial = ((next > lower) & (next < upper)) ? next : fallback;
     }
-    return onto_cone(result);
+    return result;
   }
 
   /// On the cone to the last digit, whatever Newton left.
@@ -149,7 +181,7 @@ class CoulombLanes {
   }
 
   Tangent coupling_, slip_;
-  Values friction_, unit_;
+  Values friction_, free_;
   Tangent c_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "moreau/contact/lane_problem.hpp"
 #include "moreau/law/concepts.hpp"
@@ -18,7 +19,7 @@ class LawLanes {
   using Vector = typename Block::Vector;
 
   void set(std::size_t lane, const Law& law) { law_[lane] = &law; }
-  Vector solve(const Block& block, const Vector& b, const Vector& guess) const {
+  Vector solve(const Block& block, const Vector& b, const Vector& guess, bool) const {
     Vector r{};
     for (std::size_t lane = 0; lane < law_.size(); ++lane) {
       if (!law_[lane]) continue;
@@ -48,12 +49,14 @@ class LawLanes<Law, S> {
     const auto parameters = law.lane_parameters();
     for (std::size_t k = 0; k < parameters.size(); ++k) parameters_[k][lane] = parameters[k];
   }
-  Vector solve(const Block& block, const Vector& b, const Vector& guess) const {
-    return Law::solve_lanes(block, b, guess, parameters_);
+  Vector solve(const Block& block, const Vector& b, const Vector& guess, bool polish) {
+    return Law::solve_lanes(block, b, guess, parameters_, memory_, polish);
   }
 
  private:
-  std::array<typename Block::Values, 1> parameters_{};
+  using Parameters = decltype(std::declval<const Law&>().lane_parameters());
+  std::array<typename Block::Values, std::tuple_size_v<Parameters>> parameters_{};
+  typename Block::Values memory_{};
 };
 
 }  // namespace moreau::detail

@@ -145,13 +145,14 @@ class SignoriniCoulomb {
 
   /// What two laws of this type differ in when they solve: the friction.
   std::array<T, 1> lane_parameters() const { return {friction_}; }
-  /// One contact per lane; see CoulombLanes for what it returns of solve().
+  /// One contact per lane; see CoulombLanes for what it returns of solve(). It remembers alpha.
   template <class S>
   static typename LaneBlock<S>::Vector solve_lanes(
       const LaneBlock<S>& block, const typename LaneBlock<S>::Vector& b,
-      const typename LaneBlock<S>::Vector& guess,
-      const std::array<typename LaneBlock<S>::Values, 1>& parameters) {
-    return detail::CoulombLanes<S>::solve(block, b, guess, parameters[0]);
+      const typename LaneBlock<S>::Vector&,
+      const std::array<typename LaneBlock<S>::Values, 1>& parameters,
+      typename LaneBlock<S>::Values& memory, bool polish) {
+    return detail::CoulombLanes<S>::solve(block, b, parameters[0], memory, polish);
   }
 
   /// r - P_K(r - (u + mu |u_t| n)), K the Coulomb cone. Zero iff (u, r) satisfies the law

@@ -5,22 +5,27 @@
 //  - contacts coloured by body, so that each wide instruction works on independent contacts;
 //  - momentum: a sweep starts from r + beta (r - r a sweep ago) and from the body velocities that
 //    belong to it, which are extrapolated alike because they are linear in r;
+//  - Anderson's mixing instead, where momentum gets no further: with friction a solution can repel
+//    the sweeps, which then circle around it for thousands;
 //  - contacts that carry nothing and separate left out of the sweeps between two checks; every
 //    check visits all.
 //
 // Whether the result is good is decided by a plain sweep (QM/16) or by the residual of the impulses
-// alone; the momentum has no say in that.
+// alone; the acceleration has no say in that.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/solve/anderson_mixing.hpp"
 #include "moreau/solve/contact_groups.hpp"
 #include "moreau/solve/momentum.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
@@ -32,7 +37,7 @@ namespace moreau {
 
 namespace detail {
 
-/// The state of one solution: groups of contacts, scaled body velocities, momentum.
+/// The state of one solution: groups of contacts, scaled body velocities, acceleration.
 template <class Operator, class Law>
 class ColouredSweeps {
  public:
@@ -46,12 +51,14 @@ class ColouredSweeps {
 
   /// @param op carries the velocities that the impulses make
   void start(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-             std::span<const Impulse> impulses, bool momentum) {
+             std::span<const Impulse> impulses, bool accelerate) {
     groups_.build(op, laws, law_of, impulses);
     load_velocities(op);
-    momentum_ = Momentum(momentum);
-    awake_.clear();
-    for (std::uint32_t k = 0; k < groups_.pairs.size(); ++k) rest_or_wake(k);
+    accelerate_ = accelerate;
+    momentum_ = Momentum();
+    patience_ = Patience();
+    mixing_ = false;
+    list_awake();
   }
   /// Body velocities of the operator; what the sweeps rounded off is gone. The next sweep starts
   /// from the impulses as they are, because no earlier velocities belong to these.
@@ -67,12 +74,23 @@ class ColouredSweeps {
   }
   void unpack(std::span<Impulse> impulses) const { groups_.unpack(impulses); }
 
-  /// Sweeps over the contacts that are awake, each sweep ahead by the momentum.
+  /// A sweep over the contacts that are awake, accelerated.
   void sweep() {
+    if (mixing_) {
+      mixed_sweep();
+      return;
+    }
     extrapolate();
     change2_ = Values{};
     for (const std::uint32_t k : awake_) visit<false>(groups_.pairs[k], groups_.pairs[k].awake);
-    beta_ = static_cast<T>(momentum_.next(double(W::sum(change2_))));
+    set_momentum();
+  }
+  /// The same, over all contacts; wakes those that approach, lets go those that rest.
+  void waking_sweep() {
+    extrapolate();
+    change2_ = Values{};
+    visit_all<false>(nullptr);
+    set_momentum();
   }
   /// One plain sweep over all contacts; wakes those that approach, lets go those that rest.
   SweepChange plain_sweep() {
@@ -80,20 +98,19 @@ class ColouredSweeps {
     beta_ = 0;
     change2_ = Values{};
     SweepChange change;
-    awake_.clear();
-    for (std::uint32_t k = 0; k < groups_.pairs.size(); ++k) {
-      const auto& group = groups_.pairs[k];
-      if (group.awake == 0 && !approaches(group)) continue;
-      visit<true>(group, group.count, &change);
-      rest_or_wake(k);
+    visit_all<true>(&change);
+    ++mixed_sweeps_;
+    if (accelerate_ && patience_.exhausted(std::sqrt(change.dv2))) {
+      mixing_ = !mixing_;
+      if (mixing_) start_mixing();
     }
-    momentum_.check(std::sqrt(change.dv2));
-    beta_ = static_cast<T>(momentum_.next(double(W::sum(change2_))));
+    set_momentum();
     return change;
   }
 
  private:
   static constexpr std::size_t registers = (S::dofs + W::lanes - 1) / W::lanes;
+  static constexpr int sweeps_per_mix = 4;
   using BodyLanes = std::array<Values, registers * W::lanes>;
   using Pairs = typename Groups::Pairs;
   using Points = typename Groups::Points;
@@ -118,6 +135,77 @@ class ColouredSweeps {
     }
   }
 
+  template <bool Measure>
+  void visit_all(SweepChange* change) {
+    awake_.clear();
+    for (std::uint32_t k = 0; k < groups_.pairs.size(); ++k) {
+      const Pairs& group = groups_.pairs[k];
+      if (group.awake == 0 && !approaches(group)) continue;
+      visit<Measure>(group, group.count, change);
+      rest_or_wake(k);
+    }
+  }
+  void set_momentum() {
+    beta_ = accelerate_ && !mixing_ ? static_cast<T>(momentum_.next(double(W::sum(change2_)))) : 0;
+  }
+
+  /// Backward and forward in turn, mixed after every few.
+  void mixed_sweep() {
+    if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) mix();
+    before_ = velocity_;
+    if (mixed_sweeps_++ % 2 == 0) {
+      for (std::size_t i = awake_.size(); i-- > 0;)
+        visit<false>(groups_.pairs[awake_[i]], groups_.pairs[awake_[i]].awake);
+    } else {
+      for (const std::uint32_t k : awake_) visit<false>(groups_.pairs[k], groups_.pairs[k].awake);
+    }
+  }
+  /// The points that are awake now are those that are mixed.
+  void start_mixing() {
+    mixed_sweeps_ = 0;
+    mixed_.clear();
+    for (const std::uint32_t k : awake_) {
+      const Pairs& group = groups_.pairs[k];
+      for (std::uint32_t p = 0; p < group.awake; ++p) mixed_.push_back(group.first + p);
+    }
+    packed_.resize(Eigen::Index(mixed_.size() * S::dim * std::size_t{W::lanes}));
+    pack_mixed();
+    anderson_.start(packed_);
+  }
+  void pack_mixed() {
+    T* to = packed_.data();
+    for (const std::uint32_t p : mixed_)
+      for (std::size_t d = 0; d < S::dim; ++d, to += W::lanes)
+        std::memcpy(to, &groups_.points[p].impulse[d], sizeof(Values));
+  }
+  void mix() {
+    pack_mixed();
+    anderson_.mix(packed_);
+    const T* from = packed_.data();
+    for (const std::uint32_t p : mixed_)
+      for (std::size_t d = 0; d < S::dim; ++d, from += W::lanes)
+        groups_.points[p].impulse[d] = W::load(from);
+    std::fill(velocity_.begin(), velocity_.end(), Values{});
+    for (const Pairs& group : groups_.pairs) apply(group);
+    list_awake();
+  }
+  /// Adds what the impulses of a group do to its bodies.
+  void apply(const Pairs& group) {
+    BodyLanes a = gather(group.a), b = gather(group.b);
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
+      push(groups_.points[p], groups_.points[p].impulse, a, b);
+    scatter(group.a, a);
+    scatter(group.b, b);
+  }
+  /// Impulses of a point on the velocities of its bodies.
+  static void push(const Points& point, const Vector& impulse, BodyLanes& a, BodyLanes& b) {
+    for (std::size_t k = 0; k < S::dofs; ++k)
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        a[k] -= point.rows_a[k][d] * impulse[d];
+        b[k] += point.rows_b[k][d] * impulse[d];
+      }
+  }
+
   void extrapolate() {
     const Values beta = W::broadcast(beta_);
     for (std::size_t i = 0; i < velocity_.size(); ++i) {
@@ -127,6 +215,10 @@ class ColouredSweeps {
     }
   }
 
+  void list_awake() {
+    awake_.clear();
+    for (std::uint32_t k = 0; k < groups_.pairs.size(); ++k) rest_or_wake(k);
+  }
   /// Notes which points of a group carry an impulse, and the group if any does.
   void rest_or_wake(std::uint32_t k) {
     Pairs& group = groups_.pairs[k];
@@ -177,7 +269,7 @@ class ColouredSweeps {
         }
       Vector u;
       for (std::size_t d = 0; d < S::dim; ++d) u[d] = of_b[d] - of_a[d];
-      const Vector impulse = point.law.solve(point.block, u, guess);
+      const Vector impulse = point.law.solve(point.block, u, guess, Measure);
       Vector change;
       for (std::size_t d = 0; d < S::dim; ++d) {
         change[d] = impulse[d] - guess[d];
@@ -187,11 +279,7 @@ class ColouredSweeps {
       }
       // The rows are read again from memory: kept, they would be spilled and read from there.
       asm volatile("" : : : "memory");
-      for (std::size_t k = 0; k < S::dofs; ++k)
-        for (std::size_t d = 0; d < S::dim; ++d) {
-          a[k] -= point.rows_a[k][d] * change[d];
-          b[k] += point.rows_b[k][d] * change[d];
-        }
+      push(point, change, a, b);
       if constexpr (Measure) add(*measure, point.block, change, impulse);
     }
     scatter(group.a, a);
@@ -215,9 +303,15 @@ class ColouredSweeps {
   Groups groups_;
   std::vector<Values> velocity_, before_;  // y of every body after the last sweep, and before it
   std::vector<std::uint32_t> awake_;
+  bool accelerate_ = true, mixing_ = false;
+  Patience patience_;
   Momentum momentum_;
   T beta_ = 0;
   Values change2_{};
+  std::vector<std::uint32_t> mixed_;  // points
+  Eigen::Matrix<T, Eigen::Dynamic, 1> packed_;
+  AndersonMixing<T> anderson_;
+  int mixed_sweeps_ = 0;
 };
 
 }  // namespace detail
@@ -227,7 +321,7 @@ struct ColouredOptions {
   StopTest stop_test = StopTest::natural_map;
   int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped
   int check_interval = 20;  ///< sweeps from one stopping test to the next
-  bool momentum = true;     ///< off: plain sweeps
+  bool accelerate = true;   ///< off: plain sweeps
 };
 
 /// The fast solver of a step's contacts; the header says how it differs from the reference.
@@ -254,11 +348,15 @@ class ColouredGaussSeidel {
     if (op.size() == 0) return report;
     report.converged = false;
     detail::apply_alone<Operator>(op, impulses);
-    sweeps.start(op, laws, law_of, impulses, options_.momentum);
+    sweeps.start(op, laws, law_of, impulses, options_.accelerate);
     double believed = 3 * options_.tolerance;  // change per sweep at which the residual may be met
     while (!report.converged && report.sweeps < options_.max_sweeps) {
       const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
-      for (int k = 1; k < block; ++k) sweeps.sweep();
+      for (int k = 1; k < block; ++k)
+        if (report.sweeps == 0 && std::has_single_bit(unsigned(k)))
+          sweeps.waking_sweep();
+        else
+          sweeps.sweep();
       sweeps.plain_sweep().write(report);
       report.sweeps += block;
       if (options_.stop_test == StopTest::qm16) {

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Lanes come to a solution of the law from any start within a few visits.
+
+#include "moreau/law/coulomb_lanes.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+
+#include "moreau/law/signorini_coulomb.hpp"
+
+using namespace moreau;
+
+namespace {
+
+/// As many local problems as there are lanes, some open, some without friction.
+template <class S>
+struct Lanes {
+  using T = typename S::Scalar;
+  using Block = LaneBlock<S>;
+  using W = typename Block::W;
+  static constexpr std::size_t count = std::size_t{W::lanes};
+
+  std::array<LocalBlock<S>, count> blocks;
+  std::array<typename S::Vector, count> velocities;
+  std::array<T, count> frictions;
+  Block block = Block::unit();
+  typename Block::Vector velocity{};
+  typename W::Values friction{}, alpha{};
+
+  explicit Lanes(std::mt19937_64& random, T scale) {
+    std::normal_distribution<double> normal;
+    for (std::size_t l = 0; l < count; ++l) {
+      typename S::Matrix a;
+      for (auto& x : a.reshaped()) x = static_cast<T>(normal(random));
+      for (auto& x : velocities[l]) x = scale * static_cast<T>(normal(random));
+      typename S::Matrix w = a * a.transpose() + T(1e-3) * S::Matrix::Identity();
+      w /= w.trace();
+      Eigen::Matrix<T, S::dim - 1, S::dim - 1> turn;
+      blocks[l] = align_tangents<S>(w, turn);
+      frictions[l] = random() % 8 == 0 ? T(0) : static_cast<T>(std::abs(normal(random)));
+      block.set(l, blocks[l]);
+      for (std::size_t d = 0; d < S::dim; ++d) velocity[d][l] = velocities[l][Eigen::Index(d)];
+      friction[l] = frictions[l];
+    }
+  }
+  typename Block::Vector visit(bool polish) {
+    return detail::CoulombLanes<S>::solve(block, velocity, friction, alpha, polish);
+  }
+  /// Natural map of a lane, relative to |r| + |b| (W has trace 1).
+  double error(const typename Block::Vector& r, std::size_t l) const {
+    typename S::Vector own;
+    for (std::size_t d = 0; d < S::dim; ++d) own[Eigen::Index(d)] = r[d][l];
+    const typename S::Vector u = blocks[l] * own + velocities[l];
+    return double(SignoriniCoulomb<T>(frictions[l]).natural_map(u, own).norm() /
+                  (own.norm() + velocities[l].norm()));
+  }
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("one visit comes near, a few are exact", S, Space<2>, Space<3>, Space<2, float>,
+                   Space<3, float>) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(11);
+  double first = 0, last = 0;
+  for (const T scale : {T(1), T(1e-12)})
+    for (int i = 0; i < 2000; ++i) {
+      Lanes<S> lanes(random, scale);
+      const auto start = lanes.visit(false);
+      for (int k = 0; k < 3; ++k) lanes.visit(false);
+      const auto end = lanes.visit(true);
+      for (std::size_t l = 0; l < Lanes<S>::count; ++l) {
+        first = std::max(first, lanes.error(start, l));
+        last = std::max(last, lanes.error(end, l));
+      }
+    }
+  CHECK(first < 0.1);
+  CHECK(last < 1e4 * double(std::numeric_limits<T>::epsilon()));
+}
+
+TEST_CASE_TEMPLATE("alpha remembered from another velocity does no harm", S, Space<3>,
+                   Space<3, float>) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> normal;
+  double last = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Lanes<S> lanes(random, T(1));
+    for (std::size_t l = 0; l < Lanes<S>::count; ++l)
+      lanes.alpha[l] = static_cast<T>(std::exp(8 * normal(random)));
+    for (int k = 0; k < 4; ++k) lanes.visit(false);
+    const auto end = lanes.visit(true);
+    for (std::size_t l = 0; l < Lanes<S>::count; ++l) last = std::max(last, lanes.error(end, l));
+  }
+  CHECK(last < 1e4 * double(std::numeric_limits<T>::epsilon()));
+}
+
+TEST_CASE("a polished impulse that slips lies on the cone to the last digit") {
+  std::mt19937_64 random(13);
+  int slips = 0;
+  for (int i = 0; i < 500; ++i) {
+    Lanes<Space<3>> lanes(random, 1.0);
+    const auto r = lanes.visit(true);
+    for (std::size_t l = 0; l < Lanes<Space<3>>::count; ++l) {
+      const double tangential = std::hypot(r[1][l], r[2][l]), limit = lanes.frictions[l] * r[0][l];
+      CHECK(tangential <= limit * (1 + 0.01));
+      const bool near = std::abs(tangential - limit) < 0.01 * limit;
+      slips += near && limit > 0;
+    }
+  }
+  CHECK(slips > 300);
+}

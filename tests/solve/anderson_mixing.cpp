@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Mixing finds fixed points that repel, and forgets when it is told to.
+
+#include "moreau/solve/anderson_mixing.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace moreau::detail;
+
+TEST_CASE_TEMPLATE("a linear map of n numbers is solved in n + 1 steps, stable or not", T, double,
+                   float) {
+  using Vector = typename AndersonMixing<T>::Vector;
+  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+  constexpr int n = 6;
+  // Rotations by some angles, growing and shrinking: eigenvalues of modulus 1.2, 1.02 and 0.9.
+  Matrix a = Matrix::Zero(n, n);
+  const T moduli[] = {T(1.2), T(1.02), T(0.9)};
+  for (int k = 0; k < 3; ++k) {
+    const T angle = T(0.3 + 0.5 * k);
+    a.template block<2, 2>(2 * k, 2 * k) << std::cos(angle), -std::sin(angle), std::sin(angle),
+        std::cos(angle);
+    a.template block<2, 2>(2 * k, 2 * k) *= moduli[k];
+  }
+  const Vector b = Vector::LinSpaced(n, T(-1), T(2));
+  const Vector fixed = (Matrix::Identity(n, n) - a).lu().solve(b);
+  AndersonMixing<T> mixing;
+  for (const T start : {T(0), T(3)}) {
+    Vector x = Vector::Constant(n, start);
+    mixing.start(x);
+    for (int step = 0; step <= n; ++step) {
+      Vector g = a * x + b;
+      mixing.mix(g);
+      x = g;
+    }
+    // Not to rounding: the weights are regularized by 1e-10 of their scale, which leaves its root.
+    CHECK((x - fixed).norm() < (sizeof(T) == 8 ? T(1e-5) : T(1e-2)) * fixed.norm());
+  }
+}
+
+TEST_CASE("mixing that starts at the fixed point stays there") {
+  AndersonMixing<double> mixing;
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(3, 2.);
+  mixing.start(x);
+  for (int step = 0; step < 30; ++step) {
+    mixing.mix(x);
+    CHECK(x == Eigen::VectorXd::Constant(3, 2.));
+  }
+}
