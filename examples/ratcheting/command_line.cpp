@@ -82,7 +82,7 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_flag("--no-correction", no_correction, "leave overlaps as they are");
   app.add_option("--threads", p.threads, "threads of the solver; this version has one")
       ->check(CLI::Range(1, 1));
-  app.add_option("--seed", p.seed, "of the sample");
+  app.add_option("--seed", p.seed, "of the sample")->check(CLI::NonNegativeNumber);
   app.add_option("--snapshots", p.snapshots, "ParaView files over the run; 0: none")
       ->check(CLI::Range(0, 100000));
   bool no_plots = false;

@@ -44,12 +44,15 @@ class Recorder {
         solver_(file("solver.csv"), {"step", "pairs", "points", "sweeps", "residual", "max_overlap",
                                      "mean_overlap", "ms_detect", "ms_solve", "ms_total"}) {}
 
+  /// Of the control volume from the side walls, 2 d [m].
+  static double inset(const Experiment<ShapeT>& experiment) {
+    return 2 * experiment.simulation().grain_size();
+  }
   /// Fixes the control volume: 2 d from the side walls, 0.1 H to 0.7 H.
   void set_control_volume() {
-    const double inset = 2 * experiment_.simulation().grain_size();
     inner_ = experiment_.box();
-    inner_.lower.array() += inset;
-    inner_.upper.array() -= inset;
+    inner_.lower.array() += inset(experiment_);
+    inner_.upper.array() -= inset(experiment_);
     inner_.lower[up] = 0.1 * experiment_.height();
     inner_.upper[up] = 0.7 * experiment_.height();
     moreau::require_inside(inner_, experiment_.box());

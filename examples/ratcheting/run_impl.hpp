@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -28,17 +29,41 @@ double thickness_of(const Parameters& p) {
   return make_grains<Twin>(p, twin).volume / make_grains<ShapeT>(p, own).volume;
 }
 
+/// @throws std::invalid_argument if the folder cannot be made or a file cannot be made in it
+inline void require_writable(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw std::invalid_argument("--output: cannot make folder " + folder + ": " + error.message());
+  const auto probe = std::filesystem::path(folder) / "wall.csv";
+  if (!std::ofstream(probe, std::ios::app))
+    throw std::invalid_argument("--output: cannot write " + probe.string());
+}
+
+/// @throws std::invalid_argument for parameters that make no experiment
+template <class ShapeT>
+void require_experiment(const Parameters& p, const Experiment<ShapeT>& experiment) {
+  if (p.step > p.duration)
+    throw std::invalid_argument("--step: " + std::to_string(p.step) +
+                                " s must not exceed --duration " + std::to_string(p.duration) +
+                                " s");
+  const double inset = Recorder<ShapeT>::inset(experiment);
+  if (experiment.length() <= 2 * inset)
+    throw std::invalid_argument("--grains: " + std::to_string(p.grains) + " make a box " +
+                                std::to_string(experiment.length()) +
+                                " m long, too short for a control volume " + std::to_string(inset) +
+                                " m from its side walls; more grains or a larger --box-length");
+}
+
 /// Steps between two lines of packing.csv.
 constexpr std::size_t packing_interval = 5;
 
 template <class ShapeT>
 int run(const Parameters& p) {
-  std::error_code error;
-  std::filesystem::create_directories(p.output, error);
-  if (error)
-    throw std::runtime_error("--output: cannot make folder " + p.output + ": " + error.message());
   Stopwatch watch;
   Experiment<ShapeT> experiment(p, thickness_of<ShapeT>(p));
+  require_experiment(p, experiment);
+  require_writable(p.output);
   Recorder<ShapeT> recorder(p, experiment);
   RunJson json(p, experiment);
   Progress progress;

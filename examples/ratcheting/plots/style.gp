@@ -6,7 +6,7 @@ packing = folder."/packing.csv"  # t,rho_inner,rho_box,kinetic_energy,contacts,c
 solver = folder."/solver.csv"    # step,pairs,points,sweeps,residual,max_overlap,mean_overlap,ms_...
 events = folder."/events.csv"    # period,t_before,x_before,t_onset,t_force_min,t_peak,x_peak,
                                  # t_after,x_after; may be missing
-has_events = system("test -s '".events."' && echo 1 || echo 0") + 0
+has_events = system("test $(cat '".events."' 2>/dev/null | wc -l) -gt 1 && echo 1 || echo 0") + 0
 
 if (strstrt(GPVAL_TERMINALS, "pngcairo")) {
   set terminal pngcairo size 1200, 800 font "DejaVu Sans,17" linewidth 1.6 rounded

@@ -1,0 +1,75 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# The study as a program: refuses bad values with a message and status 2, gives the same wall.csv
+# twice, leaves valid files when it is interrupted. Argument: the executable.
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# refuse "part of the message" options...
+refuse() {
+  local wanted=$1 said status
+  shift
+  said=$(timeout 20 "$program" --no-plots --output "$folder/refused" "$@" 2>&1)
+  status=$?
+  [ "$status" = 2 ] || fail "$* ended with status $status"
+  grep -qF -e "$wanted" <<<"$said" || fail "$* said: $said"
+}
+refuse "--density" --density -1
+refuse "--density" --density nan
+refuse "--step" --step 0
+refuse "--step" --step inf
+refuse "must not exceed --duration" --step 0.1 --duration 0.01 --grains 200
+refuse "--duration" --duration -1
+refuse "--frequency" --frequency 0
+refuse "--gravity" --gravity -9.81
+refuse "--fmax" --fmax -5
+refuse "must not exceed --fmax" --fmin 7000
+refuse "--wall-mass-ratio" --wall-mass-ratio 0
+refuse "--box-ratio" --box-ratio 0
+refuse "--tolerance" --tolerance 0
+refuse "--margin" --margin 0
+refuse "--max-sweeps" --max-sweeps 0
+refuse "--grains" --grains 2
+refuse "too short for a control volume" --grains 20
+refuse "--seed" --seed -3
+refuse "--shape" --shape cube
+refuse "--size-reading" --size-reading diameter
+refuse "--stop-test" --stop-test quad
+refuse "--threads" --threads 0
+refuse "not expected" --colour red
+touch "$folder/file"
+refuse "--output" --output "$folder/file/below" --grains 200
+[ ! -e "$folder/refused" ] || fail "a refused run left files"
+
+small=(--shape disk --grains 150 --no-plots)
+for name in one two; do
+  "$program" "${small[@]}" --duration 0.02 --output "$folder/$name" >"$folder/$name.log" 2>&1 ||
+    fail "small run: $(tail -3 "$folder/$name.log")"
+done
+cmp "$folder/one/wall.csv" "$folder/two/wall.csv" || fail "wall.csv differs from run to run"
+[ "$(head -1 "$folder/one/wall.csv")" = "t,f,x,v,f_g" ] || fail "header of wall.csv"
+[ "$(wc -l <"$folder/one/wall.csv")" = 101 ] || fail "wall.csv has not a line per step"
+
+"$program" "${small[@]}" --duration 100 --output "$folder/stopped" >"$folder/stopped.log" 2>&1 &
+pid=$!
+for _ in $(seq 300); do
+  [ "$(wc -l 2>/dev/null <"$folder/stopped/wall.csv" || echo 0)" -gt 5 ] && break
+  sleep 0.1
+done
+kill -INT "$pid"
+wait "$pid"
+status=$?
+[ "$status" = 130 ] || fail "an interrupted run ended with status $status"
+grep -q '"interrupted": true' "$folder/stopped/run.json" || fail "run.json of an interrupted run"
+[ -z "$(tail -c 1 "$folder/stopped/wall.csv")" ] || fail "wall.csv ends within a line"
+awk -F, 'NF != 5 {exit 1}' "$folder/stopped/wall.csv" || fail "a broken line in wall.csv"
+
+[ "$failures" = 0 ] && echo "all passed"
+exit "$failures"
