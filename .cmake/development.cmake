@@ -12,7 +12,8 @@ endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 add_library(moreau_development INTERFACE)
-target_link_libraries(moreau_development INTERFACE moreau::moreau)
+find_package(Threads REQUIRED)  # moreau/solve/thread_team.hpp
+target_link_libraries(moreau_development INTERFACE moreau::moreau Threads::Threads)
 target_compile_options(moreau_development INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow)
 if(MOREAU_WERROR)

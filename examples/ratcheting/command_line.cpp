@@ -80,8 +80,8 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--margin", p.margin, "alert distance / smallest size")->check(positive);
   bool no_correction = false;
   app.add_flag("--no-correction", no_correction, "leave overlaps as they are");
-  app.add_option("--threads", p.threads, "threads of the solver; this version has one")
-      ->check(CLI::Range(1, 1));
+  app.add_option("--threads", p.threads, "threads of the solver; they do not change the results")
+      ->check(CLI::Range(1, 1024));
   app.add_option("--seed", p.seed, "of the sample")->check(CLI::NonNegativeNumber);
   app.add_option("--snapshots", p.snapshots, "ParaView files over the run; 0: none")
       ->check(CLI::Range(0, 100000));

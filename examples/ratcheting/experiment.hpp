@@ -12,6 +12,7 @@
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/energy.hpp"
+#include "moreau/solve/thread_team.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "parameters.hpp"
@@ -28,7 +29,9 @@ class Experiment {
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   using Law = moreau::SignoriniCoulomb<double>;
-  using Simulation = moreau::Simulation<ShapeT, Law>;
+  using Solver = moreau::ParallelGaussSeidel;
+  using Simulation =
+      moreau::Simulation<ShapeT, Law, moreau::MoreauJean, moreau::SweepAndPrune<S>, Solver>;
   static constexpr int up = S::dim - 1;
   /// Called after every step of the preparation with the stage's name; may throw Interrupted.
   using Progress = std::function<void(const char* stage, const moreau::StepReport&)>;
@@ -62,7 +65,7 @@ class Experiment {
     options.stop_test = moreau::StopTest::qm16;
     options.max_sweeps = parameters_.preparation_sweeps;
     const double step = parameters_.preparation_step;
-    simulation_.set_solver(moreau::ColouredGaussSeidel(options));
+    simulation_.set_solver(Solver(options, parameters_.threads));
     const double force = parameters_.lid_force * mass_ * 9.81;
     const double size = simulation_.grain_size();
     const double speed = 0.4 * parameters_.margin * size / step;
@@ -80,7 +83,7 @@ class Experiment {
     const double still = 1e-6 * force * size * double(simulation_.grain_count());
     for (int k = 0; k < 20 || kinetic_energy() > still; ++k)
       progress("compressing", simulation_.step(step));
-    simulation_.set_solver(moreau::ColouredGaussSeidel(solver_options(parameters_)));
+    simulation_.set_solver(Solver(solver_options(parameters_), parameters_.threads));
     moreau::OverlapCorrectionOptions correction;
     correction.enabled = parameters_.correction;
     simulation_.set_correction(correction);
@@ -164,7 +167,7 @@ class Experiment {
     moreau::Tolerances tolerances;
     tolerances.margin = p.margin;
     return Simulation(moreau::SizeDistribution::azema2008().smallest(), laws,
-                      moreau::ColouredGaussSeidel(solver_options(p)), tolerances);
+                      Solver(solver_options(p), p.threads), tolerances);
   }
 
   /// L = W from V = rho L^D H/L at the solid fraction that the lid's compression leaves: about 0.53

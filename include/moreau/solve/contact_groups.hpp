@@ -2,7 +2,20 @@
 // The contacts of a step side by side: pairs of bodies that do not touch one another's bodies fill
 // the lanes of a group, so that a group is solved by wide arithmetic as one contact would be. The
 // points of a pair stay together: its bodies are loaded once for all of them.
+//
+// A body of many partners, such as a moving wall, would need a group of its own for each. Where it
+// is much heavier than they are, its pairs share groups instead: all lanes see its velocity as it
+// was before the group and their pushes are added up. What one lane then does not know of the
+// others is made up for by a heavier block,
+//
+//     W' = (1 + (n - 1) tr(W^-1 W_hub)) W  >=  W + (n - 1) W_hub,        n points in the group,
+//
+// as if each point had an n-th of the body's mass (mass splitting: R. Tonge, F. Benevolenski and
+// A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). The fixed point stays what it was. A body as
+// light as its partners keeps groups of its own: it would take n times the sweeps.
 #pragma once
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -32,12 +45,17 @@ struct PointPack {
   Vector impulse{}, before{};  ///< after the last sweep and the one before it
 };
 
-/// As many pairs as there are lanes, no two sharing a movable body.
+/// Which body of its pairs the lanes of a group have in common.
+enum class Hub : std::uint8_t { none, a, b };
+
+/// As many pairs as there are lanes, no two sharing a movable body but the hub.
 template <int Lanes>
 struct PairPack {
   std::uint32_t first, count;  ///< PointPacks
   std::uint32_t awake;         ///< of them, those that sweeps between two checks visit: the first
-  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;
+  std::uint32_t colour;        ///< PairColouring::colours for those that must be treated alone
+  Hub hub;
+  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of velocities
 };
 
 template <class Operator, class Law>
@@ -54,24 +72,30 @@ class ContactGroups {
   std::vector<Pairs> pairs;    ///< sorted by colour
   std::vector<Points> points;  ///< in the order of pairs
 
+  /// Rows of velocities that the groups refer to: one per body, and one per group for lanes and
+  /// bodies that do not move, so that groups of one colour never write the same row.
+  std::size_t rows() const { return body_count_ + pairs.size(); }
+
   /// @param op       rows and blocks of all contacts; contacts of one pair follow one another
   /// @param impulses the first guess; pairs that carry one come first within their colour
   void build(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
              std::span<const Impulse> impulses) {
+    body_count_ = op.body_count();
     find_pairs(op);
     colouring_.assign(bodies_, moves_);
+    find_light_hubs(op);
     sort(op, impulses);
     pairs.clear();
     points.clear();
     contact_of_.clear();
-    const auto dummy = static_cast<std::uint32_t>(op.body_count());
     for (std::size_t k = 0; k < order_.size();) {
-      const std::uint32_t colour = colouring_[order_[k].pair];
+      const std::uint64_t kind = order_[k].key & kind_mask;
+      const bool alone = kind == alone_kind;
       std::size_t end = k + 1;
-      while (colour < PairColouring::colours && end < order_.size() && end - k < lanes &&
-             colouring_[order_[end].pair] == colour)
+      while (!alone && end < order_.size() && end - k < lanes &&
+             (order_[end].key & kind_mask) == kind)
         ++end;
-      pack(op, laws, law_of, impulses, std::span(order_).subspan(k, end - k), dummy);
+      pack(op, laws, law_of, impulses, std::span(order_).subspan(k, end - k));
       k = end;
     }
   }
@@ -88,6 +112,7 @@ class ContactGroups {
   }
 
  private:
+  /// By colour, hub, then pairs that are likely to act, then pairs of many points.
   struct Ordered {
     std::uint64_t key;
     std::uint32_t pair;
@@ -95,6 +120,9 @@ class ContactGroups {
       return key != other.key ? key < other.key : pair < other.pair;
     }
   };
+  static constexpr int hub_bits = 16, side_bits = hub_bits + 32, colour_bits = side_bits + 2;
+  static constexpr std::uint64_t kind_mask = ~((std::uint64_t{1} << hub_bits) - 1);
+  static constexpr std::uint64_t alone_kind = std::uint64_t{PairColouring::colours} << colour_bits;
 
   void find_pairs(const Operator& op) {
     moves_.assign(op.body_count(), 0);
@@ -112,7 +140,6 @@ class ContactGroups {
     first_.push_back(static_cast<std::uint32_t>(op.size()));
   }
 
-  /// By colour; then pairs of many points that are likely to act; then pairs of many points.
   void sort(const Operator& op, std::span<const Impulse> impulses) {
     order_.clear();
     for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
@@ -120,9 +147,39 @@ class ContactGroups {
       for (std::uint32_t c = first_[k]; c < first_[k + 1]; ++c) acting += likely(op, impulses, c);
       const std::uint64_t fewer = 255 - std::min<std::uint32_t>(255, first_[k + 1] - first_[k]);
       const std::uint64_t idle = 255 - std::min<std::uint32_t>(255, acting);
-      order_.push_back({std::uint64_t{colouring_[k]} << 16 | idle << 8 | fewer, k});
+      const Hub hub = hub_of(k);
+      const std::uint64_t body =
+          hub == Hub::none ? 0 : bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}];
+      order_.push_back({std::uint64_t{colouring_[k]} << colour_bits |
+                            std::uint64_t{static_cast<std::uint8_t>(hub)} << side_bits |
+                            body << hub_bits | idle << 8 | fewer,
+                        k});
     }
     std::sort(order_.begin(), order_.end());
+  }
+  /// The heavy body of many partners in a pair that has one; none where both are.
+  Hub hub_of(std::uint32_t k) const {
+    if (colouring_[k] != PairColouring::colours) return Hub::none;
+    const bool a = colouring_.is_hub(bodies_[k][0]), b = colouring_.is_hub(bodies_[k][1]);
+    if (a == b || light_[bodies_[k][a ? std::size_t{0} : std::size_t{1}]]) return Hub::none;
+    return a ? Hub::a : Hub::b;
+  }
+  void find_light_hubs(const Operator& op) {
+    constexpr auto most = typename S::Scalar(0.02);  // of tr(W^-1 W_hub)
+    light_.assign(body_count_, 0);
+    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+      const Hub hub = hub_of(k);
+      if (hub == Hub::none) continue;
+      auto& light = light_[bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}]];
+      for (std::uint32_t c = first_[k]; c < first_[k + 1] && !light; ++c)
+        light = !(share_of_hub(op, c, hub) <= most);
+    }
+  }
+  /// tr(W^-1 W_hub): how much of W is the hub's.
+  static typename S::Scalar share_of_hub(const Operator& op, std::uint32_t c, Hub hub) {
+    const auto& rows = hub == Hub::a ? op.rows_a(c) : op.rows_b(c);
+    const typename S::Matrix w = op.block(c).matrix(), of_hub = rows.transpose() * rows;
+    return w.inverse().cwiseProduct(of_hub).sum();
   }
 
   static bool likely(const Operator& op, std::span<const Impulse> impulses, std::uint32_t c) {
@@ -130,35 +187,52 @@ class ContactGroups {
   }
 
   void pack(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-            std::span<const Impulse> impulses, std::span<const Ordered> members,
-            std::uint32_t dummy) {
+            std::span<const Impulse> impulses, std::span<const Ordered> members) {
     Pairs group;
     group.first = static_cast<std::uint32_t>(points.size());
     group.count = group.awake = 0;
-    group.a.fill(dummy);
-    group.b.fill(dummy);
-    for (const Ordered& member : members)
-      group.count = std::max(group.count, first_[member.pair + 1] - first_[member.pair]);
+    group.colour = colouring_[members[0].pair];
+    group.hub = hub_of(members[0].pair);
+    const auto still = static_cast<std::uint32_t>(body_count_ + pairs.size());
+    group.a.fill(group.hub == Hub::a ? bodies_[members[0].pair][0] : still);
+    group.b.fill(group.hub == Hub::b ? bodies_[members[0].pair][1] : still);
+    std::uint32_t together = 0;
+    for (const Ordered& member : members) {
+      const std::uint32_t count = first_[member.pair + 1] - first_[member.pair];
+      group.count = std::max(group.count, count);
+      together += count;
+    }
     points.resize(points.size() + group.count);
     contact_of_.resize(points.size() * lanes, none);
     for (std::size_t lane = 0; lane < members.size(); ++lane) {
       const std::uint32_t k = members[lane].pair;
-      group.a[lane] = bodies_[k][0];
-      group.b[lane] = bodies_[k][1];
+      if (moves_[bodies_[k][0]]) group.a[lane] = bodies_[k][0];
+      if (moves_[bodies_[k][1]]) group.b[lane] = bodies_[k][1];
       // Points that are likely to act come first.
       std::size_t p = group.first;
       for (const bool acts : {true, false})
         for (std::uint32_t c = first_[k]; c < first_[k + 1]; ++c) {
           if (likely(op, impulses, c) != acts) continue;
           contact_of_[p * lanes + lane] = c;
-          set(points[p++], lane, op, laws[law_of[c]], impulses[c], c);
+          LocalBlock<S> block = op.block(c);
+          if (group.hub != Hub::none) make_heavier(block, op, c, group.hub, together);
+          set(points[p++], lane, op, block, laws[law_of[c]], impulses[c], c);
         }
     }
     pairs.push_back(group);
   }
 
-  static void set(Points& point, std::size_t lane, const Operator& op, const Law& law,
-                  const Impulse& impulse, std::uint32_t c) {
+  /// W' of the header.
+  static void make_heavier(LocalBlock<S>& block, const Operator& op, std::uint32_t c, Hub hub,
+                           std::uint32_t together) {
+    using T = typename S::Scalar;
+    const T factor = 1 + static_cast<T>(together - 1) * share_of_hub(op, c, hub);
+    block.normal *= factor;
+    block.slip *= factor;
+  }
+
+  static void set(Points& point, std::size_t lane, const Operator& op, const LocalBlock<S>& block,
+                  const Law& law, const Impulse& impulse, std::uint32_t c) {
     const auto& rows_a = op.rows_a(c);
     const auto& rows_b = op.rows_b(c);
     for (std::size_t d = 0; d < S::dim; ++d) {
@@ -170,13 +244,14 @@ class ContactGroups {
       point.free[d][lane] = op.free_velocity(c)[column];
       point.impulse[d][lane] = point.before[d][lane] = impulse[column];
     }
-    point.block.set(lane, op.block(c));
+    point.block.set(lane, block);
     point.law.set(lane, law);
   }
 
+  std::size_t body_count_ = 0;
   std::vector<std::array<std::uint32_t, 2>> bodies_;
   std::vector<std::uint32_t> first_;  // contact of each pair, and their number at the end
-  std::vector<unsigned char> moves_;
+  std::vector<unsigned char> moves_, light_;
   std::vector<Ordered> order_;
   std::vector<std::uint32_t> contact_of_;  // of every lane of every point
   PairColouring colouring_;

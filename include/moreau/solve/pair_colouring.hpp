@@ -24,10 +24,10 @@ class PairColouring {
     degree_.assign(moves.size(), 0);
     used_.assign(moves.size(), 0);
     colour_.resize(pairs.size());
-    for (const auto& [a, b] : pairs) ++degree_[a], ++degree_[b];
+    for (const auto& [a, b] : pairs) degree_[a] += moves[a], degree_[b] += moves[b];
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto [a, b] = pairs[k];
-      if ((moves[a] && degree_[a] > hub) || (moves[b] && degree_[b] > hub)) {
+      if (is_hub(a) || is_hub(b)) {
         colour_[k] = colours;
         continue;
       }
@@ -40,6 +40,8 @@ class PairColouring {
     }
   }
 
+  /// Whether a body can move and has too many partners.
+  bool is_hub(std::uint32_t body) const { return degree_[body] > hub; }
   /// Colour of a pair; `colours` for one that must be treated alone.
   std::uint32_t operator[](std::size_t pair) const { return colour_[pair]; }
 

@@ -35,6 +35,16 @@ struct SweepChange {
     rwr += work;
   }
 
+  void add(const SweepChange& other) {
+    acting += other.acting;
+    dv2 += other.dv2;
+    dvr2 += other.dvr2;
+    max_dv2 = std::max(max_dv2, other.max_dv2);
+    max_dvr2 = std::max(max_dvr2, other.max_dvr2);
+    wr2 += other.wr2;
+    rwr += other.rwr;
+  }
+
   void write(SolveReport& report) const {
     report.quad_dv = report.quad_dvr = report.maxm_dv = report.maxm_dvr = 0;
     if (acting == 0) return;
