@@ -99,6 +99,7 @@ class ColouredSweeps {
     SweepChange change;
     for (const SweepChange& one : measures_) change.add(one);
     ++mixed_sweeps_;
+    if (!mixing_) momentum_.check(std::sqrt(change.dv2));
     if (accelerate_ && patience_.exhausted(std::sqrt(change.dv2))) {
       mixing_ = !mixing_;
       if (mixing_) start_mixing();

@@ -18,6 +18,7 @@ struct SolveReport {
   double maxm_dvr = 0;
 
   double worst_velocity = 0;  ///< largest -(u_n + offset) > 0 [m/s]: approach left over
+  double worst_gap = 0;       ///< what that closes in a step beyond contact [m]; by Simulation
   double worst_cone =
       0;  ///< largest excess of |r_t| over mu r_n [N s], by the law's own projection
   double worst_complementarity = 0;   ///< largest |(u_n + offset) r_n| [J]

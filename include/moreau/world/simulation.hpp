@@ -192,6 +192,7 @@ class Simulation {
     report.solve = solver_.solve(operator_, std::span<const Law>(materials_.laws()),
                                  std::span<const std::uint32_t>(law_of_),
                                  std::span(contacts_.impulses), workspace_);
+    report.solve.worst_gap = report.solve.worst_velocity * double(step);
     const auto solved = Clock::now();
     velocities_after(report);
     integrator_.advance_configuration(bodies_, std::span<const Twist>(after_), step);
