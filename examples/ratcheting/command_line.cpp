@@ -28,6 +28,22 @@ const CLI::Validator not_negative(
     },
     ">= 0");
 
+const CLI::Validator below_one(
+    [](std::string& text) {
+      double value = 0;
+      if (!CLI::detail::lexical_cast(text, value) || !(value > 0 && value < 1))
+        return std::string("must lie between 0 and 1, not ") + text;
+      return std::string();
+    },
+    "> 0, < 1");
+const CLI::Validator whole(
+    [](std::string& text) {
+      if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos)
+        return std::string("must be a whole number, 0 or above, not ") + text;
+      return std::string();
+    },
+    ">= 0");
+
 }  // namespace
 
 std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
@@ -64,7 +80,7 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(not_negative);
   app.add_option("--lid-force", p.lid_force, "of the preparation, in weights of the sample at 9.81")
       ->check(positive);
-  app.add_option("--tolerance", p.tolerance, "of the stopping test")->check(positive);
+  app.add_option("--tolerance", p.tolerance, "of the stopping test, below 1")->check(below_one);
   std::string test = "qm16";
   app.add_option("--stop-test", test,
                  "qm16: change per sweep, as in LMGC90; residual: natural map, stronger")
@@ -74,15 +90,18 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--preparation-step", p.preparation_step, "time step of the preparation [s]")
       ->check(positive);
   app.add_option("--preparation-tolerance", p.preparation_tolerance, "of its stopping test, qm16")
-      ->check(positive);
+      ->check(below_one);
   app.add_option("--preparation-sweeps", p.preparation_sweeps, "its cap per step")
       ->check(CLI::Range(1, 100000000));
+  app.add_option("--preparation-time", p.preparation_time,
+                 "longest time under the lid's force [s]; run.json says whether the sample settled")
+      ->check(positive);
   app.add_option("--margin", p.margin, "alert distance / smallest size")->check(positive);
   bool no_correction = false;
   app.add_flag("--no-correction", no_correction, "leave overlaps as they are");
   app.add_option("--threads", p.threads, "threads of the solver; they do not change the results")
       ->check(CLI::Range(1, 1024));
-  app.add_option("--seed", p.seed, "of the sample")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", p.seed, "of the sample")->check(whole);
   app.add_option("--snapshots", p.snapshots, "ParaView files over the run; 0: none")
       ->check(CLI::Range(0, 100000));
   bool no_plots = false;

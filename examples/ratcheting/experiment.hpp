@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/energy.hpp"
@@ -57,7 +58,7 @@ class Experiment {
   /// The paper's preparation: compression by the lid without gravity, until the kinetic energy per
   /// grain is below 1e-6 of lid force times grain size; then gravity on, the lid raised and fixed.
   /// The lid first closes in at a speed that the alert distance can follow, then its force takes
-  /// over.
+  /// over, for preparation_time at most.
   /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
   void prepare(const Progress& progress) {
     moreau::ColouredOptions options;
@@ -72,7 +73,11 @@ class Experiment {
     const Vector up_axis = Vector::Unit(up);
     simulation_.set_velocity(lid_, -speed * up_axis);
     double reaction = 0;
-    for (int k = 0; reaction < force; ++k) {
+    while (reaction < force) {
+      if (simulation_.bodies().pose[lid_.index()].position[up] < size)
+        throw std::runtime_error(
+            "the lid reached the floor without meeting its force: the sample "
+            "is too small for its box");
       progress("closing", simulation_.step(step));
       const double now = simulation_.contact_impulse(lid_)[up] / step;
       reaction += 0.05 * (now - reaction);
@@ -81,8 +86,12 @@ class Experiment {
     simulation_.set_wall_mass(lid_, mass_);
     simulation_.set_force(lid_, -force * up_axis);
     const double still = 1e-6 * force * size * double(simulation_.grain_count());
-    for (int k = 0; k < 20 || kinetic_energy() > still; ++k)
+    const double begin = simulation_.time();
+    settled_ = false;
+    for (int k = 0; !settled_ && simulation_.time() - begin < parameters_.preparation_time; ++k) {
       progress("compressing", simulation_.step(step));
+      settled_ = k >= 20 && kinetic_energy() <= still;
+    }
     simulation_.set_solver(Solver(solver_options(parameters_), parameters_.threads));
     moreau::OverlapCorrectionOptions correction;
     correction.enabled = parameters_.correction;
@@ -135,6 +144,8 @@ class Experiment {
   }
 
   const Simulation& simulation() const { return simulation_; }
+  /// Whether the preparation ended because the sample was still, not because its time was over.
+  bool settled() const { return settled_; }
   double mass() const { return mass_; }
   double wall_mass() const { return wall_mass_; }
   double volume() const { return volume_; }
@@ -195,6 +206,7 @@ class Experiment {
   Simulation simulation_;
   double volume_ = 0, thickness_ = 1, mass_ = 0, wall_mass_ = 0, length_ = 0, height_ = 0;
   double start_ = 0;
+  bool settled_ = false;
   moreau::BodyId wall_, lid_;
 };
 

@@ -39,6 +39,9 @@ struct Parameters {
   double preparation_step = 2e-4;  ///< [s]
   double preparation_tolerance = 1e-4;
   int preparation_sweeps = 200;
+  /// After so long under the lid's force the packing is taken as it is [s]: without gravity, grains
+  /// that touch nothing keep their energy for ever.
+  double preparation_time = 1;
   double margin = 0.02;    ///< alert distance, relative to the smallest size
   bool correction = true;  ///< overlap correction outside the velocity problem
   int threads = 1;

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing (Debian), builds the study and runs it. Arguments go to the program; without
-# any, a small case: 120 polyhedra, the wall's force scaled with the sample's weight.
+# Installs what is missing (Debian), builds the study and runs it. Without arguments a small case: 120
+# polyhedra, the wall's force scaled with the sample's weight. With arguments they alone go to the
+# program, whose defaults are the full case.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox)
@@ -16,6 +17,8 @@ if [ ${#missing[@]} -gt 0 ]; then
 fi
 cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF >/dev/null
+echo "building the study in $top/build/study"
 cmake --build "$top/build/study" --target ratcheting
 [ $# -gt 0 ] || set -- --grains 120 --fmax 600
+echo "ratcheting $*"
 exec "$top/build/study/examples/ratcheting" "$@"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -58,6 +59,33 @@ void require_experiment(const Parameters& p, const Experiment<ShapeT>& experimen
 /// Steps between two lines of packing.csv.
 constexpr std::size_t packing_interval = 5;
 
+/// A few closing lines: what came out, what to be wary of, where the files are.
+template <class ShapeT>
+void conclude(const Parameters& p, const Experiment<ShapeT>& experiment, const SolverTotals& totals,
+              const Json& results) {
+  const double size = experiment.simulation().grain_size();
+  if (results.contains("dx_max"))
+    std::printf("mean of %zu periods: dx_max = %.4g mm, C = %.3g\n",
+                results["periods"].template get<std::size_t>(),
+                1e3 * results["dx_max"].template get<double>(),
+                results["C"].template get<double>());
+  if (results.contains("rho_initial"))
+    std::printf("solid fraction of the control volume: %.4f, at the end %.4f\n",
+                results["rho_initial"].template get<double>(),
+                results["rho_final"].template get<double>());
+  std::printf("overlaps: mean %.1e d, largest %.1e d; %zu of %zu steps capped at %d sweeps\n",
+              totals.mean(totals.mean_overlap) / size, totals.max_overlap / size, totals.capped,
+              totals.steps, p.max_sweeps);
+  if (!experiment.settled())
+    std::printf("note: the sample was still moving when the preparation's %g s were over\n",
+                p.preparation_time);
+  if (totals.max_overlap > 0.01 * size)
+    std::printf(
+        "WARNING: an overlap beyond 1 %% of the smallest grain: a smaller --step or a "
+        "larger --margin\n");
+  std::printf("files in %s\n", p.output.c_str());
+}
+
 template <class ShapeT>
 int run(const Parameters& p) {
   Stopwatch watch;
@@ -69,38 +97,46 @@ int run(const Parameters& p) {
   Progress progress;
   const auto total = static_cast<std::size_t>(std::llround(p.duration / p.step));
   std::size_t done = 0;
+  std::printf("%zu grains, %.4g kg, box %.4g m long\n", p.grains, experiment.mass(),
+              experiment.length());
   try {
     experiment.prepare([&](const char* stage, const moreau::StepReport& report) {
       progress.preparing(stage, report, experiment.simulation().time());
       if (interrupted()) throw Interrupted{};
     });
-    json.stage("prepare", watch.lap());
-    recorder.set_control_volume();
-    recorder.record_packing();
-    Views<ShapeT> views(experiment, p.step, p.output);
-    if (p.snapshots > 0) views.snapshot(0);
-    const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
-    std::size_t snapshots = 0;
-    for (; done < total && !interrupted(); ++done) {
-      const moreau::StepReport report = experiment.vibrate();
-      recorder.record_step(done + 1, report, total);
-      if ((done + 1) % packing_interval == 0) recorder.record_packing();
-      const double end = double(done + 1) * p.step;
-      if (end >= active && end < active + p.step) views.picture("_active");
-      if (end >= jammed && end < jammed + p.step) views.picture("_jammed");
-      const std::size_t wanted = std::size_t(p.snapshots) * (done + 1) / total;
-      if (wanted > snapshots) views.snapshot(int(snapshots = wanted));
-      progress.vibrating(done + 1, total, report, experiment.displacement());
-    }
-    views.picture("");
   } catch (const Interrupted&) {
+    progress.finish();
+    json.stage("prepare", watch.lap());
+    json.write_unprepared(p);
+    std::printf("interrupted before the force started: no results\n");
+    return 130;
   }
+  json.stage("prepare", watch.lap());
+  recorder.set_control_volume();
+  recorder.record_packing();
+  Views<ShapeT> views(experiment, p.step, p.output);
+  if (p.snapshots > 0) views.snapshot(0);
+  const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
+  std::size_t snapshots = 0;
+  for (; done < total && !interrupted(); ++done) {
+    const moreau::StepReport report = experiment.vibrate();
+    recorder.record_step(done + 1, report, total);
+    if ((done + 1) % packing_interval == 0) recorder.record_packing();
+    const double end = double(done + 1) * p.step;
+    if (end >= active && end < active + p.step) views.picture("_active");
+    if (end >= jammed && end < jammed + p.step) views.picture("_jammed");
+    const std::size_t wanted = std::size_t(p.snapshots) * (done + 1) / total;
+    if (wanted > snapshots) views.snapshot(int(snapshots = wanted));
+    progress.vibrating(done + 1, total, report, experiment.displacement());
+  }
+  views.picture("");
   progress.finish();
   json.stage("vibrate", watch.lap());
   recorder.flush();
   write_events(p.output, find_periods(recorder.samples(), p));
   json.write(p, experiment, recorder, done < total);
   if (p.plots) plot(p.output);
+  conclude(p, experiment, recorder.totals(), json.results());
   return done < total ? 130 : 0;
 }
 

@@ -29,6 +29,7 @@ Json to_json(const Parameters& p) {
           {"preparation_step", p.preparation_step},
           {"preparation_tolerance", p.preparation_tolerance},
           {"preparation_sweeps", p.preparation_sweeps},
+          {"preparation_time", p.preparation_time},
           {"margin", p.margin},
           {"overlap_correction", p.correction},
           {"threads", p.threads},
@@ -48,11 +49,12 @@ Json to_json(const Period& period) {
           {"f_g_active", period.f_g_active}};
 }
 
-Json to_json(const SolverTotals& t) {
+Json to_json(const SolverTotals& t, double size) {
   const auto share = [&](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
   return {{"steps", t.steps},
           {"capped_steps", t.capped},
           {"mean_sweeps", t.mean(t.sweeps)},
+          {"most_sweeps", t.most_sweeps},
           {"mean_residual", t.mean(t.residual)},
           {"worst_residual", t.worst_residual},
           {"mean_pairs", t.mean(t.pairs)},
@@ -61,6 +63,8 @@ Json to_json(const SolverTotals& t) {
           {"mean_overlap_first_tenth", t.mean_overlap_first},
           {"mean_overlap_last_tenth", t.mean_overlap_last},
           {"max_overlap", t.max_overlap},
+          {"mean_overlap_over_d", t.mean(t.mean_overlap) / size},
+          {"max_overlap_over_d", t.max_overlap / size},
           {"dissipation", t.dissipation},
           {"correction_work", t.correction_work},
           {"correction_work_over_dissipation", share(t.correction_work, t.dissipation)},
@@ -74,15 +78,25 @@ Json to_json(const SolverTotals& t) {
 
 Json versions() {
   return {
-      {"moreau", MOREAU_VERSION_STRING},
-      {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
-                    "." + std::to_string(EIGEN_MINOR_VERSION)},
-      {"compiler", __VERSION__}};
+    {"moreau", MOREAU_VERSION_STRING},
+        {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                      "." + std::to_string(EIGEN_MINOR_VERSION)},
+#if defined(__clang__)
+    {
+      "compiler", __VERSION__
+    }
+  };
+#else
+    {
+      "compiler", "g++ " __VERSION__
+    }
+  };
+#endif
 }
 
 namespace {
 
-/// Linear interpolation of the inner solid fraction [-].
+/// The first inner solid fraction recorded at t or after [-].
 double rho_at(const std::vector<PackingSample>& packing, double t) {
   const auto after = std::find_if(packing.begin(), packing.end(),
                                   [&](const PackingSample& s) { return s.t >= t - 1e-9; });

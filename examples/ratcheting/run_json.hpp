@@ -26,7 +26,8 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Parameters& p);
 Json to_json(const Period& period);
-Json to_json(const SolverTotals& totals);
+/// @param size the smallest grain's, d [m]
+Json to_json(const SolverTotals& totals, double size);
 Json versions();
 
 /// Means over periods, with what row 13 and 17 of the study ask for.
@@ -50,24 +51,36 @@ class RunJson {
   }
   void stage(const char* name, double seconds) { json_["wall_clock_seconds"][name] = seconds; }
 
+  /// Of a run that ended within the preparation.
+  void write_unprepared(const Parameters& p) {
+    json_["interrupted"] = true;
+    write(p);
+  }
   template <class ShapeT>
   void write(const Parameters& p, const Experiment<ShapeT>& experiment,
              const Recorder<ShapeT>& recorder, bool interrupted) {
     json_["interrupted"] = interrupted;
+    json_["sample"]["settled"] = experiment.settled();
     json_["sample"]["wall_mass"] = experiment.wall_mass();
     json_["box"] = {{"length", experiment.length()},
                     {"height", experiment.height()},
                     {"height_over_length", experiment.height() / experiment.length()}};
     const auto periods = find_periods(recorder.samples(), p);
-    json_["results"] = results(p, experiment.mass(), experiment.wall_mass(), experiment.length(),
-                               periods, recorder.packing_samples());
+    json_["results"] =
+        ratcheting::results(p, experiment.mass(), experiment.wall_mass(), experiment.length(),
+                            periods, recorder.packing_samples());
     json_["periods"] = Json::array();
     for (const Period& period : periods) json_["periods"].push_back(to_json(period));
-    json_["solver"] = to_json(recorder.totals());
+    json_["solver"] = to_json(recorder.totals(), experiment.simulation().grain_size());
+    write(p);
+  }
+  const Json& results() const { return json_.at("results"); }
+
+ private:
+  void write(const Parameters& p) const {
     moreau::write_atomically(std::filesystem::path(p.output) / "run.json", json_.dump(2) + "\n");
   }
 
- private:
   Json json_;
 };
 

@@ -16,6 +16,7 @@ namespace ratcheting {
 /// What the reports of all vibrating steps add up to.
 struct SolverTotals {
   std::size_t steps = 0, capped = 0;
+  int most_sweeps = 0;
   double sweeps = 0, residual = 0, worst_residual = 0, pairs = 0, points = 0;
   double max_overlap = 0;         ///< deepest of the run [m]
   double mean_overlap = 0;        ///< mean over steps of the mean depth [m]
@@ -32,6 +33,7 @@ struct SolverTotals {
     ++steps;
     capped += report.solve.capped;
     sweeps += report.solve.sweeps;
+    most_sweeps = std::max(most_sweeps, report.solve.sweeps);
     residual += report.solve.residual;
     worst_residual = std::max(worst_residual, report.solve.residual);
     pairs += double(report.pairs);

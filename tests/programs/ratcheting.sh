@@ -34,6 +34,7 @@ refuse "must not exceed --fmax" --fmin 7000
 refuse "--wall-mass-ratio" --wall-mass-ratio 0
 refuse "--box-ratio" --box-ratio 0
 refuse "--tolerance" --tolerance 0
+refuse "--tolerance" --tolerance 5
 refuse "--margin" --margin 0
 refuse "--max-sweeps" --max-sweeps 0
 refuse "--grains" --grains 2
@@ -70,6 +71,22 @@ status=$?
 grep -q '"interrupted": true' "$folder/stopped/run.json" || fail "run.json of an interrupted run"
 [ -z "$(tail -c 1 "$folder/stopped/wall.csv")" ] || fail "wall.csv ends within a line"
 awk -F, 'NF != 5 {exit 1}' "$folder/stopped/wall.csv" || fail "a broken line in wall.csv"
+
+# Disks that touch nothing keep moving without gravity: the preparation ends all the same.
+timeout 60 "$program" --shape disk --grains 100 --fmax 500 --duration 0.002 --preparation-time 0.05 \
+  --no-plots --output "$folder/restless" >"$folder/restless.log" 2>&1 || fail "restless run"
+grep -q '"settled": false' "$folder/restless/run.json" || fail "restless run.json"
+grep -q "still moving" "$folder/restless.log" || fail "restless run says nothing"
+
+"$program" --grains 1200 --output "$folder/early" >"$folder/early.log" 2>&1 &
+pid=$!
+sleep 2
+kill -INT "$pid"
+wait "$pid"
+status=$?
+[ "$status" = 130 ] || fail "a run interrupted in the preparation ended with status $status"
+grep -q "interrupted before the force started" "$folder/early.log" || fail "early interrupt"
+[ -z "$(find "$folder/early" -name '*.png')" ] || fail "an early interrupt left pictures"
 
 [ "$failures" = 0 ] && echo "all passed"
 exit "$failures"

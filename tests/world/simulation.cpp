@@ -134,6 +134,22 @@ TEST_CASE("bad input is named") {
   CHECK_THROWS_WITH_AS(simulation.set_wall_mass(grain, 1),
                        "Simulation::set_wall_mass: wall = 0 must be the id of a wall",
                        std::invalid_argument);
+  Pose<S> twisted;
+  twisted.rotation.coeffs() *= 3;
+  CHECK_THROWS_WITH_AS(simulation.set_pose(grain, twisted),
+                       doctest::Contains("Simulation::set_pose: pose.rotation"),
+                       std::invalid_argument);
+  twisted.rotation.w() = nan;
+  CHECK_THROWS_WITH_AS(simulation.add_grain(shape, twisted, 1000),
+                       doctest::Contains("Simulation::add_grain: pose.rotation"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(simulation.contact_impulse(BodyId(99)),
+                       "Simulation::contact_impulse: body = 99 must be the id of a body",
+                       std::invalid_argument);
+  moreau::Tolerances endless;
+  endless.margin = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(Sim(0.02, laws, moreau::ColouredGaussSeidel(), endless),
+                       "Simulation: margin = inf must be finite and > 0", std::invalid_argument);
   CHECK_THROWS_AS(simulation.set_force(BodyId(7), S::Vector::Zero()), std::invalid_argument);
   CHECK_THROWS_AS(simulation.set_force(grain, S::Vector(nan, 0, 0)), std::invalid_argument);
   CHECK_THROWS_AS(simulation.set_gravity(S::Vector(nan, 0, 0)), std::invalid_argument);

@@ -10,8 +10,7 @@
 
 namespace moreau {
 
-/// The solid fraction in a control volume; grains must not overlap by more than they may count
-/// twice.
+/// The solid fraction in a control volume. Where grains overlap, the overlap counts twice.
 /// @param control_volume  world axes [m]; if it reaches beyond the container, so does the void that
 ///                        is counted: require_inside() checks that
 /// @param grain_count     number of grains

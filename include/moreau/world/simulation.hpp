@@ -73,10 +73,12 @@ class Simulation {
         integrator_(integrator) {
     require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
             "must be finite and > 0");
-    require(tolerances.margin > 0, "Simulation", "margin", tolerances.margin, "must be > 0");
-    require(tolerances.skin >= 0, "Simulation", "skin", tolerances.skin, "must be >= 0");
-    require(tolerances.resolution >= 0, "Simulation", "resolution", tolerances.resolution,
-            "must be >= 0");
+    require(std::isfinite(tolerances.margin) && tolerances.margin > 0, "Simulation", "margin",
+            tolerances.margin, "must be finite and > 0");
+    require(std::isfinite(tolerances.skin) && tolerances.skin >= 0, "Simulation", "skin",
+            tolerances.skin, "must be finite and >= 0");
+    require(std::isfinite(tolerances.resolution) && tolerances.resolution >= 0, "Simulation",
+            "resolution", tolerances.resolution, "must be finite and >= 0");
   }
 
   /// Adds a shape that grains can share.
@@ -86,6 +88,7 @@ class Simulation {
   }
 
   /// Adds a grain at rest.
+  /// @param pose    of the shape's frame in the world; its origin is the centre of mass
   /// @param density [kg/m^3], in the plane [kg/m^2], > 0
   /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite, a
   ///         density that is not positive, a shape whose centre of mass is not its origin
@@ -93,9 +96,7 @@ class Simulation {
                    MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_grain";
     require(shape.index() < shapes_.size(), self, "shape", shape, "must be the id of a shape");
-    require(pose.is_finite(), self, "pose.position", pose.position, "must be finite");
-    require(S::is_rotation(pose.rotation), self, "pose.rotation", "(not a unit quaternion)",
-            "must be a rotation");
+    require_pose(pose, self);
     require(std::isfinite(density) && density > 0, self, "density", density,
             "must be finite and > 0");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
@@ -135,7 +136,7 @@ class Simulation {
     require(mass > 0, "Simulation::set_wall_mass", "mass", mass, "must be > 0");
     bodies_.inverse_mass[wall.index()] = Vector::UnitX() / mass;
   }
-  /// External force on a body, world axes [N]; stays until set again.
+  /// External force on a body at its centre of mass, world axes [N]; stays until set again.
   void set_force(BodyId body, const Vector& force) {
     require_body(body, "Simulation::set_force");
     require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
@@ -148,16 +149,16 @@ class Simulation {
             "must be finite");
     bodies_.velocity[body.index()].template head<S::dim>() = velocity;
   }
-  /// Angular velocity, world axes [rad/s].
+  /// Angular velocity, world axes [rad/s]: a vector in space, a number in the plane.
   void set_spin(BodyId body, const typename S::Angular& spin) {
     require_body(body, "Simulation::set_spin");
     require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
     bodies_.velocity[body.index()].template tail<S::angular_dim>() = spin;
   }
+  /// @throws std::invalid_argument for a body that is not of this simulation or no rigid pose
   void set_pose(BodyId body, const Pose<S>& pose) {
     require_body(body, "Simulation::set_pose");
-    require(pose.is_finite(), "Simulation::set_pose", "pose.position", pose.position,
-            "must be finite");
+    require_pose(pose, "Simulation::set_pose");
     bodies_.pose[body.index()] = pose;
   }
   /// Acceleration of gravity, world axes [m/s^2]; acts on grains.
@@ -217,7 +218,9 @@ class Simulation {
   bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }
 
   /// Sum of the contact impulses on a body in the last step, world axes [N s].
+  /// @throws std::invalid_argument for a body that is not of this simulation
   Vector contact_impulse(BodyId body) const {
+    require_body(body, "Simulation::contact_impulse");
     Vector sum = Vector::Zero();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const Contact<S>& contact = contacts_.points[c];
@@ -237,6 +240,11 @@ class Simulation {
 
   static double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
+  }
+  static void require_pose(const Pose<S>& pose, const char* function) {
+    require(pose.position.allFinite(), function, "pose.position", pose.position, "must be finite");
+    require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",
+            "(no rotation)", "must be finite and of unit length");
   }
   void require_body(BodyId body, const char* function) const {
     require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
