@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The structures of ../structures.cpp, larger and for ten seconds.
+#include "physics/masonry.hpp"
+
+using moreau::Polygon;
+using moreau::Polyhedron;
+
+namespace {
+constexpr double step = 5e-3;
+constexpr int settle = 20, ten_seconds = 2000;
+}  // namespace
+
+TEST_CASE_TEMPLATE("a column of 40 boxes stands for ten seconds", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::column<ShapeT>(40);
+  masonry::check_stands(structure, step, settle, ten_seconds);
+}
+
+TEST_CASE_TEMPLATE("a wall of 500 bricks stands for ten seconds", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::wall<ShapeT>(20, 25);  // ten courses of them have two halves for one
+  masonry::check_stands(structure, step, settle, ten_seconds);
+}
+
+TEST_CASE_TEMPLATE("a card house stands for ten seconds", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::card_house<ShapeT>(1.5 * masonry::card_friction);
+  masonry::check_stands(structure, step, settle, ten_seconds);
+}
+
+TEST_CASE_TEMPLATE("an arch of 41 voussoirs stands for ten seconds", ShapeT, Polyhedron<>,
+                   Polygon<>) {
+  auto structure = masonry::arch<ShapeT>(41, 0.2);
+  masonry::check_stands(structure, step, settle, ten_seconds);
+}

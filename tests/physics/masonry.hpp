@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// Structures of dry blocks on a floor, drawn once in the vertical plane and extruded in space, and
+// what it means that they stand.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <numbers>
+#include <vector>
+
+#include "world/assemblies.hpp"
+
+namespace masonry {
+
+using Law = moreau::SignoriniCoulomb<double>;
+using Point = std::array<double, 2>;  ///< across, up [m]
+
+constexpr double gravity = 9.81, density = 1000, tolerance = 1e-8;
+
+inline moreau::ColouredOptions tight() {
+  moreau::ColouredOptions options;
+  options.tolerance = tolerance;
+  options.max_sweeps = 10000;
+  return options;
+}
+
+template <class ShapeT>
+struct Structure {
+  using S = moreau::SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+
+  scenes::World<ShapeT> simulation;
+  double depth;            ///< of the prisms [m]
+  double joint = 1e9;      ///< least width of a joint [m]
+  double diameter = 0;     ///< of the structure [m]
+  std::size_t joints = 1;  ///< least number of joints that every block can reach the floor by
+
+  /// @param size of a block [m]
+  /// @param tilt of the floor under gravity [rad]
+  Structure(double size, double friction, double depth, double tilt = 0)
+      : simulation(size, moreau::Materials<Law>(1, Law(friction)),
+                   moreau::ColouredGaussSeidel(tight())),
+        depth(depth) {
+    simulation.add_wall(Vector::Unit(up), Vector::Zero());
+    simulation.set_gravity(gravity *
+                           (std::sin(tilt) * Vector::UnitX() - std::cos(tilt) * Vector::Unit(up)));
+  }
+
+  /// A block by its corners in the plane, any order.
+  void add(const std::vector<Point>& corners) {
+    std::vector<Vector> vertices;
+    for (const auto& [across, height] : corners)
+      for (const double side : {-depth / 2, depth / 2}) {
+        Vector x = Vector::Zero();
+        x[1] = side;
+        x[0] = across;
+        x[up] = height;
+        if (S::dim == 3 || side > 0) vertices.push_back(x);
+      }
+    const ShapeT shape(vertices);
+    moreau::Pose<S> pose;
+    pose.position = shape.centroid_of_input();
+    simulation.add_grain(simulation.add_shape(shape), pose, density);
+  }
+  void add_box(double left, double bottom, double width, double height) {
+    add({{left, bottom},
+         {left + width, bottom},
+         {left, bottom + height},
+         {left + width, bottom + height}});
+  }
+
+  /// Every vertex of every block [m].
+  std::vector<Vector> vertices() const {
+    std::vector<Vector> all;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const auto& pose = simulation.bodies().pose[simulation.grain(k).index()];
+      for (const auto& row : simulation.shape_of_grain(k).vertices().rowwise())
+        all.push_back(pose(Vector(row.transpose())));
+    }
+    return all;
+  }
+  double kinetic_energy() const {
+    const auto& bodies = simulation.bodies();
+    double sum = 0;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const std::size_t i = simulation.grain(k).index();
+      const auto v = bodies.velocity[i].template head<S::dim>();
+      const typename S::Angular w = bodies.velocity[i].template tail<S::angular_dim>();
+      sum += (bodies.weight[i] * v.squaredNorm() +
+              w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) /
+             2;
+    }
+    return sum;
+  }
+  double mass() const {
+    double sum = 0;
+    for (const double weight : simulation.bodies().weight) sum += weight;
+    return sum;
+  }
+  /// What the residual of the last step is relative to: |r| times the mean of diag W [m/s].
+  double impulse_velocity() const {
+    const auto& bodies = simulation.bodies();
+    const auto& contacts = simulation.contacts();
+    double trace = 0, squares = 0;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto& contact = contacts.points[c];
+      squares += contacts.impulses[c].squaredNorm();
+      const auto add = [&](std::size_t body, const Vector& lever) {
+        const auto root = bodies.mobility_root(body);
+        trace += root.linear.squaredNorm() + (S::lever(lever) * root.angular).squaredNorm();
+      };
+      add(contact.a, contact.lever_a);
+      add(contact.b, contact.lever_b);
+    }
+    return std::sqrt(squares) * trace / double(S::dim * contacts.size());
+  }
+};
+
+/// Lets a structure stand. Each step has to be solved to the tolerance, and what moves has to lie
+/// within the residual:
+///
+/// In the natural map a contact strictly inside its cone leaves its velocity alone, so the sticking
+/// points slip by |u| <= e := residual x impulse velocity (some g h for one block; a joint that
+/// carries n blocks has n times that), together in the 2-norm. Joints of width w then turn by
+/// 2 u/w at most. A block that reaches the floor by n joints within a structure of diameter D moves
+/// by sum u (1 + 2 D/w) <= e sqrt(n) (1 + 2 D/w). Steps do not add up velocities, so the
+/// displacement is the sum of h times that, and the kinetic energy below m/2 of its square.
+/// Position moves by the correction of overlaps besides, as far as it reports.
+template <class ShapeT>
+void check_stands(Structure<ShapeT>& structure, double step, int settle, int count) {
+  const double lever =
+      std::sqrt(double(structure.joints)) * (1 + 2 * structure.diameter / structure.joint);
+  int failed = 0, sweeps = 0, first = 0;
+  double residual = 0, allowed = 0, velocity = 0, corrected = 0;
+  std::vector<typename Structure<ShapeT>::Vector> start;
+  for (int k = 0; k < settle + count; ++k) {
+    if (k == settle) start = structure.vertices();
+    const moreau::StepReport report = structure.simulation.step(step);
+    failed += !report.solve.converged;
+    residual = std::max(residual, report.solve.residual);
+    if (k == 0) first = report.solve.sweeps;
+    if (k < settle) continue;
+    sweeps = std::max(sweeps, report.solve.sweeps);
+    velocity = lever * report.solve.residual * structure.impulse_velocity();
+    allowed += step * velocity;
+    corrected += report.correction.largest_shift;
+  }
+  double moved = 0;
+  const auto end = structure.vertices();
+  for (std::size_t i = 0; i < end.size(); ++i) moved = std::max(moved, (end[i] - start[i]).norm());
+  INFO("sweeps of the first step " << first << ", later " << sweeps << ", correction "
+                                   << corrected);
+  CHECK(failed == 0);
+  CHECK(residual <= tolerance);
+  CHECK(moved <= allowed + corrected);
+  CHECK(structure.kinetic_energy() <= structure.mass() * velocity * velocity / 2);
+}
+
+/// Boxes on each other, the floor tilted by 0.01: the resultant leaves the base when the tilt is
+/// 1/count.
+template <class ShapeT>
+Structure<ShapeT> column(int count) {
+  Structure<ShapeT> structure(0.1, 0.5, 0.1, std::min(0.01, 0.4 / count));
+  for (int k = 0; k < count; ++k) structure.add_box(-0.05, 0.1 * k, 0.1, 0.1);
+  structure.joint = 0.1;
+  structure.joints = std::size_t(count);
+  structure.diameter = 0.1 * count;
+  return structure;
+}
+
+/// Courses of bricks, every other one shifted by half a brick and closed by two halves; joints are
+/// dry on all sides. The floor is tilted along the wall, below the friction angle.
+template <class ShapeT>
+Structure<ShapeT> wall(int courses, int bricks) {
+  constexpr double length = 0.2, height = 0.06;
+  Structure<ShapeT> structure(height, 0.5, 0.1, 0.1);
+  for (int course = 0; course < courses; ++course) {
+    const double bottom = height * course;
+    const bool shifted = course % 2 == 1;
+    if (shifted) structure.add_box(0, bottom, length / 2, height);
+    for (int k = 0; k < bricks - int(shifted); ++k)
+      structure.add_box(length * (k + (shifted ? 0.5 : 0)), bottom, length, height);
+    if (shifted) structure.add_box(length * (bricks - 0.5), bottom, length / 2, height);
+  }
+  structure.joint = length / 2;
+  structure.joints = std::size_t(courses);
+  structure.diameter = std::hypot(length * bricks, height * courses);
+  return structure;
+}
+
+/// tan of the lean of a card to the vertical, half of its run over the rise.
+constexpr double card_lean = 0.36;
+
+/// The friction that the lower storey of a card house needs, in the limit of thin cards. A leaning
+/// card of weight W carries Q on its ridge, at the run a and the rise b from its foot. By symmetry
+/// the ridge transmits only a thrust T, and the moment about the foot gives T b = W a/2 + Q a; the
+/// foot carries W + Q. So mu >= T/(W + Q) = (a/b)(W/2 + Q)/(W + Q). Above the lower ridges lie one
+/// level card and one pair, 3 W on four cards: Q = 3/4 W and mu >= 5/7 a/b. The upper storey,
+/// Q = 0, needs 1/2 a/b.
+constexpr double card_friction = 5.0 / 7 * card_lean;
+
+/// A leaning card, cut level at its foot and its top and plumb at the ridge, as a rafter is.
+/// @param side -1 left, 1 right of the ridge
+template <class ShapeT>
+void add_card(Structure<ShapeT>& house, double ridge, double foot, double rise, double thickness,
+              double side) {
+  // From the plumb cut down the lower face, along the foot, up the upper face, along the top.
+  const double wide = thickness * std::hypot(1.0, card_lean);  // measured level
+  const double run = card_lean * rise;
+  const double cut = wide / 2;  // level width of the top
+  const double plumb = (wide - cut) / card_lean;
+  house.add({{ridge, foot + rise},
+             {ridge + side * cut, foot + rise},
+             {ridge + side * (cut + run), foot},
+             {ridge + side * (cut + run - wide), foot},
+             {ridge, foot + rise - plumb}});
+}
+
+/// Two storeys: two pairs, a level card across their ridges, a pair on it.
+template <class ShapeT>
+Structure<ShapeT> card_house(double friction) {
+  constexpr double rise = 1, thickness = 0.04;
+  Structure<ShapeT> house(thickness, friction, 0.6);
+  const double wide = thickness * std::hypot(1.0, card_lean);
+  const double foot = card_lean * rise + wide / 2;  // outermost, from the ridge
+  const double ridge = card_lean * rise;  // an upper foot, half of it, stands above a lower ridge
+  for (const double side : {-1.0, 1.0}) {
+    for (const double lean : {-1.0, 1.0})
+      add_card(house, side * (foot + 0.02), 0, rise, thickness, lean);
+    add_card(house, 0, rise + thickness, rise, thickness, side);
+  }
+  house.add_box(-1.5 * ridge, rise, 3 * ridge, thickness);
+  house.joint = wide / 2;
+  house.joints = 5;
+  house.diameter = 2.5;
+  return house;
+}
+
+/// A semicircular arch of equal voussoirs, mean radius 1, on the floor.
+/// @param thickness over the mean radius; 0.1075 is the least that stands (V. Milankovitch, 1907)
+template <class ShapeT>
+Structure<ShapeT> arch(int voussoirs, double thickness) {
+  Structure<ShapeT> structure(thickness, 0.7, 0.3);
+  for (int k = 0; k < voussoirs; ++k) {
+    std::vector<Point> corners;
+    for (int end = 0; end < 2; ++end)
+      for (const double radius : {1 - thickness / 2, 1 + thickness / 2}) {
+        const double angle = std::numbers::pi * (k + end) / voussoirs;
+        // sin(pi) is not zero in floating point.
+        const double height = k + end == voussoirs ? 0 : std::sin(angle);
+        corners.push_back({-radius * std::cos(angle), radius * height});
+      }
+    structure.add(corners);
+  }
+  structure.joint = thickness;
+  structure.joints = std::size_t(voussoirs + 1) / 2;
+  structure.diameter = 2 + thickness;
+  return structure;
+}
+
+}  // namespace masonry

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// A packing that has come to rest, and what it means that it rests.
+#pragma once
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+#include "world/assemblies.hpp"
+
+namespace packing {
+
+using Law = moreau::SignoriniCoulomb<double>;
+
+/// 60 grains fall into a box and settle; then overlap and kinetic energy are followed. The second
+/// half of the time must not be worse than the first, where that is more than what a packing at
+/// rest may show: overlaps up to the slop of the correction, and velocities of the residual, as the
+/// residual is relative to some g h times the number of grains that a contact carries.
+template <class ShapeT>
+void check_rests(double duration) {
+  constexpr double h = 1e-3, size = 0.02, gravity = 9.81;
+  constexpr std::size_t count = 60;
+  moreau::ColouredOptions options;
+  options.tolerance = 1e-6;
+  options.max_sweeps = 10000;
+  scenes::BoxOfGrains<ShapeT> box(count, options, 0.5);
+  for (int k = 0; k < 1500; ++k) box.simulation.step(h);
+  const auto kinetic_energy = [&] {
+    using S = typename scenes::BoxOfGrains<ShapeT>::S;
+    const auto& bodies = box.simulation.bodies();
+    double sum = 0;
+    for (const auto grain : box.grains) {
+      const std::size_t i = grain.index();
+      const auto v = bodies.velocity[i].template head<S::dim>();
+      const typename S::Angular w = bodies.velocity[i].template tail<S::angular_dim>();
+      sum += (bodies.weight[i] * v.squaredNorm() +
+              w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) /
+             2;
+    }
+    return sum;
+  };
+  double mass = 0;
+  for (const double weight : box.simulation.bodies().weight) mass += weight;
+  double overlap[2] = {}, energy[2] = {};
+  const int half = int(duration / h / 2);
+  int capped = 0;
+  for (int k = 0; k < 2 * half; ++k) {
+    const moreau::StepReport report = box.simulation.step(h);
+    overlap[k / half] = std::max(overlap[k / half], report.max_overlap);
+    energy[k / half] = std::max(energy[k / half], kinetic_energy());
+    capped += report.solve.capped;
+  }
+  const double slop = moreau::OverlapCorrectionOptions{}.slop * size;
+  const double velocity = options.tolerance * gravity * h * double(count);
+  CHECK(overlap[1] <= std::max(overlap[0], slop));
+  CHECK(energy[1] <= std::max(energy[0], mass * velocity * velocity / 2));
+}
+
+}  // namespace packing

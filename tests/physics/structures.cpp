@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Structures that statics says stand. The sizes that take minutes are in long/structures.cpp.
+#include "physics/masonry.hpp"
+#include "sanitized.hpp"
+
+using moreau::Polygon;
+using moreau::Polyhedron;
+
+namespace {
+constexpr double step = 5e-3;
+constexpr int settle = 20, second = rounds(200);
+}  // namespace
+
+TEST_CASE_TEMPLATE("a column of 40 boxes stands", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::column<ShapeT>(40);
+  masonry::check_stands(structure, step, settle, second);
+}
+
+TEST_CASE_TEMPLATE("a wall of 60 bricks stands", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::wall<ShapeT>(6, 10);
+  masonry::check_stands(structure, step, settle, second);
+}
+
+TEST_CASE_TEMPLATE("a card house of two storeys stands", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::card_house<ShapeT>(1.5 * masonry::card_friction);
+  masonry::check_stands(structure, step, settle, second);
+}
+
+TEST_CASE_TEMPLATE("a semicircular arch of 17 voussoirs stands", ShapeT, Polyhedron<>, Polygon<>) {
+  auto structure = masonry::arch<ShapeT>(17, 0.2);
+  masonry::check_stands(structure, step, settle, second);
+}
