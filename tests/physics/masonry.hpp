@@ -39,11 +39,14 @@ struct Structure {
   std::size_t joints = 1;  ///< least number of joints that every block can reach the floor by
 
   /// @param size of a block [m]
+  /// @param prism_depth out of the plane [m]
   /// @param tilt of the floor under gravity [rad]
-  Structure(double size, double friction, double depth, double tilt = 0)
+  Structure(double size, double friction, double prism_depth, double tilt = 0)
       : simulation(size, moreau::Materials<Law>(1, Law(friction)),
                    moreau::ColouredGaussSeidel(tight())),
-        depth(depth) {
+        depth(prism_depth) {
+    // Three points of a rectangle leave the load on the edge of their triangle: it would rock.
+    simulation.set_contact_points(moreau::ContactPoints::all);
     simulation.add_wall(Vector::Unit(up), Vector::Zero());
     simulation.set_gravity(gravity *
                            (std::sin(tilt) * Vector::UnitX() - std::cos(tilt) * Vector::Unit(up)));

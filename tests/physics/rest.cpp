@@ -32,6 +32,7 @@ TEST_CASE_TEMPLATE("the gap of a box at rest does not follow the step", ShapeT, 
         scenes::World<ShapeT> simulation(size,
                                          moreau::Materials<packing::Law>(1, packing::Law(0.5)),
                                          moreau::ColouredGaussSeidel(options));
+        simulation.set_contact_points(moreau::ContactPoints::all);
         const ShapeT box = scenes::cuboid<ShapeT>(Vector::Constant(size / 2));
         moreau::Pose<S> pose;
         pose.position[up] = size / 2 + height;

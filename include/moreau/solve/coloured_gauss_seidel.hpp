@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "moreau/solve/coloured_sweeps.hpp"
@@ -65,6 +66,8 @@ class TeamGaussSeidel {
     detail::apply_alone<Operator>(op, impulses);
     sweeps.start(op, laws, law_of, impulses, options_.accelerate);
     double believed = 3 * options_.tolerance;  // change per sweep at which the residual may be met
+    double least = std::numeric_limits<double>::infinity();
+    int unchecked = 0;
     while (!report.converged && report.sweeps < options_.max_sweeps) {
       const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
       for (int k = 1; k < block; ++k)
@@ -74,21 +77,41 @@ class TeamGaussSeidel {
           sweeps.sweep(team_);
       sweeps.plain_sweep(team_).write(report);
       report.sweeps += block;
+      const double change = std::max(report.quad_dv, report.quad_dvr);
       if (options_.stop_test == StopTest::qm16) {
         report.converged = passes_qm16(report, options_.tolerance);
-      } else if (report.quad_dv <= believed) {
+      } else if (report.quad_dv <= believed || ++unchecked == most_unchecked) {
+        unchecked = 0;
         certify(op, laws, law_of, impulses, sweeps, report);
         report.converged = report.residual <= options_.tolerance;
         believed = report.quad_dv * options_.tolerance / report.residual;
       }
+      if (report.converged) break;
+      if (change < kept * least) {
+        least = change;
+        sweeps.keep();
+      } else if (!(change < astray * least)) {
+        sweeps.go_back();
+      }
     }
-    report.capped = !report.converged;
-    if (report.capped || options_.stop_test == StopTest::qm16)
+    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.go_back();
+    if (!report.converged || options_.stop_test == StopTest::qm16)
       certify(op, laws, law_of, impulses, sweeps, report);
+    if (options_.stop_test == StopTest::natural_map)
+      report.converged = report.residual <= options_.tolerance;
+    report.converged = report.converged && report.left_over <= SolveReport::most_left_over;
+    report.capped = !report.converged;
     return report;
   }
 
  private:
+  /// The change per sweep says little where a contact is nearly singular: after this many checks
+  /// that it forbade, the residual is looked at all the same.
+  static constexpr int most_unchecked = 16;
+  /// Impulses are kept when the change has fallen by `kept`, gone back to when it is `astray` times
+  /// what it was: acceleration can drive away.
+  static constexpr double kept = 0.5, astray = 1e3;
+
   /// The residual of the impulses as they are, with velocities made from them alone.
   template <class Operator, class Law>
   static void certify(Operator& op, std::span<const Law> laws,

@@ -13,6 +13,7 @@
 
 #include "moreau/solve/anderson_mixing.hpp"
 #include "moreau/solve/contact_groups.hpp"
+#include "moreau/solve/lane_velocities.hpp"
 #include "moreau/solve/momentum.hpp"
 #include "moreau/solve/sweep_change.hpp"
 #include "moreau/solve/team.hpp"
@@ -48,18 +49,33 @@ class ColouredSweeps {
     }
     find_phases(all_, phases_);
     list_awake();
+    keep();
   }
   /// Body velocities of the operator; what the sweeps rounded off is gone. The next sweep starts
   /// from the impulses as they are, because no earlier velocities belong to these.
   void load_velocities(const Operator& op) {
-    velocity_.assign(registers * groups_.rows(), Values{});
-    for (std::size_t i = 0; i < op.body_count(); ++i) {
-      const auto y = op.scaled_velocity(i);
-      for (int k = 0; k < S::dofs; ++k)
-        velocity_[registers * i + std::size_t(k / W::lanes)][k % W::lanes] = y[k];
-    }
-    before_ = velocity_;
+    velocity_.reset(groups_.rows());
+    for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.scaled_velocity(i));
+    velocity_.settle();
     beta_ = 0;
+  }
+  /// Remembers the impulses as they are.
+  void keep() {
+    kept_.clear();
+    for (const auto& point : groups_.points)
+      for (std::size_t d = 0; d < S::dim; ++d) kept_.push_back(point.impulse[d]);
+  }
+  /// Starts anew from the impulses that were kept, without acceleration at first.
+  void go_back() {
+    std::size_t i = 0;
+    for (auto& point : groups_.points)
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        point.impulse[d] = point.before[d] = kept_[i++];
+      }
+    remake_velocities();
+    velocity_.settle();
+    beta_ = 0;
+    mixing_ = false;
   }
   void unpack(std::span<Impulse> impulses) const { groups_.unpack(impulses); }
 
@@ -71,7 +87,7 @@ class ColouredSweeps {
       return;
     }
     team.run([&](int rank, int size, auto&& meet) {
-      extrapolate(rank, size);
+      velocity_.extrapolate(beta_, rank, size);
       meet();
       visit_awake(rank, size, meet);
     });
@@ -81,7 +97,7 @@ class ColouredSweeps {
   template <class Team>
   void waking_sweep(const Team& team) {
     team.run([&](int rank, int size, auto&& meet) {
-      extrapolate(rank, size);
+      velocity_.extrapolate(beta_, rank, size);
       meet();
       visit_all<false>(rank, size, meet);
     });
@@ -91,7 +107,7 @@ class ColouredSweeps {
   /// One plain sweep over all contacts; wakes those that approach, lets go those that rest.
   template <class Team>
   SweepChange plain_sweep(const Team& team) {
-    before_ = velocity_;
+    velocity_.settle();
     beta_ = 0;
     measures_.assign(groups_.pairs.size(), {});
     team.run([&](int rank, int size, auto&& meet) { visit_all<true>(rank, size, meet); });
@@ -109,48 +125,11 @@ class ColouredSweeps {
   }
 
  private:
-  static constexpr std::size_t registers = (S::dofs + W::lanes - 1) / W::lanes;
   static constexpr int sweeps_per_mix = 4;
-  using BodyLanes = std::array<Values, registers * W::lanes>;
+  using Velocities = LaneVelocities<S, W>;
+  using BodyLanes = typename Velocities::BodyLanes;
   using Pairs = typename Groups::Pairs;
   using Points = typename Groups::Points;
-  using Bodies = std::array<std::uint32_t, std::size_t{W::lanes}>;
-
-  BodyLanes gather(const Bodies& bodies) const {
-    BodyLanes y;
-    for (std::size_t k = 0; k < registers; ++k) {
-      Values rows[W::lanes];
-      for (std::size_t l = 0; l < W::lanes; ++l) rows[l] = velocity_[registers * bodies[l] + k];
-      W::transpose(rows);
-      for (std::size_t l = 0; l < W::lanes; ++l) y[k * W::lanes + l] = rows[l];
-    }
-    return y;
-  }
-  void scatter(const Bodies& bodies, const BodyLanes& y) {
-    for (std::size_t k = 0; k < registers; ++k) {
-      Values rows[W::lanes];
-      for (std::size_t l = 0; l < W::lanes; ++l) rows[l] = y[k * W::lanes + l];
-      W::transpose(rows);
-      for (std::size_t l = 0; l < W::lanes; ++l) velocity_[registers * bodies[l] + k] = rows[l];
-    }
-  }
-  /// The bodies of a group as its lanes left them; the pushes of all lanes on the hub.
-  void scatter(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
-    if (group.hub == Hub::a)
-      add_to_hub(group.a[0], a);
-    else
-      scatter(group.a, a);
-    if (group.hub == Hub::b)
-      add_to_hub(group.b[0], b);
-    else
-      scatter(group.b, b);
-  }
-  void add_to_hub(std::uint32_t body, const BodyLanes& y) {
-    for (std::size_t k = 0; k < S::dofs; ++k) {
-      T& own = velocity_[registers * body + k / W::lanes][k % W::lanes];
-      own += W::sum(y[k] - W::broadcast(own));
-    }
-  }
 
   /// Runs of groups of one colour within a list of groups in their order, and where those begin
   /// that must be visited one after the other.
@@ -224,7 +203,7 @@ class ColouredSweeps {
   template <class Team>
   void mixed_sweep(const Team& team) {
     if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) mix();
-    before_ = velocity_;
+    velocity_.settle();
     const bool back = mixed_sweeps_++ % 2 == 0;
     team.run([&](int rank, int size, auto&& meet) {
       if (back)
@@ -259,7 +238,11 @@ class ColouredSweeps {
     for (const std::uint32_t p : mixed_)
       for (std::size_t d = 0; d < S::dim; ++d, from += W::lanes)
         groups_.points[p].impulse[d] = W::load(from);
-    std::fill(velocity_.begin(), velocity_.end(), Values{});
+    remake_velocities();
+  }
+  /// Velocities from the impulses alone.
+  void remake_velocities() {
+    velocity_.reset(groups_.rows());
     for (Pairs& group : groups_.pairs) {
       apply(group);
       note_awake(group);
@@ -268,10 +251,10 @@ class ColouredSweeps {
   }
   /// Adds what the impulses of a group do to its bodies.
   void apply(const Pairs& group) {
-    BodyLanes a = gather(group.a), b = gather(group.b);
+    BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
       push(groups_.points[p], groups_.points[p].impulse, a, b);
-    scatter(group, a, b);
+    velocity_.scatter(group, a, b);
   }
   /// Impulses of a point on the velocities of its bodies.
   static void push(const Points& point, const Vector& impulse, BodyLanes& a, BodyLanes& b) {
@@ -280,16 +263,6 @@ class ColouredSweeps {
         a[k] -= point.rows_a[k][d] * impulse[d];
         b[k] += point.rows_b[k][d] * impulse[d];
       }
-  }
-
-  void extrapolate(int rank, int size) {
-    const Values beta = W::broadcast(beta_);
-    const Share share(velocity_.size(), rank, size);
-    for (std::size_t i = share.begin; i < share.end; ++i) {
-      const Values now = velocity_[i];
-      velocity_[i] = now + beta * (now - before_[i]);
-      before_[i] = now;
-    }
   }
 
   void list_awake() {
@@ -310,7 +283,7 @@ class ColouredSweeps {
     }
   }
   bool approaches(const Pairs& group) const {
-    const BodyLanes a = gather(group.a), b = gather(group.b);
+    const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     typename W::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
       const Points& point = groups_.points[p];
@@ -327,7 +300,7 @@ class ColouredSweeps {
   void visit(std::uint32_t number, std::uint32_t count) {
     const Pairs& group = groups_.pairs[number];
     Values change2{};
-    BodyLanes a = gather(group.a), b = gather(group.b);
+    BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     const Values beta = W::broadcast(beta_);
     for (std::uint32_t p = group.first; p < group.first + count; ++p) {
       Points& point = groups_.points[p];
@@ -362,7 +335,7 @@ class ColouredSweeps {
       if constexpr (Measure) add(measures_[number], point.block, change, impulse);
     }
     changes_[number] = change2;
-    scatter(group, a, b);
+    velocity_.scatter(group, a, b);
   }
 
   static void add(SweepChange& sum, const LaneBlock<S>& block, const Vector& change,
@@ -380,9 +353,10 @@ class ColouredSweeps {
   }
 
   Groups groups_;
-  std::vector<Values> velocity_, before_;   // y of every body after the last sweep, and before it
+  Velocities velocity_;
   std::vector<std::uint32_t> all_, awake_;  // groups
   Phases phases_, awake_phases_;
+  std::vector<Values> kept_;           // impulses of all points
   std::vector<Values> changes_;        // of each group, |change of impulses|^2 of the last visit
   std::vector<SweepChange> measures_;  // of each group
   bool accelerate_ = true, mixing_ = false;

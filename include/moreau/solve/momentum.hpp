@@ -9,9 +9,9 @@ namespace moreau::detail {
 /// How far the next sweep starts ahead of the last result, along the last change: a moving average
 /// of the rate at which the changes shrink. Fletcher and Reeves' quotient is that rate for the
 /// non-linear conjugate gradients of M. Silcowitz, S. Niebe and K. Erleben (Vis. Comput. 26 (2010)
-/// 893). A change that grew counts as one that did not shrink: with more caution the sweeps take a
-/// fifth longer, twice as long where friction makes them circle. Where momentum drives them away,
-/// caution comes: such a change then counts as one half, which draws the average down.
+/// 893). A change that grew counts as one half, which draws the average down. That caution is right
+/// while contacts open and close; afterwards it costs a sixth of the sweeps, half of them where
+/// friction makes them circle. So it goes, until momentum drives away.
 class Momentum {
  public:
   /// @param change2 squared change of all impulses by the last sweep
@@ -25,6 +25,7 @@ class Momentum {
   }
   /// @param change what a plain sweep still changes, in any unit
   void check(double change) {
+    if (++checks_ == cautious_checks) grown_ = 1;
     least_ = std::min(least_, change);
     if (!(change <= away * least_)) grown_ = std::max(cautious, grown_ - caution);
   }
@@ -32,9 +33,11 @@ class Momentum {
  private:
   static constexpr double memory = 0.8, most = 0.98;
   static constexpr double away = 3, caution = 0.1, cautious = 0.5;
+  static constexpr int cautious_checks = 10;
 
-  double beta_ = 0.5, last_ = 0, grown_ = 1;
+  double beta_ = 0.5, last_ = 0, grown_ = cautious;
   double least_ = std::numeric_limits<double>::infinity();
+  int checks_ = 0;
 };
 
 /// Tells when something has stopped to shrink.

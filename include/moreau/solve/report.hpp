@@ -12,6 +12,12 @@ struct SolveReport {
   /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1.
   /// Absolute where r = 0.
   double residual = 0;
+  /// The same map relative to the approach there would be without impulses. Where impulses grow
+  /// without bound because there is no solution, the residual is small and this is not: beyond
+  /// `most_left_over` no solution counts as converged. 0 where nothing approaches.
+  double left_over = 0;
+  static constexpr double most_left_over = 0.1;
+
   double quad_dv = 0;   ///< LMGC90: sqrt<|dv|^2> / sqrt<|W r|^2>
   double quad_dvr = 0;  ///< LMGC90: sqrt<|dv|^2 |r|^2> / <r . W r>
   double maxm_dv = 0;   ///< the same with the maximum in the numerator

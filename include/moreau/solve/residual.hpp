@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "moreau/solve/report.hpp"
@@ -22,7 +23,7 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
                       std::span<const std::uint32_t> law_of,
                       std::span<const typename Operator::Vector> impulses, SolveReport& report) {
   using Vector = typename Operator::Vector;
-  double trace = 0, map = 0, norm = 0;
+  double trace = 0, map = 0, norm = 0, approach = 0;
   report.worst_velocity = report.worst_cone = report.worst_complementarity = 0;
   report.wrong_sign_dissipation = 0;
   for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
@@ -35,6 +36,8 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
     const Vector u = op.velocity(c);
     if (!std::isfinite(u[0])) continue;  // cannot act in this step
     const Vector scaled = r * static_cast<typename Operator::Scalar>(scale);
+    const double free = std::min(0.0, double(op.free_velocity(c)[0]));
+    approach += free * free;
     map += double(laws[law_of[c]].natural_map(u, scaled).squaredNorm());
     norm += double(scaled.squaredNorm());
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
@@ -47,6 +50,9 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
         std::max(report.worst_cone, double((r - laws[law_of[c]].project(r)).norm()));
   }
   report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
+  // Impulses so large that the velocities are lost in their rounding leave nothing to be read.
+  const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
+  report.left_over = approach > 0 ? std::sqrt((map + rounding * rounding * norm) / approach) : 0;
 }
 
 }  // namespace moreau

@@ -29,6 +29,12 @@ struct DetectionLengths {
   T resolution;  ///< contact points closer together than this are one
 };
 
+/// Which points of a contact between two faces are kept.
+enum class ContactPoints {
+  few,  ///< 1, 2 or 3 of them (2D: 2), as in the paper; what a step cost, and most packings, need
+  all,  ///< the whole polygon of contact: any pressure on it can be carried, blocks stand exactly
+};
+
 template <class ShapeT, class BroadPhaseT>
 class ContactDetector {
  public:
@@ -58,6 +64,7 @@ class ContactDetector {
 
   /// Pairs whose boxes come within the margin, sorted; recomputed only when a box has left its
   /// skin.
+  void keep_points(ContactPoints points) { kept_points_ = points; }
   void find_pairs(const DetectionLengths<Scalar>& lengths) {
     const Scalar reach = lengths.margin / 2;
     bool left = stale_ || fat_.size() != boxes_.size();
@@ -158,6 +165,7 @@ class ContactDetector {
 
   /// At most as many points as there are dimensions, the same as the step before where they do.
   void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
+    if (kept_points_ == ContactPoints::all) return;
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
       const ContactKey from{a, b, FeatureKey()};
@@ -194,6 +202,7 @@ class ContactDetector {
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<PairCache<S>> caches_, old_caches_;
   Manifold<S> manifold_;
+  ContactPoints kept_points_ = ContactPoints::few;
   Reduction reduction_;
   std::vector<FeatureKey> kept_;
   Contacts<S> scratch_;

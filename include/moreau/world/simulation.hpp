@@ -171,6 +171,8 @@ class Simulation {
   void set_correction(const OverlapCorrectionOptions& options) {
     correction_ = OverlapCorrection<S>(options);
   }
+  /// Which points of a contact between faces act; few of them until set.
+  void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
   /// Other laws, from the next step on; as many materials as before.
   void set_materials(const Materials<Law>& materials) {
     require(materials.count() == materials_.count(), "Simulation::set_materials", "count",

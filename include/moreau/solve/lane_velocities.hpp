@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "moreau/solve/contact_groups.hpp"
+#include "moreau/solve/team.hpp"
+
+namespace moreau::detail {
+
+/// Scaled velocities y of all bodies, a row each, read and written for as many bodies at once as
+/// there are lanes.
+template <class S, class W>
+class LaneVelocities {
+ public:
+  using T = typename S::Scalar;
+  using Values = typename W::Values;
+  static constexpr std::size_t registers = (S::dofs + W::lanes - 1) / W::lanes;
+  /// Entry k of y, one body per lane.
+  using BodyLanes = std::array<Values, registers * W::lanes>;
+  using Bodies = std::array<std::uint32_t, std::size_t{W::lanes}>;
+
+  /// All at rest.
+  void reset(std::size_t rows) { now_.assign(registers * rows, Values{}); }
+  void set(std::size_t body, const auto& y) {
+    for (int k = 0; k < S::dofs; ++k)
+      now_[registers * body + std::size_t(k / W::lanes)][k % W::lanes] = y[k];
+  }
+  /// The next extrapolation starts from the velocities as they are.
+  void settle() { before_ = now_; }
+  /// Adds beta times the change since the last extrapolation; a member's part of the team's work.
+  void extrapolate(T beta, int rank, int size) {
+    const Values factor = W::broadcast(beta);
+    const Share share(now_.size(), rank, size);
+    for (std::size_t i = share.begin; i < share.end; ++i) {
+      const Values now = now_[i];
+      now_[i] = now + factor * (now - before_[i]);
+      before_[i] = now;
+    }
+  }
+
+  BodyLanes gather(const Bodies& bodies) const {
+    BodyLanes y;
+    for (std::size_t k = 0; k < registers; ++k) {
+      Values rows[W::lanes];
+      for (std::size_t l = 0; l < W::lanes; ++l) rows[l] = now_[registers * bodies[l] + k];
+      W::transpose(rows);
+      for (std::size_t l = 0; l < W::lanes; ++l) y[k * W::lanes + l] = rows[l];
+    }
+    return y;
+  }
+  /// The bodies of a group as its lanes left them; the pushes of all lanes on the hub.
+  template <class Pairs>
+  void scatter(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
+    if (group.hub == Hub::a)
+      add_to_hub(group.a[0], a);
+    else
+      scatter(group.a, a);
+    if (group.hub == Hub::b)
+      add_to_hub(group.b[0], b);
+    else
+      scatter(group.b, b);
+  }
+
+ private:
+  void scatter(const Bodies& bodies, const BodyLanes& y) {
+    for (std::size_t k = 0; k < registers; ++k) {
+      Values rows[W::lanes];
+      for (std::size_t l = 0; l < W::lanes; ++l) rows[l] = y[k * W::lanes + l];
+      W::transpose(rows);
+      for (std::size_t l = 0; l < W::lanes; ++l) now_[registers * bodies[l] + k] = rows[l];
+    }
+  }
+  void add_to_hub(std::uint32_t body, const BodyLanes& y) {
+    for (std::size_t k = 0; k < S::dofs; ++k) {
+      T& own = now_[registers * body + k / W::lanes][k % W::lanes];
+      own += W::sum(y[k] - W::broadcast(own));
+    }
+  }
+
+  std::vector<Values> now_, before_;
+};
+
+}  // namespace moreau::detail
