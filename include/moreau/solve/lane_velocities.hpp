@@ -76,8 +76,9 @@ class LaneVelocities {
   }
   void add_to_hub(std::uint32_t body, const BodyLanes& y) {
     for (std::size_t k = 0; k < S::dofs; ++k) {
-      T& own = now_[registers * body + k / W::lanes][k % W::lanes];
-      own += W::sum(y[k] - W::broadcast(own));
+      Values& entries = now_[registers * body + k / W::lanes];
+      const T own = entries[k % W::lanes];
+      entries[k % W::lanes] = own + W::sum(y[k] - W::broadcast(own));
     }
   }
 
