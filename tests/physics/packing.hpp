@@ -51,6 +51,7 @@ void check_rests(double duration) {
   }
   const double slop = moreau::OverlapCorrectionOptions{}.slop * size;
   const double velocity = options.tolerance * gravity * h * double(count);
+  CHECK(capped == 0);
   CHECK(overlap[1] <= std::max(overlap[0], slop));
   CHECK(energy[1] <= std::max(energy[0], mass * velocity * velocity / 2));
 }
