@@ -13,13 +13,13 @@ constexpr int settle = 20, ten_seconds = 2000;
 // These two stand, but the residual stays at some 1e-6 and 1e-8 for many steps: Gauss-Seidel is
 // slow on the bending of slender structures, and the tolerance of 1e-8 is not reached within the
 // cap.
-TEST_CASE_TEMPLATE("a column of 40 boxes stands for ten seconds" * doctest::should_fail(), ShapeT,
+TEST_CASE_TEMPLATE("a column of 40 boxes stands for ten seconds" * doctest::may_fail(), ShapeT,
                    Polyhedron<>, Polygon<>) {
   auto structure = masonry::column<ShapeT>(40);
   masonry::check_stands(structure, step, settle, ten_seconds);
 }
 
-TEST_CASE_TEMPLATE("a wall of 500 bricks stands for ten seconds" * doctest::should_fail(), ShapeT,
+TEST_CASE_TEMPLATE("a wall of 500 bricks stands for ten seconds" * doctest::may_fail(), ShapeT,
                    Polyhedron<>, Polygon<>) {
   auto structure = masonry::wall<ShapeT>(20, 25);  // ten courses of them have two halves for one
   masonry::check_stands(structure, step, settle, ten_seconds);
