@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "physics/motion.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
@@ -52,15 +53,11 @@ struct Scene {
   }
   /// Of all grains [J].
   double energy() const {
-    const auto& bodies = simulation.bodies();
-    double sum = 0;
+    double sum = scenes::kinetic_energy(simulation);
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       const std::size_t i = simulation.grain(k).index();
-      const auto v = bodies.velocity[i].template head<S::dim>();
-      const typename S::Angular w = bodies.velocity[i].template tail<S::angular_dim>();
-      sum += bodies.weight[i] *
-                 (v.squaredNorm() / 2 - simulation.gravity().dot(bodies.pose[i].position)) +
-             w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w) / 2;
+      sum -= simulation.bodies().weight[i] *
+             simulation.gravity().dot(simulation.bodies().pose[i].position);
     }
     return sum;
   }

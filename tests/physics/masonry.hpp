@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "physics/motion.hpp"
 #include "world/assemblies.hpp"
 
 namespace masonry {
@@ -85,19 +86,6 @@ struct Structure {
     }
     return all;
   }
-  double kinetic_energy() const {
-    const auto& bodies = simulation.bodies();
-    double sum = 0;
-    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
-      const std::size_t i = simulation.grain(k).index();
-      const auto v = bodies.velocity[i].template head<S::dim>();
-      const typename S::Angular w = bodies.velocity[i].template tail<S::angular_dim>();
-      sum += (bodies.weight[i] * v.squaredNorm() +
-              w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) /
-             2;
-    }
-    return sum;
-  }
   double mass() const {
     double sum = 0;
     for (const double weight : simulation.bodies().weight) sum += weight;
@@ -159,7 +147,7 @@ void check_stands(Structure<ShapeT>& structure, double step, int settle, int cou
   CHECK(failed == 0);
   CHECK(residual <= tolerance);
   CHECK(moved <= allowed + corrected);
-  CHECK(structure.kinetic_energy() <= structure.mass() * velocity * velocity / 2);
+  CHECK(scenes::kinetic_energy(structure.simulation) <= structure.mass() * velocity * velocity / 2);
 }
 
 /// Boxes on each other, the floor tilted by 0.01: the resultant leaves the base when the tilt is

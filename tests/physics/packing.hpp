@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <doctest/doctest.h>
 
+#include "physics/motion.hpp"
 #include "world/assemblies.hpp"
 
 namespace packing {
@@ -24,20 +25,6 @@ void check_rests(double duration) {
   options.max_sweeps = 10000;
   scenes::BoxOfGrains<ShapeT> box(count, options, 0.5);
   for (int k = 0; k < 1500; ++k) box.simulation.step(h);
-  const auto kinetic_energy = [&] {
-    using S = typename scenes::BoxOfGrains<ShapeT>::S;
-    const auto& bodies = box.simulation.bodies();
-    double sum = 0;
-    for (const auto grain : box.grains) {
-      const std::size_t i = grain.index();
-      const auto v = bodies.velocity[i].template head<S::dim>();
-      const typename S::Angular w = bodies.velocity[i].template tail<S::angular_dim>();
-      sum += (bodies.weight[i] * v.squaredNorm() +
-              w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) /
-             2;
-    }
-    return sum;
-  };
   double mass = 0;
   for (const double weight : box.simulation.bodies().weight) mass += weight;
   double overlap[2] = {}, energy[2] = {};
@@ -46,7 +33,7 @@ void check_rests(double duration) {
   for (int k = 0; k < 2 * half; ++k) {
     const moreau::StepReport report = box.simulation.step(h);
     overlap[k / half] = std::max(overlap[k / half], report.max_overlap);
-    energy[k / half] = std::max(energy[k / half], kinetic_energy());
+    energy[k / half] = std::max(energy[k / half], scenes::kinetic_energy(box.simulation));
     capped += report.solve.capped;
   }
   const double slop = moreau::OverlapCorrectionOptions{}.slop * size;

@@ -31,7 +31,7 @@ struct DetectionLengths {
 
 /// Which points of a contact between two faces are kept.
 enum class ContactPoints {
-  few,  ///< 1, 2 or 3 of them (2D: 2), as in the paper; what a step cost, and most packings, need
+  few,  ///< 1, 2 or 3 of them (2D: 2), as in the paper: fewer unknowns per step
   all,  ///< the whole polygon of contact: any pressure on it can be carried, blocks stand exactly
 };
 
@@ -62,9 +62,10 @@ class ContactDetector {
     for (Wall& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
   }
 
+  void keep_points(ContactPoints points) { kept_points_ = points; }
+
   /// Pairs whose boxes come within the margin, sorted; recomputed only when a box has left its
   /// skin.
-  void keep_points(ContactPoints points) { kept_points_ = points; }
   void find_pairs(const DetectionLengths<Scalar>& lengths) {
     const Scalar reach = lengths.margin / 2;
     bool left = stale_ || fat_.size() != boxes_.size();
