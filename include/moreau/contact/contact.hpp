@@ -39,6 +39,8 @@ struct Contacts {
   std::vector<ContactKey> keys;
   std::vector<ContactClass> classes;
   std::vector<typename S::Vector> impulses;  ///< in the contact frame, normal first [N s]
+  /// Of rolling and twisting resistance, on b, in the contact frame [N m s]; empty without.
+  std::vector<typename S::Angular> couples;
 
   std::size_t size() const { return points.size(); }
   void clear() {
@@ -46,6 +48,7 @@ struct Contacts {
     keys.clear();
     classes.clear();
     impulses.clear();
+    couples.clear();
   }
 };
 

@@ -98,6 +98,10 @@ class BodyDelassus {
     scaled_[row.b].noalias() += row.jb * impulse;
     scaled_[row.a].noalias() -= row.ja * impulse;
   }
+  /// Adds to the scaled angular velocity of a body: what a couple does.
+  void add_scaled_spin(std::size_t body, const typename S::Angular& change) {
+    scaled_[body].template segment<S::angular_dim>(S::dim) += change;
+  }
   /// Undoes all impulses: every body back at its free velocity.
   void clear() { scaled_.assign(scaled_.size(), Wide::Zero()); }
   /// M^1/2 (V - V_free) of a body.

@@ -50,6 +50,8 @@ struct Space<2, T> {
   static bool is_rotation(const Rotation& q) { return is_finite(q); }
   /// Angular quantities from body to world axes: the identity in the plane.
   static Inertia adjoint(const Rotation&) { return Inertia::Ones(); }
+  /// A contact frame for angular quantities, which the plane has one axis for.
+  static Inertia angular_frame(const Matrix&) { return Inertia::Ones(); }
   /// D x A with lever(r) w = the velocity at r of a rotation w about the origin.
   static Lever lever(const Vector& r) { return Lever(-r.y(), r.x()); }
   /// lever(r) w without forming the matrix [m/s].
@@ -103,6 +105,7 @@ struct Space<3, T> {
   static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
   static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
   static Inertia adjoint(const Rotation& q) { return q.toRotationMatrix(); }
+  static Inertia angular_frame(const Matrix& frame) { return frame; }
   static Lever lever(const Vector& r) {
     Lever l;
     l << T(0), r.z(), -r.y(), -r.z(), T(0), r.x(), r.y(), -r.x(), T(0);

@@ -15,14 +15,33 @@ namespace moreau {
 /// - free_velocity(bodies, gravity, momentum, free, h): velocities at the end without contacts.
 /// - advance_configuration(bodies, after, h): to the end of the step with the velocities `after`.
 template <class I, class S>
-concept TimeIntegrator = requires(const I integrator, Bodies<S> bodies,
-                                  std::span<typename S::Angular> momentum,
-                                  std::span<typename S::Twist> free,
-                                  std::span<const typename S::Twist> after,
-                                  typename S::Vector gravity, typename S::Scalar step) {
+concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
+                                     std::span<typename S::Angular> momentum,
+                                     std::span<typename S::Twist> free,
+                                     std::span<const typename S::Twist> after,
+                                     typename S::Vector gravity, typename S::Scalar step) {
   integrator.predict_configuration(bodies, momentum, step);
   integrator.free_velocity(bodies, gravity, momentum, free, step);
   integrator.advance_configuration(bodies, after, step);
 };
+
+/// Moves the bodies under contact forces, in two parts around their evaluation.
+///
+/// - predict_configuration(bodies, loads, gravity, h): to where contacts are detected and forces
+///   evaluated, under the loads of the step before.
+/// - advance_configuration(bodies, loads, gravity, h): to the end of the step under the new loads.
+///
+/// A load is (force [N], torque about the centre [N m]) of the contacts on a body, world axes.
+template <class I, class S>
+concept ForceIntegrator = requires(const I integrator, Bodies<S> bodies,
+                                   std::span<const typename S::Twist> loads,
+                                   typename S::Vector gravity, typename S::Scalar step) {
+  integrator.predict_configuration(bodies, loads, gravity, step);
+  integrator.advance_configuration(bodies, loads, gravity, step);
+};
+
+/// Either kind: impulses for set-valued laws, forces for regularized ones.
+template <class I, class S>
+concept TimeIntegrator = ImpulseIntegrator<I, S> || ForceIntegrator<I, S>;
 
 }  // namespace moreau

@@ -15,11 +15,11 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include "moreau/core/error.hpp"
 #include "moreau/integrate/bodies.hpp"
+#include "moreau/integrate/spin.hpp"
 
 namespace moreau {
 
@@ -41,7 +41,7 @@ class MoreauJean {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       momentum[i] = bodies.inertia(i, bodies.pose[i].rotation) *
                     bodies.velocity[i].template tail<S::angular_dim>();
-      move(bodies.pose[i], bodies.velocity[i], h);
+      detail::move(bodies.pose[i], bodies.velocity[i], h);
     }
   }
 
@@ -51,12 +51,9 @@ class MoreauJean {
                      std::span<typename S::Angular> momentum, std::span<typename S::Twist> free,
                      typename S::Scalar step) const {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const typename S::Vector force =
-          bodies.force[i].template head<S::dim>() + bodies.weight[i] * gravity;
-      const typename S::Matrix r = bodies.axes(i);
       free[i] = bodies.velocity[i];
       free[i].template head<S::dim>() +=
-          step * (r * bodies.inverse_mass[i].cwiseProduct(r.transpose() * force));
+          detail::kick<S>(bodies, i, S::Vector::Zero(), gravity, step);
       if (!bodies.rotates(i)) continue;
       momentum[i] += step * bodies.force[i].template tail<S::angular_dim>();
       free[i].template tail<S::angular_dim>() =
@@ -72,38 +69,16 @@ class MoreauJean {
     const auto h = step * static_cast<typename S::Scalar>(theta_);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       bodies.velocity[i] = after[i];
-      if (bodies.rotates(i))
-        bodies.velocity[i].template tail<S::angular_dim>() =
-            end_spin(bodies, i, after[i].template tail<S::angular_dim>(), h);
-      move(bodies.pose[i], bodies.velocity[i], h);
+      if (bodies.rotates(i)) {
+        const typename S::Angular spin = after[i].template tail<S::angular_dim>();
+        bodies.velocity[i].template tail<S::angular_dim>() = detail::spin_after<S>(
+            bodies, i, bodies.inertia(i, bodies.pose[i].rotation) * spin, spin, h);
+      }
+      detail::move(bodies.pose[i], bodies.velocity[i], h);
     }
   }
 
  private:
-  template <class S>
-  static void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
-    pose.position += h * velocity.template head<S::dim>();
-    pose.rotation =
-        S::normalized(S::exp(h * velocity.template tail<S::angular_dim>()) * pose.rotation);
-  }
-  /// Newton on I(exp(h w) q) w = L; d(I(q) w) along a rotation is S::gyroscopic_jacobian.
-  template <class S>
-  static typename S::Angular end_spin(const Bodies<S>& bodies, std::size_t i,
-                                      const typename S::Angular& start, typename S::Scalar h) {
-    using Scalar = typename S::Scalar;
-    const typename S::Rotation& q = bodies.pose[i].rotation;
-    const typename S::Angular momentum = bodies.inertia(i, q) * start;
-    typename S::Angular w = start;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
-      const typename S::Angular error = inertia * w - momentum;
-      if (error.norm() <= 2 * std::numeric_limits<Scalar>::epsilon() * momentum.norm()) break;
-      const typename S::Inertia jacobian = inertia + h * S::gyroscopic_jacobian(inertia, w);
-      w -= jacobian.inverse() * error;
-    }
-    return w;
-  }
-
   double theta_;
 };
 

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <concepts>
+#include <cstddef>
 
 #include "moreau/contact/lane_problem.hpp"
 #include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/rolling_block.hpp"
 
 namespace moreau {
 
@@ -18,14 +20,51 @@ namespace moreau {
 ///   where the contact cannot act in this step.
 /// - solve(block, b, guess): the impulse [N s] that satisfies u = W r + b and the law; exact.
 ///   b [m/s] is the relative velocity at zero impulse with the offset; guess any impulse nearby.
-/// - natural_map(u, r): r - P_K(r - u'), zero exactly on solutions; u and r in one unit.
+/// - natural_map(u, r): r - P_K(r - u'), zero exactly on solutions; u and r in one unit. With u = 0
+///   it is what of r the law forbids.
+///
+/// Optional: see AttractiveLaw, StatefulLaw, RollingLaw, LaneLaw.
 template <class L, class S>
-concept SetValuedLaw = std::copyable<L> &&
+concept PointLaw = std::copyable<L> &&
     requires(const L law, const LocalBlock<S> block, typename S::Vector vector,
              typename S::Scalar scalar) {
   { law.velocity_offset(scalar, scalar, scalar) } -> std::same_as<typename S::Scalar>;
   { law.solve(block, vector, vector) } -> std::same_as<typename S::Vector>;
   { law.natural_map(vector, vector) } -> std::same_as<typename S::Vector>;
+};
+
+/// The same with a couple beside the force: u, r and b have D + A rows, those of rolling and
+/// twisting last (see rolling_delassus.hpp).
+template <class L, class S>
+concept RollingLaw = std::copyable<L> &&
+    requires(const L law, const RollingBlock<S> block, typename RollingBlock<S>::Vector vector,
+             typename S::Scalar scalar) {
+  { law.velocity_offset(scalar, scalar, scalar) } -> std::same_as<typename S::Scalar>;
+  { law.solve(block, vector, vector) } -> std::same_as<typename RollingBlock<S>::Vector>;
+  { law.natural_map(vector, vector) } -> std::same_as<typename RollingBlock<S>::Vector>;
+};
+
+/// Either kind.
+template <class L, class S>
+concept SetValuedLaw = PointLaw<L, S> || RollingLaw<L, S>;
+
+/// A law whose bodies attract each other with attraction(gap) [N]; what it solves for is the push
+/// against that. See cohesive.hpp.
+template <class L, class S>
+concept AttractiveLaw = SetValuedLaw<L, S> && requires(const L law, typename S::Scalar gap) {
+  { law.attraction(gap) } -> std::same_as<typename S::Scalar>;
+};
+
+/// A law that is another one after slip than after rest.
+///
+/// - variants: how many laws it can be in a step, at most; variant(k), k < variants: each of them
+/// - variant_after(impulse): the k of this step, from the impulse of the last [N s], in the frame
+template <class L, class S>
+concept StatefulLaw = SetValuedLaw<L, S> &&
+    requires(const L law, typename S::Vector impulse, std::size_t k) {
+  { law.variant_after(impulse) } -> std::same_as<std::size_t>;
+  { law.variant(k) } -> std::same_as<L>;
+  L::variants;
 };
 
 /// A law that also solves one contact per lane.
@@ -36,7 +75,7 @@ concept SetValuedLaw = std::copyable<L> &&
 ///   at first, kept from visit to visit. Where polish is set the impulse lies in the cone to the
 ///   last digit; the next visit's starts from it.
 template <class L, class S>
-concept LaneLaw = SetValuedLaw<L, S> &&
+concept LaneLaw = PointLaw<L, S> &&
     requires(const L law, const LaneBlock<S> block, const typename LaneBlock<S>::Vector vector,
              typename LaneBlock<S>::Values memory) {
   std::tuple_size<decltype(law.lane_parameters())>::value;

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <limits>
 
 #include "moreau/contact/local_problem.hpp"
@@ -101,14 +102,21 @@ class SignoriniCoulomb {
   /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
   /// @throws std::invalid_argument outside these ranges
   explicit SignoriniCoulomb(T friction = T(0), T restitution = T(0))
-      : friction_(friction), restitution_(restitution) {
+      : SignoriniCoulomb(friction, restitution, friction) {}
+  /// @param static_friction >= friction [-]; holds in a step where the contact is new or stuck in
+  ///                        the step before, `friction` where it slid
+  SignoriniCoulomb(T friction, T restitution, T static_friction)
+      : friction_(friction), restitution_(restitution), static_(static_friction) {
     require(std::isfinite(friction) && friction >= T(0), "SignoriniCoulomb", "friction", friction,
             "must be finite and >= 0");
     require(restitution >= T(0) && restitution <= T(1), "SignoriniCoulomb", "restitution",
             restitution, "must lie in [0, 1]");
+    require(std::isfinite(static_friction) && static_friction >= friction, "SignoriniCoulomb",
+            "static_friction", static_friction, "must be finite and >= friction");
   }
 
   T friction() const { return friction_; }
+  T static_friction() const { return static_; }
   T restitution() const { return restitution_; }
 
   /// e = 0: the contact may close its gap within the step, max(0, g)/h, and a penetration is not
@@ -141,6 +149,22 @@ class SignoriniCoulomb {
     const T limit = friction_ * r[0];
     if (limit >= T(0) && r.template tail<tangents>().squaredNorm() <= limit * limit) return r;
     return detail::solve_slip<T>(block, b, friction_, guess);
+  }
+
+  /// See StatefulLaw: with the friction of rest, with that of slip.
+  static constexpr std::size_t variants = 2;
+  SignoriniCoulomb variant(std::size_t k) const {
+    return SignoriniCoulomb(k == 0 ? static_ : friction_, restitution_);
+  }
+  /// It slid if its impulse lies on one of the two cones.
+  template <class Vector>
+  std::size_t variant_after(const Vector& impulse) const {
+    if (static_ == friction_) return 1;
+    const T length = impulse.template tail<Vector::RowsAtCompileTime - 1>().norm();
+    const T close = std::sqrt(std::numeric_limits<T>::epsilon()) * length;
+    const bool slid =
+        length > static_ * impulse[0] - close || std::abs(length - friction_ * impulse[0]) < close;
+    return length > T(0) && slid ? 1 : 0;
   }
 
   /// What two laws of this type differ in when they solve: the friction.
@@ -180,7 +204,7 @@ class SignoriniCoulomb {
   }
 
  private:
-  T friction_, restitution_;
+  T friction_, restitution_, static_;
 };
 
 }  // namespace moreau

@@ -28,6 +28,7 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
   report.wrong_sign_dissipation = 0;
   for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
   constexpr int rows = Vector::RowsAtCompileTime;
+  const Vector still = Vector::Zero();
   const double entries = double(op.size()) * rows;
   const double scale = trace > 0 ? trace / entries : 1;
   for (std::size_t c = 0; c < op.size(); ++c) {
@@ -47,7 +48,7 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
         std::max(report.worst_complementarity, std::abs(double(u[0] * r[0])));
     report.wrong_sign_dissipation += std::max(0.0, power);
     report.worst_cone =
-        std::max(report.worst_cone, double((r - laws[law_of[c]].project(r)).norm()));
+        std::max(report.worst_cone, double(laws[law_of[c]].natural_map(still, r).norm()));
   }
   report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
   // Impulses so large that the velocities are lost in their rounding leave nothing to be read.

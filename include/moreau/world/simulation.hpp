@@ -3,9 +3,9 @@
 // polyhedra and polygons.
 //
 // One step, data in one direction:
-//   predict_configuration -> detect -> overlap correction -> free velocity -> assemble -> warm
-//   start
-//   -> solve impulses -> advance_configuration
+//   predict_configuration -> detect -> impulses or forces of the contacts -> advance_configuration
+// The law decides which: impulse_dynamics.hpp for set-valued laws, force_dynamics.hpp for
+// regularized ones.
 #pragma once
 
 #include <chrono>
@@ -14,10 +14,11 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
-#include "moreau/contact/warm_start.hpp"
+#include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -26,12 +27,17 @@
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/integrate/concepts.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/contact_detector.hpp"
+#include "moreau/world/force_dynamics.hpp"
+#include "moreau/world/impulse_dynamics.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -44,15 +50,32 @@ struct Tolerances {
   double resolution = 1e-3;  ///< contact points of a pair closer together than this are one
 };
 
+/// What goes with a law unless the user says otherwise.
+template <class Law, class S>
+using DefaultIntegrator = std::conditional_t<RegularizedLaw<Law, S>, VelocityVerlet, MoreauJean>;
+template <class Law, class S>
+using DefaultSolver = std::conditional_t<
+    RegularizedLaw<Law, S>, NoSolver,
+    std::conditional_t<PointLaw<Law, S>, ColouredGaussSeidel, NonlinearGaussSeidel>>;
+
 /// @tparam ShapeT     of the grains; its Space is the simulation's
-/// @tparam Law        contact law between two materials
-/// @tparam Integrator time stepping
+/// @tparam Law        contact law between two materials: set-valued or regularized
+/// @tparam Integrator time stepping: of impulses for a set-valued law, of forces for another
 /// @tparam Broad      broad phase
-/// @tparam Solver     of the contact problem
-template <Shape ShapeT, class Law, class Integrator = MoreauJean,
-          class Broad = SweepAndPrune<SpaceOf<ShapeT>>, class Solver = ColouredGaussSeidel>
-requires SetValuedLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>>
+/// @tparam Solver     of the contact problem; NoSolver for a regularized law
+template <Shape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
+          class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
+          class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
+requires ContactLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>>
 class Simulation {
+  static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
+  static_assert(!set_valued || ImpulseIntegrator<Integrator, SpaceOf<ShapeT>>,
+                "Simulation: a set-valued law gives impulses, which an integrator of forces such "
+                "as VelocityVerlet cannot take; use MoreauJean or a regularized law");
+  static_assert(set_valued || ForceIntegrator<Integrator, SpaceOf<ShapeT>>,
+                "Simulation: a regularized law gives forces, which an integrator of impulses such "
+                "as MoreauJean cannot take; use VelocityVerlet or a set-valued law");
+
  public:
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
@@ -64,22 +87,12 @@ class Simulation {
   /// @throws std::invalid_argument for a size that is not positive or tolerances out of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Solver& solver = Solver{},
              const Tolerances& tolerances = {}, const OverlapCorrectionOptions& correction = {},
-             const Integrator& integrator = Integrator{})
-      : grain_size_(grain_size),
-        tolerances_(tolerances),
-        materials_(materials),
-        solver_(solver),
-        correction_(correction),
-        integrator_(integrator) {
-    require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
-            "must be finite and > 0");
-    require(std::isfinite(tolerances.margin) && tolerances.margin > 0, "Simulation", "margin",
-            tolerances.margin, "must be finite and > 0");
-    require(std::isfinite(tolerances.skin) && tolerances.skin >= 0, "Simulation", "skin",
-            tolerances.skin, "must be finite and >= 0");
-    require(std::isfinite(tolerances.resolution) && tolerances.resolution >= 0, "Simulation",
-            "resolution", tolerances.resolution, "must be finite and >= 0");
-  }
+             const Integrator& integrator = Integrator{}) requires set_valued
+      : Simulation(grain_size, materials, tolerances, Dynamics(solver, correction, integrator)) {}
+  /// The same for a regularized law, which has nothing to solve.
+  Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
+             const Integrator& integrator = Integrator{}) requires(!set_valued)
+      : Simulation(grain_size, materials, tolerances, Dynamics(integrator)) {}
 
   /// Adds a shape that grains can share.
   ShapeId add_shape(const ShapeT& shape) {
@@ -160,6 +173,7 @@ class Simulation {
     require_body(body, "Simulation::set_pose");
     require_pose(pose, "Simulation::set_pose");
     bodies_.pose[body.index()] = pose;
+    if constexpr (!set_valued) dynamics_.forget();
   }
   /// Acceleration of gravity, world axes [m/s^2]; acts on grains.
   void set_gravity(const Vector& gravity) {
@@ -167,9 +181,9 @@ class Simulation {
     gravity_ = gravity;
   }
   /// Another solver, or the same with other options, from the next step on.
-  void set_solver(const Solver& solver) { solver_ = solver; }
-  void set_correction(const OverlapCorrectionOptions& options) {
-    correction_ = OverlapCorrection<S>(options);
+  void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
+  void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
+    dynamics_.set_correction(options);
   }
   /// Which points of a contact between faces act; few of them until set.
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
@@ -185,24 +199,32 @@ class Simulation {
   StepReport step(Scalar step) {
     require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
             "must be finite and > 0");
-    const auto start = Clock::now();
     StepReport report;
-    resize_buffers();
-    integrator_.predict_configuration(bodies_, std::span(momentum_), step);
+    const auto start = Clock::now();
+    if constexpr (set_valued) {
+      dynamics_.predict(bodies_, step);
+    } else {
+      if (!dynamics_.is_ready(bodies_.size())) {
+        detect(report);
+        dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, 0, report);
+        report = {};
+      }
+      dynamics_.predict(bodies_, gravity_, step);
+    }
     detect(report);
     const auto detected = Clock::now();
-    assemble(step, report);
-    report.solve = solver_.solve(operator_, std::span<const Law>(materials_.laws()),
-                                 std::span<const std::uint32_t>(law_of_),
-                                 std::span(contacts_.impulses), workspace_);
-    report.solve.worst_gap = report.solve.worst_velocity * double(step);
-    const auto solved = Clock::now();
-    velocities_after(report);
-    integrator_.advance_configuration(bodies_, std::span<const Twist>(after_), step);
+    if constexpr (set_valued) {
+      dynamics_.advance(bodies_, gravity_, materials_, previous_, contacts_, grain_size_, step,
+                        report);
+    } else {
+      dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, step, report);
+      dynamics_.advance(bodies_, gravity_, step);
+    }
     time_ += step;
+    const auto end = Clock::now();
     report.ms_detect = milliseconds(start, detected);
-    report.ms_solve = milliseconds(detected, solved);
-    report.ms_total = milliseconds(start, Clock::now());
+    report.ms_solve = milliseconds(detected, end);
+    report.ms_total = milliseconds(start, end);
     return report;
   }
 
@@ -211,7 +233,9 @@ class Simulation {
   const Bodies<S>& bodies() const { return bodies_; }
   const Contacts<S>& contacts() const { return contacts_; }
   const Materials<Law>& materials() const { return materials_; }
-  const OverlapCorrection<S>& correction() const { return correction_; }
+  const OverlapCorrection<S>& correction() const requires set_valued {
+    return dynamics_.correction();
+  }
   const Vector& gravity() const { return gravity_; }
   std::size_t grain_count() const { return grains_.size(); }
   BodyId grain(std::size_t k) const { return grains_[k].body; }
@@ -235,6 +259,26 @@ class Simulation {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Dynamics =
+      std::conditional_t<set_valued, detail::ImpulseDynamics<S, Law, Integrator, Solver>,
+                         detail::ForceDynamics<S, Law, Integrator>>;
+
+  Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances,
+             Dynamics&& dynamics)
+      : grain_size_(grain_size),
+        tolerances_(tolerances),
+        materials_(materials),
+        dynamics_(std::move(dynamics)) {
+    require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
+            "must be finite and > 0");
+    require(std::isfinite(tolerances.margin) && tolerances.margin > 0, "Simulation", "margin",
+            tolerances.margin, "must be finite and > 0");
+    require(std::isfinite(tolerances.skin) && tolerances.skin >= 0, "Simulation", "skin",
+            tolerances.skin, "must be finite and >= 0");
+    require(std::isfinite(tolerances.resolution) && tolerances.resolution >= 0, "Simulation",
+            "resolution", tolerances.resolution, "must be finite and >= 0");
+  }
+
   struct Grain {
     BodyId body;
     ShapeId shape;
@@ -280,13 +324,6 @@ class Simulation {
         weight > 0 ? inverse_root<S>(inertia) : S::Inertia::Zero().eval();
   }
 
-  void resize_buffers() {
-    momentum_.resize(bodies_.size());
-    free_.resize(bodies_.size());
-    after_.resize(bodies_.size());
-    roots_.resize(bodies_.size());
-  }
-
   void detect(StepReport& report) {
     const DetectionLengths<Scalar> lengths{
         static_cast<Scalar>(tolerances_.margin) * grain_size_,
@@ -311,66 +348,10 @@ class Simulation {
     if (overlapping > 0) report.mean_overlap /= double(overlapping);
   }
 
-  /// Rows and blocks; overlap correction; free velocities with the law's offsets.
-  void assemble(Scalar step, StepReport& report) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) roots_[i] = bodies_.mobility_root(i);
-    integrator_.free_velocity(bodies_, gravity_, std::span(momentum_), std::span(free_), step);
-    operator_.assemble(contacts_.points, roots_, free_);
-    report.warm_started = warm_start(previous_, contacts_);
-    if (correction_.solve(operator_, contacts_.points, roots_, grain_size_, report.correction))
-      shift_bodies(report.correction);
-    law_of_.resize(contacts_.size());
-    before_.resize(contacts_.size());
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const Contact<S>& contact = contacts_.points[c];
-      law_of_[c] = contact.law;
-      before_[c] = BodyDelassus<S>::relative_velocity(contact, bodies_.velocity[contact.a],
-                                                      bodies_.velocity[contact.b]);
-      const Scalar offset =
-          materials_.laws()[contact.law].velocity_offset(contact.gap, before_[c][0], step);
-      if (!std::isfinite(offset)) contacts_.impulses[c].setZero();
-      operator_.offset_normal(c, offset);
-    }
-  }
-
-  void shift_bodies(OverlapCorrectionReport& report) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Twist& shift = correction_.shifts()[i];
-      const Vector move = shift.template head<S::dim>();
-      const Vector force = bodies_.force[i].template head<S::dim>() + bodies_.weight[i] * gravity_;
-      report.work += double(force.dot(move));
-      report.largest_shift = std::max(report.largest_shift, double(move.norm()));
-      bodies_.pose[i].position += move;
-      bodies_.pose[i].rotation =
-          S::normalized(S::exp(shift.template tail<S::angular_dim>()) * bodies_.pose[i].rotation);
-    }
-  }
-
-  /// V = V_free + M^-1/2 y, and the energy that the impulses took: -sum r . (u before + u after)/2.
-  void velocities_after(StepReport& report) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const auto y = operator_.scaled_velocity(i);
-      after_[i] = free_[i];
-      after_[i].template head<S::dim>() += roots_[i].linear * y.template head<S::dim>();
-      after_[i].template tail<S::angular_dim>() +=
-          roots_[i].angular * y.template tail<S::angular_dim>();
-    }
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      if (contacts_.impulses[c].isZero(0)) continue;
-      const Contact<S>& contact = contacts_.points[c];
-      const Vector mean = (before_[c] + BodyDelassus<S>::relative_velocity(
-                                            contact, after_[contact.a], after_[contact.b])) /
-                          2;
-      report.dissipation -= double(contacts_.impulses[c].dot(mean));
-    }
-  }
-
   Scalar grain_size_;
   Tolerances tolerances_;
   Materials<Law> materials_;
-  Solver solver_;
-  OverlapCorrection<S> correction_;
-  Integrator integrator_;
+  Dynamics dynamics_;
   Vector gravity_ = Vector::Zero();
   Scalar time_ = 0;
 
@@ -380,14 +361,6 @@ class Simulation {
   Bodies<S> bodies_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
-  BodyDelassus<S> operator_;
-  typename Solver::template Workspace<BodyDelassus<S>, Law> workspace_;
-
-  std::vector<typename S::Angular> momentum_;
-  std::vector<Twist> free_, after_;
-  std::vector<MobilityRoot<S>> roots_;
-  std::vector<std::uint32_t> law_of_;
-  std::vector<Vector> before_;
 };
 
 }  // namespace moreau

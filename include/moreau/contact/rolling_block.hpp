@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The Delassus block of a contact that carries a couple beside its force. The rows of rolling are
+// the relative spin times a length R, so that all rows of u are velocities and all of r impulses:
+//
+//     u = (u_n, u_t, R w_rel),     r = (r_n, r_t, couple / R),
+//     W = [P  C; C^T  Q],          P the LocalBlock of the point, C (D x A), Q (A x A).
+#pragma once
+
+#include "moreau/contact/local_problem.hpp"
+
+namespace moreau {
+
+template <class S>
+struct RollingBlock {
+  using Scalar = typename S::Scalar;
+  static constexpr int rows = S::dim + S::angular_dim;
+  using Vector = Eigen::Matrix<Scalar, rows, 1>;
+  using Coupling = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
+
+  LocalBlock<S> point;       ///< P
+  Coupling coupling;         ///< C
+  typename S::Inertia spin;  ///< Q, positive definite
+
+  /// W r.
+  Vector operator*(const Vector& r) const {
+    const typename S::Vector push = r.template head<S::dim>();
+    const typename S::Angular couple = r.template tail<S::angular_dim>();
+    Vector u;
+    u.template head<S::dim>() = point * push + coupling * couple;
+    u.template tail<S::angular_dim>() = coupling.transpose() * push + spin * couple;
+    return u;
+  }
+  Scalar trace() const { return point.trace() + spin.trace(); }
+};
+
+}  // namespace moreau

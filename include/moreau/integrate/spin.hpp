@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Free rotation with implicit gyroscopic terms, so that angular momentum is kept to rounding.
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cstddef>
+#include <limits>
+
+#include "moreau/integrate/bodies.hpp"
+
+namespace moreau::detail {
+
+/// x + h v, exp(h w) q.
+template <class S>
+void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
+  pose.position += h * velocity.template head<S::dim>();
+  pose.rotation =
+      S::normalized(S::exp(h * velocity.template tail<S::angular_dim>()) * pose.rotation);
+}
+
+/// The w with I(exp(h w) q) w = L, by Newton; d(I(q) w) along a rotation is S::gyroscopic_jacobian.
+/// @param momentum L [kg m^2/s], world axes
+/// @param start    any spin nearby [rad/s]
+/// @param h        [s]
+template <class S>
+typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
+                               const typename S::Angular& momentum,
+                               const typename S::Angular& start, typename S::Scalar h) {
+  using Scalar = typename S::Scalar;
+  const typename S::Rotation& q = bodies.pose[i].rotation;
+  typename S::Angular w = start;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
+    const typename S::Angular error = inertia * w - momentum;
+    if (error.norm() <= 2 * std::numeric_limits<Scalar>::epsilon() * momentum.norm()) break;
+    const typename S::Inertia jacobian = inertia + h * S::gyroscopic_jacobian(inertia, w);
+    w -= jacobian.inverse() * error;
+  }
+  return w;
+}
+
+/// h M^-1 F of the forces at the centre: gravity, what is set on the body, and `load`.
+template <class S>
+typename S::Vector kick(const Bodies<S>& bodies, std::size_t i, const typename S::Vector& load,
+                        const typename S::Vector& gravity, typename S::Scalar h) {
+  const typename S::Vector force =
+      bodies.force[i].template head<S::dim>() + load + bodies.weight[i] * gravity;
+  const typename S::Matrix r = bodies.axes(i);
+  return h * (r * bodies.inverse_mass[i].cwiseProduct(r.transpose() * force));
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Adhesion on top of any set-valued law: within a range of the gap the two bodies attract each
+// other with a constant force gamma along the normal, and what the contact pushes against it,
+// r + gamma h, obeys the law below,
+//
+//     0 <= u_n + offset  _|_  r_n + gamma h >= 0,     |r_t| <= mu (r_n + gamma h),
+//
+// so that a contact holds up to the pull gamma and slides at mu gamma without load (the law of
+// LMGC90's cohesive Signorini-Coulomb contacts; F. Radjai and F. Dubois, eds., Discrete-element
+// Modeling of Granular Materials, Wiley 2011, ch. 1).
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "moreau/core/error.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+namespace moreau {
+
+/// @tparam Law the set-valued law of the push
+template <class Law = SignoriniCoulomb<>>
+class Cohesive : public Law {
+ public:
+  using Scalar = decltype(std::declval<const Law&>().restitution());
+
+  /// @param law      what holds without adhesion
+  /// @param adhesion gamma >= 0, per contact point [N]
+  /// @param range    gap up to which it acts, >= 0 [m]; beyond the alert distance there is no
+  ///                 contact and no adhesion
+  /// @throws std::invalid_argument outside these ranges
+  explicit Cohesive(const Law& law = Law{}, Scalar adhesion = 0, Scalar range = 0)
+      : Law(law), adhesion_(adhesion), range_(range) {
+    require(std::isfinite(adhesion) && adhesion >= 0, "Cohesive", "adhesion", adhesion,
+            "must be finite and >= 0");
+    require(std::isfinite(range) && range >= 0, "Cohesive", "range", range,
+            "must be finite and >= 0");
+  }
+
+  Scalar adhesion() const { return adhesion_; }
+  Scalar range() const { return range_; }
+  /// Force with which the bodies attract each other along the normal [N].
+  Scalar attraction(Scalar gap) const { return gap <= range_ ? adhesion_ : Scalar(0); }
+
+ private:
+  Scalar adhesion_, range_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Unilateral contact without friction: 0 <= u_n + offset, perpendicular to r_n >= 0; r_t = 0.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <limits>
+
+#include "moreau/contact/lane_problem.hpp"
+#include "moreau/contact/local_problem.hpp"
+#include "moreau/core/error.hpp"
+
+namespace moreau {
+
+/// Signorini's condition with Newton's restitution for one pair of materials.
+template <std::floating_point T = double>
+class Frictionless {
+ public:
+  /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
+  /// @throws std::invalid_argument outside
+  explicit Frictionless(T restitution = T(0)) : restitution_(restitution) {
+    require(restitution >= T(0) && restitution <= T(1), "Frictionless", "restitution", restitution,
+            "must lie in [0, 1]");
+  }
+
+  T restitution() const { return restitution_; }
+
+  /// As SignoriniCoulomb's: see there.
+  T velocity_offset(T gap, T before, T step) const {
+    if (restitution_ == T(0)) return std::max(T(0), gap) / step;
+    if (gap > T(0)) return std::numeric_limits<T>::infinity();
+    return restitution_ * std::min(T(0), before);
+  }
+
+  /// The exact impulse of the local problem [N s].
+  template <class S>
+  typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
+                           const typename S::Vector&) const {
+    typename S::Vector r = S::Vector::Zero();
+    r[0] = std::max(T(0), -b[0] / block.normal);
+    return r;
+  }
+
+  /// Nothing that solving depends on tells two laws of this type apart.
+  std::array<T, 0> lane_parameters() const { return {}; }
+  template <class S>
+  static typename LaneBlock<S>::Vector solve_lanes(
+      const LaneBlock<S>& block, const typename LaneBlock<S>::Vector& b,
+      const typename LaneBlock<S>::Vector&, const std::array<typename LaneBlock<S>::Values, 0>&,
+      typename LaneBlock<S>::Values&, bool) {
+    using Values = typename LaneBlock<S>::Values;
+    typename LaneBlock<S>::Vector r{};
+    const Values zero{}, push = -b[0] * block.inverse_normal;
+    r[0] = push > zero ? push : zero;
+    return r;
+  }
+
+  /// r - P_K(r - u) with K the half-line r_n >= 0, r_t = 0.
+  template <class Vector>
+  Vector natural_map(const Vector& u, const Vector& r) const {
+    return r - project(Vector(r - u));
+  }
+  /// The nearest impulse that the law allows.
+  template <class Vector>
+  Vector project(const Vector& x) const {
+    return Vector::Unit(0) * std::max(T(0), x[0]);
+  }
+
+ private:
+  T restitution_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Elastic spheres: Hertz's normal force and Mindlin's tangential stiffness without micro-slip, with
+// dashpots that give a restitution that does not depend on the speed (Y. Tsuji, T. Tanaka and
+// T. Ishida, Powder Technol. 71 (1992) 239):
+//
+//     s_n = 2 E sqrt(R d),  s_t = 8 G sqrt(R d),     d = -g the overlap
+//     f_n = max(0, 2/3 s_n d - c_n u_n),             f_t = -s_t xi - c_t u_t, |f_t| <= mu f_n
+//     c = 2 sqrt(5/6) beta sqrt(s m),                beta = -ln e / sqrt(pi^2 + ln^2 e)
+//
+// R and m are the effective radius and mass of the contact, E and G the effective moduli of the
+// two materials. In the plane, and for shapes that are no spheres, the distance of the contact
+// point from the centre of mass stands in for the radius.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+
+#include "moreau/core/error.hpp"
+#include "moreau/law/regularized.hpp"
+
+namespace moreau {
+
+/// Model of RegularizedLaw.
+template <std::floating_point T = double>
+class HertzMindlin {
+ public:
+  /// @param young       effective modulus E, 1/E = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b, > 0 [Pa]
+  /// @param shear       effective modulus G, 1/G = (2 - nu_a)/G_a + (2 - nu_b)/G_b, >= 0 [Pa]
+  /// @param friction    mu >= 0 [-]
+  /// @param restitution e in [0, 1] [-]
+  /// @throws std::invalid_argument outside these ranges
+  explicit HertzMindlin(T young = T(1e7), T shear = T(0), T friction = T(0), T restitution = T(1))
+      : young_(young),
+        shear_(shear),
+        friction_(friction),
+        damping_(detail::damping_ratio(restitution, "HertzMindlin")) {
+    constexpr const char* self = "HertzMindlin";
+    require(std::isfinite(young) && young > 0, self, "young", young, "must be finite and > 0");
+    require(std::isfinite(shear) && shear >= 0, self, "shear", shear, "must be finite and >= 0");
+    require(std::isfinite(friction) && friction >= 0, self, "friction", friction,
+            "must be finite and >= 0");
+  }
+
+  /// The law between two pieces of one isotropic material.
+  /// @param young   Young's modulus of the material [Pa]
+  /// @param poisson Poisson's ratio, in (-1, 1/2]
+  static HertzMindlin of_material(T young, T poisson, T friction, T restitution) {
+    require(poisson > T(-1) && poisson <= T(0.5), "HertzMindlin::of_material", "poisson", poisson,
+            "must lie in (-1, 0.5]");
+    const T shear = young / (2 * (1 + poisson));
+    return HertzMindlin(young / (2 * (1 - poisson * poisson)), shear / (2 * (2 - poisson)),
+                        friction, restitution);
+  }
+
+  T young() const { return young_; }
+  T shear() const { return shear_; }
+  T friction() const { return friction_; }
+
+  /// Force on b in the contact's frame [N].
+  /// @param memory in and out: xi in the frame [m]
+  template <class S>
+  typename S::Vector force(const ContactMotion<S>& motion, typename S::Vector& memory) const {
+    if (motion.gap >= 0) {
+      memory.setZero();
+      return S::Vector::Zero();
+    }
+    const T depth = -motion.gap, width = std::sqrt(motion.effective_radius * depth);
+    const T normal_stiffness = 2 * young_ * width, tangential_stiffness = 8 * shear_ * width;
+    const T damping = 2 * std::sqrt(T(5) / T(6)) * damping_;
+    const T normal =
+        std::max(T(0), T(2) / T(3) * normal_stiffness * depth -
+                           damping * std::sqrt(normal_stiffness * motion.effective_mass) *
+                               motion.velocity[0]);
+    return detail::spring_friction<S>(
+        motion, normal, tangential_stiffness,
+        damping * std::sqrt(tangential_stiffness * motion.effective_mass), friction_, memory);
+  }
+
+ private:
+  T young_, shear_, friction_, damping_;
+};
+
+}  // namespace moreau

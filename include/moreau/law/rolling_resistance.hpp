@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Coulomb friction with resistance to rolling and twisting: beside the law of the point,
+//
+//     |m| <= eta r_n,    w = -beta m with beta >= 0,  beta = 0 inside,
+//
+// where m = couple / R and w = R w_rel are the last A rows of the contact (rolling_block.hpp), so
+// that the couple is at most eta R r_n and eta is the coefficient of rolling resistance (K.
+// Iwashita and M. Oda, J. Eng. Mech. 124 (1998) 285; J. Ai et al., Powder Technol. 206 (2011) 269,
+// model A without a spring). Meant for spheres and disks.
+//
+// The local solution sticks and does not roll where that obeys both limits. Elsewhere the two laws
+// are solved in turn, each exactly with the other held, until nothing changes.
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+#include "moreau/contact/rolling_block.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// The m with |m| <= limit and Q m + c = -beta m, beta = 0 inside the limit.
+template <class Matrix, class Vector, class T>
+Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
+  if (!(limit > 0)) return Vector::Zero();
+  T beta = 0;
+  Vector m = Vector::Zero();
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    const Matrix inverse = (q + beta * Matrix::Identity()).inverse();
+    m = -(inverse * c);
+    const T length = m.norm(), excess = length - limit;
+    if (excess <= (beta > 0 ? 4 * std::numeric_limits<T>::epsilon() * limit : T(0))) break;
+    // Newton on 1/|m| - 1/limit, which is concave in beta: monotone from below.
+    beta += length * length / (m.dot(inverse * m)) * excess / limit;
+  }
+  const T length = m.norm();
+  return length > limit ? Vector(m * (limit / length)) : m;
+}
+
+}  // namespace detail
+
+/// Signorini's condition with friction and rolling resistance for one pair of materials.
+template <std::floating_point T = double>
+class RollingResistance {
+ public:
+  /// @param friction    mu >= 0 [-]
+  /// @param rolling     eta >= 0 [-]: largest couple over (effective radius x normal impulse)
+  /// @param restitution e in [0, 1] [-]
+  /// @throws std::invalid_argument outside these ranges
+  explicit RollingResistance(T friction = T(0), T rolling = T(0), T restitution = T(0))
+      : point_(friction, restitution), rolling_(rolling) {
+    require(std::isfinite(rolling) && rolling >= 0, "RollingResistance", "rolling", rolling,
+            "must be finite and >= 0");
+  }
+
+  T friction() const { return point_.friction(); }
+  T rolling() const { return rolling_; }
+  T restitution() const { return point_.restitution(); }
+
+  T velocity_offset(T gap, T before, T step) const {
+    return point_.velocity_offset(gap, before, step);
+  }
+
+  /// The impulse of the local problem, to rounding.
+  template <class S>
+  typename RollingBlock<S>::Vector solve(const RollingBlock<S>& block,
+                                         const typename RollingBlock<S>::Vector& b,
+                                         const typename RollingBlock<S>::Vector& guess) const {
+    using Vector = typename RollingBlock<S>::Vector;
+    if (b[0] >= T(0)) return Vector::Zero();
+    const Vector firm = sticking<S>(block, b);
+    if ((firm - project(firm)).isZero(0)) return firm;
+    Vector r = guess;
+    for (int iteration = 0; iteration < 200; ++iteration) {
+      const Vector before = r;
+      const typename S::Vector b_point =
+          b.template head<S::dim>() + block.coupling * r.template tail<S::angular_dim>();
+      r.template head<S::dim>() =
+          point_.template solve<S>(block.point, b_point, r.template head<S::dim>());
+      const typename S::Angular c = b.template tail<S::angular_dim>() +
+                                    block.coupling.transpose() * r.template head<S::dim>();
+      r.template tail<S::angular_dim>() =
+          detail::solve_disc<typename S::Inertia, typename S::Angular, T>(block.spin, c,
+                                                                          rolling_ * r[0]);
+      if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) break;
+    }
+    return r;
+  }
+
+  /// r - P_K(r - (u + (mu |u_t| + eta |w|) n)).
+  template <class Vector>
+  Vector natural_map(const Vector& u, const Vector& r) const {
+    constexpr int d = point_rows<Vector>;
+    Vector x = r - u;
+    x[0] -= friction() * u.template segment<d - 1>(1).norm() +
+            rolling_ * u.template tail<Vector::RowsAtCompileTime - d>().norm();
+    return r - project(x);
+  }
+
+  /// The point of the cone |x_t| <= mu x_n, |m| <= eta x_n nearest to x.
+  template <class Vector>
+  Vector project(const Vector& x) const {
+    constexpr int d = point_rows<Vector>, spins = Vector::RowsAtCompileTime - d;
+    const T slide = x.template segment<d - 1>(1).norm(), roll = x.template tail<spins>().norm();
+    const T mu = friction(), eta = rolling_;
+    // x_n of the projection: which of the two limits bind depends on it, so all four are tried.
+    T normal = 0;
+    for (int binds = 0; binds < 4; ++binds) {
+      const T a = binds & 1 ? mu : T(0), b = binds & 2 ? eta : T(0);
+      const T trial = (x[0] + a * slide + b * roll) / (1 + a * a + b * b);
+      const bool slides = slide > mu * trial, rolls = roll > eta * trial;
+      if (trial >= 0 && slides == bool(binds & 1) && rolls == bool(binds & 2)) normal = trial;
+    }
+    Vector p = Vector::Zero();
+    if (!(normal > 0)) return p;
+    p[0] = normal;
+    p.template segment<d - 1>(1) =
+        x.template segment<d - 1>(1) * (slide > mu * normal ? mu * normal / slide : T(1));
+    p.template tail<spins>() =
+        x.template tail<spins>() * (roll > eta * normal ? eta * normal / roll : T(1));
+    return p;
+  }
+
+ private:
+  /// D of a vector of D + A rows: 3 = 2 + 1, 6 = 3 + 3.
+  template <class Vector>
+  static constexpr int point_rows = (Vector::RowsAtCompileTime + 1) / 2;
+
+  /// u = 0 in all rows.
+  template <class S>
+  static typename RollingBlock<S>::Vector sticking(const RollingBlock<S>& block,
+                                                   const typename RollingBlock<S>::Vector& b) {
+    constexpr int d = S::dim, rows = RollingBlock<S>::rows;
+    Eigen::Matrix<T, rows, rows> w;
+    w.template topLeftCorner<d, d>() = block.point.matrix();
+    w.template topRightCorner<d, rows - d>() = block.coupling;
+    w.template bottomLeftCorner<rows - d, d>() = block.coupling.transpose();
+    w.template bottomRightCorner<rows - d, rows - d>() = block.spin;
+    return -w.partialPivLu().solve(b);
+  }
+
+  SignoriniCoulomb<T> point_;
+  T rolling_;
+};
+
+}  // namespace moreau
