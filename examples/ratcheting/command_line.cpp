@@ -80,6 +80,13 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(not_negative);
   app.add_option("--lid-force", p.lid_force, "of the preparation, in weights of the sample at 9.81")
       ->check(positive);
+  app.add_option("--method", p.method,
+                 "contact-dynamics, or springs and dashpots over the same grains, whose steps are "
+                 "no longer than a twentieth of an impact")
+      ->check(CLI::IsMember({"contact-dynamics", "springs"}));
+  app.add_option("--stiffness", p.stiffness, "of a spring [N/m]")->check(positive);
+  app.add_option("--restitution", p.restitution, "of an impact of springs, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0));
   app.add_option("--tolerance", p.tolerance, "of the stopping test, below 1")->check(below_one);
   std::string test = "qm16";
   app.add_option("--stop-test", test,

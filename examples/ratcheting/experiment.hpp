@@ -11,11 +11,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/energy.hpp"
-#include "moreau/solve/thread_team.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "methods.hpp"
 #include "parameters.hpp"
 #include "sample.hpp"
 
@@ -24,16 +23,20 @@ namespace ratcheting {
 /// Thrown by a progress callback's wish to stop; everything written so far is complete.
 struct Interrupted {};
 
-template <class ShapeT>
+/// @tparam ShapeT of the grains
+/// @tparam Method law, integrator and solver
+template <class ShapeT, class Method>
 class Experiment {
  public:
+  using Shape = ShapeT;
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
-  using Law = moreau::SignoriniCoulomb<double>;
-  using Solver = moreau::ParallelGaussSeidel;
-  using Simulation =
-      moreau::Simulation<ShapeT, Law, moreau::MoreauJean, moreau::SweepAndPrune<S>, Solver>;
+  using Law = typename Method::Law;
+  using Solver = typename Method::Solver;
+  using Simulation = moreau::Simulation<ShapeT, Law, typename Method::Integrator,
+                                        moreau::SweepAndPrune<S>, Solver>;
   static constexpr int up = S::dim - 1;
+  static constexpr bool solves = Method::solves;
   /// Called after every step of the preparation with the stage's name; may throw Interrupted.
   using Progress = std::function<void(const char* stage, const moreau::StepReport&)>;
 
@@ -61,15 +64,17 @@ class Experiment {
   /// over, for preparation_time at most.
   /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
   void prepare(const Progress& progress) {
-    moreau::ColouredOptions options;
-    options.tolerance = parameters_.preparation_tolerance;
-    options.stop_test = moreau::StopTest::qm16;
-    options.max_sweeps = parameters_.preparation_sweeps;
     const double step = parameters_.preparation_step;
-    simulation_.set_solver(Solver(options, parameters_.threads));
+    if constexpr (Method::solves) {
+      moreau::ColouredOptions options;
+      options.tolerance = parameters_.preparation_tolerance;
+      options.stop_test = moreau::StopTest::qm16;
+      options.max_sweeps = parameters_.preparation_sweeps;
+      simulation_.set_solver(Solver(options, parameters_.threads));
+    }
     const double force = parameters_.lid_force * mass_ * 9.81;
     const double size = simulation_.grain_size();
-    const double speed = 0.4 * parameters_.margin * size / step;
+    const double speed = 0.4 * parameters_.margin * size / std::max(step, slowest_step);
     const Vector up_axis = Vector::Unit(up);
     simulation_.set_velocity(lid_, -speed * up_axis);
     double reaction = 0;
@@ -92,10 +97,12 @@ class Experiment {
       progress("compressing", simulation_.step(step));
       settled_ = k >= 20 && kinetic_energy() <= still;
     }
-    simulation_.set_solver(Solver(solver_options(parameters_), parameters_.threads));
-    moreau::OverlapCorrectionOptions correction;
-    correction.enabled = parameters_.correction;
-    simulation_.set_correction(correction);
+    if constexpr (Method::solves) {
+      simulation_.set_solver(Solver(solver_options(parameters_), parameters_.threads));
+      moreau::OverlapCorrectionOptions correction;
+      correction.enabled = parameters_.correction;
+      simulation_.set_correction(correction);
+    }
     fix_lid();
   }
 
@@ -144,6 +151,13 @@ class Experiment {
   }
 
   const Simulation& simulation() const { return simulation_; }
+  /// What the overlap correction moved the wall by in the last step [m].
+  double corrected_displacement() const {
+    if constexpr (Method::solves)
+      return simulation_.correction().shifts()[wall_.index()][0];
+    else
+      return 0;
+  }
   /// Whether the preparation ended because the sample was still, not because its time was over.
   bool settled() const { return settled_; }
   double mass() const { return mass_; }
@@ -164,6 +178,8 @@ class Experiment {
   }
 
  private:
+  static constexpr double slowest_step = 2e-4;  ///< whose speed the closing lid keeps below it [s]
+
   static moreau::ColouredOptions solver_options(const Parameters& p) {
     moreau::ColouredOptions options;
     options.tolerance = p.tolerance;
@@ -173,12 +189,15 @@ class Experiment {
   }
   static Simulation make_simulation(const Parameters& p) {
     // Materials: 0 grains, 1 horizontal walls, 2 vertical walls.
-    moreau::Materials<Law> laws(3, Law(p.friction));
-    laws.set(moreau::MaterialId(0), moreau::MaterialId(2), Law(0));
+    moreau::Materials<Law> laws(3, Method::law(p, p.friction));
+    laws.set(moreau::MaterialId(0), moreau::MaterialId(2), Method::law(p, 0));
     moreau::Tolerances tolerances;
     tolerances.margin = p.margin;
-    return Simulation(moreau::SizeDistribution::azema2008().smallest(), laws,
-                      Solver(solver_options(p), p.threads), tolerances);
+    const double size = moreau::SizeDistribution::azema2008().smallest();
+    if constexpr (Method::solves)
+      return Simulation(size, laws, Solver(solver_options(p), p.threads), tolerances);
+    else
+      return Simulation(size, laws, tolerances);
   }
 
   /// L = W from V = rho L^D H/L at the solid fraction that the lid's compression leaves: about 0.53

@@ -31,6 +31,9 @@ struct Parameters {
   double lid_force = 10;    ///< in units of m 9.81 m/s^2
   double lid_raise = 0.01;  ///< [m]
   double friction = 0.4;    ///< grain-grain and grain-horizontal wall; vertical walls have none
+  std::string method = "contact-dynamics";  ///< or springs
+  double stiffness = 1e7;                   ///< of a spring, normal [N/m]
+  double restitution = 0.2;                 ///< of an impact of springs [-]
   double tolerance = 1e-4;
   moreau::StopTest stop_test = moreau::StopTest::qm16;
   int max_sweeps = 5000;

@@ -27,13 +27,13 @@ struct PackingSample {
   double t, x, rho_inner, rho_box, stress_xx, stress_zz, roll, roll_strength;
 };
 
-template <class ShapeT>
+template <class ExperimentT>
 class Recorder {
  public:
-  using S = moreau::SpaceOf<ShapeT>;
+  using S = typename ExperimentT::S;
   static constexpr int up = S::dim - 1;
 
-  Recorder(const Parameters& p, const Experiment<ShapeT>& experiment)
+  Recorder(const Parameters& p, const ExperimentT& experiment)
       : parameters_(p),
         experiment_(experiment),
         folder_(p.output),
@@ -45,7 +45,7 @@ class Recorder {
                                      "mean_overlap", "ms_detect", "ms_solve", "ms_total"}) {}
 
   /// Of the control volume from the side walls, 2 d [m].
-  static double inset(const Experiment<ShapeT>& experiment) {
+  static double inset(const ExperimentT& experiment) {
     return 2 * experiment.simulation().grain_size();
   }
   /// Fixes the control volume: 2 d from the side walls, 0.1 H to 0.7 H.
@@ -60,8 +60,7 @@ class Recorder {
 
   void record_step(std::size_t step, const moreau::StepReport& report, std::size_t total) {
     const double t = experiment_.time();
-    const double shift =
-        experiment_.simulation().correction().shifts()[experiment_.wall().index()][0];
+    const double shift = experiment_.corrected_displacement();
     const WallSample sample{t, parameters_.force(t - parameters_.step / 2),
                             experiment_.displacement(), experiment_.wall_velocity(),
                             experiment_.wall_force()};
@@ -110,7 +109,9 @@ class Recorder {
     const auto& simulation = experiment_.simulation();
     return moreau::solid_fraction(
         volume, simulation.grain_count(),
-        [&](std::size_t k) -> const ShapeT& { return simulation.shape_of_grain(k); },
+        [&](std::size_t k) -> const typename ExperimentT::Shape& {
+          return simulation.shape_of_grain(k);
+        },
         [&](std::size_t k) -> const moreau::Pose<S>& {
           return simulation.bodies().pose[simulation.grain(k).index()];
         },
@@ -126,7 +127,7 @@ class Recorder {
   std::string file(const char* name) const { return (folder_ / name).string(); }
 
   Parameters parameters_;
-  const Experiment<ShapeT>& experiment_;
+  const ExperimentT& experiment_;
   std::filesystem::path folder_;
   moreau::CsvWriter wall_, packing_, state_, solver_;
   moreau::Aabb<S> inner_;

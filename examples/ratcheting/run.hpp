@@ -5,7 +5,7 @@
 
 namespace ratcheting {
 
-/// Runs the study with one shape and writes all files.
+/// Runs the study with one shape, by the method that is asked for, and writes all files.
 /// @returns exit status: 0, or 130 if interrupted (what was written is complete)
 /// @throws std::runtime_error if a file cannot be written, std::invalid_argument for values that
 /// make

@@ -2,17 +2,20 @@
 // The run from end to end; included by one source file per shape.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "experiment.hpp"
+#include "methods.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
 #include "run.hpp"
@@ -42,13 +45,13 @@ inline void require_writable(const std::string& folder) {
 }
 
 /// @throws std::invalid_argument for parameters that make no experiment
-template <class ShapeT>
-void require_experiment(const Parameters& p, const Experiment<ShapeT>& experiment) {
+template <class ExperimentT>
+void require_experiment(const Parameters& p, const ExperimentT& experiment) {
   if (p.step > p.duration)
     throw std::invalid_argument("--step: " + std::to_string(p.step) +
                                 " s must not exceed --duration " + std::to_string(p.duration) +
                                 " s");
-  const double inset = Recorder<ShapeT>::inset(experiment);
+  const double inset = Recorder<ExperimentT>::inset(experiment);
   if (experiment.length() <= 2 * inset)
     throw std::invalid_argument("--grains: " + std::to_string(p.grains) + " make a box " +
                                 std::to_string(experiment.length()) +
@@ -56,12 +59,12 @@ void require_experiment(const Parameters& p, const Experiment<ShapeT>& experimen
                                 " m from its side walls; more grains or a larger --box-length");
 }
 
-/// Steps between two lines of packing.csv.
-constexpr std::size_t packing_interval = 5;
+/// Time between two lines of packing.csv [s].
+constexpr double packing_interval = 1e-3;
 
 /// A few closing lines: what came out, what to be wary of, where the files are.
-template <class ShapeT>
-void conclude(const Parameters& p, const Experiment<ShapeT>& experiment, const SolverTotals& totals,
+template <class ExperimentT>
+void conclude(const Parameters& p, const ExperimentT& experiment, const SolverTotals& totals,
               const Json& results) {
   const double size = experiment.simulation().grain_size();
   if (results.contains("dx_max"))
@@ -73,9 +76,11 @@ void conclude(const Parameters& p, const Experiment<ShapeT>& experiment, const S
     std::printf("solid fraction of the control volume: %.4f, at the end %.4f\n",
                 results["rho_initial"].template get<double>(),
                 results["rho_final"].template get<double>());
-  std::printf("overlaps: mean %.1e d, largest %.1e d; %zu of %zu steps capped at %d sweeps\n",
-              totals.mean(totals.mean_overlap) / size, totals.max_overlap / size, totals.capped,
-              totals.steps, p.max_sweeps);
+  std::printf("overlaps: mean %.1e d, largest %.1e d\n", totals.mean(totals.mean_overlap) / size,
+              totals.max_overlap / size);
+  if (ExperimentT::solves)
+    std::printf("%zu of %zu steps capped at %d sweeps\n", totals.capped, totals.steps,
+                p.max_sweeps);
   if (!experiment.settled())
     std::printf("note: the sample was still moving when the preparation's %g s were over\n",
                 p.preparation_time);
@@ -86,13 +91,26 @@ void conclude(const Parameters& p, const Experiment<ShapeT>& experiment, const S
   std::printf("files in %s\n", p.output.c_str());
 }
 
+/// Mass of the lightest grain that the study can have, times the thickness [kg].
 template <class ShapeT>
-int run(const Parameters& p) {
+double lightest_grain(const Parameters& p, double thickness) {
+  std::mt19937_64 random(p.seed);
+  double volume = std::numeric_limits<double>::infinity();
+  for (const ShapeT& shape : make_grains<ShapeT>(p, random).shapes)
+    volume = std::min(volume, shape.volume());
+  return p.density * thickness * volume;
+}
+
+template <class ShapeT, class Method>
+int run_method(const Parameters& asked) {
   Stopwatch watch;
-  Experiment<ShapeT> experiment(p, thickness_of<ShapeT>(p));
+  const double thickness = thickness_of<ShapeT>(asked);
+  const Parameters p = Method::settled(asked, lightest_grain<ShapeT>(asked, thickness));
+  using ExperimentT = Experiment<ShapeT, Method>;
+  ExperimentT experiment(p, thickness);
   require_experiment(p, experiment);
   require_writable(p.output);
-  Recorder<ShapeT> recorder(p, experiment);
+  Recorder<ExperimentT> recorder(p, experiment);
   RunJson json(p, experiment);
   Progress progress;
   const auto total = static_cast<std::size_t>(std::llround(p.duration / p.step));
@@ -114,14 +132,16 @@ int run(const Parameters& p) {
   json.stage("prepare", watch.lap());
   recorder.set_control_volume();
   recorder.record_packing();
-  Views<ShapeT> views(experiment, p.step, p.output);
+  Views<ExperimentT> views(experiment, p.step, p.output);
   if (p.snapshots > 0) views.snapshot(0);
+  const auto packing_steps =
+      static_cast<std::size_t>(std::max(1LL, std::llround(packing_interval / p.step)));
   const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
   std::size_t snapshots = 0;
   for (; done < total && !interrupted(); ++done) {
     const moreau::StepReport report = experiment.vibrate();
     recorder.record_step(done + 1, report, total);
-    if ((done + 1) % packing_interval == 0) recorder.record_packing();
+    if ((done + 1) % packing_steps == 0) recorder.record_packing();
     const double end = double(done + 1) * p.step;
     if (end >= active && end < active + p.step) views.picture("_active");
     if (end >= jammed && end < jammed + p.step) views.picture("_jammed");
@@ -138,6 +158,12 @@ int run(const Parameters& p) {
   if (p.plots) plot(p.output);
   conclude(p, experiment, recorder.totals(), json.results());
   return done < total ? 130 : 0;
+}
+
+template <class ShapeT>
+int run(const Parameters& p) {
+  return p.method == "springs" ? run_method<ShapeT, SpringDynamics>(p)
+                               : run_method<ShapeT, ContactDynamics>(p);
 }
 
 }  // namespace ratcheting

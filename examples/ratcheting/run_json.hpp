@@ -40,11 +40,11 @@ void write_events(const std::filesystem::path& folder, const std::vector<Period>
 
 class RunJson {
  public:
-  template <class ShapeT>
-  RunJson(const Parameters& p, const Experiment<ShapeT>& experiment) {
+  template <class ExperimentT>
+  RunJson(const Parameters& p, const ExperimentT& experiment) {
     json_["parameters"] = to_json(p);
     json_["versions"] = versions();
-    json_["sample"] = {{"dimension", Experiment<ShapeT>::S::dim},
+    json_["sample"] = {{"dimension", ExperimentT::S::dim},
                        {"mass", experiment.mass()},
                        {"weight", experiment.mass() * p.gravity},
                        {"thickness", experiment.thickness()}};
@@ -56,9 +56,9 @@ class RunJson {
     json_["interrupted"] = true;
     write(p);
   }
-  template <class ShapeT>
-  void write(const Parameters& p, const Experiment<ShapeT>& experiment,
-             const Recorder<ShapeT>& recorder, bool interrupted) {
+  template <class ExperimentT>
+  void write(const Parameters& p, const ExperimentT& experiment,
+             const Recorder<ExperimentT>& recorder, bool interrupted) {
     json_["interrupted"] = interrupted;
     json_["sample"]["settled"] = experiment.settled();
     json_["sample"]["wall_mass"] = experiment.wall_mass();

@@ -17,12 +17,12 @@
 
 namespace ratcheting {
 
-template <class ShapeT>
+template <class ExperimentT>
 class Views {
  public:
-  using S = moreau::SpaceOf<ShapeT>;
+  using S = typename ExperimentT::S;
 
-  Views(const Experiment<ShapeT>& experiment, double step, const std::filesystem::path& folder)
+  Views(const ExperimentT& experiment, double step, const std::filesystem::path& folder)
       : experiment_(experiment),
         step_(step),
         folder_(folder),
@@ -63,7 +63,7 @@ class Views {
 
  private:
   auto shape() const {
-    return [this](std::size_t k) -> const ShapeT& {
+    return [this](std::size_t k) -> const typename ExperimentT::Shape& {
       return experiment_.simulation().shape_of_grain(k);
     };
   }
@@ -88,7 +88,7 @@ class Views {
     return 2 * radius;
   }
 
-  const Experiment<ShapeT>& experiment_;
+  const ExperimentT& experiment_;
   double step_;
   std::filesystem::path folder_;
   moreau::VtkWriter<S> writer_;

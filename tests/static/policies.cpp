@@ -4,7 +4,13 @@
 
 #include "moreau/integrate/concepts.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/integrate/velocity_verlet.hpp"
+#include "moreau/law/cohesive.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace {
@@ -23,6 +29,25 @@ static_assert(TimeIntegrator<moreau::MoreauJean, Space<2>>);
 static_assert(TimeIntegrator<moreau::MoreauJean, Space<3>>);
 static_assert(TimeIntegrator<moreau::MoreauJean, Space<3, float>>);
 static_assert(!TimeIntegrator<moreau::SignoriniCoulomb<double>, Space<3>>);
+
+static_assert(moreau::ImpulseIntegrator<moreau::MoreauJean, Space<3>>);
+static_assert(!moreau::ForceIntegrator<moreau::MoreauJean, Space<3>>);
+static_assert(moreau::ForceIntegrator<moreau::VelocityVerlet, Space<2>>);
+static_assert(moreau::ForceIntegrator<moreau::VelocityVerlet, Space<3, float>>);
+static_assert(!moreau::ImpulseIntegrator<moreau::VelocityVerlet, Space<3>>);
+
+static_assert(moreau::PointLaw<moreau::Frictionless<double>, Space<3>>);
+static_assert(moreau::LaneLaw<moreau::Frictionless<float>, Space<2, float>>);
+static_assert(moreau::LaneLaw<moreau::Cohesive<>, Space<3>>);
+static_assert(moreau::AttractiveLaw<moreau::Cohesive<>, Space<3>>);
+static_assert(!moreau::AttractiveLaw<moreau::SignoriniCoulomb<double>, Space<3>>);
+static_assert(moreau::StatefulLaw<moreau::SignoriniCoulomb<double>, Space<2>>);
+static_assert(moreau::RollingLaw<moreau::RollingResistance<double>, Space<3>>);
+static_assert(!moreau::PointLaw<moreau::RollingResistance<double>, Space<3>>);
+static_assert(moreau::RegularizedLaw<moreau::LinearSpringDashpot<double>, Space<3>>);
+static_assert(moreau::RegularizedLaw<moreau::HertzMindlin<float>, Space<2, float>>);
+static_assert(!moreau::SetValuedLaw<moreau::HertzMindlin<double>, Space<3>>);
+static_assert(!moreau::RegularizedLaw<moreau::SignoriniCoulomb<double>, Space<3>>);
 
 /// A law for space alone is one for space alone.
 struct MinimalLaw {

@@ -58,11 +58,10 @@ class BodyDelassus {
       row.ja = scaled_rows(contact.frame, contact.lever_a, roots[contact.a]);
       row.jb = scaled_rows(contact.frame, contact.lever_b, roots[contact.b]);
       Eigen::Matrix<Scalar, tangents, tangents> turn;
-      row.block =
-          align_tangents<S>(row.ja.transpose() * row.ja + row.jb.transpose() * row.jb, turn);
-      contact.frame.template rightCols<tangents>() *= turn;
-      row.ja.template rightCols<tangents>() *= turn;
-      row.jb.template rightCols<tangents>() *= turn;
+      row.block = align_tangents<S>(gram(row), turn);
+      turn_tangents(contact.frame, turn);
+      turn_tangents(row.ja, turn);
+      turn_tangents(row.jb, turn);
       row.free = relative_velocity(contact, free[contact.a], free[contact.b]);
     }
   }
@@ -128,10 +127,33 @@ class BodyDelassus {
   static WideRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
                               const MobilityRoot<S>& root) {
     WideRows rows = WideRows::Zero();
-    rows.template topRows<S::dim>() = root.linear * frame;
-    rows.template middleRows<S::angular_dim>(S::dim) =
-        root.angular * (S::lever(lever).transpose() * frame);
+    for (int k = 0; k < S::dim; ++k) {
+      const Vector axis = frame.col(k);
+      const Vector push = root.linear * axis;
+      const typename S::Angular turn = root.angular * S::moment(lever, axis);
+      rows.col(k).template head<S::dim>() = push;
+      rows.col(k).template segment<S::angular_dim>(S::dim) = turn;
+    }
     return rows;
+  }
+  /// Ja Ja^T + Jb Jb^T.
+  static typename S::Matrix gram(const Row& row) {
+    typename S::Matrix w;
+    for (int i = 0; i < S::dim; ++i)
+      for (int k = 0; k <= i; ++k)
+        w(i, k) = w(k, i) = row.ja.col(i).dot(row.ja.col(k)) + row.jb.col(i).dot(row.jb.col(k));
+    return w;
+  }
+  /// Columns 1.. of m times a rotation.
+  template <class Matrix, class Turn>
+  static void turn_tangents(Matrix& m, const Turn& turn) {
+    constexpr int tangents = Turn::RowsAtCompileTime;
+    for (int k = 0; k < Matrix::RowsAtCompileTime; ++k) {
+      Eigen::Matrix<Scalar, tangents, 1> turned = Eigen::Matrix<Scalar, tangents, 1>::Zero();
+      for (int t = 0; t < tangents; ++t)
+        for (int s = 0; s < tangents; ++s) turned[t] += m(k, 1 + s) * turn(s, t);
+      for (int t = 0; t < tangents; ++t) m(k, 1 + t) = turned[t];
+    }
   }
 
   std::vector<Row> rows_;

@@ -32,11 +32,11 @@ struct LocalBlock {
 
   /// W r.
   Vector operator*(const Vector& r) const {
-    const auto r_t = r.template tail<tangents>();
-    const Scalar u_n = normal * (r[0] + coupling.dot(r_t));
+    Scalar sum = r[0];
+    for (int t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];
     Vector u;
-    u[0] = u_n;
-    u.template tail<tangents>() = u_n * coupling + slip.cwiseProduct(r_t);
+    u[0] = normal * sum;
+    for (int t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
     return u;
   }
   Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
@@ -81,13 +81,18 @@ LocalBlock<S> align_tangents(const typename S::Matrix& w,
   using Block = Eigen::Matrix<typename S::Scalar, tangents, tangents>;
   LocalBlock<S> block;
   block.normal = w(0, 0);
-  const typename LocalBlock<S>::Tangent q =
-      w.template bottomLeftCorner<tangents, 1>() / block.normal;
-  const Block schur =
-      w.template bottomRightCorner<tangents, tangents>() - block.normal * (q * q.transpose());
+  Block schur;
+  for (int i = 0; i < tangents; ++i)
+    for (int k = 0; k < tangents; ++k)
+      schur(i, k) = w(i + 1, k + 1) - w(i + 1, 0) * w(k + 1, 0) / block.normal;
   turn = detail::eigenvectors(schur);
-  block.coupling = turn.transpose() * q;
-  block.slip = (turn.transpose() * schur * turn).diagonal();
+  for (int t = 0; t < tangents; ++t) {
+    block.coupling[t] = block.slip[t] = 0;
+    for (int i = 0; i < tangents; ++i) {
+      block.coupling[t] += turn(i, t) * w(i + 1, 0) / block.normal;
+      for (int k = 0; k < tangents; ++k) block.slip[t] += turn(i, t) * schur(i, k) * turn(k, t);
+    }
+  }
   return block;
 }
 

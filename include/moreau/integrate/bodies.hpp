@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -41,15 +42,20 @@ struct Bodies {
   typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
   /// Inertia in world axes at a rotation [kg m^2].
   Inertia inertia(std::size_t i, const typename S::Rotation& q) const {
-    const Inertia a = S::adjoint(q);
-    return a * inertia_body[i] * a.transpose();
+    const Inertia a = S::adjoint(q), turned = a * inertia_body[i];
+    return turned * a.transpose();
   }
   /// M^-1/2 in world axes.
   MobilityRoot<S> mobility_root(std::size_t i) const {
-    const typename S::Matrix r = axes(i);
-    const Inertia a = S::adjoint(pose[i].rotation);
-    return {r * inverse_mass[i].cwiseSqrt().asDiagonal() * r.transpose(),
-            a * inverse_inertia_root_body[i] * a.transpose()};
+    typename S::Matrix r = axes(i), linear;
+    const Inertia a = S::adjoint(pose[i].rotation), turned = a * inverse_inertia_root_body[i];
+    for (int row = 0; row < S::dim; ++row)
+      for (int column = 0; column < S::dim; ++column) {
+        linear(row, column) = 0;
+        for (int k = 0; k < S::dim; ++k)
+          linear(row, column) += r(row, k) * std::sqrt(inverse_mass[i][k]) * r(column, k);
+      }
+    return {linear, turned * a.transpose()};
   }
 };
 

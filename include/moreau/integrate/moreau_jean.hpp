@@ -56,8 +56,8 @@ class MoreauJean {
           detail::kick<S>(bodies, i, S::Vector::Zero(), gravity, step);
       if (!bodies.rotates(i)) continue;
       momentum[i] += step * bodies.force[i].template tail<S::angular_dim>();
-      free[i].template tail<S::angular_dim>() =
-          bodies.inertia(i, bodies.pose[i].rotation).inverse() * momentum[i];
+      const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
+      free[i].template tail<S::angular_dim>() = inverse * momentum[i];
     }
   }
 

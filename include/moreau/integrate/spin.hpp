@@ -35,7 +35,8 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
     const typename S::Angular error = inertia * w - momentum;
     if (error.norm() <= 2 * std::numeric_limits<Scalar>::epsilon() * momentum.norm()) break;
     const typename S::Inertia jacobian = inertia + h * S::gyroscopic_jacobian(inertia, w);
-    w -= jacobian.inverse() * error;
+    const typename S::Inertia inverse = jacobian.inverse();
+    w -= inverse * error;
   }
   return w;
 }
@@ -44,10 +45,16 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
 template <class S>
 typename S::Vector kick(const Bodies<S>& bodies, std::size_t i, const typename S::Vector& load,
                         const typename S::Vector& gravity, typename S::Scalar h) {
-  const typename S::Vector force =
-      bodies.force[i].template head<S::dim>() + load + bodies.weight[i] * gravity;
   const typename S::Matrix r = bodies.axes(i);
-  return h * (r * bodies.inverse_mass[i].cwiseProduct(r.transpose() * force));
+  typename S::Vector change = S::Vector::Zero();
+  for (int axis = 0; axis < S::dim; ++axis) {
+    typename S::Scalar along = 0;
+    for (int k = 0; k < S::dim; ++k)
+      along += r(k, axis) * (bodies.force[i][k] + load[k] + bodies.weight[i] * gravity[k]);
+    for (int k = 0; k < S::dim; ++k)
+      change[k] += h * bodies.inverse_mass[i][axis] * along * r(k, axis);
+  }
+  return change;
 }
 
 }  // namespace moreau::detail

@@ -44,8 +44,8 @@ class VelocityVerlet {
           detail::spin_after(bodies, i, momentum, spin, step / 2);
       detail::move(bodies.pose[i], middle, step);
       bodies.velocity[i] = middle;
-      bodies.velocity[i].template tail<S::angular_dim>() =
-          bodies.inertia(i, bodies.pose[i].rotation).inverse() * momentum;
+      const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
+      bodies.velocity[i].template tail<S::angular_dim>() = inverse * momentum;
     }
   }
 

@@ -5,12 +5,22 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
 
 #include "moreau/contact/lane_problem.hpp"
 #include "moreau/contact/local_problem.hpp"
 #include "moreau/contact/rolling_block.hpp"
 
 namespace moreau {
+
+template <class L>
+concept Rolls = requires {
+  requires L::rolls;
+};
+
+/// W of one contact as a law sees it.
+template <class L, class S>
+using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 
 /// A law between relative velocity u and impulse r of one contact in its own frame (normal first;
 /// u_n > 0 separates, r_n > 0 pushes), given for one pair of materials.
@@ -23,30 +33,23 @@ namespace moreau {
 /// - natural_map(u, r): r - P_K(r - u'), zero exactly on solutions; u and r in one unit. With u = 0
 ///   it is what of r the law forbids.
 ///
-/// Optional: see AttractiveLaw, StatefulLaw, RollingLaw, LaneLaw.
+/// A law with `static constexpr bool rolls = true` carries a couple beside the force: block, u, r
+/// and b are those of a RollingBlock, with D + A rows, rolling and twisting last.
+///
+/// Optional: see AttractiveLaw, StatefulLaw, LaneLaw.
 template <class L, class S>
-concept PointLaw = std::copyable<L> &&
-    requires(const L law, const LocalBlock<S> block, typename S::Vector vector,
+concept SetValuedLaw = std::copyable<L> &&
+    requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
              typename S::Scalar scalar) {
   { law.velocity_offset(scalar, scalar, scalar) } -> std::same_as<typename S::Scalar>;
-  { law.solve(block, vector, vector) } -> std::same_as<typename S::Vector>;
-  { law.natural_map(vector, vector) } -> std::same_as<typename S::Vector>;
+  { law.solve(block, vector, vector) } -> std::same_as<typename BlockOf<L, S>::Vector>;
+  { law.natural_map(vector, vector) } -> std::same_as<typename BlockOf<L, S>::Vector>;
 };
 
-/// The same with a couple beside the force: u, r and b have D + A rows, those of rolling and
-/// twisting last (see rolling_delassus.hpp).
 template <class L, class S>
-concept RollingLaw = std::copyable<L> &&
-    requires(const L law, const RollingBlock<S> block, typename RollingBlock<S>::Vector vector,
-             typename S::Scalar scalar) {
-  { law.velocity_offset(scalar, scalar, scalar) } -> std::same_as<typename S::Scalar>;
-  { law.solve(block, vector, vector) } -> std::same_as<typename RollingBlock<S>::Vector>;
-  { law.natural_map(vector, vector) } -> std::same_as<typename RollingBlock<S>::Vector>;
-};
-
-/// Either kind.
+concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;
 template <class L, class S>
-concept SetValuedLaw = PointLaw<L, S> || RollingLaw<L, S>;
+concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
 /// A law whose bodies attract each other with attraction(gap) [N]; what it solves for is the push
 /// against that. See cohesive.hpp.

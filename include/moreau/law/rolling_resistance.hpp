@@ -51,6 +51,8 @@ Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
 template <std::floating_point T = double>
 class RollingResistance {
  public:
+  static constexpr bool rolls = true;  ///< see SetValuedLaw
+
   /// @param friction    mu >= 0 [-]
   /// @param rolling     eta >= 0 [-]: largest couple over (effective radius x normal impulse)
   /// @param restitution e in [0, 1] [-]
@@ -79,7 +81,7 @@ class RollingResistance {
     const Vector firm = sticking<S>(block, b);
     if ((firm - project(firm)).isZero(0)) return firm;
     Vector r = guess;
-    for (int iteration = 0; iteration < 200; ++iteration) {
+    for (int iteration = 0; iteration < 1000; ++iteration) {
       const Vector before = r;
       const typename S::Vector b_point =
           b.template head<S::dim>() + block.coupling * r.template tail<S::angular_dim>();
@@ -87,9 +89,12 @@ class RollingResistance {
           point_.template solve<S>(block.point, b_point, r.template head<S::dim>());
       const typename S::Angular c = b.template tail<S::angular_dim>() +
                                     block.coupling.transpose() * r.template head<S::dim>();
-      r.template tail<S::angular_dim>() =
+      const typename S::Angular couple =
           detail::solve_disc<typename S::Inertia, typename S::Angular, T>(block.spin, c,
                                                                           rolling_ * r[0]);
+      // A couple that opens the contact, which without it closes, would go on for ever.
+      const T share = iteration < 30 ? T(1) : T(0.5);
+      r.template tail<S::angular_dim>() += share * (couple - r.template tail<S::angular_dim>());
       if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) break;
     }
     return r;
@@ -116,8 +121,8 @@ class RollingResistance {
     for (int binds = 0; binds < 4; ++binds) {
       const T a = binds & 1 ? mu : T(0), b = binds & 2 ? eta : T(0);
       const T trial = (x[0] + a * slide + b * roll) / (1 + a * a + b * b);
-      const bool slides = slide > mu * trial, rolls = roll > eta * trial;
-      if (trial >= 0 && slides == bool(binds & 1) && rolls == bool(binds & 2)) normal = trial;
+      const bool slipping = slide > mu * trial, turning = roll > eta * trial;
+      if (trial >= 0 && slipping == bool(binds & 1) && turning == bool(binds & 2)) normal = trial;
     }
     Vector p = Vector::Zero();
     if (!(normal > 0)) return p;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace moreau::detail {
 
@@ -22,9 +23,6 @@ class AndersonMixing {
     x_ = x;
     known_ = next_ = 0;
     first_ = true;
-    if (change_.rows() == x.size()) return;
-    change_.resize(x.size(), memory);
-    result_.resize(x.size(), memory);
   }
 
   /// @param g in: g(x); out: the next x
@@ -34,21 +32,22 @@ class AndersonMixing {
     first_ = false;
     last_change_ = x_;
     last_result_ = g;
-    if (known_ > 0) g.noalias() -= result_.leftCols(known_) * weights().template cast<T>();
+    const Weights share = weights();
+    for (std::size_t k = 0; k < known_; ++k) g -= T(share[k]) * result_[k];
     x_ = g;
   }
 
  private:
-  static constexpr int memory = 10;
-  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, memory, 1>;
-  using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, memory, memory>;
+  static constexpr std::size_t memory = 10;
+  using Weights = std::array<double, memory>;
+  using Gram = std::array<Weights, memory>;
 
   void remember(const Vector& g) {
-    change_.col(next_) = x_ - last_change_;
-    result_.col(next_) = g - last_result_;
+    change_[next_] = x_ - last_change_;
+    result_[next_] = g - last_result_;
     known_ = std::max(known_, next_ + 1);
-    for (int k = 0; k < known_; ++k)
-      gram_(k, next_) = gram_(next_, k) = double(change_.col(k).dot(change_.col(next_)));
+    for (std::size_t k = 0; k < known_; ++k)
+      gram_[k][next_] = gram_[next_][k] = double(change_[k].dot(change_[next_]));
     next_ = (next_ + 1) % memory;
   }
 
@@ -56,20 +55,38 @@ class AndersonMixing {
   /// beyond `share` of the others.
   Weights weights() const {
     constexpr double share = 1e-10;
-    Weights scale(known_), right(known_);
-    for (int k = 0; k < known_; ++k) {
-      scale[k] = gram_(k, k) > 0 ? 1 / std::sqrt(gram_(k, k)) : 0;
-      right[k] = scale[k] * double(change_.col(k).dot(last_change_));
+    Weights scale{}, right{};
+    for (std::size_t k = 0; k < known_; ++k) {
+      scale[k] = gram_[k][k] > 0 ? 1 / std::sqrt(gram_[k][k]) : 0;
+      right[k] = scale[k] * double(change_[k].dot(last_change_));
     }
-    Gram scaled = scale.asDiagonal() * gram_.topLeftCorner(known_, known_) * scale.asDiagonal();
-    scaled.diagonal().array() += share;
-    return scale.cwiseProduct(scaled.ldlt().solve(right));
+    Gram scaled{};
+    for (std::size_t i = 0; i < known_; ++i)
+      for (std::size_t k = 0; k < known_; ++k)
+        scaled[i][k] = scale[i] * gram_[i][k] * scale[k] + (i == k ? share : 0);
+    solve(scaled, right, known_);
+    for (std::size_t k = 0; k < known_; ++k) right[k] *= scale[k];
+    return right;
+  }
+
+  /// A x = b by A = L D L^T, A positive definite. A is used up, b becomes x.
+  static void solve(Gram& a, Weights& b, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = k + 1; i < n; ++i) {
+        const double factor = a[i][k] / a[k][k];
+        for (std::size_t j = i; j < n; ++j) a[j][i] -= factor * a[j][k];
+        b[i] -= factor * b[k];
+      }
+    for (std::size_t k = n; k-- > 0;) {
+      for (std::size_t i = k + 1; i < n; ++i) b[k] -= a[i][k] * b[i];
+      b[k] /= a[k][k];
+    }
   }
 
   Vector x_, last_change_, last_result_;
-  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> change_, result_;  ///< a column per step
-  Eigen::Matrix<double, memory, memory> gram_;  ///< products of the columns of change_
-  int known_ = 0, next_ = 0;
+  std::array<Vector, memory> change_, result_;  ///< one per step
+  Gram gram_{};                                 ///< products of the changes
+  std::size_t known_ = 0, next_ = 0;
   bool first_ = true;
 };
 

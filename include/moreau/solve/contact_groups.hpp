@@ -178,8 +178,11 @@ class ContactGroups {
   /// tr(W^-1 W_hub): how much of W is the hub's.
   static typename S::Scalar share_of_hub(const Operator& op, std::uint32_t c, Hub hub) {
     const auto& rows = hub == Hub::a ? op.rows_a(c) : op.rows_b(c);
-    const typename S::Matrix w = op.block(c).matrix(), of_hub = rows.transpose() * rows;
-    return w.inverse().cwiseProduct(of_hub).sum();
+    const typename S::Matrix inverse = op.block(c).matrix().inverse();
+    typename S::Scalar share = 0;
+    for (int i = 0; i < S::dim; ++i)
+      for (int k = 0; k < S::dim; ++k) share += inverse(i, k) * rows.col(i).dot(rows.col(k));
+    return share;
   }
 
   static bool likely(const Operator& op, std::span<const Impulse> impulses, std::uint32_t c) {

@@ -196,37 +196,7 @@ class Simulation {
 
   /// Advances the time by `step` [s].
   /// @throws std::invalid_argument for a step that is not positive or not finite
-  StepReport step(Scalar step) {
-    require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
-            "must be finite and > 0");
-    StepReport report;
-    const auto start = Clock::now();
-    if constexpr (set_valued) {
-      dynamics_.predict(bodies_, step);
-    } else {
-      if (!dynamics_.is_ready(bodies_.size())) {
-        detect(report);
-        dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, 0, report);
-        report = {};
-      }
-      dynamics_.predict(bodies_, gravity_, step);
-    }
-    detect(report);
-    const auto detected = Clock::now();
-    if constexpr (set_valued) {
-      dynamics_.advance(bodies_, gravity_, materials_, previous_, contacts_, grain_size_, step,
-                        report);
-    } else {
-      dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, step, report);
-      dynamics_.advance(bodies_, gravity_, step);
-    }
-    time_ += step;
-    const auto end = Clock::now();
-    report.ms_detect = milliseconds(start, detected);
-    report.ms_solve = milliseconds(detected, end);
-    report.ms_total = milliseconds(start, end);
-    return report;
-  }
+  StepReport step(Scalar step);
 
   Scalar time() const { return time_; }              ///< [s]
   Scalar grain_size() const { return grain_size_; }  ///< [m]
@@ -362,5 +332,40 @@ class Simulation {
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
 };
+
+// Outside of the class, so that a program can instantiate it once and declare it extern elsewhere.
+template <Shape ShapeT, class Law, class Integrator, class Broad, class Solver>
+requires ContactLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>> StepReport
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
+  require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
+          "must be finite and > 0");
+  StepReport report;
+  const auto start = Clock::now();
+  if constexpr (set_valued) {
+    dynamics_.predict(bodies_, step);
+  } else {
+    if (!dynamics_.is_ready(bodies_.size())) {
+      detect(report);
+      dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, 0, report);
+      report = {};
+    }
+    dynamics_.predict(bodies_, gravity_, step);
+  }
+  detect(report);
+  const auto detected = Clock::now();
+  if constexpr (set_valued) {
+    dynamics_.advance(bodies_, gravity_, materials_, previous_, contacts_, grain_size_, step,
+                      report);
+  } else {
+    dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, step, report);
+    dynamics_.advance(bodies_, gravity_, step);
+  }
+  time_ += step;
+  const auto end = Clock::now();
+  report.ms_detect = milliseconds(start, detected);
+  report.ms_solve = milliseconds(detected, end);
+  report.ms_total = milliseconds(start, end);
+  return report;
+}
 
 }  // namespace moreau

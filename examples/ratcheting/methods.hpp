@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The policies of the study beside the shape: contact dynamics, as in the paper, or molecular
+// dynamics with springs over the same shapes, walls, drive and measures.
+#pragma once
+
+#include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/integrate/velocity_verlet.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/solve/thread_team.hpp"
+#include "moreau/world/simulation.hpp"
+
+#include "parameters.hpp"
+
+namespace ratcheting {
+
+struct ContactDynamics {
+  static constexpr bool solves = true;
+  using Law = moreau::SignoriniCoulomb<double>;
+  using Integrator = moreau::MoreauJean;
+  using Solver = moreau::ParallelGaussSeidel;
+
+  static Law law(const Parameters&, double friction) { return Law(friction); }
+  static Parameters settled(const Parameters& p, double) { return p; }
+};
+
+struct SpringDynamics {
+  static constexpr bool solves = false;
+  using Law = moreau::LinearSpringDashpot<double>;
+  using Integrator = moreau::VelocityVerlet;
+  using Solver = moreau::NoSolver;
+
+  static Law law(const Parameters& p, double friction) {
+    return Law(p.stiffness, 0.8 * p.stiffness, friction, p.restitution);
+  }
+  /// Steps no longer than a twentieth of the impact of the lightest grain on a wall.
+  /// @param lightest [kg]
+  static Parameters settled(const Parameters& p, double lightest) {
+    Parameters out = p;
+    const double longest = law(p, p.friction).duration(lightest / 2) / 20;
+    out.step = std::min(p.step, longest);
+    out.preparation_step = std::min(p.preparation_step, longest);
+    return out;
+  }
+};
+
+}  // namespace ratcheting

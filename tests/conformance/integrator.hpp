@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// What every integrator has to fulfil with free bodies. A new one inherits the suite by one line:
+//
+//   TEST_CASE("mine") { conformance::integrator<moreau::Space<3>>(MyIntegrator()); }
+#pragma once
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "moreau/integrate/concepts.hpp"
+
+namespace conformance {
+
+/// One body without contacts under either kind of integrator.
+template <class S>
+struct FreeBody {
+  using T = typename S::Scalar;
+  moreau::Bodies<S> bodies;
+  std::vector<typename S::Angular> momenta{1};
+  std::vector<typename S::Twist> free{1}, loads{S::Twist::Zero()};
+
+  FreeBody(T mass, const typename S::Inertia& inertia) {
+    bodies.pose.emplace_back();
+    bodies.velocity.push_back(S::Twist::Zero());
+    bodies.force.push_back(S::Twist::Zero());
+    bodies.inverse_mass.push_back(S::Vector::Constant(1 / mass));
+    bodies.inertia_body.push_back(inertia);
+    bodies.inverse_inertia_root_body.push_back(moreau::inverse_root<S>(inertia));
+    bodies.weight.push_back(mass);
+    bodies.material.push_back(moreau::MaterialId(0));
+  }
+  template <class Integrator>
+  void step(const Integrator& integrator, const typename S::Vector& gravity, T h) {
+    if constexpr (moreau::ImpulseIntegrator<Integrator, S>) {
+      integrator.predict_configuration(bodies, std::span(momenta), h);
+      integrator.free_velocity(bodies, gravity, std::span(momenta), std::span(free), h);
+      integrator.advance_configuration(bodies, std::span<const typename S::Twist>(free), h);
+    } else {
+      const std::span<const typename S::Twist> no_contacts(loads);
+      integrator.predict_configuration(bodies, no_contacts, gravity, h);
+      integrator.advance_configuration(bodies, no_contacts, gravity, h);
+    }
+  }
+  auto spin() { return bodies.velocity[0].template tail<S::angular_dim>(); }
+  typename S::Angular angular_momentum() {
+    return bodies.inertia(0, bodies.pose[0].rotation) * spin();
+  }
+  double rotation_energy() { return double(spin().dot(angular_momentum())) / 2; }
+};
+
+/// Unequal principal moments, or the one of the plane.
+template <class S>
+typename S::Inertia uneven_inertia() {
+  typename S::Inertia inertia = S::Inertia::Zero();
+  for (int k = 0; k < S::angular_dim; ++k) inertia(k, k) = typename S::Scalar(1 + k);
+  return inertia;
+}
+
+/// Velocity under gravity exact and the path to the order h at least, angular momentum of a torque-
+/// free top and its energy kept, an axis without mobility left alone.
+template <class S, class Integrator>
+requires moreau::TimeIntegrator<Integrator, S>
+void integrator(const Integrator& integrator) {
+  using T = typename S::Scalar;
+  const double rounding = 100 * double(std::numeric_limits<T>::epsilon());
+  const int steps = 1000;
+  const T h = T(1) / steps;
+  const typename S::Vector gravity = T(-9.81) * S::Vector::Unit(S::dim - 1);
+
+  FreeBody<S> fall(2, uneven_inertia<S>());
+  for (int k = 0; k < steps; ++k) fall.step(integrator, gravity, h);
+  const double way = double(fall.bodies.pose[0].position[S::dim - 1]);
+  CHECK(std::abs(double(fall.bodies.velocity[0][S::dim - 1]) + 9.81) < steps * rounding);
+  CHECK(std::abs(way + 4.905) < 9.81 * double(h));
+
+  FreeBody<S> top(1, uneven_inertia<S>());
+  for (int k = 0; k < S::angular_dim; ++k) top.spin()[k] = T(1 + k % 2);
+  const typename S::Angular momentum = top.angular_momentum();
+  const double energy = top.rotation_energy();
+  for (int k = 0; k < steps; ++k) top.step(integrator, S::Vector::Zero(), h);
+  CHECK(double((top.angular_momentum() - momentum).norm()) <
+        steps * rounding * double(momentum.norm()));
+  CHECK(std::abs(top.rotation_energy() - energy) < 0.01 * energy);
+
+  FreeBody<S> driven(1, uneven_inertia<S>());
+  driven.bodies.inverse_mass[0].setZero();
+  driven.bodies.velocity[0][0] = 2;
+  driven.bodies.force[0][0] = 5;
+  for (int k = 0; k < steps; ++k) driven.step(integrator, gravity, h);
+  CHECK(driven.bodies.velocity[0][0] == T(2));
+  CHECK(std::abs(double(driven.bodies.pose[0].position[0]) - 2) < steps * rounding);
+  CHECK(driven.bodies.pose[0].position[S::dim - 1] == T(0));
+}
+
+}  // namespace conformance

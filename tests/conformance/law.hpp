@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// What every set-valued law has to fulfil. A new one inherits the suite by one line:
+//
+//   TEST_CASE("my law") { conformance::set_valued_law<moreau::Space<3>>(MyLaw(...)); }
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+#include <type_traits>
+
+#include "moreau/law/concepts.hpp"
+
+namespace conformance {
+
+/// Block and vector of the law's local problem.
+template <class S, class Law>
+using BlockOf =
+    std::conditional_t<moreau::RollingLaw<Law, S>, moreau::RollingBlock<S>, moreau::LocalBlock<S>>;
+
+/// A random local problem of condition up to about 1e4, with couples 20; W has a trace of about
+/// one.
+template <class S, class Law>
+struct LocalProblem {
+  using T = typename S::Scalar;
+  using Block = moreau::BlockOf<Law, S>;
+  using Vector = std::decay_t<decltype(std::declval<Block>() * typename Block::Vector())>;
+  static constexpr int rows = Vector::RowsAtCompileTime;
+
+  Block block;
+  Vector velocity, guess;
+
+  explicit LocalProblem(std::mt19937_64& random) {
+    std::normal_distribution<double> normal;
+    Eigen::Matrix<T, rows, rows> a;
+    for (auto& x : a.reshaped()) x = static_cast<T>(normal(random));
+    for (auto& x : velocity) x = static_cast<T>(normal(random));
+    for (auto& x : guess) x = static_cast<T>(normal(random));
+    const T least = rows > S::dim ? T(1) : T(1e-3);
+    Eigen::Matrix<T, rows, rows> w =
+        a * a.transpose() + least * Eigen::Matrix<T, rows, rows>::Identity();
+    w /= w.trace();
+    set(block, w);
+  }
+
+ private:
+  using Turn = Eigen::Matrix<T, S::dim - 1, S::dim - 1>;
+  static void set(moreau::LocalBlock<S>& out, const typename S::Matrix& w) {
+    Turn turn;
+    out = moreau::align_tangents<S>(w, turn);
+  }
+  static void set(moreau::RollingBlock<S>& out, const Eigen::Matrix<T, rows, rows>& w) {
+    Turn turn;
+    out.point = moreau::align_tangents<S>(w.template topLeftCorner<S::dim, S::dim>(), turn);
+    out.coupling = w.template topRightCorner<S::dim, S::angular_dim>();
+    out.coupling.template bottomRows<S::dim - 1>() =
+        turn.transpose() * out.coupling.template bottomRows<S::dim - 1>();
+    out.spin = w.template bottomRightCorner<S::angular_dim, S::angular_dim>();
+  }
+};
+
+/// The solution obeys the law, whatever the guess; it scales with the velocity; what is tangential
+/// never drives; offsets keep what is open open.
+template <class S, class Law>
+requires moreau::SetValuedLaw<Law, S>
+void set_valued_law(const Law& law, int problems = 5000) {
+  using T = typename S::Scalar;
+  using Problem = LocalProblem<S, Law>;
+  using Vector = typename Problem::Vector;
+  constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
+  std::mt19937_64 random(7);
+  double map = 0, guessed = 0, scaled = 0, driven = 0;
+  int open = 0;
+  for (int i = 0; i < problems; ++i) {
+    const Problem p(random);
+    const Vector r = law.solve(p.block, p.velocity, p.guess);
+    const Vector u = p.block * r + p.velocity;
+    const double size = double(r.norm() + p.velocity.norm());
+    map = std::max(map, double(law.natural_map(u, r).norm()) / size);
+    const Vector again = law.solve(p.block, p.velocity, Vector(Vector::Zero()));
+    guessed = std::max(guessed, double((again - r).norm()) / size);
+    const Vector twice = law.solve(p.block, Vector(2 * p.velocity), p.guess);
+    scaled = std::max(scaled, double((twice - 2 * r).norm()) / size);
+    constexpr int aside = Problem::rows - 1;
+    driven = std::max(
+        driven, double(u.template tail<aside>().dot(r.template tail<aside>())) / (size * size));
+    CHECK(r[0] >= T(0));
+    open += r.isZero(0);
+  }
+  CHECK(map < 1e4 * epsilon);
+  CHECK(guessed < 1e5 * epsilon);
+  CHECK(scaled < 1e5 * epsilon);
+  CHECK(driven < 1e4 * epsilon);
+  CHECK(open > problems / 10);
+  CHECK(open < problems - problems / 10);
+  CHECK(law.velocity_offset(T(1e-3), T(-1), T(1e-3)) >= T(0));
+}
+
+/// A law that knows lanes comes to the scalar solution in every lane.
+template <class S, class Law>
+requires moreau::LaneLaw<Law, S>
+void lane_law(const Law& law) {
+  using T = typename S::Scalar;
+  using Block = moreau::LaneBlock<S>;
+  std::mt19937_64 random(3);
+  double worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    Block block = Block::unit();
+    typename Block::Vector b{}, r{};
+    std::array<typename S::Vector, std::size_t{Block::W::lanes}> exact;
+    for (std::size_t l = 0; l < exact.size(); ++l) {
+      const LocalProblem<S, Law> p(random);
+      block.set(l, p.block);
+      for (std::size_t d = 0; d < Block::dim; ++d) b[d][l] = p.velocity[Eigen::Index(d)];
+      exact[l] = law.solve(p.block, p.velocity, p.guess);
+    }
+    const auto parameters = law.lane_parameters();
+    std::array<typename Block::Values, std::tuple_size_v<decltype(law.lane_parameters())>> wide{};
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      wide[k] = Block::W::broadcast(parameters[k]);
+    typename Block::Values memory{};
+    for (int visit = 0; visit < 50; ++visit)
+      r = Law::solve_lanes(block, b, r, wide, memory, visit == 49);
+    for (std::size_t l = 0; l < exact.size(); ++l)
+      for (std::size_t d = 0; d < Block::dim; ++d)
+        worst = std::max(worst, std::abs(double(r[d][l] - exact[l][Eigen::Index(d)])) /
+                                    (1 + double(exact[l].norm())));
+  }
+  CHECK(worst < 1e6 * double(std::numeric_limits<T>::epsilon()));
+}
+
+}  // namespace conformance

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// One shape under every law of the library, each with the integrator that goes with it.
+#pragma once
+
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+#include "conformance/world.hpp"
+
+namespace conformance {
+
+/// Springs and spheres stiff enough for drops of centimetres and steps of 1e-5 s.
+/// @param mass of a grain [kg]
+template <class T>
+moreau::LinearSpringDashpot<T> stiff_springs(T mass) {
+  return moreau::LinearSpringDashpot<T>(T(4e7) * mass, T(3e7) * mass, T(0.4), T(0.5));
+}
+template <class T>
+moreau::HertzMindlin<T> stiff_spheres(T mass) {
+  return moreau::HertzMindlin<T>::of_material(T(4e10) * mass, T(0.3), T(0.4), T(0.5));
+}
+
+/// @param shape of about a centimetre
+/// @param size  diameter of a ball around it [m]
+template <class ShapeT>
+void all_laws(const ShapeT& shape, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  using T = typename moreau::SpaceOf<ShapeT>::Scalar;
+  const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
+  const T mass = shape.mass_properties(T(1000)).mass;
+  SUBCASE("SignoriniCoulomb") {
+    world(shape, coulomb, size);
+  }
+  SUBCASE("SignoriniCoulomb with restitution and static friction") {
+    world(shape, moreau::SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)), size);
+  }
+  SUBCASE("Frictionless") {
+    world(shape, moreau::Frictionless<T>(), size);
+  }
+  SUBCASE("Cohesive") {
+    world(shape, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(coulomb, T(1e-3)), size);
+  }
+  SUBCASE("RollingResistance") {
+    world(shape, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
+  }
+  SUBCASE("LinearSpringDashpot") {
+    world(shape, conformance::stiff_springs<T>(mass), size);
+  }
+  SUBCASE("HertzMindlin") {
+    world(shape, conformance::stiff_spheres<T>(mass), size);
+  }
+}
+
+}  // namespace conformance

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What every regularized law has to fulfil. A new one inherits the suite by one line:
+//
+//   TEST_CASE("my law") { conformance::regularized_law<moreau::Space<3>>(MyLaw(...)); }
+#pragma once
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+
+#include "moreau/law/regularized.hpp"
+
+namespace conformance {
+
+/// Speed after a central impact at speed 1 m/s, with a small step [m/s].
+template <class S, class Law>
+double rebound(const Law& law, double mass, double step) {
+  using T = typename S::Scalar;
+  moreau::ContactMotion<S> motion{0, S::Vector::Zero(), T(mass), T(0.01), T(step)};
+  typename S::Vector memory = S::Vector::Zero();
+  double gap = 0, speed = -1;
+  for (int k = 0; k < 1000000 && (k == 0 || gap < 0); ++k) {
+    gap += step * speed;
+    motion.gap = T(gap);
+    motion.velocity[0] = T(speed);
+    speed += step / mass * double(law.force(motion, memory)[0]);
+  }
+  return speed;
+}
+
+/// Apart there is no force and no memory; pressed together it repels; friction stays in the cone;
+/// an impact gives back no more than it took; the answer turns with the tangents.
+/// @param step small against the duration of an impact of 1 kg [s]
+template <class S, class Law>
+requires moreau::RegularizedLaw<Law, S>
+void regularized_law(const Law& law, double step) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  constexpr int tangents = S::dim - 1;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  moreau::ContactMotion<S> motion{T(1e-4), Vector::Zero(), T(1), T(0.01), T(step)};
+  Vector memory = Vector::Constant(T(1e-6));
+  CHECK(law.force(motion, memory).isZero(0));
+  CHECK(memory.isZero(0));
+  Vector mirrored_memory = memory;
+  for (int i = 0; i < 2000; ++i) {
+    motion.gap = T(-1e-5 * std::abs(normal(random)));
+    for (auto& x : motion.velocity) x = T(0.1 * normal(random));
+    const Vector force = law.force(motion, memory);
+    CHECK(force[0] >= T(0));
+    CHECK(double(force.template tail<tangents>().norm()) <=
+          double(law.friction()) * double(force[0]) * (1 + 1e-5));
+    moreau::ContactMotion<S> mirrored = motion;
+    mirrored.velocity.template tail<tangents>() *= T(-1);
+    Vector other = law.force(mirrored, mirrored_memory);
+    other.template tail<tangents>() *= T(-1);
+    CHECK(double((other - force).norm()) <= 1e-5 * double(force.norm()));
+  }
+  const double speed = rebound<S>(law, 1, step);
+  CHECK(speed >= 0);
+  CHECK(speed <= 1 + 1e-3);
+}
+
+}  // namespace conformance

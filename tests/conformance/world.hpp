@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// What every valid combination of shape, law and integrator has to fulfil in a simulation. A new
+// policy inherits the suite by one line:
+//
+//   TEST_CASE("mine") { conformance::world<MyShape, MyLaw>(MyShape(...), MyLaw(...)); }
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+
+#include "moreau/measure/energy.hpp"
+#include "moreau/world/simulation.hpp"
+
+namespace conformance {
+
+/// Grains of one shape and size, hung on a lattice wider than they are, turned at random.
+template <class ShapeT, class Law>
+class Assembly {
+ public:
+  using Simulation = moreau::Simulation<ShapeT, Law>;
+  using S = moreau::SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+  static constexpr bool springs = moreau::RegularizedLaw<Law, S>;
+
+  /// @param size diameter of a ball around the shape [m]
+  Assembly(const ShapeT& shape, const Law& law, T size)
+      : simulation(size, moreau::Materials<Law>(1, law)), size_(size), random_(11) {
+    const auto id = simulation.add_shape(shape);
+    for (int k = 0; k < 8; ++k) {
+      moreau::Pose<S> pose;
+      for (int axis = 0; axis < S::dim; ++axis)
+        pose.position[axis] = T(1.1) * size * (T(0.5) + T(axis < up ? (k >> axis) % 2 : k >> up));
+      typename S::Angular turn;
+      for (auto& x : turn) x = T(uniform_(random_));
+      pose.rotation = S::exp(turn);
+      simulation.add_grain(id, pose, T(1000));
+    }
+  }
+  void add_box() {
+    for (int axis = 0; axis < S::dim; ++axis) {
+      simulation.add_wall(Vector::Unit(axis), Vector::Zero());
+      if (axis < up) simulation.add_wall(-Vector::Unit(axis), T(2.2) * size_ * Vector::Unit(axis));
+    }
+    simulation.set_gravity(T(-10) * Vector::Unit(up));
+  }
+  /// Random velocities up to `speed` [m/s] and spins to match.
+  void stir(T speed) {
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      Vector v;
+      typename S::Angular w;
+      for (auto& x : v) x = speed * T(uniform_(random_));
+      for (auto& x : w) x = speed / size_ * T(uniform_(random_));
+      simulation.set_velocity(simulation.grain(k), v);
+      simulation.set_spin(simulation.grain(k), w);
+    }
+  }
+  moreau::BodyMotion<S> motion(std::size_t k) const {
+    const auto& bodies = simulation.bodies();
+    const std::size_t i = simulation.grain(k).index();
+    return {bodies.weight[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
+            bodies.velocity[i]};
+  }
+  moreau::Momentum<S> momentum() const {
+    return moreau::momentum<S>(simulation.grain_count(), [&](std::size_t k) { return motion(k); });
+  }
+  double kinetic_energy() const {
+    return double(moreau::kinetic_energy<S>(simulation.grain_count(), [&](std::size_t k) {
+                    return motion(k);
+                  }).total());
+  }
+  double potential_energy() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const auto m = motion(k);
+      sum -= double(m.mass * simulation.gravity().dot(m.position));
+    }
+    return sum;
+  }
+  T mass() const {
+    T sum = 0;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) sum += motion(k).mass;
+    return sum;
+  }
+
+  Simulation simulation;
+
+ private:
+  T size_;
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+/// A cloud in free flight collides with itself: momentum is kept and no energy comes in.
+template <class ShapeT, class Law>
+void cloud(const ShapeT& shape, const Law& law, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  using A = Assembly<ShapeT, Law>;
+  using T = typename A::T;
+  const double rounding = double(std::numeric_limits<T>::epsilon());
+  A grains(shape, law, size);
+  grains.stir(T(1));
+  const auto before = grains.momentum();
+  const double energy = grains.kinetic_energy(), mass = double(grains.mass());
+  const T step = A::springs ? T(1e-5) : T(2e-4);
+  std::size_t points = 0;
+  double most = 0;
+  for (int k = 0; k < int(0.05 / double(step)); ++k) {
+    points += grains.simulation.step(step).points;
+    most = std::max(most, grains.kinetic_energy());
+  }
+  const auto after = grains.momentum();
+  CHECK(points > 0);
+  CHECK(double((after.linear - before.linear).norm()) < 1e5 * rounding * mass);
+  CHECK(double((after.angular - before.angular).norm()) < 1e5 * rounding * mass * double(size));
+  CHECK(most <= energy * (1 + (A::springs ? 0.02 : 1e4 * rounding)));
+}
+
+/// Falling into a box: what the walls push and gravity pulls is what the momentum changes by, no
+/// energy comes in, nothing sinks into anything.
+template <class ShapeT, class Law>
+void heap(const ShapeT& shape, const Law& law, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  using A = Assembly<ShapeT, Law>;
+  using T = typename A::T;
+  using Vector = typename A::Vector;
+  const double rounding = double(std::numeric_limits<T>::epsilon());
+  A grains(shape, law, size);
+  grains.add_box();
+  auto& simulation = grains.simulation;
+  const double energy = grains.kinetic_energy() + grains.potential_energy();
+  const double drop = double(grains.mass()) * 10 * double(size);
+  const T step = A::springs ? T(1e-5) : T(2e-4);
+  double deepest = 0, most = energy, worst = 0, scale = 0;
+  Vector loads = Vector::Zero();  // of the walls on the grains, before
+  for (int k = 0; k < int(0.15 / double(step)); ++k) {
+    const Vector start = grains.momentum().linear;
+    const auto report = simulation.step(step);
+    Vector push = Vector::Zero();
+    for (const auto wall : simulation.walls()) push -= simulation.contact_impulse(wall);
+    // Verlet acts with the mean of the forces at both ends of the step.
+    const Vector act = A::springs ? Vector((push + loads) / 2) : push;
+    loads = push;
+    const Vector pull = step * grains.mass() * simulation.gravity();
+    worst = std::max(worst, double((grains.momentum().linear - start - act - pull).norm()));
+    scale = std::max(scale, double(push.norm() + pull.norm()));
+    deepest = std::max(deepest, report.max_overlap);
+    most = std::max(most, grains.kinetic_energy() + grains.potential_energy());
+  }
+  CHECK(worst < 1e4 * rounding * scale + 1e4 * rounding * double(grains.mass()));
+  CHECK(deepest < (A::springs ? 0.05 : 0.01) * double(size));
+  CHECK(most - energy <= (A::springs ? 0.02 : 1e-3) * drop);
+}
+
+/// All of it.
+/// @param size diameter of a ball around the shape [m]
+template <class ShapeT, class Law>
+void world(const ShapeT& shape, const Law& law, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  cloud(shape, law, size);
+  heap(shape, law, size);
+}
+
+}  // namespace conformance

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+#include "conformance/law.hpp"
+#include "conformance/regularized_law.hpp"
+
+using namespace moreau;
+using conformance::lane_law, conformance::regularized_law, conformance::set_valued_law;
+
+TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>, Space<2, float>, Space<3, float>) {
+  using T = typename S::Scalar;
+  const SignoriniCoulomb<T> coulomb(T(0.4));
+  set_valued_law<S>(coulomb);
+  set_valued_law<S>(Frictionless<T>());
+  set_valued_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
+  set_valued_law<S>(RollingResistance<T>(T(0.4), T(0.2)));
+  lane_law<S>(coulomb);
+  lane_law<S>(Frictionless<T>());
+}
+
+TEST_CASE_TEMPLATE("regularized laws", S, Space<2>, Space<3>, Space<2, float>, Space<3, float>) {
+  using T = typename S::Scalar;
+  regularized_law<S>(LinearSpringDashpot<T>(T(1e5), T(8e4), T(0.4), T(0.5)), 1e-5);
+  regularized_law<S>(HertzMindlin<T>::of_material(T(1e8), T(0.3), T(0.4), T(0.5)), 1e-5);
+}
+
+TEST_CASE("the restitution of springs is what was asked for") {
+  using S = Space<3>;
+  for (const double e : {0.3, 0.6, 0.9}) {
+    // Linear: exact but for the end, where the dashpot would pull and the contact lets go.
+    const LinearSpringDashpot<> linear(1e6, 0, 0, e);
+    CHECK(conformance::rebound<S>(linear, 0.1, 1e-7) == doctest::Approx(e).epsilon(0.12));
+    CHECK(conformance::rebound<S>(linear, 0.1, 1e-7) >= e);
+    const HertzMindlin<> hertz(1e8, 0, 0, e);
+    CHECK(conformance::rebound<S>(hertz, 0.1, 1e-7) == doctest::Approx(e).epsilon(0.12));
+  }
+  CHECK(conformance::rebound<S>(LinearSpringDashpot<>(1e6), 0.1, 1e-7) ==
+        doctest::Approx(1).epsilon(1e-4));
+}
+
+TEST_CASE("a spring's impact lasts pi sqrt(m / k)") {
+  const LinearSpringDashpot<> law(1e6);
+  CHECK(law.duration(0.25) == doctest::Approx(3.14159265 * 5e-4));
+}
+
+TEST_CASE("static friction holds after rest, dynamic friction after slip") {
+  const SignoriniCoulomb<> law(0.2, 0, 0.5);
+  CHECK(law.variant(0).friction() == 0.5);
+  CHECK(law.variant(1).friction() == 0.2);
+  CHECK(law.variant_after(Eigen::Vector3d(0, 0, 0)) == 0);
+  CHECK(law.variant_after(Eigen::Vector3d(1, 0.3, 0)) == 0);
+  CHECK(law.variant_after(Eigen::Vector3d(1, 0.5, 0)) == 1);
+  CHECK(law.variant_after(Eigen::Vector3d(1, 0, -0.2)) == 1);
+  CHECK(SignoriniCoulomb<>(0.2).variant_after(Eigen::Vector2d(1, 0.1)) == 1);
+}
+
+TEST_CASE("rolling resistance without any is Coulomb's law") {
+  using S = Space<3>;
+  std::mt19937_64 random(1);
+  const RollingResistance<> law(0.4, 0);
+  for (int i = 0; i < 200; ++i) {
+    const conformance::LocalProblem<S, RollingResistance<>> p(random);
+    const auto r = law.solve(p.block, p.velocity, p.guess);
+    const Eigen::Vector3d coulomb = SignoriniCoulomb<>(0.4).solve(
+        p.block.point, Eigen::Vector3d(p.velocity.head<3>()), Eigen::Vector3d(p.guess.head<3>()));
+    CHECK((r.head<3>() - coulomb).norm() <= 1e-10 * (1 + coulomb.norm()));
+    CHECK(r.tail<3>().isZero(0));
+  }
+}
+
+TEST_CASE("what is out of range is named") {
+  using doctest::Contains;
+  CHECK_THROWS_WITH_AS(Frictionless<>(1.5), "Frictionless: restitution = 1.5 must lie in [0, 1]",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH(SignoriniCoulomb<>(0.4, 0, 0.3), Contains("static_friction = 0.3"));
+  CHECK_THROWS_WITH(Cohesive<>(SignoriniCoulomb<>(), -1), Contains("Cohesive: adhesion = -1"));
+  CHECK_THROWS_WITH(Cohesive<>(SignoriniCoulomb<>(), 1, -1), Contains("Cohesive: range = -1"));
+  CHECK_THROWS_WITH(RollingResistance<>(0.1, -1), Contains("RollingResistance: rolling = -1"));
+  CHECK_THROWS_WITH(LinearSpringDashpot<>(0), Contains("LinearSpringDashpot: stiffness = 0"));
+  CHECK_THROWS_WITH(LinearSpringDashpot<>(1, -1), Contains("tangential_stiffness = -1"));
+  CHECK_THROWS_WITH(LinearSpringDashpot<>(1, 1, -1), Contains("friction = -1"));
+  CHECK_THROWS_WITH(LinearSpringDashpot<>(1, 1, 1, 2), Contains("restitution = 2"));
+  CHECK_THROWS_WITH(HertzMindlin<>(-1), Contains("HertzMindlin: young = -1"));
+  CHECK_THROWS_WITH(HertzMindlin<>(1, -1), Contains("shear = -1"));
+  CHECK_THROWS_WITH(HertzMindlin<>::of_material(1, 0.7, 0, 0), Contains("poisson = 0.7"));
+}

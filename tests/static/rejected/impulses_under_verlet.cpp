@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// A set-valued law under an integrator of forces.
+// expect: a set-valued law gives impulses, which an integrator of forces such as VelocityVerlet
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/sphere.hpp"
+#include "moreau/world/simulation.hpp"
+
+#ifdef MOREAU_CORRECTED
+using Integrator = moreau::MoreauJean;
+#else
+using Integrator = moreau::VelocityVerlet;
+#endif
+
+using Law = moreau::SignoriniCoulomb<double>;
+moreau::Simulation<moreau::Ball<double>, Law, Integrator> simulation(0.01,
+                                                                     moreau::Materials<Law>(1));
