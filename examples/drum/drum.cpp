@@ -22,7 +22,7 @@ namespace setup {
 constexpr double radius = 0.1, slice = 0.03;  // of the drum, depth in space [m]
 constexpr double size = 0.01;                 // of a grain, and of the grid they start on [m]
 constexpr double rate = 0.6;                  // of the drum [rad/s]
-constexpr double h = 5e-4, warm_up = 2, duration = 6;  // [s]
+constexpr double h = 5e-4, warm_up = 1.5, duration = 4;  // [s]
 }  // namespace setup
 
 /// Random grains on a grid in the lower half of the drum.

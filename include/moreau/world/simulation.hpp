@@ -139,7 +139,9 @@ class Simulation {
     return body;
   }
   /// Adds a drum that grains are in, the inside of an infinite cylinder (in the plane: a circle):
-  /// fixed, or moving as set_velocity and set_spin say, e.g. set_spin(drum, rate * axis).
+  /// fixed, or moving as set_velocity and set_spin say, e.g. set_spin(drum, rate * axis). It is
+  /// none of walls() and cannot have a mass; laws that ask for a radius of contact take it for
+  /// flat.
   /// @param point  any point of its axis [m]
   /// @param axis   unit, as that of a rotation: in the plane the number 1 or -1
   /// @param radius [m], > 0
