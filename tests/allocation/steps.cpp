@@ -130,3 +130,31 @@ TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau:
   Eigen::internal::set_is_malloc_allowed(true);
   CHECK(allocations == before);
 }
+
+TEST_CASE_TEMPLATE("nor does one that drifts through a periodic cell, in a cylinder", ShapeT,
+                   moreau::Polyhedron<>, moreau::Sphere<moreau::Space<3>>) {
+  using S = moreau::Space<3>;
+  using Law = scenes::LawOf<ShapeT>;
+  const S::Vector drift(0, 0.5, 0);
+  scenes::World<ShapeT> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
+  world.set_periodic(1, 0, 0.08);
+  const auto shape = world.add_shape([] {
+    if constexpr (std::is_constructible_v<ShapeT, double>)
+      return ShapeT(0.01);
+    else
+      return scenes::cuboid<ShapeT>(S::Vector::Constant(0.008));
+  }());
+  for (int k = 0; k < 12; ++k) {
+    const S::Vector x(0.022 * (k % 3 - 1), 0.02 * (k / 3), -0.03);
+    world.set_velocity(world.add_grain(shape, {x, S::identity()}, 2700), drift);
+  }
+  world.set_velocity(world.add_cylinder(S::Vector::Zero(), S::Vector::UnitY(), 0.06), drift);
+  world.set_gravity(S::Vector(0, 0, -9.81));
+  for (int k = 0; k < 1500; ++k) world.step(5e-4);
+  const long before = allocations;
+  Eigen::internal::set_is_malloc_allowed(false);
+  for (int k = 0; k < rounds(400); ++k) world.step(5e-4);
+  Eigen::internal::set_is_malloc_allowed(true);
+  CHECK(allocations == before);
+  CHECK(world.contacts().size() >= 12);
+}

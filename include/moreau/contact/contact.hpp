@@ -14,7 +14,8 @@
 
 namespace moreau {
 
-/// What the solver reads of one contact point.
+/// What the solver reads of one contact point. Across a periodic boundary, the centre of b is that
+/// of the image which touches.
 template <class S>
 struct Contact {
   std::uint32_t a, b;          ///< bodies

@@ -9,6 +9,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/detect/periodic_cell.hpp"
 
 namespace moreau {
 
@@ -32,10 +33,12 @@ struct ContactSegment {
 /// @param step        impulses are divided by it [s]
 /// @param position_of body -> its centre of mass in world axes [m]
 /// @param is_grain    body -> false for a wall
+/// @param cell        if it is periodic: the segment begins at the position of a and ends at that
+///                    image of b which the contact is with
 template <class S>
 ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
                                   typename S::Scalar step, const auto& position_of,
-                                  const auto& is_grain) {
+                                  const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   const Contact<S>& contact = contacts.points[c];
   const typename S::Vector& impulse = contacts.impulses[c];
   const std::uint32_t grain = is_grain(contact.a) ? contact.a : contact.b;
@@ -51,7 +54,8 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
                             contact.gap,
                             contacts.classes[c]};
   if (is_grain(contact.a)) segment.from = position_of(contact.a);
-  if (is_grain(contact.b)) segment.to = position_of(contact.b);
+  if (is_grain(contact.b))
+    segment.to = cell.nearest(position_of(contact.b), point - contact.lever_b);
   return segment;
 }
 
@@ -59,23 +63,25 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
 /// @throws std::invalid_argument if the step is not positive
 template <class S>
 void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
-                  const auto& is_grain, std::vector<ContactSegment<S>>& segments) {
+                  const auto& is_grain, std::vector<ContactSegment<S>>& segments,
+                  const PeriodicCell<S>& cell = {}) {
   require(step > 0, "force_chains", "step", step, "must be > 0");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (contacts.impulses[c][0] > 0)
-      segments.push_back(contact_segment(contacts, c, step, position_of, is_grain));
+      segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
 /// Fills `segments` with every contact, those without force too.
 /// @throws std::invalid_argument if the step is not positive
 template <class S>
 void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
-                      const auto& is_grain, std::vector<ContactSegment<S>>& segments) {
+                      const auto& is_grain, std::vector<ContactSegment<S>>& segments,
+                      const PeriodicCell<S>& cell = {}) {
   require(step > 0, "contact_segments", "step", step, "must be > 0");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    segments.push_back(contact_segment(contacts, c, step, position_of, is_grain));
+    segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
 }  // namespace moreau

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/detect/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {
@@ -18,6 +19,9 @@ namespace moreau {
 /// @param control_volume world axes [m]
 /// @param position_of    body -> its centre of mass in world axes [m]
 /// @param is_grain       body -> false for a wall
+/// @param cell           if it is periodic: a point counts if an image of it lies in the control
+///                       volume, which is at most as long as the cell; any image of a position will
+///                       do, as branches are differences of levers
 /// @returns [Pa], in the plane [N/m]
 /// @throws std::invalid_argument if the step is not positive or the control volume is no box
 /// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.
@@ -25,7 +29,7 @@ namespace moreau {
 template <class S>
 typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scalar step,
                                   const Aabb<S>& control_volume, const auto& position_of,
-                                  const auto& is_grain) {
+                                  const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   using Vector = typename S::Vector;
   require(step > 0, "contact_stress", "step", step, "must be > 0");
   require_control_volume(control_volume, "contact_stress");
@@ -33,8 +37,9 @@ typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scala
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<S>& contact = contacts.points[c];
     const bool a_is_grain = is_grain(contact.a), b_is_grain = is_grain(contact.b);
-    const Vector point = a_is_grain ? Vector(position_of(contact.a) + contact.lever_a)
-                                    : Vector(position_of(contact.b) + contact.lever_b);
+    const Vector point = cell.image_from(
+        control_volume.lower, a_is_grain ? Vector(position_of(contact.a) + contact.lever_a)
+                                         : Vector(position_of(contact.b) + contact.lever_b));
     const bool inside = (control_volume.lower.array() <= point.array()).all() &&
                         (point.array() <= control_volume.upper.array()).all();
     if (!inside) continue;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "moreau/detect/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {
@@ -52,8 +53,10 @@ class VelocityField {
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to
   /// average in time.
-  void add(const Vector& position, const Vector& velocity) {
-    const Vector share = (position - box_.lower).cwiseQuotient(box_.upper - box_.lower);
+  /// @param position in a periodic cell, of any image
+  void add(const Vector& position, const Vector& velocity, const PeriodicCell<S>& periodic = {}) {
+    const Vector image = periodic.image_from(box_.lower, position);
+    const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
     Cell& cell = cells_[index(share[S::dim - 1], rows_) * columns_ + index(share[0], columns_)];
     cell.velocity += section(velocity);

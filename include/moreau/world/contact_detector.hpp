@@ -2,6 +2,10 @@
 // From poses to contacts: place the shapes, find the pairs (kept over steps within a skin), collide
 // each pair, write its points down. Every buffer is kept; nothing is allocated once they have
 // grown.
+//
+// In a periodic cell poses are never wrapped: each pair carries the whole cells that bring its
+// second grain as it lies next to its first. As grains do not jump, these stay the same for as long
+// as the list of pairs is kept.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +18,13 @@
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
+#include "moreau/detect/collide_cylinder_wall.hpp"
+#include "moreau/detect/image_pairs.hpp"
+#include "moreau/detect/periodic_cell.hpp"
 #include "moreau/detect/reduce.hpp"
 #include "moreau/detect/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 
 namespace moreau {
@@ -40,13 +48,34 @@ class ContactDetector {
  public:
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
 
   void add_grain(BodyId body, const ShapeT& shape) {
-    grains_.push_back({body, Placed<ShapeT>(shape)});
+    grains_.push_back({body, &shape, Placed<ShapeT>(shape)});
+    widest_ = std::max(widest_, width(shape));
     stale_ = true;
   }
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
     walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
+  }
+  void add_wall(BodyId body, const CylinderWall<S>& shape) {
+    cylinders_.push_back({body, shape, Placed<CylinderWall<S>>(shape)});
+  }
+  /// @throws std::invalid_argument in the name of the function if the cell is too short for the
+  ///         grains there are, or a wall bounds a periodic axis where it is placed
+  void set_cell(const PeriodicCell<S>& cell, const DetectionLengths<Scalar>& lengths,
+                const char* function) {
+    cell.require_room(widest_ + around(lengths), function);
+    for (const auto& wall : walls_) cell.require_along(wall.placed.normal(), function);
+    for (const auto& wall : cylinders_) cell.require_around(wall.placed.axis(), function);
+    cell_ = cell;
+    shifts_.clear();
+    stale_ = true;
+  }
+  const PeriodicCell<S>& cell() const { return cell_; }
+  /// The width that the cell must have twice, at least, with a grain of this shape [m].
+  Scalar room_of(const ShapeT& shape, const DetectionLengths<Scalar>& lengths) const {
+    return std::max(widest_, width(shape)) + around(lengths);
   }
 
   /// Refreshes the world-frame shapes and their boxes.
@@ -56,10 +85,15 @@ class ContactDetector {
     boxes_.resize(grains_.size());
     for (std::size_t k = 0; k < grains_.size(); ++k) {
       const Pose<S>& pose = poses[grains_[k].body.index()];
-      grains_[k].placed.update(shape_of(k), pose);
+      grains_[k].shape = &shape_of(k);
+      grains_[k].placed.update(*grains_[k].shape, pose);
       boxes_[k] = grains_[k].placed.bounding_box();
     }
-    for (Wall& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
+    place_walls(poses);
+  }
+  void place_walls(std::span<const Pose<S>> poses) {
+    for (auto& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
+    for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
   }
 
   void keep_points(ContactPoints points) { kept_points_ = points; }
@@ -78,7 +112,10 @@ class ContactDetector {
       fat_[k] = boxes_[k].inflated(reach + lengths.skin);
     old_pairs_.swap(pairs_);
     old_caches_.swap(caches_);
-    broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
+    if (cell_.is_open())
+      broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
+    else
+      images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
     carry_caches();
   }
 
@@ -96,17 +133,24 @@ class ContactDetector {
       const auto& a = grains_[k];
       const Aabb<S> reach = boxes_[k].inflated(lengths.margin);
       for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
-        const auto& b = grains_[pairs_[p].second];
-        if (!reach.overlaps(boxes_[pairs_[p].second])) continue;
+        const std::size_t second = pairs_[p].second;
+        auto& b = grains_[second];
+        const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
+        if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
+                      : reach.overlaps(boxes_[second])))
+          continue;
+        if (crosses) place(b, poses, shifts_[p]);
         if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
-          emit(a.body, b.body, poses, materials, laws, previous, out);
+          emit(a, b, materials, laws, previous, out);
+        if (crosses) place(b, poses, Vector::Zero());
       }
-      for (const Wall& wall : walls_) {
+      for (const auto& wall : walls_) {
         if (!reaches(boxes_[k], wall.placed, lengths.margin)) continue;
         PairCache<S> none;
         if (collide(a.placed, wall.placed, lengths.margin, manifold_, none))
-          emit(a.body, wall.body, poses, materials, laws, previous, out);
+          emit(a, wall, materials, laws, previous, out);
       }
+      if (!cylinders_.empty()) detect_in_cylinders(k, lengths.margin, materials, laws, out);
     }
     sort(out);
   }
@@ -118,17 +162,46 @@ class ContactDetector {
  private:
   struct Grain {
     BodyId body;
+    const ShapeT* shape;
     Placed<ShapeT> placed;
   };
+  template <class WallShape>
   struct Wall {
     BodyId body;
-    HalfSpace<S> shape;
-    Placed<HalfSpace<S>> placed;
+    WallShape shape;
+    Placed<WallShape> placed;
   };
 
+  /// Of a grain however it is turned [m].
+  static Scalar width(const ShapeT& shape) {
+    if constexpr (requires { shape.circumradius(); }) {
+      return 2 * shape.circumradius();
+    } else {
+      const Aabb<S> box = shape.bounding_box(Pose<S>{});
+      return 2 * box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
+    }
+  }
+  /// What find_pairs() keeps around a grain, on both sides together [m].
+  static Scalar around(const DetectionLengths<Scalar>& lengths) {
+    return lengths.margin + 2 * lengths.skin;
+  }
+
+  static Aabb<S> moved(const Aabb<S>& box, const Vector& shift) {
+    return {box.lower + shift, box.upper + shift};
+  }
+  /// Where the grain's image is.
+  static void place(Grain& grain, std::span<const Pose<S>> poses, const Vector& shift) {
+    Pose<S> pose = poses[grain.body.index()];
+    pose.position += shift;
+    if constexpr (requires { grain.placed.move_to(pose.position); })
+      grain.placed.move_to(pose.position);
+    else
+      grain.placed.update(*grain.shape, pose);
+  }
+
   static bool reaches(const Aabb<S>& box, const Placed<HalfSpace<S>>& wall, Scalar margin) {
-    const typename S::Vector center = (box.lower + box.upper) / 2 - wall.center();
-    const typename S::Vector half = (box.upper - box.lower) / 2;
+    const Vector center = (box.lower + box.upper) / 2 - wall.center();
+    const Vector half = (box.upper - box.lower) / 2;
     return wall.normal().dot(center) - wall.normal().cwiseAbs().dot(half) <= margin;
   }
 
@@ -147,19 +220,36 @@ class ContactDetector {
   }
 
   template <class Law>
-  void emit(BodyId a, BodyId b, std::span<const Pose<S>> poses,
-            std::span<const MaterialId> materials, const Materials<Law>& laws,
-            const Contacts<S>& previous, Contacts<S>& out) {
+  void detect_in_cylinders(std::size_t k, Scalar margin, std::span<const MaterialId> materials,
+                           const Materials<Law>& laws, Contacts<S>& out) {
+    const Grain& a = grains_[k];
+    for (const auto& wall : cylinders_) {
+      if (!wall.placed.reaches(boxes_[k], margin)) continue;
+      touching_ += collide_each(a.placed, wall.placed, margin, manifold_,
+                                [&] { write(a, wall, materials, laws, out); });
+    }
+  }
+
+  template <class Law>
+  void emit(const Grain& a, const auto& b, std::span<const MaterialId> materials,
+            const Materials<Law>& laws, const Contacts<S>& previous, Contacts<S>& out) {
     ++touching_;
-    keep_few(a.value, b.value, previous);
+    keep_few(a.body.value, b.body.value, previous);
+    write(a, b, materials, laws, out);
+  }
+
+  /// The points of the manifold, seen from the centres of where the two are placed.
+  template <class Law>
+  void write(const Grain& a, const auto& b, std::span<const MaterialId> materials,
+             const Materials<Law>& laws, Contacts<S>& out) {
     const typename S::Matrix frame = S::contact_frame(manifold_.normal);
-    const auto law =
-        static_cast<std::uint32_t>(laws.law_index(materials[a.index()], materials[b.index()]));
+    const auto law = static_cast<std::uint32_t>(
+        laws.law_index(materials[a.body.index()], materials[b.body.index()]));
     for (const ManifoldPoint<S>& point : manifold_.points) {
-      out.points.push_back({a.value, b.value, law, point.gap, frame,
-                            point.position - poses[a.index()].position,
-                            point.position - poses[b.index()].position});
-      out.keys.push_back({a.value, b.value, point.feature});
+      out.points.push_back({a.body.value, b.body.value, law, point.gap, frame,
+                            point.position - a.placed.center(),
+                            point.position - b.placed.center()});
+      out.keys.push_back({a.body.value, b.body.value, point.feature});
       out.classes.push_back(manifold_.contact_class);
     }
   }
@@ -197,10 +287,14 @@ class ContactDetector {
   }
 
   std::vector<Grain> grains_;
-  std::vector<Wall> walls_;
+  std::vector<Wall<HalfSpace<S>>> walls_;
+  std::vector<Wall<CylinderWall<S>>> cylinders_;
+  PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
+  ImagePairs<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
+  std::vector<Vector> shifts_;  // of the second of each pair to the first; none in an open cell
   std::vector<PairCache<S>> caches_, old_caches_;
   Manifold<S> manifold_;
   ContactPoints kept_points_ = ContactPoints::few;
@@ -209,6 +303,7 @@ class ContactDetector {
   Contacts<S> scratch_;
   std::vector<std::uint32_t> order_;
   std::size_t touching_ = 0;
+  Scalar widest_ = 0;  // of the grains, however they turn [m]
   bool stale_ = true;
 };
 

@@ -22,6 +22,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/broad_phase.hpp"
+#include "moreau/detect/periodic_cell.hpp"
 #include "moreau/detect/reduce.hpp"
 #include "moreau/detect/sweep_and_prune.hpp"
 #include "moreau/integrate/bodies.hpp"
@@ -32,6 +33,7 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
@@ -40,15 +42,9 @@
 #include "moreau/world/impulse_dynamics.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
+#include "moreau/world/tolerances.hpp"
 
 namespace moreau {
-
-/// Lengths that act as tolerances, each relative to the grain size.
-struct Tolerances {
-  double margin = 0.02;  ///< alert distance: a contact enters at this gap; must exceed speed x step
-  double skin = 0.05;    ///< the pair list is kept until a box has moved this far
-  double resolution = 1e-3;  ///< contact points of a pair closer together than this are one
-};
 
 /// What goes with a law unless the user says otherwise.
 template <class Law, class S>
@@ -117,6 +113,7 @@ class Simulation {
             "must be finite and > 0");
     require(mass.center.norm() <= Scalar(1e-3) * grain_size_, self, "center of mass", mass.center,
             "must be the origin of the shape's frame");
+    cell().require_room(detector_.room_of(shapes_[shape.index()], lengths()), self);
     const BodyId body = push_body(pose, material, self);
     set_inertia(body.index(), Vector::Constant(1 / mass.mass), mass.inertia, mass.mass);
     detector_.add_grain(body, shapes_[shape.index()]);
@@ -131,6 +128,7 @@ class Simulation {
     constexpr const char* self = "Simulation::add_wall";
     require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
     require(point.allFinite(), self, "point", point, "must be finite");
+    cell().require_along(normal, self);
     Pose<S> pose;
     pose.position = point;
     pose.rotation = S::normalized(typename S::Rotation(S::contact_frame(normal)));
@@ -140,6 +138,45 @@ class Simulation {
     walls_.push_back(body);
     return body;
   }
+  /// Adds a drum that grains are in, the inside of an infinite cylinder (in the plane: a circle):
+  /// fixed, or moving as set_velocity and set_spin say, e.g. set_spin(drum, rate * axis). It is
+  /// none of walls() and cannot have a mass; laws that ask for a radius of contact take it for
+  /// flat.
+  /// @param point  any point of its axis [m]
+  /// @param axis   unit, as that of a rotation: in the plane the number 1 or -1
+  /// @param radius [m], > 0
+  BodyId add_cylinder(const Vector& point, const typename S::Angular& axis, Scalar radius,
+                      MaterialId material = MaterialId(0)) {
+    constexpr const char* self = "Simulation::add_cylinder";
+    require(point.allFinite(), self, "point", point, "must be finite");
+    require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
+    require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
+    cell().require_around(axis, self);
+    Pose<S> pose;
+    pose.position = point;
+    const BodyId body = push_body(pose, material, self);
+    detector_.add_wall(body, CylinderWall<S>(axis, radius));
+    return body;
+  }
+
+  /// Makes an axis periodic: what leaves the cell at one end enters it at the other, and grains
+  /// meet across. Poses are not wrapped, so that displacements can be read off them; cell().wrap()
+  /// says where in the cell a point is. Call it again for another axis, for other bounds, or with
+  /// infinite ones to open the axis; after a change of length, grains that had left the cell are
+  /// elsewhere in it.
+  /// @param axis         0 for x, 1 for y, ..
+  /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
+  /// @throws std::invalid_argument for an axis or bounds that are none, a wall across the axis, or
+  ///         a cell not longer than two of the widest grain, each with margin and skins, so that a
+  ///         pair could meet through two images
+  void set_periodic(int axis, Scalar lower, Scalar upper) {
+    constexpr const char* self = "Simulation::set_periodic";
+    PeriodicCell<S> cell = detector_.cell();
+    cell.set(axis, lower, upper, self);
+    detector_.place_walls(bodies_.pose);
+    detector_.set_cell(cell, lengths(), self);
+  }
+  const PeriodicCell<S>& cell() const { return detector_.cell(); }
 
   /// Lets a wall move along its normal as a body of this mass, under set_force and the contacts.
   /// Gravity does not act on walls. An infinite mass makes it a fixed or driven wall again.
@@ -241,12 +278,7 @@ class Simulation {
         dynamics_(std::move(dynamics)) {
     require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
             "must be finite and > 0");
-    require(std::isfinite(tolerances.margin) && tolerances.margin > 0, "Simulation", "margin",
-            tolerances.margin, "must be finite and > 0");
-    require(std::isfinite(tolerances.skin) && tolerances.skin >= 0, "Simulation", "skin",
-            tolerances.skin, "must be finite and >= 0");
-    require(std::isfinite(tolerances.resolution) && tolerances.resolution >= 0, "Simulation",
-            "resolution", tolerances.resolution, "must be finite and >= 0");
+    tolerances.check("Simulation");
   }
 
   struct Grain {
@@ -294,28 +326,23 @@ class Simulation {
         weight > 0 ? inverse_root<S>(inertia) : S::Inertia::Zero().eval();
   }
 
+  DetectionLengths<Scalar> lengths() const {
+    return {static_cast<Scalar>(tolerances_.margin) * grain_size_,
+            static_cast<Scalar>(tolerances_.skin) * grain_size_,
+            static_cast<Scalar>(tolerances_.resolution) * grain_size_};
+  }
+
   void detect(StepReport& report) {
-    const DetectionLengths<Scalar> lengths{
-        static_cast<Scalar>(tolerances_.margin) * grain_size_,
-        static_cast<Scalar>(tolerances_.skin) * grain_size_,
-        static_cast<Scalar>(tolerances_.resolution) * grain_size_};
     const std::span<const Pose<S>> poses(bodies_.pose);
     std::swap(contacts_, previous_);
     detector_.place(poses, [&](std::size_t k) -> const ShapeT& { return shape_of_grain(k); });
-    detector_.find_pairs(lengths);
-    detector_.detect(lengths, poses, std::span<const MaterialId>(bodies_.material), materials_,
+    detector_.find_pairs(lengths());
+    detector_.detect(lengths(), poses, std::span<const MaterialId>(bodies_.material), materials_,
                      previous_, contacts_);
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
-    std::size_t overlapping = 0;
-    for (const Contact<S>& contact : contacts_.points) {
-      if (!(contact.gap < 0)) continue;
-      report.max_overlap = std::max(report.max_overlap, -double(contact.gap));
-      report.mean_overlap -= double(contact.gap);
-      ++overlapping;
-    }
-    if (overlapping > 0) report.mean_overlap /= double(overlapping);
+    report.measure_overlaps(contacts_);
   }
 
   Scalar grain_size_;

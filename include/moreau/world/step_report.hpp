@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
+#include "moreau/contact/contact.hpp"
 #include "moreau/solve/report.hpp"
 #include "moreau/world/overlap_correction.hpp"
 
@@ -22,6 +24,19 @@ struct StepReport {
   double ms_detect = 0;
   double ms_solve = 0;  ///< contact problem, with assembly and correction
   double ms_total = 0;
+
+  /// Adds the contacts' overlaps to a report that has none.
+  template <class S>
+  void measure_overlaps(const Contacts<S>& contacts) {
+    std::size_t overlapping = 0;
+    for (const Contact<S>& contact : contacts.points) {
+      if (!(contact.gap < 0)) continue;
+      max_overlap = std::max(max_overlap, -double(contact.gap));
+      mean_overlap -= double(contact.gap);
+      ++overlapping;
+    }
+    if (overlapping > 0) mean_overlap /= double(overlapping);
+  }
 };
 
 }  // namespace moreau

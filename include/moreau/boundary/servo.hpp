@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Walls that keep a pressure. Both kinds are applied by the time loop before each step:
+//
+//   PressureLoad  lid(world, wall, 1e4, mass, [&] { return width * depth; });
+//   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
+//   for (...) { lid.apply(world, h); world.step(h); }
+//
+// PressureLoad gives the wall a mass and lets the force pressure x area act on it. At rest the
+// grains carry that force to the solver's residual, whatever they are made of; the mass says how
+// fast the wall follows. It is the one for rigid grains.
+//
+// PressureServo moves the wall at v = gain (pressure - measured), as the servo walls of other codes
+// do. It needs grains that yield (a regularized law): what it measures has to change gradually with
+// where the wall is. With k the stiffness of the sample as the wall sees it [N/m], the error then
+// shrinks by gain k h / area per step: keep that below 1 (at 2 it is unstable).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <utility>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
+
+namespace moreau {
+
+/// Gives the area that a pressure acts on at the time of the call [m^2], in the plane the length
+/// [m]; it may change as other walls move.
+template <class F>
+concept AreaFunction = requires(const F area) {
+  { area() } -> std::convertible_to<double>;
+};
+
+/// Pressure of the contacts on a wall (a half-space) over the last step [Pa], in the plane [N/m];
+/// > 0 if the grains push.
+/// @param step its length [s], > 0
+/// @param area [m^2], > 0
+/// @throws std::invalid_argument unless step and area are positive, or for a body that is none
+template <class Simulation>
+typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
+                                          typename Simulation::Scalar step,
+                                          typename Simulation::Scalar area) {
+  require(step > 0, "wall_pressure", "step", step, "must be > 0");
+  require(std::isfinite(area) && area > 0, "wall_pressure", "area", area, "must be finite and > 0");
+  const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
+  return -simulation.bodies().axes(wall.index()).col(0).dot(impulse) / (step * area);
+}
+
+namespace detail {
+
+/// The area now.
+template <class T>
+T checked_area(const auto& area, const char* function) {
+  const auto now = static_cast<T>(area());
+  require(std::isfinite(now) && now > 0, function, "area", now, "must be finite and > 0");
+  return now;
+}
+
+}  // namespace detail
+
+/// A constant pressure on a wall with a mass: exact where the wall is at rest.
+template <AreaFunction Area>
+class PressureLoad {
+ public:
+  /// Gives the wall its mass and stops it.
+  /// @param wall     a half-space of the simulation
+  /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, on the grains
+  /// @param mass     of the wall [kg], > 0; that of the grains is a good choice
+  /// @param area     called before every step
+  /// @throws std::invalid_argument for a body that is no wall or numbers out of range
+  template <class Simulation>
+  PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
+      : wall_(wall), pressure_(pressure), area_(std::move(area)) {
+    require(std::isfinite(pressure), "PressureLoad", "pressure", pressure, "must be finite");
+    require(std::isfinite(mass) && mass > 0, "PressureLoad", "mass", mass,
+            "must be finite and > 0");
+    using Scalar = typename Simulation::Scalar;
+    simulation.set_wall_mass(wall, static_cast<Scalar>(mass));
+    simulation.set_velocity(wall, Simulation::Vector::Zero());
+  }
+
+  /// Sets the force for the next step. The step is not needed; drives have it.
+  template <class Simulation>
+  void apply(Simulation& simulation, typename Simulation::Scalar = 0) const {
+    using Scalar = typename Simulation::Scalar;
+    const Scalar area = detail::checked_area<Scalar>(area_, "PressureLoad::apply");
+    simulation.set_force(wall_, static_cast<Scalar>(pressure_) * area *
+                                    simulation.bodies().axes(wall_.index()).col(0));
+  }
+
+ private:
+  BodyId wall_;
+  double pressure_;
+  Area area_;
+};
+
+/// A pressure kept by the velocity of a wall without mass.
+template <AreaFunction Area>
+class PressureServo {
+ public:
+  /// @param wall     a half-space without mass
+  /// @param pressure to keep [Pa], in the plane [N/m]
+  /// @param gain     velocity per missing pressure [m/(s Pa)], > 0
+  /// @param limit    the largest speed [m/s], > 0; margin x grain size / step at most, or the wall
+  ///                 runs into grains before they are seen
+  /// @param area     called before every step
+  /// @throws std::invalid_argument for numbers out of range
+  PressureServo(BodyId wall, double pressure, double gain, double limit, Area area)
+      : wall_(wall), pressure_(pressure), gain_(gain), limit_(limit), area_(std::move(area)) {
+    constexpr const char* self = "PressureServo";
+    require(std::isfinite(pressure), self, "pressure", pressure, "must be finite");
+    require(std::isfinite(gain) && gain > 0, self, "gain", gain, "must be finite and > 0");
+    require(std::isfinite(limit) && limit > 0, self, "limit", limit, "must be finite and > 0");
+  }
+
+  /// Sets the velocity for the next step by the pressure of the last one.
+  /// @param step length of the last step [s], > 0
+  template <class Simulation>
+  void apply(Simulation& simulation, typename Simulation::Scalar step) const {
+    using Scalar = typename Simulation::Scalar;
+    const Scalar area = detail::checked_area<Scalar>(area_, "PressureServo::apply");
+    const double missing = pressure_ - double(wall_pressure(simulation, wall_, step, area));
+    const double speed = std::clamp(gain_ * missing, -limit_, limit_);
+    simulation.set_velocity(
+        wall_, static_cast<Scalar>(speed) * simulation.bodies().axes(wall_.index()).col(0));
+  }
+
+ private:
+  BodyId wall_;
+  double pressure_, gain_, limit_;
+  Area area_;
+};
+
+}  // namespace moreau

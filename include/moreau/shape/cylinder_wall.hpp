@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/space.hpp"
+
+namespace moreau {
+
+/// All points farther than a radius from an axis through the body's origin: in space the outside of
+/// an infinite cylinder, in the plane of a circle. It models a drum that grains are in; like
+/// HalfSpace it has no mass and no box, so it is no Shape.
+template <class S>
+class CylinderWall {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Angular = typename S::Angular;
+
+  /// @param axis   that of a rotation, body coordinates, of any length but zero: a vector in space,
+  ///               a number in the plane, where the axis is normal to it
+  /// @param radius [m], > 0
+  /// @throws std::invalid_argument if the axis is not finite or zero, or for a radius that is not
+  ///         finite or not positive
+  CylinderWall(const Angular& axis, Scalar radius)
+      : axis_(axis.stableNormalized()), radius_(radius) {
+    require(axis.allFinite(), "CylinderWall", "axis", axis, "must be finite");
+    require(axis != Angular::Zero(), "CylinderWall", "axis", axis, "must not be zero");
+    require(std::isfinite(radius) && radius > 0, "CylinderWall", "radius", radius,
+            "must be finite and > 0");
+  }
+
+  const Angular& axis() const { return axis_; }  ///< unit
+  Scalar radius() const { return radius_; }      ///< [m]
+
+ private:
+  Angular axis_;
+  Scalar radius_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Walls under forces and velocities that are functions of time, and walls that keep a pressure.
+#include "moreau/boundary/drive.hpp"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <numbers>
+
+#include "moreau/boundary/servo.hpp"
+
+#include "world/assemblies.hpp"
+
+using moreau::BodyId;
+using moreau::ForceDrive;
+using moreau::HarmonicForce;
+using moreau::Polygon;
+using moreau::Polyhedron;
+using moreau::PressureLoad;
+using moreau::PressureServo;
+using moreau::Space;
+using moreau::Sphere;
+using moreau::VelocityDrive;
+
+namespace {
+
+using Law = moreau::SignoriniCoulomb<double>;
+
+/// A wall without grains, its normal along x.
+template <class ShapeT>
+struct LoneWall {
+  using Vector = typename moreau::SpaceOf<ShapeT>::Vector;
+  scenes::World<ShapeT> simulation{0.02, moreau::Materials<Law>(1)};
+  BodyId wall = simulation.add_wall(Vector::UnitX(), Vector::Zero());
+
+  double x() const { return simulation.bodies().pose[wall.index()].position[0]; }
+  double v() const { return simulation.bodies().velocity[wall.index()][0]; }
+};
+
+}  // namespace
+
+TEST_CASE("the harmonic force swings between its bounds from the mean downwards") {
+  const HarmonicForce f(100, 500, 5, 0.25);
+  CHECK(f(0.25) == 300);
+  CHECK(f(0.3) == doctest::Approx(100));
+  CHECK(f(0.4) == doctest::Approx(500));
+  CHECK(HarmonicForce(-1, 3, 0)(7) == 1);
+}
+
+TEST_CASE_TEMPLATE("a wall without grains moves as the force says, to second order", ShapeT,
+                   Sphere<Space<3>>, Sphere<Space<2>>) {
+  using Vector = typename LoneWall<ShapeT>::Vector;
+  const double fmin = -20, fmax = 60, frequency = 4, mass = 2;
+  const double w = 2 * std::numbers::pi * frequency;
+  const double mean = (fmin + fmax) / 2, amplitude = (fmax - fmin) / 2;
+  double errors[2];
+  for (int refine = 0; refine < 2; ++refine) {
+    LoneWall<ShapeT> scene;
+    scene.simulation.set_wall_mass(scene.wall, mass);
+    const ForceDrive drive(scene.wall, -Vector::UnitX(), HarmonicForce(fmin, fmax, frequency));
+    const double h = 2e-3 / (1 << refine);
+    errors[refine] = 0;
+    while (scene.simulation.time() < 1) {
+      drive.apply(scene.simulation, h);
+      scene.simulation.step(h);
+      const double t = scene.simulation.time();
+      const double v = -(mean * t - amplitude * (1 - std::cos(w * t)) / w) / mass;
+      const double x = -(mean * t * t / 2 - amplitude * (t / w - std::sin(w * t) / (w * w))) / mass;
+      errors[refine] = std::max({errors[refine], std::abs(scene.x() - x), std::abs(scene.v() - v)});
+    }
+  }
+  CHECK(errors[0] < 1e-3);
+  CHECK(errors[0] / errors[1] == doctest::Approx(4).epsilon(0.05));
+}
+
+TEST_CASE("a driven velocity is taken in the middle of the step") {
+  LoneWall<Sphere<Space<2>>> scene;
+  const VelocityDrive drive(scene.wall, Space<2>::Vector(1, 0), [](double t) { return 3 * t * t; });
+  const double h = 1e-3;
+  for (int k = 0; k < 1000; ++k) {
+    drive.apply(scene.simulation, h);
+    CHECK(scene.v() == doctest::Approx(3 * std::pow((k + 0.5) * h, 2)));
+    scene.simulation.step(h);
+  }
+  // The midpoint rule lacks h^2/4 of t^3.
+  CHECK(scene.x() == doctest::Approx(1 - h * h / 4).epsilon(1e-10));
+}
+
+TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT, Polyhedron<>, Polygon<>,
+                   Sphere<Space<3>>, Sphere<Space<2>>) {
+  using Scene = scenes::BoxOfGrains<ShapeT>;
+  using Vector = typename Scene::Vector;
+  Scene scene(18);
+  const double h = 5e-4, pressure = Scene::up == 1 ? 2e3 : 5e3;
+  const BodyId lid =
+      scene.simulation.add_wall(-Vector::Unit(Scene::up), 0.2 * Vector::Unit(Scene::up));
+  const double area = std::pow(0.08, double(Scene::up));
+  const PressureLoad load(scene.simulation, lid, pressure, 0.5, [&] { return area; });
+  double mean = 0;
+  const int settle = 1200, last = 100;
+  for (int k = 0; k < settle + last; ++k) {
+    load.apply(scene.simulation, h);
+    scene.simulation.step(h);
+    if (k >= settle) mean += moreau::wall_pressure(scene.simulation, lid, h, area) / last;
+  }
+  CHECK(mean == doctest::Approx(pressure).epsilon(0.01));
+  CHECK(scene.simulation.bodies().pose[lid.index()].position[Scene::up] > 0.02);
+  // The floor carries it and the grains, less what the side walls do.
+  CHECK(moreau::wall_pressure(scene.simulation, scene.walls.back(), h, area) > 0.5 * pressure);
+}
+
+TEST_CASE("bad drives and servos are named") {
+  LoneWall<Sphere<Space<2>>> scene;
+  using V = Space<2>::Vector;
+  CHECK_THROWS_WITH_AS(HarmonicForce(2, 1, 1), "HarmonicForce: fmax = 1 must be finite and >= fmin",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(HarmonicForce(0, 1, -1), std::invalid_argument);
+  CHECK_THROWS_AS(HarmonicForce(std::nan(""), 1, 1), std::invalid_argument);
+  const auto one = [](double) { return 1.0; };
+  CHECK_THROWS_WITH_AS(ForceDrive(scene.wall, V(1, 1), one),
+                       "ForceDrive: direction = (1, 1) must be unit", std::invalid_argument);
+  CHECK_THROWS_AS(VelocityDrive(scene.wall, V(0, 0), one), std::invalid_argument);
+  const ForceDrive nobody(BodyId(9), V(1, 0), one);
+  CHECK_THROWS_AS(nobody.apply(scene.simulation, 1e-3), std::invalid_argument);
+  const ForceDrive endless(scene.wall, V(1, 0), [](double) { return std::nan(""); });
+  CHECK_THROWS_AS(endless.apply(scene.simulation, 1e-3), std::invalid_argument);
+  double length = 1;
+  const auto area = [&] { return length; };
+  CHECK_THROWS_AS(PressureLoad(scene.simulation, scene.wall, 1, -1, area), std::invalid_argument);
+  CHECK_THROWS_AS(PressureLoad(scene.simulation, BodyId(9), 1, 1, area), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(PressureServo(scene.wall, 1, 0, 1, area),
+                       "PressureServo: gain = 0 must be finite and > 0", std::invalid_argument);
+  CHECK_THROWS_AS(PressureServo(scene.wall, 1, 1, -1, area), std::invalid_argument);
+  const PressureServo servo(scene.wall, 1, 1, 1, area);
+  length = 0;
+  CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),
+                       "PressureServo::apply: area = 0 must be finite and > 0",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(moreau::wall_pressure(scene.simulation, scene.wall, 0, 1), std::invalid_argument);
+}

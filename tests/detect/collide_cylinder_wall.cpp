@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/detect/collide_cylinder_wall.hpp"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <numbers>
+#include <vector>
+
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+using moreau::Polygon;
+using moreau::Polyhedron;
+using moreau::Pose;
+using moreau::Space;
+using moreau::Sphere;
+
+namespace {
+
+/// Perpendicular to x and to the last axis.
+template <class S>
+typename S::Angular across() {
+  return S::Angular::Unit(S::angular_dim / 2);
+}
+
+/// All points within a radius of a segment along x: a shape with nothing but its support.
+template <class S>
+struct Stadium {
+  using Space = S;
+  using Scalar = double;
+  using Vector = typename S::Vector;
+  double half, radius;
+
+  Vector support(const Vector& direction) const {
+    return std::copysign(half, direction[0]) * Vector::UnitX() + radius * direction.normalized();
+  }
+  moreau::MassProperties<S> mass_properties(double) const { return {}; }
+  moreau::Aabb<S> bounding_box(const Pose<S>& pose) const {
+    const Vector reach = (pose.rotation * Vector(half * Vector::UnitX())).cwiseAbs();
+    return {(pose.position - reach).array() - radius, (pose.position + reach).array() + radius};
+  }
+};
+
+template <class S>
+struct Point {
+  typename S::Vector position, normal;
+  double gap;
+  moreau::FeatureKey feature;
+};
+
+template <class ShapeT>
+auto points_of(const ShapeT& shape, const Pose<moreau::SpaceOf<ShapeT>>& pose, double radius,
+               double margin) {
+  using S = moreau::SpaceOf<ShapeT>;
+  const moreau::CylinderWall<S> wall(across<S>(), radius);
+  moreau::Manifold<S> manifold;
+  std::vector<Point<S>> points;
+  const bool touch = moreau::collide_each(
+      moreau::Placed<ShapeT>(shape, pose), moreau::Placed<moreau::CylinderWall<S>>(wall), margin,
+      manifold, [&] {
+        const auto& point = manifold.points.at(0);
+        points.push_back({point.position, manifold.normal, point.gap, point.feature});
+      });
+  CHECK(touch == !points.empty());
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a ball's gap and normal, on the axis too", S, Space<2>, Space<3>) {
+  using Vector = typename S::Vector;
+  const Sphere<S> ball(0.25);
+  Pose<S> pose;
+  pose.position = Vector::Constant(0.3);
+  const Vector outward = (0.3 * (Vector::UnitX() + Vector::Unit(S::dim - 1))).eval();
+  const auto points = points_of(ball, pose, 1, 1);
+  REQUIRE(points.size() == 1);
+  CHECK(points[0].gap == doctest::Approx(1 - 0.25 - outward.norm()));
+  CHECK((points[0].normal - outward.normalized()).norm() < 1e-15);
+  // Midway between the surfaces.
+  const Vector expected =
+      pose.position - outward + (outward.norm() + 0.25 + points[0].gap / 2) * outward.normalized();
+  CHECK((points[0].position - expected).norm() < 1e-15);
+  CHECK(points_of(ball, pose, 1, 0.3).empty());
+  pose.position.setZero();
+  const auto central = points_of(ball, pose, 0.25, 0.01);
+  REQUIRE(central.size() == 1);
+  CHECK(central[0].gap == doctest::Approx(0));
+  CHECK(central[0].normal.norm() == doctest::Approx(1));
+  CHECK(S::spin(across<S>(), central[0].normal).norm() == doctest::Approx(1));
+}
+
+TEST_CASE_TEMPLATE("every corner of a polytope has its own normal", ShapeT, Polygon<>,
+                   Polyhedron<>) {
+  using S = moreau::SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  std::vector<Vector> corners;
+  for (int corner = 0; corner < (1 << S::dim); ++corner) {
+    Vector x = Vector::Constant(0.3);
+    for (int axis = 0; axis < S::dim; ++axis)
+      if ((corner >> axis & 1) != 0) x[axis] = -x[axis];
+    corners.push_back(x);
+  }
+  const ShapeT box(corners);
+  Pose<S> pose;
+  pose.position[S::dim - 1] = -0.5;
+  const auto points = points_of(box, pose, std::sqrt(0.09 + 0.64), 0.1);
+  REQUIRE(points.size() == (1u << (S::dim - 1)));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    CHECK(std::abs(points[k].gap) < 1e-15);
+    CHECK(points[k].normal[0] == doctest::Approx(points[k].position[0] / std::sqrt(0.73)));
+    if (k > 0) CHECK(points[k - 1].feature < points[k].feature);
+  }
+}
+
+TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its ends", S, Space<2>,
+                   Space<3>) {
+  Pose<S> pose;
+  pose.position[S::dim - 1] = -0.5;
+  const auto both = points_of(Stadium<S>{0.4, 0.1}, pose, 1, 1);
+  REQUIRE(both.size() == 2);
+  for (const auto& point : both)
+    CHECK(point.gap == doctest::Approx(1 - 0.1 - std::hypot(0.4, 0.5)));
+  CHECK(both[0].position[0] * both[1].position[0] < 0);
+  CHECK(both[0].feature < both[1].feature);
+  // Upright it touches at one.
+  pose.rotation = S::exp(std::numbers::pi / 2 * across<S>());
+  pose.position[0] = 0.1;
+  const auto one = points_of(Stadium<S>{0.3, 0.1}, pose, 1, 1);
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].gap == doctest::Approx(1 - 0.1 - std::hypot(0.1, 0.8)));
+}
