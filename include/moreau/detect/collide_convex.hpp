@@ -12,23 +12,10 @@
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
+#include "moreau/detect/shape_kinds.hpp"
 #include "moreau/detect/tolerance.hpp"
 
 namespace moreau {
-
-template <class ShapeT>
-inline constexpr bool is_sphere = false;
-template <class S>
-inline constexpr bool is_sphere<Sphere<S>> = true;
-
-/// A convex shape with nothing but its support.
-template <class ShapeT>
-concept SupportOnly = ConvexShape<ShapeT> && !Polytope<ShapeT> && !is_sphere<ShapeT>;
-
-/// A pair that only the general algorithms can judge. Spheres come first, as everywhere.
-template <class A, class B>
-concept GeneralPair =
-    ConvexShape<A> && ConvexShape<B> && !is_sphere<B> && (SupportOnly<A> || SupportOnly<B>);
 
 namespace detail {
 
