@@ -39,24 +39,29 @@ class ConvexPair {
         size_(extent(a.bounding_box()) + extent(b.bounding_box())) {}
 
   /// Not inlined, so that every caller gets the same bits.
-  [[gnu::noinline]] SignedDistance<S> distance() const {
+  /// @param margin  a gap larger than this need not be known, but that it is larger [m]
+  [[gnu::noinline]] SignedDistance<S> distance(
+      T margin = std::numeric_limits<T>::infinity()) const {
     SignedDistance<S> found;
     const bool is_at_center = !(offset_.norm() > rounding());
     const Vector start = is_at_center ? Vector(Vector::UnitX()) : offset_;
-    return is_apart(start, Vector::Zero(), found) ? found : depth();
+    return is_apart(start, Vector::Zero(), margin, found) ? found : depth();
   }
 
  private:
   static T extent(const Aabb<S>& box) { return (box.upper - box.lower).norm(); }
   /// The nearest points. Points close together on a curved surface make a simplex that cannot go
   /// on: start again from the axis found, until the distance is what its axis separates by.
-  /// @param shift  of b [m]
+  /// @param shift   of b [m]
+  /// @param margin  a gap larger than this may be given as any larger one [m]
   /// @returns whether the shapes are then apart
-  bool is_apart(const Vector& start, const Vector& shift, SignedDistance<S>& found) const {
+  bool is_apart(const Vector& start, const Vector& shift, T margin,
+                SignedDistance<S>& found) const {
     Lifted axis = Lifted::Zero();
     axis.template head<S::dim>() = start;
     for (int attempt = 0; attempt < 16; ++attempt) {
-      if (!approach_from(axis, shift, found)) return false;
+      if (!approach_from(axis, shift, margin, found)) return false;
+      if (found.gap > margin) return true;
       const Vector& across = found.normal;
       if (found.gap - (separation(across) + across.dot(shift)) <= precise()) break;
       axis.template head<S::dim>() = across;
@@ -66,7 +71,8 @@ class ConvexPair {
   /// The distance algorithm from one point on.
   /// @param shift  of b [m]
   /// @returns whether the shapes are then apart
-  bool approach_from(const Lifted& start, const Vector& shift, SignedDistance<S>& found) const {
+  bool approach_from(const Lifted& start, const Vector& shift, T margin,
+                     SignedDistance<S>& found) const {
     std::array<Vector, all_steps + 2> on_a;
     std::uint32_t count = 0;
     // In the plane too the nearest points are those of a set in space, without thickness.
@@ -82,9 +88,10 @@ class ConvexPair {
     };
     Lifted axis = start;
     Simplex<T> simplex(support(axis));
-    if (approach<T>(support, simplex, axis, std::numeric_limits<T>::infinity(), size_, all_steps) ==
-        Proximity::touching)
-      return false;
+    const Proximity proximity = approach<T>(support, simplex, axis, margin, size_, all_steps);
+    if (proximity == Proximity::touching) return false;
+    found.gap = std::numeric_limits<T>::infinity();
+    if (proximity == Proximity::beyond) return true;
     const Vector apart = simplex.nearest().template head<S::dim>();
     found.gap = apart.norm();
     found.normal = apart / found.gap;
@@ -105,6 +112,8 @@ class ConvexPair {
   /// What the expanding polytope leaves to be found, and how far apart b is moved from a [m].
   T rough() const { return std::max(size_ * T(2e-4), precise()); }
   T aside() const { return size_ * T(1e-2); }
+  /// Where the climb is slow, so that the polytope has to come near by itself [m].
+  T deep() const { return size_ * T(2e-2); }
   /// The separation along a unit vector: a lower bound of the gap.
   T separation(const Vector& n) const { return n.dot(reach(-n).point); }
 
@@ -126,7 +135,9 @@ class ConvexPair {
       seen[count++] = other.normal;
       if (other.gap > best.gap + precise()) best = other;
     }
-    return best;
+    if (-best.gap < deep()) return best;
+    const SignedDistance<S> other = climb_from(expand(S{}, reach_along, precise()).nearest());
+    return other.gap > best.gap ? other : best;
   }
   /// The best axis that is reached from a face.
   SignedDistance<S> climb_from(const NearestFace<Vector>& face) const {
@@ -134,7 +145,8 @@ class ConvexPair {
     T gap = separation(normal);
     for (int step = 0; step < all_steps; ++step) {
       SignedDistance<S> moved;
-      if (!is_apart(normal, (aside() - gap) * normal, moved)) break;
+      if (!is_apart(normal, (aside() - gap) * normal, std::numeric_limits<T>::infinity(), moved))
+        break;
       const T better = separation(moved.normal), gain = better - gap;
       if (!(gain >= T(0))) break;
       const Vector last = turn;
@@ -181,7 +193,7 @@ requires GeneralPair<A, B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
              Manifold<SpaceOf<A>>& out, PairCache<SpaceOf<A>>&) {
   MOREAU_ASSERT(margin >= 0);
-  const auto found = distance(a, b);
+  const auto found = detail::ConvexPair<A, B>(a, b).distance(margin);
   if (!(found.gap <= margin)) return false;
   out.clear();
   out.normal = found.normal;

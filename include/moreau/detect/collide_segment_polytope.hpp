@@ -162,7 +162,7 @@ bool collide(const Placed<Segment<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b,
   MOREAU_ASSERT(margin >= 0);
   const T size = a.radius() + b.radius(), reach = size + margin;
   if ((b.center() - a.center()).squaredNorm() > reach * reach) return false;
-  const SignedDistance<S> found = distance(a, b);
+  const auto found = detail::ConvexPair<Segment<S>, ShapeT>(a, b).distance(margin);
   if (!(found.gap <= margin)) return false;
   out.clear();
   out.normal = found.normal;
