@@ -5,9 +5,12 @@
 
 #include "moreau/law/materials.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/capsule.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/rounded.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/version.hpp"

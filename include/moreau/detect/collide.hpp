@@ -5,16 +5,23 @@
 //   SignedDistance distance(a, b[, cache])                   gap, normal, nearest points
 //   bool           collide(a, b, margin, manifold[, cache])  contact points, if gap <= margin
 //
-// a and b are Placed shapes. Each unordered pair of shapes has one function, found by the types of
-// its arguments, for the shape of lower rank first; the other order is made here. A convex shape of
-// one's own works by its support function alone, with one point of contact (collide_convex.hpp), or
-// joins in by functions of these names in its own namespace.
+// a and b are Placed shapes. Each unordered pair of elementary shapes has one function, found by
+// the types of its arguments, for the shape of lower rank first; the other order is made here.
+// Rounded shapes are judged by their cores, those that are one of several kinds by what they are.
+//
+// A convex shape of one's own works by its support function alone (collide_convex.hpp): with one
+// point of contact, but up to seven against a wall. Or it joins in by functions of these names in
+// its own namespace.
 #pragma once
 
 #include "moreau/detect/collide_convex.hpp"
 #include "moreau/detect/collide_half_space.hpp"
+#include "moreau/detect/collide_one_of.hpp"
 #include "moreau/detect/collide_polygons.hpp"
 #include "moreau/detect/collide_polyhedra.hpp"
+#include "moreau/detect/collide_rounded.hpp"
+#include "moreau/detect/collide_segment_polytope.hpp"
+#include "moreau/detect/collide_segments.hpp"
 #include "moreau/detect/collide_sphere_polytope.hpp"
 #include "moreau/detect/collide_spheres.hpp"
 #include "moreau/detect/reduce.hpp"
@@ -23,18 +30,22 @@ namespace moreau {
 
 /// Which of two shapes of different kind comes first in the functions that exist.
 template <class Shape>
-inline constexpr int collide_rank = 1;
+inline constexpr int collide_rank = 2;
 template <class S>
 inline constexpr int collide_rank<Sphere<S>> = 0;
 template <class S>
-inline constexpr int collide_rank<HalfSpace<S>> = 2;
+inline constexpr int collide_rank<Segment<S>> = 1;
+template <class S>
+inline constexpr int collide_rank<HalfSpace<S>> = 3;
+
+template <class A, class B>
+concept ReversedPair = Elementary<A> && Elementary<B> &&(collide_rank<A> > collide_rank<B>);
 
 /// The other order.
 template <class A, class B>
-requires(collide_rank<A> > collide_rank<B>) bool collide(const Placed<A>& a, const Placed<B>& b,
-                                                         typename SpaceOf<A>::Scalar margin,
-                                                         Manifold<SpaceOf<A>>& out,
-                                                         PairCache<SpaceOf<A>>& cache) {
+requires ReversedPair<A, B>
+bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
+             Manifold<SpaceOf<A>>& out, PairCache<SpaceOf<A>>& cache) {
   cache.axis = -cache.axis;
   const bool touch = collide(b, a, margin, out, cache);
   cache.axis = -cache.axis;
@@ -44,9 +55,8 @@ requires(collide_rank<A> > collide_rank<B>) bool collide(const Placed<A>& a, con
 
 /// The other order.
 template <class A, class B>
-requires(collide_rank<A> >
-         collide_rank<B>) SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
-                                                              const Placed<B>& b) {
+requires ReversedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
+                                                                const Placed<B>& b) {
   SignedDistance<SpaceOf<A>> found = distance(b, a);
   found.normal = -found.normal;
   std::swap(found.witness_a, found.witness_b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where two edges of polygons look at each other along a normal: the segment in which their
-// projections overlap, with the gap between the two lines at each end.
+// Where two edges, of polygons or a segment alone, look at each other along a normal: the segment
+// in which their projections overlap, with the gap between the two lines at each end.
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,11 @@ class ContactSegment {
   using Vector = typename S::Vector;
   using Shape = Placed<Polygon<T>>;
 
+  /// @param a       a polygon or a segment, which is its edge 0
   /// @param offset  centre of b minus centre of a
   /// @param near    distance within which two ends are one [m]
-  ContactSegment(const Shape& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
+  template <class ShapeA>
+  ContactSegment(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
                  const Vector& offset, const Vector& normal, T near)
       : center_(a.center()), frame_(S::contact_frame(normal)), near_(near) {
     a_ = project(a, edge_a, Vector::Zero());
@@ -46,7 +48,7 @@ class ContactSegment {
     T x, h;  // along the tangent and the normal, relative to the centre of a
     std::uint32_t vertex;
   };
-  struct Segment {
+  struct Edge {
     std::array<End, 2> ends;
     std::uint32_t edge;
 
@@ -61,13 +63,17 @@ class ContactSegment {
     }
   };
 
-  Segment project(const Shape& shape, std::uint32_t edge, const Vector& offset) const {
+  End project(const Vector& x, std::uint32_t vertex) const {
+    return {frame_.col(1).dot(x), frame_.col(0).dot(x), vertex};
+  }
+  Edge project(const Shape& shape, std::uint32_t edge, const Vector& offset) const {
     const std::uint32_t next = edge + 1 < shape.vertices().size() ? edge + 1 : 0;
-    const auto end = [&](std::uint32_t v) -> End {
-      const Vector x = shape.vertices()[v] + offset;
-      return {frame_.col(1).dot(x), frame_.col(0).dot(x), v};
-    };
-    return {{end(edge), end(next)}, edge};
+    return {{project(shape.vertices()[edge] + offset, edge),
+             project(shape.vertices()[next] + offset, next)},
+            edge};
+  }
+  Edge project(const Placed<Segment<S>>& shape, std::uint32_t edge, const Vector& offset) const {
+    return {{project(shape.vertex(0) + offset, 0), project(shape.vertex(1) + offset, 1)}, edge};
   }
   bool is_end_of_a(const End& end) const {
     for (const End& other : a_.ends)
@@ -81,7 +87,7 @@ class ContactSegment {
   const Vector center_;
   const typename S::Matrix frame_;
   const T near_;
-  Segment a_, b_;
+  Edge a_, b_;
 };
 
 }  // namespace moreau::detail

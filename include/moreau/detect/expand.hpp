@@ -20,7 +20,7 @@ struct ExtremePoint {
   Vector point, on_a;
 };
 
-/// The face of C nearest to the origin, or a plane that parts the shapes.
+/// A face of the polytope; of the nearest to the origin, minus its offset is about the gap.
 template <class Vector>
 struct NearestFace {
   Vector outward;                  ///< unit
@@ -32,39 +32,59 @@ struct NearestFace {
 inline constexpr int most_points = 1000;
 
 /// In the plane: a ring of points, counter-clockwise.
-/// @param reach    reach(n) -> the ExtremePoint of C with the largest n . point
-/// @param precise  differences of no account [m]
 template <std::floating_point T, class Reach>
-NearestFace<typename Space<2, T>::Vector> expand(Space<2, T>, const Reach& reach, T precise) {
+class ExpandingPolygon {
+ public:
   using Vector = typename Space<2, T>::Vector;
-  std::vector<ExtremePoint<Vector>> ring;
-  for (int k = 0; k < 3; ++k) {
-    const T angle = T(2.0943951) * static_cast<T>(k);
-    ring.push_back(reach(Vector(std::cos(angle), std::sin(angle))));
-  }
-  while (true) {
-    NearestFace<Vector> nearest{Vector::UnitX(), std::numeric_limits<T>::infinity(),
-                                Vector::Zero()};
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const auto& p = ring[k];
-      const auto& q = ring[(k + 1) % ring.size()];
-      const Vector along = q.point - p.point;
-      const T length = along.norm();
-      if (!(length > precise)) continue;
-      const Vector outward = Vector(along.y(), -along.x()) / length;
-      const T offset = outward.dot(p.point);
-      if (!(offset < nearest.offset)) continue;
-      const T t = std::clamp(-p.point.dot(along) / (length * length), T(0), T(1));
-      nearest = {outward, offset, p.on_a + t * (q.on_a - p.on_a)};
-      at = k;
+  using Face = NearestFace<Vector>;
+
+  /// @param reach    reach(n) -> the ExtremePoint of C with the largest n . point
+  /// @param precise  differences of no account [m]
+  ExpandingPolygon(const Reach& reach, T precise) : precise_(precise) {
+    for (int k = 0; k < 3; ++k) {
+      const T angle = T(2.0943951) * static_cast<T>(k);
+      ring_.push_back(reach(Vector(std::cos(angle), std::sin(angle))));
     }
-    const auto next = reach(nearest.outward);
-    if (!(nearest.outward.dot(next.point) - nearest.offset > precise) || ring.size() >= most_points)
-      return nearest;
-    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(at) + 1, next);
+    while (true) {
+      const std::size_t at = nearest_side();
+      const Face nearest = face(at);
+      const auto next = reach(nearest.outward);
+      if (!(nearest.outward.dot(next.point) - nearest.offset > precise) ||
+          ring_.size() >= most_points)
+        return;
+      ring_.insert(ring_.begin() + static_cast<std::ptrdiff_t>(at) + 1, next);
+    }
   }
-}
+  Face nearest() const { return face(nearest_side()); }
+  std::size_t size() const { return ring_.size(); }
+  /// Face k; infinitely far if it is too short to have a direction.
+  Face face(std::size_t k) const {
+    const auto& p = ring_[k];
+    const auto& q = ring_[(k + 1) % ring_.size()];
+    const Vector along = q.point - p.point;
+    const T length = along.norm();
+    if (!(length > precise_))
+      return {Vector::UnitX(), std::numeric_limits<T>::infinity(), Vector::Zero()};
+    const Vector outward = Vector(along.y(), -along.x()) / length;
+    const T t = std::clamp(-p.point.dot(along) / (length * length), T(0), T(1));
+    return {outward, outward.dot(p.point), p.on_a + t * (q.on_a - p.on_a)};
+  }
+
+ private:
+  std::size_t nearest_side() const {
+    std::size_t best = 0;
+    T least = std::numeric_limits<T>::infinity();
+    for (std::size_t k = 0; k < ring_.size(); ++k)
+      if (const T offset = face(k).offset; offset < least) {
+        least = offset;
+        best = k;
+      }
+    return best;
+  }
+
+  std::vector<ExtremePoint<Vector>> ring_;
+  const T precise_;
+};
 
 /// In space: triangles, counter-clockwise from outside.
 template <std::floating_point T, class Reach>
@@ -77,8 +97,13 @@ class ExpandingPolytope {
     while (grow()) {
     }
   }
-  NearestFace<Vector> nearest() const {
-    const Face& face = faces_[nearest_face()];
+  NearestFace<Vector> nearest() const { return face(nearest_face()); }
+  std::size_t size() const { return faces_.size(); }
+  /// Face f; infinitely far if it is too thin to have a direction.
+  NearestFace<Vector> face(std::size_t f) const {
+    const Face& face = faces_[f];
+    if (!(face.offset < std::numeric_limits<T>::infinity()))
+      return {face.outward, face.offset, points_[face.corner[0]].on_a};
     const auto& [i, j, k] = face.corner;
     const Vector foot = face.offset * face.outward;
     const Vector p = points_[i].point - foot, q = points_[j].point - foot;
@@ -205,9 +230,15 @@ class ExpandingPolytope {
   std::vector<std::size_t> stack_;
 };
 
+/// The polytope of points of C, grown until C reaches no farther than `precise` beyond its nearest
+/// face. As it lies within C, only its faces nearer than a known depth can hide a smaller one.
 template <std::floating_point T, class Reach>
-NearestFace<typename Space<3, T>::Vector> expand(Space<3, T>, const Reach& reach, T precise) {
-  return ExpandingPolytope<T, Reach>(reach, precise).nearest();
+ExpandingPolygon<T, Reach> expand(Space<2, T>, const Reach& reach, T precise) {
+  return {reach, precise};
+}
+template <std::floating_point T, class Reach>
+ExpandingPolytope<T, Reach> expand(Space<3, T>, const Reach& reach, T precise) {
+  return {reach, precise};
 }
 
 }  // namespace moreau::detail

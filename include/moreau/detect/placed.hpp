@@ -5,9 +5,16 @@
 // coordinates of the size of the shapes, however far from the world's origin it lies.
 #pragma once
 
+#include <type_traits>
+#include <utility>
+#include <variant>
+
 #include "moreau/detect/rows.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/shape/one_of.hpp"
+#include "moreau/shape/rounded.hpp"
+#include "moreau/shape/segment.hpp"
 #include "moreau/shape/sphere.hpp"
 
 namespace moreau {
@@ -147,6 +154,119 @@ class Placed<HalfSpace<S>> {
  private:
   Vector center_ = Vector::Zero();
   Vector normal_ = Vector::Zero();
+};
+
+/// A segment, the core of a capsule.
+template <class S>
+class Placed<Segment<S>> {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  explicit Placed(const Segment<S>& shape) { update(shape, Pose<S>{}); }
+  Placed(const Segment<S>& shape, const Pose<S>& pose) { update(shape, pose); }
+
+  void update(const Segment<S>& shape, const Pose<S>& pose) {
+    center_ = pose.position;
+    radius_ = shape.half_length();
+    half_ = pose.rotation * Vector(radius_ * Vector::UnitX());
+  }
+  const Vector& center() const { return center_; }
+  Scalar radius() const { return radius_; }     ///< of the ball about the centre around it [m]
+  const Vector& half() const { return half_; }  ///< from the centre to vertex 1, world axes [m]
+  /// Vertex 0 or 1, relative to the centre [m].
+  Vector vertex(std::size_t v) const { return v == 0 ? Vector(-half_) : half_; }
+  /// The farthest end in the direction (any length but zero), relative to the centre [m].
+  Vector support(const Vector& direction) const { return vertex(direction.dot(half_) < 0 ? 0 : 1); }
+  Aabb<S> bounding_box() const { return {center_ - half_.cwiseAbs(), center_ + half_.cwiseAbs()}; }
+
+ private:
+  Vector center_ = Vector::Zero(), half_ = Vector::Zero();
+  Scalar radius_ = 0;
+};
+
+/// A rounded shape: its core where that stands, and the radius.
+template <class Core>
+class Placed<Rounded<Core>> {
+ public:
+  using Space = SpaceOf<Core>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+
+  explicit Placed(const Rounded<Core>& shape) : Placed(shape, Pose<Space>{}) {}
+  Placed(const Rounded<Core>& shape, const Pose<Space>& pose)
+      : core_(shape.core(), shape.core_pose(pose)),
+        center_(pose.position),
+        radius_(shape.radius()) {}
+
+  /// The shape must outlive this object's use.
+  void update(const Rounded<Core>& shape, const Pose<Space>& pose) {
+    core_.update(shape.core(), shape.core_pose(pose));
+    center_ = pose.position;
+    radius_ = shape.radius();
+  }
+  const Placed<Core>& core() const { return core_; }
+  const Vector& center() const { return center_; }
+  Scalar rounding_radius() const { return radius_; }  ///< of the ball [m]
+  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  Vector support(const Vector& direction) const {
+    return (core_.center() - center_) + core_.support(direction) + radius_ * direction.normalized();
+  }
+  Aabb<Space> bounding_box() const { return core_.bounding_box().inflated(radius_); }
+
+ private:
+  Placed<Core> core_;
+  Vector center_;
+  Scalar radius_;
+};
+
+/// One of several kinds.
+template <class... Shapes>
+class Placed<OneOf<Shapes...>> {
+ public:
+  using Space = SpaceOf<OneOf<Shapes...>>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+
+  explicit Placed(const OneOf<Shapes...>& shape) : Placed(shape, Pose<Space>{}) {}
+  Placed(const OneOf<Shapes...>& shape, const Pose<Space>& pose)
+      : held_(shape.visit([&](const auto& kind) -> Held {
+          return Placed<KindOf<decltype(kind)>>(kind, pose);
+        })) {}
+
+  /// Keeps its memory while the shape is of the same kind as before. The shape must outlive this
+  /// object's use.
+  void update(const OneOf<Shapes...>& shape, const Pose<Space>& pose) {
+    shape.visit([&](const auto& kind) {
+      using Kind = Placed<KindOf<decltype(kind)>>;
+      if (Kind* same = std::get_if<Kind>(&held_))
+        same->update(kind, pose);
+      else
+        held_.template emplace<Kind>(kind, pose);
+    });
+  }
+  /// use(placed), whatever kind it is.
+  template <class Use>
+  decltype(auto) visit(Use&& use) const {
+    return std::visit(std::forward<Use>(use), held_);
+  }
+  Vector center() const {
+    return visit([](const auto& kind) -> Vector { return kind.center(); });
+  }
+  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  Vector support(const Vector& direction) const {
+    return visit([&](const auto& kind) -> Vector { return kind.support(direction); });
+  }
+  Aabb<Space> bounding_box() const {
+    return visit([](const auto& kind) -> Aabb<Space> { return kind.bounding_box(); });
+  }
+
+ private:
+  template <class Reference>
+  using KindOf = std::remove_cvref_t<Reference>;
+  using Held = std::variant<Placed<Shapes>...>;
+  Held held_;
 };
 
 }  // namespace moreau

@@ -20,6 +20,10 @@ struct DetectionTolerance {
   static constexpr T aligned = std::same_as<T, float> ? T(1e-3) : T(1e-5);
   /// Angle [rad] between two axes above which one can be proved the better (local_proof.hpp).
   static constexpr T distinct = std::same_as<T, float> ? T(1e-2) : T(1e-7);
+  /// Angle [rad] by which the normal is tilted to find how far a surface is flat, if nothing but
+  /// its support is known. It is flat if its farthest point then moves by more than ten times the
+  /// angle times the size of its box.
+  static constexpr T tilt = T(1e-3);
   /// Differences of separations that count as a proof.
   static constexpr T doubt = T(16) * rounding;
 };

@@ -29,6 +29,15 @@ concept ConvexShape = Shape<T> && requires(const T shape, typename T::Space::Vec
   { shape.support(direction) } -> std::same_as<typename T::Space::Vector>;
 };
 
+/// A convex set known by its farthest points and the box around it. Unlike a shape it may be flat
+/// and need have no mass: what a rounded shape (rounded.hpp) is rounded about.
+template <class T>
+concept ConvexCore = requires(const T core, typename T::Space::Vector direction,
+                              Pose<SpaceOf<T>> pose) {
+  { core.support(direction) } -> std::same_as<typename T::Space::Vector>;
+  { core.bounding_box(pose) } -> std::same_as<Aabb<SpaceOf<T>>>;
+};
+
 /// A convex shape with flat faces. vertices(): N x D, one row each; face_normals(): F x D, unit and
 /// outward; face_offsets(): F, the distance of each face's plane from the origin, normal . x =
 /// offset on it. In the plane the faces are the edges: face i runs from vertex i to vertex i + 1.
@@ -37,6 +46,24 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.vertices();
   shape.face_normals();
   shape.face_offsets();
+};
+
+// Members that shapes have where they can; what is made of other shapes has them where those do.
+template <class T>
+concept HasVolume = requires(const T shape) {
+  shape.volume();
+};
+template <class T>
+concept HasCircumradius = requires(const T shape) {
+  shape.circumradius();
+};
+template <class T>
+concept HasInradius = requires(const T shape) {
+  shape.inradius();
+};
+template <class T>
+concept Scalable = requires(const T shape, typename T::Space::Scalar factor) {
+  { shape.scaled(factor) } -> std::same_as<T>;
 };
 
 }  // namespace moreau

@@ -37,6 +37,19 @@ struct Moments {
     second += part / Scalar((S::dim + 1) * (S::dim + 2)) * (v * v.transpose() + s * s.transpose());
   }
 
+  /// Adds another body.
+  Moments& operator+=(const Moments& other) {
+    volume += other.volume;
+    first += other.first;
+    second += other.second;
+    return *this;
+  }
+
+  /// The moments of the same body about its own centre, first / volume.
+  Moments centered() const {
+    return {volume, Vector::Zero(), second - first * first.transpose() / volume};
+  }
+
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
 
   /// The moments of the same body, all lengths times the factor.

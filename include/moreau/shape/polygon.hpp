@@ -32,13 +32,13 @@ class Polygon {
       vertices_.row(i) =
           (vertices[ring[static_cast<std::size_t>(i)]] - vertices[ring[0]]).transpose();
     }
-    const Moments<Space> rough = moments();
+    const Moments<Space> rough = sum_moments();
     require(std::isfinite(rough.volume) && rough.volume > T(0), "Polygon", "area", rough.volume,
             "m^2 must be positive and finite");
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = vertices[ring[0]] + center;
     vertices_.rowwise() -= center.transpose();
-    moments_ = moments();
+    moments_ = sum_moments();
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
     set_faces();
   }
@@ -58,6 +58,7 @@ class Polygon {
   T volume() const { return moments_.volume; }      ///< the area, under its uniform name [m^2]
   T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
   T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
+  const Moments<Space>& moments() const { return moments_; }  ///< about the origin, at density one
   /// The least distance of two face normals, as unit vectors: about the least angle [rad].
   T normal_spacing() const { return normal_spacing_; }
 
@@ -96,7 +97,7 @@ class Polygon {
  private:
   Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
 
-  Moments<Space> moments() const {
+  Moments<Space> sum_moments() const {
     Moments<Space> sum;
     for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
       typename Space::Matrix corners;

@@ -83,6 +83,7 @@ class Polyhedron {
   T volume() const { return moments_.volume; }      ///< [m^3]
   T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
   T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
+  const Moments<Space>& moments() const { return moments_; }  ///< about the origin, at density one
   /// The least distance of two face normals, as unit vectors: about the least angle [rad].
   T normal_spacing() const { return normal_spacing_; }
 
@@ -150,19 +151,19 @@ class Polyhedron {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       vertices_.row(static_cast<Eigen::Index>(i)) = (vertices[i] - vertices[0]).transpose();
     }
-    const Moments<Space> rough = moments();
+    const Moments<Space> rough = sum_moments();
     require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");
     require(rough.volume > T(0), function, "volume", rough.volume,
             "m^3 must be positive: faces run counter-clockwise seen from outside");
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = vertices[0] + center;
     vertices_.rowwise() -= center.transpose();
-    moments_ = moments();
+    moments_ = sum_moments();
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
     set_planes();
   }
 
-  Moments<Space> moments() const {
+  Moments<Space> sum_moments() const {
     Moments<Space> sum;
     for (std::size_t f = 0; f < face_count(); ++f) {
       const auto loop = face(f);

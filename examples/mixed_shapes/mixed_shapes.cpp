@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Several kinds of grains in one simulation: balls and rods among dice. The kind of a pair is found
+// by one visit; a simulation of one kind alone has none of this.
+#include <algorithm>
+#include <cstddef>
+#include <iostream>
+#include <map>
+#include <moreau/moreau.hpp>
+#include <string>
+#include <vector>
+
+using S = moreau::Space<3>;
+using Vector = S::Vector;
+using Ball = moreau::Sphere<S>;
+using Die = moreau::Polyhedron<double>;
+using Rod = moreau::Capsule<S>;
+using Grain = moreau::OneOf<Ball, Die, Rod>;
+
+int main() {
+  using Law = moreau::SignoriniCoulomb<double>;
+  moreau::Simulation<Grain, Law> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
+  const std::vector<Vector> corners{{0, 0, 0},       {0.02, 0, 0},      {0, 0.02, 0},
+                                    {0.02, 0.02, 0}, {0, 0, 0.02},      {0.02, 0, 0.02},
+                                    {0, 0.02, 0.02}, {0.02, 0.02, 0.02}};
+  const moreau::ShapeId kinds[] = {world.add_shape(Ball(0.012)), world.add_shape(Die(corners)),
+                                   world.add_shape(Rod(0.01, 0.007))};
+  for (int k = 0; k < 80; ++k)
+    world.add_grain(kinds[k % 3],
+                    {{0.02 + 0.035 * (k % 2), 0.02 + 0.035 * (k / 2 % 2), 0.02 + 0.035 * (k / 4)},
+                     S::exp({0.5 * k, 0.2 * k, 0.1})},
+                    2700);
+  for (int axis = 0; axis < 3; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
+  for (int axis = 0; axis < 2; ++axis)
+    world.add_wall(-Vector::Unit(axis), 0.075 * Vector::Unit(axis));
+  world.set_gravity({0, 0, -9.81});
+
+  for (int step = 0; step < 2000; ++step) world.step(5e-4);
+
+  // What touches what.
+  const char* names[] = {"ball", "die", "rod"};
+  std::map<std::string, int> points;
+  const auto kind_of = [&](std::uint32_t body) -> std::string {
+    for (std::size_t k = 0; k < world.grain_count(); ++k)
+      if (world.grain(k).value == body) return names[world.shape_of_grain(k).index()];
+    return "wall";
+  };
+  for (const auto& contact : world.contacts().points) {
+    const auto [first, second] = std::minmax({kind_of(contact.a), kind_of(contact.b)});
+    ++points[first + " - " + second];
+  }
+  for (const auto& [pair, count] : points) std::cout << pair << ": " << count << " points\n";
+}

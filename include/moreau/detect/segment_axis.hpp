@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Signed gap and axis of two segments, without thickness.
+//
+// They are apart by the distance of their nearest points: an end of one and a point of the other,
+// or two inner points. If they meet, C = B - A holds the origin. In the plane it is a
+// parallelogram, of which the nearest side is the axis; in space it is flat, so the gap is 0 along
+// its normal.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "moreau/detect/placed.hpp"
+#include "moreau/detect/tolerance.hpp"
+
+namespace moreau::detail {
+
+/// Two segments relative to the centre of a: s half_a and offset + t half_b, s and t in [-1, 1].
+template <class S>
+struct SegmentPair {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  const Vector half_a, half_b, offset;
+  const T size;  ///< the sum of the half lengths: what tolerances are relative to
+
+  SegmentPair(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b)
+      : half_a(a.half()),
+        half_b(b.half()),
+        offset(b.center() - a.center()),
+        size(a.radius() + b.radius()) {}
+
+  Vector apart(T s, T t) const { return offset + t * half_b - s * half_a; }
+  /// Where on the line of the other the foot of a point is.
+  T foot_on_a(T t) const { return half_a.dot(offset + t * half_b) / half_a.squaredNorm(); }
+  T foot_on_b(T s) const { return half_b.dot(s * half_a - offset) / half_b.squaredNorm(); }
+};
+
+/// The axis of the signed gap, and the points of the segments that are nearest or deepest along it.
+template <class S>
+struct SegmentAxis {
+  typename S::Vector normal;  ///< unit, from a to b
+  typename S::Scalar gap = std::numeric_limits<typename S::Scalar>::infinity();  ///< [m]
+  typename S::Scalar s = 0, t = 0;
+};
+
+/// The nearest points; the normal is not set.
+template <class S>
+SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
+  using T = typename S::Scalar;
+  SegmentAxis<S> best;
+  const auto take = [&](T s, T t) {
+    const T distance = pair.apart(s, t).norm();
+    if (distance < best.gap) best = {S::Vector::Zero(), distance, s, t};
+  };
+  for (const T end : {T(-1), T(1)}) {
+    take(end, std::clamp(pair.foot_on_b(end), T(-1), T(1)));
+    take(std::clamp(pair.foot_on_a(end), T(-1), T(1)), end);
+  }
+  const T aa = pair.half_a.squaredNorm(), bb = pair.half_b.squaredNorm();
+  const T ab = pair.half_a.dot(pair.half_b), det = aa * bb - ab * ab;
+  if (det > T(64) * std::numeric_limits<T>::epsilon() * aa * bb) {
+    const T d = pair.half_a.dot(pair.offset), e = pair.half_b.dot(pair.offset);
+    const T s = (d * bb - ab * e) / det, t = (ab * d - aa * e) / det;
+    if (std::abs(s) < T(1) && std::abs(t) < T(1)) take(s, t);
+  }
+  return best;
+}
+
+/// Of segments that meet, in the plane: the nearest side of C.
+template <std::floating_point T>
+SegmentAxis<Space<2, T>> crossing_axis(const SegmentPair<Space<2, T>>& pair,
+                                       const SegmentAxis<Space<2, T>>&) {
+  using Vector = typename Space<2, T>::Vector;
+  SegmentAxis<Space<2, T>> best;
+  best.gap = -std::numeric_limits<T>::infinity();
+  const auto take = [&](const Vector& own, const Vector& other, bool is_of_a) {
+    Vector normal = Vector(own.y(), -own.x()).normalized();
+    if (normal.dot(pair.offset) < T(0)) normal = -normal;
+    const T along = normal.dot(other), gap = normal.dot(pair.offset) - std::abs(along);
+    if (!(gap > best.gap)) return;
+    const T end = (along < T(0)) == is_of_a ? T(1) : T(-1);  // of the other, the deepest
+    const T foot = std::clamp(is_of_a ? pair.foot_on_a(end) : pair.foot_on_b(end), T(-1), T(1));
+    best = {normal, gap, is_of_a ? foot : end, is_of_a ? end : foot};
+  };
+  take(pair.half_a, pair.half_b, true);
+  take(pair.half_b, pair.half_a, false);
+  return best;
+}
+
+/// In space: the common normal, towards b's centre; of parallel ones any.
+template <std::floating_point T>
+SegmentAxis<Space<3, T>> crossing_axis(const SegmentPair<Space<3, T>>& pair,
+                                       const SegmentAxis<Space<3, T>>& nearest) {
+  using S = Space<3, T>;
+  const typename S::Vector across = pair.half_a.cross(pair.half_b);
+  SegmentAxis<S> axis = nearest;
+  const T least = T(64) * std::numeric_limits<T>::epsilon() * pair.size * pair.size;
+  axis.normal = across.norm() > least ? across.normalized()
+                                      : S::contact_frame(pair.half_a.normalized()).col(1).eval();
+  if (axis.normal.dot(pair.offset) < T(0)) axis.normal = -axis.normal;
+  return axis;
+}
+
+/// The normal of segments that pass each other at a small distance, where the difference of the
+/// nearest points has lost its digits. In the plane such segments meet.
+template <std::floating_point T>
+void refine(const SegmentPair<Space<2, T>>&, SegmentAxis<Space<2, T>>&) {}
+template <std::floating_point T>
+void refine(const SegmentPair<Space<3, T>>& pair, SegmentAxis<Space<3, T>>& axis) {
+  const typename Space<3, T>::Vector across = pair.half_a.cross(pair.half_b);
+  const bool is_inner = std::abs(axis.s) < T(1) && std::abs(axis.t) < T(1);
+  const T sine = across.norm() / (pair.half_a.norm() * pair.half_b.norm());
+  if (!is_inner || !(axis.gap < sine * pair.size)) return;
+  axis.normal = across.normalized();
+  axis.gap = axis.normal.dot(pair.offset);
+  if (axis.gap >= T(0)) return;
+  axis.normal = -axis.normal;
+  axis.gap = -axis.gap;
+}
+
+template <class S>
+SegmentAxis<S> segment_axis(const SegmentPair<S>& pair) {
+  using T = typename S::Scalar;
+  SegmentAxis<S> axis = nearest_points(pair);
+  if (!(axis.gap > pair.size * DetectionTolerance<T>::rounding)) return crossing_axis(pair, axis);
+  axis.normal = pair.apart(axis.s, axis.t) / axis.gap;
+  refine(pair, axis);
+  return axis;
+}
+
+}  // namespace moreau::detail

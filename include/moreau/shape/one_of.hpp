@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "moreau/shape/concepts.hpp"
+
+namespace moreau {
+
+/// A shape that is one of several kinds: the shape of a mixed assembly. Each pair of grains is then
+/// judged as the pair of what they hold (detect/collide.hpp), found by one visit.
+/// @tparam Shapes  different types, all of one space
+template <Shape... Shapes>
+requires(sizeof...(Shapes) > 0 &&
+         (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> &&
+          ...)) class OneOf {
+ public:
+  using Space = SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+
+  /// Not explicit: a OneOf<Sphere<S>, ..> may be given as a Sphere<S>.
+  template <class ShapeT>
+  requires(std::same_as<ShapeT, Shapes> || ...) OneOf(ShapeT shape) : held_(std::move(shape)) {}
+
+  /// Which of the kinds it is, counted as they are named.
+  std::size_t index() const { return held_.index(); }
+  /// What it is, if it is of that kind; else null.
+  template <class ShapeT>
+  const ShapeT* get_if() const {
+    return std::get_if<ShapeT>(&held_);
+  }
+  /// use(shape), whatever kind it is.
+  template <class Use>
+  decltype(auto) visit(Use&& use) const {
+    return std::visit(std::forward<Use>(use), held_);
+  }
+
+  /// [m^D]
+  Scalar volume() const requires(HasVolume<Shapes>&&...) {
+    return visit([](const auto& shape) { return shape.volume(); });
+  }
+  /// Farthest point from the origin [m].
+  Scalar circumradius() const requires(HasCircumradius<Shapes>&&...) {
+    return visit([](const auto& shape) { return shape.circumradius(); });
+  }
+  /// Nearest point of the surface [m].
+  Scalar inradius() const requires(HasInradius<Shapes>&&...) {
+    return visit([](const auto& shape) { return shape.inradius(); });
+  }
+  /// The farthest point in the direction (any length but zero), body coordinates [m].
+  Vector support(const Vector& direction) const requires(ConvexShape<Shapes>&&...) {
+    return visit([&](const auto& shape) -> Vector { return shape.support(direction); });
+  }
+  /// @param density [kg/m^D], > 0
+  /// @throws what the shape throws
+  MassProperties<Space> mass_properties(Scalar density) const {
+    return visit([&](const auto& shape) { return shape.mass_properties(density); });
+  }
+  Aabb<Space> bounding_box(const Pose<Space>& pose) const {
+    return visit([&](const auto& shape) { return shape.bounding_box(pose); });
+  }
+  /// The same shape, all lengths times the factor, > 0.
+  /// @throws what the shape throws
+  OneOf scaled(Scalar factor) const requires(Scalable<Shapes>&&...) {
+    return visit([&](const auto& shape) { return OneOf(shape.scaled(factor)); });
+  }
+
+ private:
+  std::variant<Shapes...> held_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/rounded_moments.hpp"
+#include "moreau/shape/vertices.hpp"
+
+namespace moreau {
+
+/// A core of which the moments of the rounded body are known (rounded_moments.hpp).
+template <class Core>
+concept HasRoundedMoments = requires(const Core core, typename Core::Space::Scalar radius) {
+  { rounded_moments(core, radius) } -> std::same_as<Moments<SpaceOf<Core>>>;
+};
+
+/// The Minkowski sum of a convex core (Polygon, Polyhedron, Segment, any shape known by its
+/// support) and a ball: all points at most the radius away from the core. The body frame has the
+/// axes of the core's and its origin at the centre of mass of the sum, which is not that of the
+/// core unless the core is symmetric: the core stands at core_position() in it. A core without
+/// rounded_moments() keeps its own frame, and the sum then has no mass and is no Shape.
+template <ConvexCore Core>
+class Rounded {
+ public:
+  using Space = SpaceOf<Core>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+
+  /// @param radius of the ball [m], > 0
+  /// @throws std::invalid_argument unless the radius is finite and greater than zero, and so is the
+  ///   volume
+  Rounded(const Core& core, Scalar radius) : core_(core), radius_(radius) {
+    detail::require_positive(radius, "Rounded", "radius");
+    if constexpr (HasRoundedMoments<Core>) {
+      const Moments<Space> about_core = rounded_moments(core_, radius_);
+      require(std::isfinite(about_core.volume) && about_core.volume > 0, "Rounded", "volume",
+              about_core.volume, "m^D must be positive and finite");
+      core_position_ = -about_core.first / about_core.volume;
+      moments_ = about_core.centered();
+    }
+  }
+
+  const Core& core() const { return core_; }
+  Scalar radius() const { return radius_; }  ///< of the ball [m]
+  /// Where the origin of the core's frame is in this shape's frame [m].
+  const Vector& core_position() const { return core_position_; }
+
+  /// [m^D]
+  Scalar volume() const requires HasRoundedMoments<Core> { return moments_.volume; }
+  /// Farthest point from the origin [m].
+  Scalar circumradius() const requires HasCircumradius<Core> {
+    if constexpr (Polytope<Core>) {
+      const auto from_origin = core_.vertices().rowwise() + core_position_.transpose();
+      return from_origin.rowwise().norm().maxCoeff() + radius_;
+    } else {
+      return core_.circumradius() + radius_;
+    }
+  }
+  /// Nearest point of the surface [m].
+  Scalar inradius() const requires HasInradius<Core> {
+    if constexpr (Polytope<Core>) {
+      const auto heights = (core_.face_normals() * core_position_).array() + core_.face_offsets();
+      return heights.minCoeff() + radius_;
+    } else {
+      return core_.inradius() + radius_;
+    }
+  }
+
+  /// The farthest point in the direction (any length but zero), body coordinates [m].
+  Vector support(const Vector& direction) const {
+    return core_position_ + core_.support(direction) + radius_ * direction.normalized();
+  }
+
+  /// @param density [kg/m^D], > 0
+  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  MassProperties<Space> mass_properties(Scalar density) const requires HasRoundedMoments<Core> {
+    detail::require_positive(density, "Rounded::mass_properties", "density");
+    return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
+  }
+
+  /// Of the core, in the world.
+  Pose<Space> core_pose(const Pose<Space>& pose) const {
+    return {pose(core_position_), pose.rotation};
+  }
+  Aabb<Space> bounding_box(const Pose<Space>& pose) const {
+    return core_.bounding_box(core_pose(pose)).inflated(radius_);
+  }
+
+  /// The same shape, all lengths times the factor, > 0.
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  Rounded scaled(Scalar factor) const requires Scalable<Core> {
+    detail::require_positive(factor, "Rounded::scaled", "factor");
+    return Rounded(core_.scaled(factor), radius_ * factor);
+  }
+
+ private:
+  Core core_;
+  Scalar radius_;
+  Vector core_position_ = Vector::Zero();
+  Moments<Space> moments_;
+};
+
+}  // namespace moreau

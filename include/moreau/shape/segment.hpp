@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/vertices.hpp"
+
+namespace moreau {
+
+/// The points of the x axis up to half_length() from the origin; vertex 0 is the end at -x, vertex
+/// 1 that at +x. It has no volume and no mass, so it is no Shape but the core of one: Capsule.
+template <class S>
+class Segment {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// Not explicit, so that Capsule<S>(half_length, radius) can be said.
+  /// @param half_length [m], > 0
+  /// @throws std::invalid_argument unless the half length is finite and greater than zero
+  Segment(Scalar half_length) : half_length_(half_length) {
+    detail::require_positive(half_length, "Segment", "half_length");
+  }
+
+  Scalar half_length() const { return half_length_; }   ///< [m]
+  Scalar circumradius() const { return half_length_; }  ///< farthest point from the origin [m]
+  Scalar inradius() const { return 0; }                 ///< nearest point of the surface [m]
+
+  /// An end that is farthest in the direction (any length but zero), body coordinates [m].
+  Vector support(const Vector& direction) const {
+    MOREAU_ASSERT(direction.squaredNorm() > 0);
+    return direction.x() < 0 ? -half_length_ * Vector::UnitX() : half_length_ * Vector::UnitX();
+  }
+
+  Aabb<S> bounding_box(const Pose<S>& pose) const {
+    const Vector half = (pose.rotation * Vector(half_length_ * Vector::UnitX())).cwiseAbs();
+    return {pose.position - half, pose.position + half};
+  }
+
+  /// A segment of half_length() times the factor, > 0.
+  Segment scaled(Scalar factor) const {
+    detail::require_positive(factor, "Segment::scaled", "factor");
+    return Segment(half_length_ * factor);
+  }
+
+ private:
+  Scalar half_length_;
+};
+
+}  // namespace moreau

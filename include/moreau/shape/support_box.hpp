@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/pose.hpp"
+
+namespace moreau {
+
+/// The tight box in world axes around a convex shape at the pose, from its support alone [m]: what
+/// a shape of one's own can answer as its bounding_box().
+template <class ShapeT>
+Aabb<typename ShapeT::Space> support_box(const ShapeT& shape,
+                                         const Pose<typename ShapeT::Space>& pose) {
+  using S = typename ShapeT::Space;
+  using Vector = typename S::Vector;
+  Aabb<S> box;
+  for (int axis = 0; axis < S::dim; ++axis) {
+    const Vector up = pose.rotation.inverse() * Vector::Unit(axis);
+    box.upper[axis] = pose.position[axis] + up.dot(shape.support(up));
+    box.lower[axis] = pose.position[axis] + up.dot(shape.support(-up));
+  }
+  return box;
+}
+
+}  // namespace moreau

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Every shape of the library, in one space; a line for each.
+#pragma once
+
+#include <random>
+#include <utility>
+
+#include "moreau/shape/capsule.hpp"
+#include "moreau/shape/one_of.hpp"
+#include "moreau/shape/rounded.hpp"
+#include "moreau/shape/sphere.hpp"
+
+#include "conformance/shape.hpp"
+#include "detect/shapes.hpp"
+
+namespace conformance {
+
+template <class S>
+void check_all_shapes() {
+  using namespace moreau;
+  using T = typename S::Scalar;
+  std::mt19937_64 random(7);
+  const auto grain = samples::grain(S{}, random);
+  using Grain = std::remove_const_t<decltype(grain)>;
+  check_shape(Sphere<S>(T(0.7)));
+  check_shape(grain);
+  check_shape(Capsule<S>(T(1), T(0.3)));
+  check_shape(Rounded<Grain>(grain, T(0.2)));
+  check_shape(OneOf<Sphere<S>, Grain>(grain));
+}
+
+}  // namespace conformance

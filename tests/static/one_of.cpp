@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a OneOf is, and of what there is none.
+#include "moreau/shape/one_of.hpp"
+
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+
+namespace {
+
+using moreau::OneOf;
+using moreau::Space;
+
+using Mixed = OneOf<moreau::Ball<double>, moreau::Polyhedron<double>>;
+static_assert(moreau::ConvexShape<Mixed> && !moreau::Polytope<Mixed>);
+static_assert(std::convertible_to<moreau::Ball<double>, Mixed>);
+static_assert(!std::convertible_to<moreau::Ball<float>, Mixed>);
+
+/// Has mass and a box, but is not convex.
+struct Minimal {
+  using Space = moreau::Space<3>;
+  moreau::MassProperties<Space> mass_properties(double density) const;
+  moreau::Aabb<Space> bounding_box(const moreau::Pose<Space>& pose) const;
+};
+using WithMinimal = OneOf<moreau::Ball<double>, Minimal>;
+static_assert(moreau::Shape<WithMinimal> && !moreau::ConvexShape<WithMinimal>);
+
+template <class... Shapes>
+concept CanBeMixed = requires {
+  typename OneOf<Shapes...>;
+};
+static_assert(!CanBeMixed<moreau::Ball<double>, moreau::Disk<double>>);
+static_assert(!CanBeMixed<moreau::Ball<double>, moreau::Ball<float>>);
+static_assert(!CanBeMixed<>);
+
+}  // namespace
