@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "moreau/shape/capsule.hpp"
+#include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
@@ -129,4 +131,17 @@ TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its end
   const auto one = points_of(Stadium<S>{0.3, 0.1}, pose, 1, 1);
   REQUIRE(one.size() == 1);
   CHECK(one[0].gap == doctest::Approx(1 - 0.1 - std::hypot(0.1, 0.8)));
+}
+
+TEST_CASE_TEMPLATE("capsules and shapes of several kinds are seen as what they are", S, Space<2>,
+                   Space<3>) {
+  using Grain = moreau::OneOf<Sphere<S>, moreau::Capsule<S>>;
+  Pose<S> pose;
+  pose.position[S::dim - 1] = -0.5;
+  const auto rod = points_of(Grain(moreau::Capsule<S>(0.4, 0.1)), pose, 1, 1);
+  REQUIRE(rod.size() == 2);
+  for (const auto& point : rod) CHECK(point.gap == doctest::Approx(1 - 0.1 - std::hypot(0.4, 0.5)));
+  const auto ball = points_of(Grain(Sphere<S>(0.2)), pose, 1, 1);
+  REQUIRE(ball.size() == 1);
+  CHECK(ball[0].gap == doctest::Approx(0.3));
 }

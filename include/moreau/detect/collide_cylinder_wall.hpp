@@ -4,10 +4,10 @@
 //
 // The distance from the axis is a convex function of the point. Within a polytope it is largest at
 // a vertex, so its vertices say all, each with a normal of its own; a ball is a vertex with a
-// radius. Of shapes with nothing but a support function two points are found: where going outwards
-// leads to from the two sides of the shape. They are one where the shape touches at one point only,
-// and they are the two ends of what lies across; of a line or a face of contact parallel to the
-// axis one point is found.
+// radius, a capsule two of them. Of shapes with nothing but a support function two points are
+// found: where going outwards leads to from the two sides of the shape. They are one where the
+// shape touches at one point only, and they are the two ends of what lies across; of a line or a
+// face of contact parallel to the axis one point is found.
 #pragma once
 
 #include <cstdint>
@@ -119,6 +119,24 @@ void for_each_outermost(const Placed<ShapeT>& a, const Placed<CylinderWall<Space
 template <class S, class Use>
 void for_each_outermost(const Placed<Sphere<S>>& a, const Placed<CylinderWall<S>>&, Use&& use) {
   use(0u, S::Vector::Zero().eval(), a.radius());
+}
+template <class S, class Use>
+void for_each_outermost(const Placed<Segment<S>>& a, const Placed<CylinderWall<S>>&, Use&& use) {
+  for (std::uint32_t v = 0; v < 2; ++v) use(v, a.vertex(v), typename S::Scalar(0));
+}
+template <class Core, class Use>
+void for_each_outermost(const Placed<Rounded<Core>>& a,
+                        const Placed<CylinderWall<SpaceOf<Core>>>& b, Use&& use) {
+  using Vector = typename SpaceOf<Core>::Vector;
+  const Vector shift = a.core().center() - a.center();
+  for_each_outermost(a.core(), b, [&](std::uint32_t k, const Vector& x, auto radius) {
+    use(k, Vector(x + shift), radius + a.rounding_radius());
+  });
+}
+template <class... Shapes, class Use>
+void for_each_outermost(const Placed<OneOf<Shapes...>>& a,
+                        const Placed<CylinderWall<SpaceOf<OneOf<Shapes...>>>>& b, Use&& use) {
+  a.visit([&](const auto& kind) { for_each_outermost(kind, b, use); });
 }
 
 }  // namespace detail

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/integrate/velocity_verlet.hpp"
+
+#include "conformance/integrator.hpp"
+
+using moreau::Space;
+
+TEST_CASE_TEMPLATE("integrators, in single precision", S, Space<2, float>, Space<3, float>) {
+  conformance::integrator<S>(moreau::MoreauJean());
+  conformance::integrator<S>(moreau::MoreauJean(1));
+  conformance::integrator<S>(moreau::VelocityVerlet());
+}
