@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "conformance/shapes.hpp"
+
+TEST_CASE("every shape of space") {
+  conformance::check_all_shapes<moreau::Space<3>>();
+}
