@@ -22,8 +22,9 @@ World<ShapeT> column(int count, double tilt) {
 
 }  // namespace detail
 
-/// Contact k of a column of N, counted from the floor, carries (N - k) m g h. From the impulses of
-/// the step before, which are the same, a step at rest takes no more than one check of 20 sweeps.
+/// Contact k of a column of N, counted from the floor, carries (N - k) m g h. Where the impulses
+/// are unique, with one point per contact, those of the step before solve a step at rest: the
+/// solver's first check, after 20 sweeps, says so.
 template <class ShapeT>
 void column(Record& record, int count) {
   const double h = 1e-3;
@@ -50,7 +51,8 @@ void column(Record& record, int count) {
   const std::string name = with_shape<ShapeT>("column of " + std::to_string(count));
   record.vanishes(name + ": relative error of the impulses", SpaceOf<ShapeT>::dim, worst, 1e-8);
   record.vanishes(name + ": steps not solved", SpaceOf<ShapeT>::dim, unsolved, 0);
-  record.vanishes(name + ": sweeps of a step at rest", SpaceOf<ShapeT>::dim, sweeps, 20);
+  if constexpr (is_round<ShapeT>)
+    record.vanishes(name + ": sweeps of a step at rest", SpaceOf<ShapeT>::dim, sweeps, 20);
 }
 
 /// Three boxes on a floor tilted to half the friction angle: ten seconds without creep.

@@ -56,22 +56,16 @@ void force_balance(Record& record, std::size_t count) {
 
 inline void balance_of_forces(Record& record, Effort effort) {
   const bool quick = effort == Effort::quick;
-  force_balance<Polyhedron>(record, quick ? 30 : 80);
+  force_balance<Polyhedron>(record, quick ? 30 : 40);
   force_balance<Polygon>(record, quick ? 12 : 40);
   force_balance<Ball>(record, quick ? 20 : 60);
   force_balance<Disk>(record, quick ? 12 : 40);
 }
 
-/// Without drive and with restitution 0 kinetic and potential energy together never rise above what
-/// they were: the largest rise over the least so far, less the work of the correction of overlaps,
-/// over the energy that the packing could fall by.
+/// Largest rise of kinetic and potential energy together over the least so far, less the work of
+/// the correction of overlaps [J].
 template <class ShapeT>
-void energy_without_drive(Record& record, std::size_t count, int steps) {
-  HeapOptions options;
-  options.count = count;
-  options.tolerance = 1e-8;  // what the residual leaves of an impulse makes energy, too
-  Heap<ShapeT> heap(options);
-  const double unit = mass(heap.world) * gravity * Heap<ShapeT>::size;
+double rise_of_energy(Heap<ShapeT>& heap, int steps) {
   double least = energy(heap.world), rise = 0, work = 0;
   for (int k = 0; k < steps; ++k) {
     const moreau::StepReport report = heap.world.step(5e-4);
@@ -80,12 +74,27 @@ void energy_without_drive(Record& record, std::size_t count, int steps) {
     rise = std::max(rise, now - least);
     least = std::min(least, now);
   }
-  const std::string name =
-      with_shape<ShapeT>("energy without drive") + ", " + std::to_string(steps) + " steps: ";
+  return rise;
+}
+
+/// Without drive and with restitution 0 energy never grows, neither while the grains come down in a
+/// second nor in the packing that they make. Over M g d. (On curved contacts the velocity before a
+/// step points out of the frame that the step turned on, by v h/R: while grains roll down each
+/// other the scheme gains energy of order h.)
+template <class ShapeT>
+void energy_without_drive(Record& record, std::size_t count, int steps) {
+  HeapOptions options;
+  options.count = count;
+  options.tolerance = 1e-8;  // what the residual leaves of an impulse makes energy, too
+  Heap<ShapeT> heap(options);
   constexpr int dim = SpaceOf<ShapeT>::dim;
-  record.vanishes(name + "rise over M g d", dim, rise / unit, 1e-6);
-  record.vanishes(name + "kinetic over M g d at the end", dim, kinetic_energy(heap.world) / unit,
-                  1e-9);
+  const double unit = mass(heap.world) * gravity * Heap<ShapeT>::size;
+  const std::string name = with_shape<ShapeT>("energy without drive") + ": ";
+  record.vanishes(name + "rise while falling", dim, rise_of_energy(heap, 2000) / unit, 1e-6);
+  record.vanishes(with_shape<ShapeT>("energy without drive") + ": rise in " +
+                      std::to_string(steps) + " steps of the packing",
+                  dim, rise_of_energy(heap, steps) / unit, 1e-9);
+  record.vanishes(name + "kinetic at the end", dim, kinetic_energy(heap.world) / unit, 1e-9);
 }
 
 inline void energy_does_not_grow(Record& record, Effort effort) {
