@@ -175,10 +175,10 @@ inline void random_close_packing(Record& record, Effort effort) {
   const bool quick = effort == Effort::quick;
   close_packing<Disk>(
       record, 0.84,
-      quick ? std::vector<std::size_t>{200} : std::vector<std::size_t>{200, 400, 800, 1600});
+      quick ? std::vector<std::size_t>{200} : std::vector<std::size_t>{200, 400, 800});
   close_packing<Ball>(
       record, 0.64,
-      quick ? std::vector<std::size_t>{300} : std::vector<std::size_t>{300, 600, 1200, 2400});
+      quick ? std::vector<std::size_t>{300} : std::vector<std::size_t>{300, 600, 1000});
 }
 
 /// The stiffer the springs, the nearer their packings come to those of contact dynamics: mean over

@@ -77,10 +77,8 @@ double rise_of_energy(Heap<ShapeT>& heap, int steps) {
   return rise;
 }
 
-/// Without drive and with restitution 0 energy never grows, neither while the grains come down in a
-/// second nor in the packing that they make. Over M g d. (On curved contacts the velocity before a
-/// step points out of the frame that the step turned on, by v h/R: while grains roll down each
-/// other the scheme gains energy of order h.)
+/// Without drive and with restitution 0 energy never grows: in the packing that grains have made
+/// after a second of fall, and over all its steps. Over M g d.
 template <class ShapeT>
 void energy_without_drive(Record& record, std::size_t count, int steps) {
   HeapOptions options;
@@ -89,12 +87,32 @@ void energy_without_drive(Record& record, std::size_t count, int steps) {
   Heap<ShapeT> heap(options);
   constexpr int dim = SpaceOf<ShapeT>::dim;
   const double unit = mass(heap.world) * gravity * Heap<ShapeT>::size;
-  const std::string name = with_shape<ShapeT>("energy without drive") + ": ";
-  record.vanishes(name + "rise while falling", dim, rise_of_energy(heap, 2000) / unit, 1e-6);
-  record.vanishes(with_shape<ShapeT>("energy without drive") + ": rise in " +
-                      std::to_string(steps) + " steps of the packing",
-                  dim, rise_of_energy(heap, steps) / unit, 1e-9);
-  record.vanishes(name + "kinetic at the end", dim, kinetic_energy(heap.world) / unit, 1e-9);
+  const std::string name = with_shape<ShapeT>("energy without drive");
+  rise_of_energy(heap, 2000);
+  record.vanishes(name + ": rise in " + std::to_string(steps) + " steps of the packing", dim,
+                  rise_of_energy(heap, steps) / unit, 1e-9);
+  record.vanishes(name + ": kinetic at the end", dim, kinetic_energy(heap.world) / unit, 1e-9);
+}
+
+/// The same while the grains come down. Spheres miss it: on curved contacts the velocity before a
+/// step points out of the frame that the step has turned on, by v h/R, and while grains roll down
+/// each other the scheme gains energy of order h.
+template <class ShapeT>
+void energy_of_fall(Record& record, std::size_t count) {
+  HeapOptions options;
+  options.count = count;
+  options.tolerance = 1e-8;
+  Heap<ShapeT> heap(options);
+  const double unit = mass(heap.world) * gravity * Heap<ShapeT>::size;
+  record.vanishes(with_shape<ShapeT>("energy without drive") + ": rise while falling",
+                  SpaceOf<ShapeT>::dim, rise_of_energy(heap, 2000) / unit, 1e-6);
+}
+
+inline void energy_falls(Record& record, Effort) {
+  energy_of_fall<Disk>(record, 24);
+  energy_of_fall<Ball>(record, 36);
+  energy_of_fall<Polygon>(record, 24);
+  energy_of_fall<Polyhedron>(record, 18);
 }
 
 inline void energy_does_not_grow(Record& record, Effort effort) {
