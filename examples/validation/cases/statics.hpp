@@ -96,7 +96,7 @@ void energy_without_drive(Record& record, std::size_t count, int steps) {
 
 /// The same while the grains come down. Spheres miss it: on curved contacts the velocity before a
 /// step points out of the frame that the step has turned on, by v h/R, and while grains roll down
-/// each other the scheme gains energy of order h.
+/// each other the scheme gains energy that goes with the step.
 template <class ShapeT>
 void energy_of_fall(Record& record, std::size_t count) {
   HeapOptions options;
