@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "physics/motion.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
@@ -37,29 +36,12 @@ struct Scene {
     x[up] = height;
     return x;
   }
-  /// From the first axis towards the last.
-  static typename S::Rotation rotation(double angle) {
-    if constexpr (S::dim == 2)
-      return S::exp(typename S::Angular(angle));
-    else
-      return S::exp(typename S::Angular(0, -angle, 0));
-  }
   bool is_finite() const {
     for (const auto& pose : simulation.bodies().pose)
       if (!pose.is_finite()) return false;
     for (const auto& velocity : simulation.bodies().velocity)
       if (!velocity.allFinite()) return false;
     return true;
-  }
-  /// Of all grains [J].
-  double energy() const {
-    double sum = scenes::kinetic_energy(simulation);
-    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
-      const std::size_t i = simulation.grain(k).index();
-      sum -= simulation.bodies().weight[i] *
-             simulation.gravity().dot(simulation.bodies().pose[i].position);
-    }
-    return sum;
   }
 };
 
@@ -77,49 +59,6 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
-
-// The tip of a slender rod of half length l, inertia m l^2/3, at the angle t to a floor accelerates
-// by N/m (1 + 3 cos t (cos t - mu sin t)) away from it if the rod slides with its centre behind the
-// tip. At mu = 2 and tan t = 2 that is -0.8 N/m: pushing draws the tip in, and a force that holds
-// the contact closed does not exist (P. Painleve, 1895; mu > 4/3 is needed). Over one step an
-// impulse exists, the tip sticks, and no energy comes of it.
-TEST_CASE_TEMPLATE("Painleve's rod: a step has a solution where the forces have none", ShapeT,
-                   Polyhedron<>, Polygon<>) {
-  using Box = Scene<ShapeT>;
-  using Vector = typename Box::Vector;
-  const double angle = std::atan(2.0), thickness = 0.01, length = 1, h = 1e-3;
-  Vector half = Vector::Constant(thickness / 2);
-  half[0] = length / 2;
-  for (const double direction : {-1.0, 1.0})
-    for (const double fall : {0.0, 0.1}) {
-      Box scene(2, 0.1);
-      const double height = std::sin(angle) * length / 2 + std::cos(angle) * thickness / 2;
-      const auto id = scene.simulation.add_shape(scenes::cuboid<ShapeT>(half));
-      const BodyId rod =
-          scene.simulation.add_grain(id, {Box::vector(0, height), Box::rotation(angle)}, 1000);
-      scene.simulation.add_wall(Vector::Unit(Box::up), Vector::Zero());
-      scene.simulation.set_gravity(-9.81 * Vector::Unit(Box::up));
-      scene.simulation.set_velocity(rod, Box::vector(5 * direction, -fall));
-      const double start = scene.energy();
-      double most = start, work = 0;
-      int insane = 0, unsolved = 0;
-      for (int k = 0; k < 200; ++k) {
-        const moreau::StepReport report = scene.simulation.step(h);
-        insane += !is_sane(report) || !scene.is_finite();
-        unsolved += !report.solve.converged;
-        work += std::abs(report.correction.work);
-        most = std::max(most, scene.energy() - work);
-      }
-      CAPTURE(direction);
-      CAPTURE(fall);
-      CHECK(insane == 0);
-      CHECK(unsolved == 0);
-      // The gap of a rotating tip is linear in a step up to (w h)^2/2 of the lever, w at most some
-      // v/l: an energy of m g l (v h/l)^2 per step, 2.5e-5 of m g l.
-      const double weight = scene.simulation.bodies().weight[rod.index()] * 9.81;
-      CHECK(most - start <= 200 * 2.5e-5 * weight * length);
-    }
-}
 
 /// A box that two driven walls press from both sides: no velocity of it satisfies both.
 struct Squeeze {

@@ -6,14 +6,13 @@
 //     f_n = max(0, -k_n g - c_n u_n),       f_t = -k_t xi - c_t u_t, cut to |f_t| <= mu f_n,
 //
 // with xi the integral of u_t over the contact's life, shortened where the contact slides to what
-// the limit can hold. The dashpots follow from the restitution of a free impact,
-// c = 2 beta sqrt(m k), beta = -ln e / sqrt(pi^2 + ln^2 e), m the effective mass of the contact.
+// the limit can hold. The dashpots follow from the restitution of a free impact, c = 2 beta
+// sqrt(m k), e = exp(-2 beta acos(beta)/sqrt(1 - beta^2)), m the effective mass of the contact.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <numbers>
 
 #include "moreau/core/error.hpp"
 #include "moreau/law/regularized.hpp"
@@ -27,7 +26,7 @@ class LinearSpringDashpot {
   /// @param stiffness            k_n > 0 [N/m]
   /// @param tangential_stiffness k_t >= 0 [N/m]
   /// @param friction             mu >= 0 [-]
-  /// @param restitution          e in [0, 1] of a central impact [-]
+  /// @param restitution          e in [0, 1] of a central impact [-]; 0.135 is the least it gives
   /// @throws std::invalid_argument outside these ranges
   explicit LinearSpringDashpot(T stiffness = T(1e6), T tangential_stiffness = T(0),
                                T friction = T(0), T restitution = T(1))
@@ -49,8 +48,7 @@ class LinearSpringDashpot {
   /// How long a free impact lasts [s]; a twentieth of it is a good step.
   /// @param effective_mass 1 / (1/m_a + 1/m_b) [kg]
   T duration(T effective_mass) const {
-    return std::numbers::pi_v<T> *
-           std::sqrt(effective_mass / (stiffness_ * std::max(T(1e-6), T(1) - damping_ * damping_)));
+    return detail::contact_time(damping_) * std::sqrt(effective_mass / stiffness_);
   }
 
   /// Force on b in the contact's frame [N].

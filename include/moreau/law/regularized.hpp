@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <concepts>
-#include <numbers>
+#include <limits>
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
@@ -39,14 +39,28 @@ concept ContactLaw = SetValuedLaw<L, S> || RegularizedLaw<L, S>;
 
 namespace detail {
 
-/// beta = -ln e / sqrt(pi^2 + ln^2 e) of a linear oscillator whose half swing keeps e of its speed.
+/// How long a contact of the damping ratio beta <= 1 lasts, over sqrt(m/k): until it would pull.
+template <std::floating_point T>
+T contact_time(T beta) {
+  const T rest = T(1) - beta * beta;
+  return rest > T(1e-6) ? 2 * std::acos(beta) / std::sqrt(rest) : T(2);
+}
+
+/// The damping ratio beta of a linear oscillator whose impact ends when the force would pull:
+/// e = exp(-beta contact_time(beta)) (T. Schwager and T. Poschel, Granular Matter 9 (2007) 465);
+/// the same for Hertz's force with its dashpot, which a change of variables makes linear (D.
+/// Antypov and J. A. Elliott, EPL 94 (2011) 50004). Critical damping leaves e^-2 = 0.135; below it
+/// stays so.
 template <std::floating_point T>
 T damping_ratio(T restitution, const char* law) {
   require(restitution >= T(0) && restitution <= T(1), law, "restitution", restitution,
           "must lie in [0, 1]");
-  if (restitution == T(0)) return T(1);
-  const T log = std::log(restitution);
-  return -log / std::sqrt(std::numbers::pi_v<T> * std::numbers::pi_v<T> + log * log);
+  T lower = 0, upper = 1;
+  for (int k = 0; k < std::numeric_limits<T>::digits; ++k) {
+    const T beta = (lower + upper) / 2;
+    (std::exp(-beta * contact_time(beta)) > restitution ? lower : upper) = beta;
+  }
+  return restitution < T(1) ? upper : T(0);
 }
 
 /// A normal force with a tangential spring and dashpot under Coulomb's limit.
@@ -68,7 +82,10 @@ typename S::Vector spring_friction(const ContactMotion<S>& motion, typename S::S
   const T size = shear.norm(), limit = friction * normal;
   if (size > limit) {
     shear *= size > 0 ? limit / size : T(0);
+    // What the dashpot alone would exceed the limit by is no stretch: the spring would then push
+    // the slip on.
     if (stiffness > 0) stretch = -(shear + damping * slip) / stiffness;
+    if (stretch.dot(shear) > 0) stretch.setZero();
   }
   return force;
 }

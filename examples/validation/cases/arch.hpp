@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <numbers>
+
+#include "scene.hpp"
+
+namespace validation {
+
+namespace detail {
+
+/// A block of an arch of mean radius 1 between two radial cuts.
+/// @param thickness over the radius
+template <class ShapeT>
+ShapeT voussoir(double from, double to, double thickness, bool starts, bool ends) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  std::vector<Vector> corners;
+  for (const double angle : {from, to})
+    for (const double radius : {1 - thickness / 2, 1 + thickness / 2})
+      for (const double side : {-0.15, 0.15}) {
+        if (S::dim == 2 && side > 0) continue;
+        Vector x = Vector::Constant(side);
+        x[0] = -radius * std::cos(angle);
+        // sin(pi) is not zero in floating point.
+        const bool flat = (starts && angle == from) || (ends && angle == to);
+        x[S::dim - 1] = flat ? 0 : radius * std::sin(angle);
+        corners.push_back(x);
+      }
+  return ShapeT(corners);
+}
+
+/// What an arch did under its weight.
+struct ArchRun {
+  double fall;   ///< of the crown [m]
+  int unsolved;  ///< steps
+};
+template <class ShapeT>
+ArchRun stand_arch(int blocks, double thickness, double time) {
+  using S = SpaceOf<ShapeT>;
+  constexpr int up = S::dim - 1;
+  World<ShapeT> world = world_of<ShapeT, Coulomb>(thickness, Coulomb(0.7), tight(1e-6));
+  world.set_contact_points(moreau::ContactPoints::all);
+  world.add_wall(S::Vector::Unit(up), S::Vector::Zero());
+  world.set_gravity(tilted_gravity<S>(0));
+  for (int k = 0; k < blocks; ++k) {
+    const double unit = std::numbers::pi / blocks;
+    const ShapeT shape =
+        voussoir<ShapeT>(unit * k, unit * (k + 1), thickness, k == 0, k + 1 == blocks);
+    world.add_grain(world.add_shape(shape), {shape.centroid_of_input()}, 1000);
+  }
+  const auto crown = world.grain(std::size_t(blocks) / 2).index();
+  const double start = world.bodies().pose[crown].position[up];
+  ArchRun run{0, 0};
+  while (world.time() < time && run.fall < 0.01) {
+    run.unsolved += !world.step(2e-3).solve.converged;
+    run.fall = start - world.bodies().pose[crown].position[up];
+  }
+  return run;
+}
+
+}  // namespace detail
+
+/// A semicircular arch with radial joints stands iff its thickness is at least 0.1075 of its mean
+/// radius (V. Milankovitch, Z. Math. Phys. 55 (1907) 1; H. Alexakis and N. Makris, Arch. Appl.
+/// Mech. 85 (2015) 1233), for friction enough not to slip.
+template <class ShapeT>
+void arch(Record& record, int blocks, int bisections) {
+  constexpr int dim = SpaceOf<ShapeT>::dim;
+  const double exact = 0.1075;
+  Curve& curve = record.curve("arch_" + std::to_string(dim) + "d", {"thickness", "fall"});
+  int unsolved = 0;
+  const auto stands = [&](double thickness) {
+    const auto run = detail::stand_arch<ShapeT>(blocks, thickness, 0.5);
+    curve.rows.push_back({thickness, run.fall});
+    unsolved += run.unsolved;
+    return run.fall < 1e-3;
+  };
+  const double found = threshold(0.9 * exact, 1.1 * exact, bisections, stands);
+  std::sort(curve.rows.begin(), curve.rows.end());
+  const std::string name = with_shape<ShapeT>("arch of " + std::to_string(blocks));
+  record.compare_relative(name + ": least thickness over radius", dim, exact, found, 0.02);
+}
+
+inline void semicircular_arch(Record& record, Effort effort) {
+  const bool quick = effort == Effort::quick;
+  arch<Polygon>(record, 31, quick ? 4 : 6);
+  if (!quick) arch<Polyhedron>(record, 31, 5);
+}
+
+}  // namespace validation

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// What several cases are built from, written once for plane and space.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "moreau/measure/energy.hpp"
+
+#include "record.hpp"
+#include "world.hpp"
+
+namespace validation {
+
+using moreau::BodyId;
+using moreau::Materials;
+using moreau::Pose;
+using moreau::SpaceOf;
+
+constexpr double gravity = 9.81;  ///< [m/s^2]
+
+/// For answers that are exact.
+inline moreau::ColouredOptions tight(double tolerance = 1e-12) {
+  moreau::ColouredOptions options;
+  options.tolerance = tolerance;
+  options.max_sweeps = 20000;
+  return options;
+}
+
+template <class ShapeT, class Law>
+World<ShapeT, Law> world_of(double size, const Law& law,
+                            const moreau::ColouredOptions& options = tight(),
+                            const moreau::Tolerances& tolerances = {}) {
+  const Materials<Law> materials(1, law);
+  if constexpr (moreau::SetValuedLaw<Law, SpaceOf<ShapeT>>)
+    return World<ShapeT, Law>(size, materials, moreau::ColouredGaussSeidel(options), tolerances);
+  else
+    return World<ShapeT, Law>(size, materials, tolerances);
+}
+
+template <class ShapeT>
+constexpr bool is_round = std::is_constructible_v<ShapeT, double>;
+
+/// A cuboid (rectangle) with these half extents.
+template <class ShapeT>
+ShapeT cuboid(const typename SpaceOf<ShapeT>::Vector& half) {
+  using S = SpaceOf<ShapeT>;
+  std::vector<typename S::Vector> corners;
+  for (int corner = 0; corner < (1 << S::dim); ++corner) {
+    typename S::Vector x = half;
+    for (int axis = 0; axis < S::dim; ++axis)
+      if ((corner >> axis & 1) != 0) x[axis] = -x[axis];
+    corners.push_back(x);
+  }
+  return ShapeT(corners);
+}
+
+/// A ball, or a cube around it.
+template <class ShapeT>
+ShapeT regular(double radius) {
+  if constexpr (is_round<ShapeT>)
+    return ShapeT(radius);
+  else
+    return cuboid<ShapeT>(SpaceOf<ShapeT>::Vector::Constant(radius));
+}
+
+/// ", polygon", after the name of a case.
+template <class ShapeT>
+std::string with_shape(const std::string& name) {
+  constexpr bool plane = SpaceOf<ShapeT>::dim == 2;
+  return name + (is_round<ShapeT> ? (plane ? ", disk" : ", sphere")
+                                  : (plane ? ", polygon" : ", polyhedron"));
+}
+template <class Law>
+std::string with_law(const std::string& name) {
+  if (std::is_same_v<Law, Springs>) return name + ", linear springs";
+  if (std::is_same_v<Law, Hertz>) return name + ", Hertz-Mindlin";
+  return name;
+}
+
+/// In the plane of the first axis and the last.
+template <class S>
+typename S::Vector in_plane(double across, double height) {
+  typename S::Vector x = S::Vector::Zero();
+  x[0] = across;
+  x[S::dim - 1] = height;
+  return x;
+}
+/// Angular quantity of that plane, positive from the first axis towards the last.
+template <class S>
+typename S::Angular turn(double angle) {
+  return S::moment(in_plane<S>(1, 0), in_plane<S>(0, angle));
+}
+/// Gravity on a floor tilted towards +x [m/s^2].
+template <class S>
+typename S::Vector tilted_gravity(double tilt) {
+  return gravity * in_plane<S>(std::sin(tilt), -std::cos(tilt));
+}
+
+template <class ShapeT, class Law>
+moreau::BodyMotion<SpaceOf<ShapeT>> motion_of(const World<ShapeT, Law>& world, std::size_t grain) {
+  const std::size_t i = world.grain(grain).index();
+  const auto& bodies = world.bodies();
+  return {bodies.weight[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
+          bodies.velocity[i]};
+}
+/// Of all grains [J].
+template <class ShapeT, class Law>
+double kinetic_energy(const World<ShapeT, Law>& world) {
+  return moreau::kinetic_energy<SpaceOf<ShapeT>>(world.grain_count(),
+                                                 [&](std::size_t k) { return motion_of(world, k); })
+      .total();
+}
+/// Kinetic, and potential in the field of gravity [J].
+template <class ShapeT, class Law>
+double energy(const World<ShapeT, Law>& world) {
+  double sum = kinetic_energy(world);
+  for (std::size_t k = 0; k < world.grain_count(); ++k) {
+    const std::size_t i = world.grain(k).index();
+    sum -= world.bodies().weight[i] * world.gravity().dot(world.bodies().pose[i].position);
+  }
+  return sum;
+}
+template <class ShapeT, class Law>
+moreau::Momentum<SpaceOf<ShapeT>> momentum(const World<ShapeT, Law>& world) {
+  return moreau::momentum<SpaceOf<ShapeT>>(world.grain_count(),
+                                           [&](std::size_t k) { return motion_of(world, k); });
+}
+/// Of all grains [kg].
+template <class ShapeT, class Law>
+double mass(const World<ShapeT, Law>& world) {
+  double sum = 0;
+  for (const double weight : world.bodies().weight) sum += weight;
+  return sum;
+}
+
+/// One grain above a floor through the origin; gravity tilted by an angle towards +x.
+template <class ShapeT, class Law = Coulomb>
+struct OnFloor {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+  World<ShapeT, Law> world;
+  BodyId grain;
+
+  OnFloor(const ShapeT& shape, const Pose<S>& pose, const Law& law, double tilt = 0)
+      : world(world_of<ShapeT, Law>(0.1, law)) {
+    grain = world.add_grain(world.add_shape(shape), pose, 1000);
+    world.add_wall(Vector::Unit(up), Vector::Zero());
+    world.set_gravity(tilted_gravity<S>(tilt));
+  }
+  OnFloor(const ShapeT& shape, double height, const Law& law, double tilt = 0)
+      : OnFloor(shape, Pose<S>{in_plane<S>(0, height)}, law, tilt) {}
+
+  const Pose<S>& pose() const { return world.bodies().pose[grain.index()]; }
+  const typename S::Twist& twist() const { return world.bodies().velocity[grain.index()]; }
+  double along() const { return twist()[0]; }    ///< velocity [m/s]
+  double upward() const { return twist()[up]; }  ///< velocity [m/s]
+  double spin() const { return twist().template tail<S::angular_dim>().norm(); }  ///< [rad/s]
+};
+
+/// 2/(D + 2), the I/(m R^2) of a ball and a disk.
+template <class S>
+constexpr double gyration = 2.0 / (S::dim + 2);
+
+}  // namespace validation

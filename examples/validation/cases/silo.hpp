@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <random>
+
+#include "scene.hpp"
+
+namespace validation {
+
+namespace detail {
+
+/// Balls of slightly different sizes in a square silo (a channel in the plane).
+template <class ShapeT>
+struct Silo {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+  static constexpr double h = 5e-4, size = 0.02;  ///< step [s], mean diameter [m]
+
+  double width;  ///< [m]
+  World<ShapeT> world;
+  std::vector<BodyId> sides;
+
+  Silo(int across, int layers)
+      : width(across * size * 1.12),
+        world(world_of<ShapeT, Coulomb>(0.9 * size, Coulomb(0.5), options(), tolerances())) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> share(0.9, 1.1), jitter(-0.005, 0.005);
+    const int per_layer = S::dim == 3 ? across * across : across;
+    for (int k = 0; k < per_layer * layers; ++k) {
+      Vector x;
+      int rest = k;
+      for (int axis = 0; axis < S::dim; ++axis) {
+        const int n = axis == up ? rest : rest % across;
+        x[axis] = size * (1.12 * (n + 0.5) + jitter(random));
+        rest /= across;
+      }
+      world.add_grain(world.add_shape(ShapeT(share(random) * size / 2)), {x}, 2500);
+    }
+    for (int axis = 0; axis < up; ++axis) {
+      const Vector n = Vector::Unit(axis);
+      sides.push_back(world.add_wall(n, Vector::Zero()));
+      sides.push_back(world.add_wall(-n, width * n));
+    }
+    world.add_wall(Vector::Unit(up), Vector::Zero());
+    world.set_gravity(tilted_gravity<S>(0));
+  }
+
+  static moreau::ColouredOptions options() {
+    moreau::ColouredOptions o;
+    o.tolerance = 1e-3;
+    o.max_sweeps = 1000;
+    return o;
+  }
+  static moreau::Tolerances tolerances() {
+    moreau::Tolerances t;
+    t.margin = 0.08;
+    return t;
+  }
+
+  void run(double time) {
+    for (const double end = world.time() + time; world.time() < end;) world.step(h);
+  }
+  /// Walls sliding upwards hang the grains on their friction, all of it.
+  void lift_walls(double speed) {
+    for (const BodyId wall : sides) world.set_velocity(wall, speed * Vector::Unit(up));
+  }
+
+  /// Adds to weight[j] and friction[j] what stands, and what the walls carry, above the height
+  /// j x `spacing` [N].
+  void add_forces(double spacing, std::vector<double>& weight,
+                  std::vector<double>& friction) const {
+    const auto& bodies = world.bodies();
+    const auto add = [&](std::vector<double>& sum, double height, double force) {
+      for (std::size_t j = 0; j < sum.size() && double(j) * spacing < height; ++j) sum[j] += force;
+    };
+    for (std::size_t k = 0; k < world.grain_count(); ++k) {
+      const std::size_t i = world.grain(k).index();
+      add(weight, bodies.pose[i].position[up], bodies.weight[i] * gravity);
+    }
+    const auto& contacts = world.contacts();
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto& contact = contacts.points[c];
+      if (world.is_grain(contact.b) || std::abs(contact.frame(up, 0)) > 0.5) continue;
+      const Vector force = contact.frame * contacts.impulses[c] / -h;
+      add(friction, bodies.pose[contact.a].position[up] + contact.lever_a[up], force[up]);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Where wall friction is fully mobilised the mean vertical stress at the depth z is
+/// rho g lambda (1 - exp(-z/lambda)) (H. A. Janssen, Z. Ver. dt. Ing. 39 (1895) 1045); rho g z is
+/// the weight above per area, lambda the only number that is fitted. The stress is what the weight
+/// above and the walls leave, mean over half a second.
+template <class ShapeT>
+void janssen(Record& record, int across, int layers) {
+  constexpr int dim = SpaceOf<ShapeT>::dim;
+  using Silo = detail::Silo<ShapeT>;
+  Silo silo(across, layers);
+  silo.run(0.8);
+  silo.lift_walls(0.02);
+  silo.run(0.5);
+  const double spacing = Silo::size;
+  std::vector<double> weight(std::size_t(1.2 * layers)), friction(weight.size());
+  int samples = 0;
+  for (; samples < 100; ++samples) {
+    silo.run(10 * Silo::h);
+    silo.add_forces(spacing, weight, friction);
+  }
+  // In weights of grains over the whole area: depth w, stress s.
+  std::vector<double> w, s;
+  for (std::size_t j = 0; j < weight.size(); ++j) {
+    if (weight[j] == 0) break;
+    w.push_back(weight[j] / samples);
+    s.push_back((weight[j] - friction[j]) / samples);
+  }
+  const auto misfit = [&](double lambda) {
+    double sum = 0;
+    for (std::size_t j = 0; j < w.size(); ++j)
+      sum += std::pow(s[j] - lambda * (1 - std::exp(-w[j] / lambda)), 2);
+    return sum;
+  };
+  double low = w[0] / 50, high = 5 * w[0];  // golden section
+  for (int k = 0; k < 80; ++k) {
+    const double a = high - 0.618 * (high - low), b = low + 0.618 * (high - low);
+    (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
+  }
+  const double lambda = (low + high) / 2;
+  double mean = 0, spread = 0;
+  for (const double value : s) mean += value / double(s.size());
+  for (const double value : s) spread += std::pow(value - mean, 2);
+  Curve& curve =
+      record.curve("janssen_" + std::to_string(dim) + "d", {"weight_above", "stress", "exact"});
+  for (std::size_t j = 0; j < w.size(); ++j)
+    curve.rows.push_back({w[j] / lambda, s[j] / lambda, 1 - std::exp(-w[j] / lambda)});
+  record.compare(with_shape<ShapeT>("Janssen's silo") + ": R^2 of the profile", dim, 1,
+                 1 - misfit(lambda) / spread, 0.02);
+  record.vanishes(with_shape<ShapeT>("Janssen's silo") + ": lambda over the depth", dim,
+                  lambda / w[0], 0.5);
+}
+
+inline void janssen_silo(Record& record, Effort effort) {
+  const bool quick = effort == Effort::quick;
+  janssen<Disk>(record, 8, quick ? 40 : 100);
+  if (!quick) janssen<Ball>(record, 5, 60);
+}
+
+}  // namespace validation

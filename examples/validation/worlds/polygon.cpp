@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "cases/world_impl.hpp"
+
+namespace validation {
+template moreau::StepReport World<Polygon, Coulomb>::step(double);
+}  // namespace validation

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <doctest/doctest.h>
+#include <string>
+#include <vector>
+
+#include "suite.hpp"
+
+namespace validation {
+
+/// Runs a case and checks every comparison of it.
+inline void check(const Case& one, Effort effort) {
+  Record record;
+  one.run(record, effort);
+  CHECK_FALSE(record.rows().empty());
+  for (const Row& row : record.rows()) {
+    INFO(one.name << ": " << row.name << " (" << row.dimension << ")");
+    INFO("expected " << row.expected << ", measured " << row.measured << ", error " << row.error
+                     << ", tolerance " << row.tolerance);
+    CHECK(row.pass());
+  }
+}
+
+/// The cases of a group that take no long time.
+inline void check_quick(const std::vector<Case>& group) {
+  for (const Case& one : group)
+    if (!one.takes_long) check(one, Effort::quick);
+}
+
+/// One case of a group at its full size.
+inline void check_full(const std::vector<Case>& group, const std::string& name) {
+  int found = 0;
+  for (const Case& one : group) {
+    if (one.name != name) continue;
+    check(one, Effort::full);
+    ++found;
+  }
+  CHECK(found == 1);
+}
+
+}  // namespace validation
