@@ -64,25 +64,24 @@ TEST_CASE("reduce: rounding does not choose") {
 }
 
 TEST_CASE("reduce: the triangle of the step before stays while it is nearly as wide") {
-  const std::vector<FeatureKey> previous = {key(0), key(1), key(4)};
+  const std::vector<KeptPoint> previous = {{key(0)}, {key(1)}, {key(4)}};
   Manifold<S> manifold = manifold_of(hexagon);
   reduce(manifold, 3, previous);
   CHECK(kept(manifold) == std::vector<std::size_t>{1, 3, 5});  // too narrow
-  const std::vector<FeatureKey> wide = {key(0), key(2), key(1)};
   const auto square =
       std::vector<std::array<double, 3>>{{0, 0, -1}, {1, 0, 0}, {1, 1.05, 0}, {0, 1, 0}};
   manifold = manifold_of(square);
   reduce(manifold, 3);
   const auto first = kept(manifold);
   manifold = manifold_of(square);
-  reduce(manifold, 3, std::vector<FeatureKey>{key(0), key(1), key(3)});
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(0)}, {key(1)}, {key(3)}});
   CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 3});
   CHECK(first != kept(manifold));
   manifold = manifold_of(square);
-  reduce(manifold, 3, std::vector<FeatureKey>{key(3), key(1), key(2)});  // without the deepest
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(3)}, {key(1)}, {key(2)}});  // without the deepest
   CHECK(kept(manifold) == first);
   manifold = manifold_of(square);
-  reduce(manifold, 3, std::vector<FeatureKey>{key(0), key(1), key(9)});  // one is gone
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(0)}, {key(1)}, {key(9)}});  // one is gone
   CHECK(kept(manifold) == first);
 }
 
@@ -117,4 +116,27 @@ TEST_CASE("reduce: points within the resolution are one, thin triangles two") {
   CHECK(reduced({{0, 0, -.1}, {1, 0, 0}, {0.5, 0.09, 0}}) == std::vector<std::size_t>{0, 1});
   CHECK(reduced({{0, 0, -.1}, {1, 0, 0}, {0.5, 0.11, 0}}) == std::vector<std::size_t>{0, 1, 2});
   CHECK(reduced({{0, 0, 0}}) == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("reduce: a point that comes in keeps the side that the pressure was on") {
+  // A square; the load was on the side from 0 to 1, and 3 has just become the deepest.
+  const auto square =
+      std::vector<std::array<double, 3>>{{0, 0, 0}, {1, 0, 0}, {1.5, 1, 0}, {0, 1, -1e-3}};
+  Manifold<S> manifold = manifold_of(square);
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(0), 1}, {key(1), 1}, {key(2), 0}});
+  CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 3});
+  // A little deeper than the others is no reason.
+  Reduction reduction;
+  reduction.shallower = 1e-2;
+  manifold = manifold_of(square);
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(0), 1}, {key(1), 1}, {key(2), 0}}, reduction);
+  CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 2});
+}
+
+TEST_CASE("reduce: open points are not asked where three are closed") {
+  Reduction reduction;
+  reduction.near = 1e-3;
+  Manifold<S> manifold = manifold_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 0, 0.1}, {0, 9, 0.1}});
+  reduce(manifold, 3, {}, reduction);
+  CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 2});
 }

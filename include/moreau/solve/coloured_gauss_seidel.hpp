@@ -60,11 +60,27 @@ class TeamGaussSeidel {
   SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& sweeps) const {
+    SolveReport report = attempt(op, laws, law_of, impulses, sweeps, options_.accelerate);
+    if (!options_.accelerate || report.left_over <= SolveReport::most_left_over) return report;
+    // Driven away, from the warm start or by acceleration: once more without either.
+    const int wasted = report.sweeps;
+    std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
+    report = attempt(op, laws, law_of, impulses, sweeps, false);
+    report.sweeps += wasted;
+    return report;
+  }
+
+ private:
+  template <class Operator, class Law>
+  SolveReport attempt(Operator& op, std::span<const Law> laws,
+                      std::span<const std::uint32_t> law_of,
+                      std::span<typename Operator::Vector> impulses,
+                      Workspace<Operator, Law>& sweeps, bool accelerate) const {
     SolveReport report;
     if (op.size() == 0) return report;
     report.converged = false;
     detail::apply_alone<Operator>(op, impulses);
-    sweeps.start(op, laws, law_of, impulses, options_.accelerate);
+    sweeps.start(op, laws, law_of, impulses, accelerate);
     double believed = 3 * options_.tolerance;  // change per sweep at which the residual may be met
     double least = std::numeric_limits<double>::infinity();
     int unchecked = 0;
@@ -104,7 +120,6 @@ class TeamGaussSeidel {
     return report;
   }
 
- private:
   /// The change per sweep says little where a contact is nearly singular: after this many checks
   /// that it forbade, the residual is looked at all the same.
   static constexpr int most_unchecked = 16;

@@ -128,6 +128,8 @@ class ContactDetector {
     out.clear();
     touching_ = 0;
     reduction_.resolution = static_cast<double>(lengths.resolution);
+    reduction_.shallower = reduction_.resolution / 10;
+    reduction_.near = reduction_.resolution;
     std::size_t p = 0;
     for (std::size_t k = 0; k < grains_.size(); ++k) {
       const auto& a = grains_[k];
@@ -261,10 +263,12 @@ class ContactDetector {
     if (manifold_.points.size() > S::dim) {
       const ContactKey from{a, b, FeatureKey()};
       for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
-           key != previous.keys.end() && key->a == a && key->b == b; ++key)
-        kept_.push_back(key->feature);
+           key != previous.keys.end() && key->a == a && key->b == b; ++key) {
+        const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
+        kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
+      }
     }
-    reduce(manifold_, S::dim, std::span<const FeatureKey>(kept_), reduction_);
+    reduce(manifold_, S::dim, std::span<const KeptPoint>(kept_), reduction_);
   }
 
   /// Walls may carry lower ids than grains that came later; the order of the keys must not care.
@@ -299,7 +303,7 @@ class ContactDetector {
   Manifold<S> manifold_;
   ContactPoints kept_points_ = ContactPoints::few;
   Reduction reduction_;
-  std::vector<FeatureKey> kept_;
+  std::vector<KeptPoint> kept_;
   Contacts<S> scratch_;
   std::vector<std::uint32_t> order_;
   std::size_t touching_ = 0;
