@@ -54,7 +54,7 @@ TEST_CASE_TEMPLATE("a servo wall brings a periodic packing to its pressure", S, 
   world.add_wall(Vector::Unit(up), Vector::Zero());
   const BodyId lid = world.add_wall(-Vector::Unit(up), 0.1 * Vector::Unit(up));
   const double area = std::pow(0.022 * side, double(up));
-  const moreau::PressureServo servo(lid, pressure, up == 1 ? 2e-4 : 5e-6, 0.1,
+  const moreau::PressureServo servo(lid, pressure, up == 1 ? 1e-4 : 5e-6, 0.1,
                                     [&] { return area; });
   double worst = 0;
   for (int k = 0; k < steps; ++k) {

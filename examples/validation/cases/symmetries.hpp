@@ -32,8 +32,9 @@ double distance(const Heap<ShapeT>& one, const Heap<ShapeT>& other,
 }  // namespace detail
 
 /// The experiment moved and turned gives the result moved and turned; the bodies in another order
-/// give the same. Rounding grows with each collision of rough bodies, by less than a hundred in
-/// those of a tenth of a second: 1e-9 of a grain for 1e-12 in the velocities.
+/// give the same, without friction: with it a step can have several solutions, and which of them is
+/// found goes by the order. Rounding grows with each collision of rough bodies, by less than a
+/// hundred in those of a tenth of a second: 1e-9 of a grain for 1e-12 in the velocities.
 template <class ShapeT>
 void symmetries(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -42,15 +43,18 @@ void symmetries(Record& record) {
   Pose<S> frame{S::Vector::Constant(0.7), S::exp(S::Angular::Constant(0.8))};
   Heap<ShapeT> moved(HeapOptions{}, frame);
   detail::fall(moved);
-  std::vector<std::size_t> order(HeapOptions{}.count);
+  HeapOptions smooth;
+  smooth.friction = 0;
+  std::vector<std::size_t> order(smooth.count);
   std::iota(order.rbegin(), order.rend(), std::size_t(0));
-  Heap<ShapeT> permuted(HeapOptions{}, {}, order);
+  Heap<ShapeT> first(smooth), permuted(smooth, {}, order);
+  detail::fall(first);
   detail::fall(permuted);
   const double size = Heap<ShapeT>::size;
   record.vanishes(with_shape<ShapeT>("frame indifference") + ": distance over size", S::dim,
                   detail::distance(reference, moved, frame) / size, 1e-9);
   record.vanishes(with_shape<ShapeT>("permuted bodies") + ": distance over size", S::dim,
-                  detail::distance(reference, permuted, {}) / size, 1e-9);
+                  detail::distance(first, permuted, {}) / size, 1e-9);
 }
 
 inline void symmetries_of_experiments(Record& record, Effort) {
