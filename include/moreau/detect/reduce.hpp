@@ -75,6 +75,7 @@ class PointChoice {
     }
     equal_ = static_cast<T>(reduction.as_deep) * std::sqrt(extent2_);
     while (!(points[first_].gap <= deepest + equal_)) ++first_;
+    nearly_ = std::max(equal_, static_cast<T>(reduction.shallower));
     highest_ = deepest + static_cast<T>(reduction.near);
     if (std::count_if(points.begin(), points.end(), [&](const auto& p) { return is_near(p); }) < 3)
       highest_ = std::numeric_limits<T>::infinity();
@@ -119,9 +120,9 @@ class PointChoice {
  private:
   /// By more than rounding: of equals the first by key stays.
   static bool is_better(T value, T best) { return value > best * T(1 + 1e-6); }
-  /// -1, 0 or 1: whether a gap is smaller, equal but for rounding, or larger.
+  /// -1, 0 or 1: whether a gap is smaller, nearly equal, or larger.
   int ordered(T gap, T other) const {
-    return gap < other - equal_ ? -1 : (gap > other + equal_ ? 1 : 0);
+    return gap < other - nearly_ ? -1 : (gap > other + nearly_ ? 1 : 0);
   }
   bool is_near(const ManifoldPoint<S>& point) const { return point.gap <= highest_; }
 
@@ -154,7 +155,7 @@ class PointChoice {
 
   const Points& points_;
   std::size_t first_ = 0;
-  T extent2_ = 0, equal_ = 0, highest_ = 0;
+  T extent2_ = 0, equal_ = 0, nearly_ = 0, highest_ = 0;
   Vector pressure_ = Vector::Zero();  ///< its centre, from the deepest point [m]
   bool loaded_ = false;
 };

@@ -61,8 +61,9 @@ class TeamGaussSeidel {
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& sweeps) const {
     SolveReport report = attempt(op, laws, law_of, impulses, sweeps, options_.accelerate);
-    if (!options_.accelerate || report.left_over <= SolveReport::most_left_over) return report;
-    // Driven away, from the warm start or by acceleration: once more without either.
+    if (!options_.accelerate || report.left_over <= 1) return report;
+    // Worse than no impulses at all: driven away, by the warm start or by acceleration. Once more
+    // without either.
     const int wasted = report.sweeps;
     std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
     report = attempt(op, laws, law_of, impulses, sweeps, false);
