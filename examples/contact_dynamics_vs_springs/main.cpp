@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <numbers>
 #include <random>
 #include <type_traits>
 #include <vector>
 
 #include "moreau/law/linear_spring_dashpot.hpp"
-#include "moreau/measure/overlap.hpp"
 #include "moreau/moreau.hpp"
 
 namespace {
@@ -113,7 +113,7 @@ Outcome settle(const State& packing, const Law& law, double step) {
   out.seconds = wall.count() / duration;
   out.lid = press.height();
   double area = 0, sum = 0, count = 0, strong = 0;
-  for (const double r : packing.radii) area += 3.14159265358979 * r * r;
+  for (const double r : packing.radii) area += std::numbers::pi * r * r;
   out.solid = area / (width * out.lid);
   const auto& impulses = press.simulation.contacts().impulses;
   for (const Vector& r : impulses)
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
               "solid", "contacts", "strong", "overlap/d", "cost s/s");
   for (const double step : {1e-3, 2e-4})
     write(file, "contact dynamics", 0, step, settle(packing, Coulomb(friction), step));
-  const double lightest = density * 3.14159265358979 * 0.004 * 0.004;
+  const double lightest = density * std::numbers::pi * 0.004 * 0.004;
   for (const double k : {1e5, 1e6, 1e7, 1e8, 1e9}) {
     if (quick && k > 1e6) break;
     const Springs law(k, 0.8 * k, friction, 0.3);

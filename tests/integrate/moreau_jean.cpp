@@ -3,51 +3,15 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
-#include <vector>
 
-#include "moreau/integrate/concepts.hpp"
+#include "conformance/integrator.hpp"
 
-using moreau::Bodies;
+using conformance::FreeBody;
 using moreau::MoreauJean;
 using moreau::Space;
 
 static_assert(moreau::TimeIntegrator<MoreauJean, Space<2>>);
 static_assert(moreau::TimeIntegrator<MoreauJean, Space<3, float>>);
-
-namespace {
-
-/// One free body.
-template <class S>
-struct FreeBody {
-  Bodies<S> bodies;
-  std::vector<typename S::Angular> momentum{1};
-  std::vector<typename S::Twist> free{1};
-
-  FreeBody(double mass, const typename S::Inertia& inertia) {
-    bodies.pose.emplace_back();
-    bodies.velocity.push_back(S::Twist::Zero());
-    bodies.force.push_back(S::Twist::Zero());
-    bodies.inverse_mass.push_back(S::Vector::Constant(1 / mass));
-    bodies.inertia_body.push_back(inertia);
-    bodies.inverse_inertia_root_body.push_back(moreau::inverse_root<S>(inertia));
-    bodies.weight.push_back(mass);
-    bodies.material.push_back(moreau::MaterialId(0));
-  }
-  void step(const MoreauJean& integrator, const typename S::Vector& gravity, double h) {
-    integrator.predict_configuration(bodies, std::span(momentum), h);
-    integrator.free_velocity(bodies, gravity, std::span(momentum), std::span(free), h);
-    integrator.advance_configuration(bodies, std::span<const typename S::Twist>(free), h);
-  }
-  typename S::Angular angular_momentum() const {
-    return bodies.inertia(0, bodies.pose[0].rotation) *
-           bodies.velocity[0].template tail<S::angular_dim>();
-  }
-  double rotation_energy() const {
-    return bodies.velocity[0].template tail<S::angular_dim>().dot(angular_momentum()) / 2;
-  }
-};
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("free fall: v exact, x exact at theta = 1/2", S, Space<2>, Space<3>) {
   FreeBody<S> body(2, S::Inertia::Identity());

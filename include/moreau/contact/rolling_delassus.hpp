@@ -12,18 +12,10 @@
 #include <vector>
 
 #include "moreau/contact/delassus.hpp"
+#include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/rolling_block.hpp"
 
 namespace moreau {
-
-/// 1 / (1/R_a + 1/R_b) of a contact [m]; a body that no inertia belongs to is flat.
-template <class S>
-typename S::Scalar effective_radius(const Contact<S>& contact, bool a_is_round, bool b_is_round) {
-  using T = typename S::Scalar;
-  const T curvature = (a_is_round ? 1 / contact.lever_a.norm() : T(0)) +
-                      (b_is_round ? 1 / contact.lever_b.norm() : T(0));
-  return curvature > 0 ? 1 / curvature : T(0);
-}
 
 /// Model of what NonlinearGaussSeidel sweeps over.
 template <class S>

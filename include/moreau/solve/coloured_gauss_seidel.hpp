@@ -32,7 +32,8 @@ namespace moreau {
 struct ColouredOptions {
   double tolerance = 1e-4;  ///< on what stop_test names [-]
   StopTest stop_test = StopTest::natural_map;
-  int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped
+  int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped. A solve that
+                            ///< is tried again has it twice
   int check_interval = 20;  ///< sweeps from one stopping test to the next
   bool accelerate = true;   ///< off: plain sweeps
 };

@@ -5,7 +5,7 @@ namespace moreau {
 
 /// How well one step's contact problem was solved. Always filled; not converging is no error.
 struct SolveReport {
-  int sweeps = 0;         ///< passes over all contacts
+  int sweeps = 0;         ///< passes over all contacts, those of a first try that failed included
   bool converged = true;  ///< the stopping test was met
   bool capped = false;    ///< the cap on sweeps was hit first
 

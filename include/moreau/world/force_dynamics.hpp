@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/rolling_delassus.hpp"
+#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/law/materials.hpp"
