@@ -2,10 +2,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-
-#include "moreau/shape/polygon.hpp"
-#include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
+#include <map>
+#include <stdexcept>
+#include <string>
 
 #include "command_line.hpp"
 #include "run.hpp"
@@ -25,16 +24,17 @@ void catch_interrupts() {
   std::signal(SIGTERM, [](int) { stop = 1; });
 }
 
-namespace {
-
-int dispatch(const Parameters& p) {
-  if (p.shape == "polygon") return run<moreau::Polygon<double>>(p);
-  if (p.shape == "sphere") return run<moreau::Sphere<moreau::Space<3>>>(p);
-  if (p.shape == "disk") return run<moreau::Sphere<moreau::Space<2>>>(p);
-  return run<moreau::Polyhedron<double>>(p);
+std::map<std::string, Runner::Function>& Runner::all() {
+  static std::map<std::string, Function> runners;
+  return runners;
 }
 
-}  // namespace
+int Runner::run(const Parameters& p) {
+  const auto found = all().find(p.shape);
+  if (found != all().end()) return found->second(p);
+  throw std::invalid_argument("--shape: this program was built without " + p.shape +
+                              "; add it to RATCHETING_SHAPES");
+}
 
 }  // namespace ratcheting
 
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   if (!parameters) return status;
   ratcheting::catch_interrupts();
   try {
-    return ratcheting::dispatch(*parameters);
+    return ratcheting::Runner::run(*parameters);
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
 #include "run_impl.hpp"
 
-template int ratcheting::run<moreau::Sphere<moreau::Space<2>>>(const Parameters&);
+static const ratcheting::Runner runner("disk", ratcheting::run<moreau::Sphere<moreau::Space<2>>>);

@@ -3,4 +3,4 @@
 
 #include "run_impl.hpp"
 
-template int ratcheting::run<moreau::Polygon<double>>(const Parameters&);
+static const ratcheting::Runner runner("polygon", ratcheting::run<moreau::Polygon<double>>);

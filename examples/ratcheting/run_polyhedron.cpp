@@ -3,4 +3,4 @@
 
 #include "run_impl.hpp"
 
-template int ratcheting::run<moreau::Polyhedron<double>>(const Parameters&);
+static const ratcheting::Runner runner("polyhedron", ratcheting::run<moreau::Polyhedron<double>>);

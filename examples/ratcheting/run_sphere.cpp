@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
 #include "run_impl.hpp"
 
-template int ratcheting::run<moreau::Sphere<moreau::Space<3>>>(const Parameters&);
+static const ratcheting::Runner runner("sphere", ratcheting::run<moreau::Sphere<moreau::Space<3>>>);
