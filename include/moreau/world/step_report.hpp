@@ -18,7 +18,9 @@ struct StepReport {
   std::size_t warm_started = 0;  ///< points that found their impulse of the step before
   double max_overlap = 0;        ///< deepest point as detected, >= 0
   double mean_overlap = 0;       ///< mean depth of the points with gap < 0
-  double dissipation = 0;        ///< energy that the contact impulses took out
+  double dissipation = 0;        ///< energy that the contact impulses and couples took out
+  double friction = 0;           ///< of it, what the tangential impulses took
+  double rolling = 0;            ///< of it, what couples of rolling and twisting took
   SolveReport solve;
   OverlapCorrectionReport correction;
   double ms_detect = 0;
