@@ -17,8 +17,10 @@ namespace moreau {
 
 /// The name of a column and the unit of its numbers: {"x", "m"} is headed "x [m]", "x" alone "x".
 struct CsvColumn {
-  std::string_view name, unit;
+  std::string_view name;  ///< not empty
+  std::string_view unit;  ///< empty: none is written
 
+  /// Not explicit, so that a name alone is a column.
   constexpr CsvColumn(const char* name_in, const char* unit_in = "")
       : name(name_in), unit(unit_in) {}
 };
@@ -48,6 +50,7 @@ class CsvWriter {
     lines_ += '\n';
     flush();
   }
+  /// Hands the file on.
   CsvWriter(CsvWriter&&) = default;
   CsvWriter& operator=(CsvWriter&&) = delete;
   /// Writes what is held back; an error then goes unseen: call close() to see it.
@@ -58,8 +61,8 @@ class CsvWriter {
     }
   }
 
-  const std::filesystem::path& path() const { return file_.path(); }
-  std::size_t rows() const { return rows_; }  ///< given so far
+  const std::filesystem::path& path() const { return file_.path(); }  ///< of the file
+  std::size_t rows() const { return rows_; }                          ///< given so far
 
   /// Adds a row of numbers (floating-point or integers), as many as there are columns.
   /// @throws std::system_error naming the path if the file cannot be written, e.g. for a full disk

@@ -27,6 +27,7 @@
 
 namespace moreau {
 
+/// How grains are drawn.
 struct VtkOptions {
   int fineness = 2;  ///< of curved surfaces, as SurfaceMesher takes it: 320 triangles a ball
   bool spheres_as_points = true;  ///< of assemblies of nothing but spheres

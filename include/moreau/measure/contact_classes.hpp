@@ -20,8 +20,10 @@ struct ContactClassShare {
 
 /// By ContactClass.
 struct ContactClasses {
+  /// In the order of ContactClass.
   std::array<ContactClassShare, static_cast<std::size_t>(ContactClass::face_face) + 1> shares;
 
+  /// Of one class.
   const ContactClassShare& operator[](ContactClass c) const {
     return shares[static_cast<std::size_t>(c)];
   }

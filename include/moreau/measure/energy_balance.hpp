@@ -81,9 +81,9 @@ class EnergyBalance {
     remember(bodies);
   }
 
-  const EnergyTerms& terms() const { return terms_; }
-  double kinetic() const { return kinetic_; }         ///< of grains and walls with a mass [J]
-  double kinetic_at_start() const { return start_; }  ///< [J]
+  const EnergyTerms& terms() const { return terms_; }  ///< sums so far [J]
+  double kinetic() const { return kinetic_; }          ///< of grains and walls with a mass [J]
+  double kinetic_at_start() const { return start_; }   ///< [J]
   /// What the terms do not explain [J].
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 

@@ -11,6 +11,7 @@
 
 namespace moreau {
 
+/// Which way the contacts look.
 template <class S>
 struct Fabric {
   /// Mean of n n^T over the pairs, world axes: symmetric, of trace 1, identity / D if the normals

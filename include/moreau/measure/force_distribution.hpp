@@ -11,11 +11,11 @@
 
 namespace moreau {
 
-/// The probability density of f / <f> as a histogram of equal bins from zero on.
+/// The probability density of f over the mean of f as a histogram of equal bins from zero on.
 template <std::floating_point T>
 struct ForceDistribution {
   std::size_t count = 0;   ///< forces
-  T mean = 0;              ///< <f> [N]
+  T mean = 0;              ///< of all forces [N]
   T width = 0;             ///< of a bin, in means
   std::vector<T> density;  ///< per bin; times width it sums to 1 - beyond
   T beyond = 0;            ///< share of the forces above the last bin

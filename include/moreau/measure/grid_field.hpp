@@ -49,6 +49,7 @@ class GridField {
     sums_.resize(count);
   }
 
+  /// Forgets all grains.
   void clear() { sums_.assign(sums_.size(), Sum{}); }
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to average
@@ -75,9 +76,9 @@ class GridField {
     ++sum.grains;
   }
 
-  const Aabb<S>& control_volume() const { return box_; }
-  const Cells& cells() const { return cells_; }      ///< along every axis
-  std::size_t size() const { return sums_.size(); }  ///< cells in all
+  const Aabb<S>& control_volume() const { return box_; }  ///< [m]
+  const Cells& cells() const { return cells_; }           ///< along every axis
+  std::size_t size() const { return sums_.size(); }       ///< cells in all
   /// Cell number k; the first axis runs fastest.
   GridSample<S> sample(std::size_t k) const {
     const Sum& sum = sums_[k];

@@ -18,7 +18,8 @@ struct PairForce {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a, b;          ///< bodies
+  std::uint32_t a;             ///< the one body
+  std::uint32_t b;             ///< the other
   std::size_t points;          ///< that carry force, > 0
   ContactClass contact_class;  ///< of the pair
   Vector normal;               ///< unit, from a to b; in a drum the mean over the points

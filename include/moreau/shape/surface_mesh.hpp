@@ -27,11 +27,13 @@ struct SurfaceMesh {
   std::vector<std::int32_t> corners;       ///< of all faces
   std::vector<std::int32_t> ends;          ///< where in corners each face ends
 
+  /// Takes out points and faces; keeps the memory.
   void clear() {
     points.clear();
     corners.clear();
     ends.clear();
   }
+  /// The corners since the last face are one.
   void end_face() { ends.push_back(static_cast<std::int32_t>(corners.size())); }
 };
 
@@ -146,6 +148,7 @@ class SurfaceMesher {
         mesh.points.push_back(shape.support(direction));
     }
   }
+  /// The mesh of what it is.
   template <ConvexShape... Shapes>
   void mesh(const OneOf<Shapes...>& shape, SurfaceMesh<S>& out) const {
     shape.visit([&](const auto& held) { mesh(held, out); });
