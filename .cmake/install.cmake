@@ -39,8 +39,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Contact dynamics of rigid grains (headers)")
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-      "Contact dynamics of rigid grains (headers)
- Moreau-Jean time stepping with Signorini-Coulomb contacts for polyhedra,
- polygons, spheres, disks and rounded shapes, in C++20 headers.")
+      "Moreau-Jean time stepping with Signorini-Coulomb contacts for polyhedra,
+polygons, spheres, disks and rounded shapes, in C++20 headers.")
   include(CPack)
 endif()

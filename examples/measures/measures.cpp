@@ -3,10 +3,12 @@
 // and the instruments tell what became of them. Prints a table for each and writes into
 // measures-output/: run.csv for plots, and for ParaView grains and contacts over time, the field of
 // displacements at the end.
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <moreau/moreau.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -23,9 +25,9 @@ namespace fs = std::filesystem;
 using Law = moreau::SignoriniCoulomb<double>;
 
 namespace setup {
-constexpr double size = 0.01, width = 0.06;  // of a grain, of the box [m]
-constexpr double pressure = 1000;            // of the lid [Pa], in the plane [N/m]
-constexpr double h = 1e-3, duration = 0.5;   // [s]
+constexpr double size = 0.01, width = 0.06;   // of a grain, of the box [m]
+constexpr double pressure = 1000;             // of the lid [Pa], in the plane [N/m]
+constexpr double h = 2.5e-4, duration = 0.5;  // [s]
 }  // namespace setup
 using namespace setup;
 
@@ -42,22 +44,28 @@ struct Watch {
   }
 };
 
-/// Grains on a grid in an open box, gravity along the last axis.
+/// Grains of three sizes about a grid in an open box, gravity along the last axis.
+/// @returns their mass [kg]
 template <class World>
-void fill(World& world) {
+double fill(World& world) {
   using S = typename World::S;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
-  const auto grain = world.add_shape(moreau::Sphere<S>(size / 2));
+  const moreau::ShapeId grains[] = {world.add_shape(moreau::Sphere<S>(0.40 * size)),
+                                    world.add_shape(moreau::Sphere<S>(0.45 * size)),
+                                    world.add_shape(moreau::Sphere<S>(0.50 * size))};
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> jitter(-0.05 * size, 0.05 * size);
   const int per_side = 5, layers = 8;
   const int count = layers * (up == 1 ? per_side : per_side * per_side);
+  double mass = 0;
   for (int k = 0; k < count; ++k) {
     moreau::Pose<S> pose;
     int rest = k;
     for (int axis = 0; axis < up; ++axis, rest /= per_side)
-      pose.position[axis] = 1.1 * size * (rest % per_side + 0.6) + 1e-4 * ((7 * k) % 5);
-    pose.position[up] = 1.1 * size * (rest + 0.6);
-    world.add_grain(grain, pose, 2500);
+      pose.position[axis] = width / per_side * (rest % per_side + 0.5) + jitter(random);
+    pose.position[up] = 1.15 * size * (rest + 0.5);
+    mass += world.bodies().weight[world.add_grain(grains[k % 3], pose, 2500).index()];
   }
   for (int axis = 0; axis < up; ++axis) {
     world.add_wall(Vector::Unit(axis), Vector::Zero());
@@ -65,6 +73,7 @@ void fill(World& world) {
   }
   world.add_wall(Vector::Unit(up), Vector::Zero());
   world.set_gravity(-9.81 * Vector::Unit(up));
+  return mass;
 }
 
 template <class Shape>
@@ -75,10 +84,9 @@ void run(const fs::path& folder) {
   fs::create_directories(folder);
 
   moreau::Simulation<Shape, Law> world(size, moreau::Materials<Law>(1, Law(0.4)));
-  fill(world);
-  const moreau::BodyId lid = world.add_wall(-Vector::Unit(up), 0.1 * Vector::Unit(up));
-  const double area = std::pow(width, up);
-  world.set_wall_mass(lid, 0.1);
+  const double mass = fill(world), area = std::pow(width, up);
+  const moreau::BodyId lid = world.add_wall(-Vector::Unit(up), 9.5 * size * Vector::Unit(up));
+  world.set_wall_mass(lid, mass);
   world.set_force(lid, -pressure * area * Vector::Unit(up));
 
   const auto& bodies = world.bodies();
@@ -100,9 +108,9 @@ void run(const fs::path& folder) {
     const moreau::StepReport report = world.step(h);
     watch(report);
     energy.add(world, report, h);
-    if (step % 50 != 0) continue;
+    if (step % 200 != 0) continue;
     table.row(world.time(), position_of(lid.index())[up], energy.kinetic());
-    const std::string number = std::to_string(step / 50) + ".vtp";
+    const std::string number = std::to_string(step / 200) + ".vtp";
     writer.write_grains(folder / ("grains_" + number), world.grain_count(), shape_of, pose_of,
                         twist_of);
     moreau::contact_segments(world.contacts(), h, position_of, is_grain, segments);
@@ -122,7 +130,7 @@ void run(const fs::path& folder) {
       pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; }, 12, 4.0);
   moreau::CoordinationCounter<S> counter;
   const auto coordination = counter.count(world.contacts().points, world.contacts().impulses,
-                                          bodies.size(), is_grain, S::dim + 1);
+                                          bodies.size(), is_grain, 2);
   typename moreau::GridField<S>::Cells cells;
   cells.fill(6);
   moreau::GridField<S> displacement(box, cells);
