@@ -6,7 +6,8 @@
 #   COMPILER  the C++ compiler         GENERATOR of build files
 #   EIGEN     its include folder
 # One way builds the whole twenty-line example, fully optimized, for the warnings that only
-# optimizers give; for the others it is enough that two units find the headers and link.
+# optimizers give; two build two units with all of moreau.hpp; for the others it is enough that
+# the headers are found, and Eigen's.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
 
@@ -40,8 +41,12 @@ if(WAY STREQUAL "find_package")
   file(COPY_FILE ${LIBRARY}/examples/hello/hello.cpp ${WORK}/project/hello.cpp)
   set(build_type Release)
 else()
-  file(COPY ${LIBRARY}/tests/consumer/hello.cpp ${LIBRARY}/tests/consumer/other.cpp
-       DESTINATION ${WORK}/project)
+  set(units hello.cpp)
+  if(WAY MATCHES "plain|build_tree")
+    set(units two_units/hello.cpp two_units/other.cpp)
+  endif()
+  list(TRANSFORM units PREPEND ${LIBRARY}/tests/consumer/)
+  file(COPY ${units} DESTINATION ${WORK}/project)
   set(build_type Debug)
 endif()
 

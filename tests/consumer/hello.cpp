@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
+// Needs the headers and Eigen, and little time.
 #include <iostream>
-#include <moreau/moreau.hpp>
-
-std::size_t pairs_of_another_unit(const moreau::Contacts<moreau::Space<2>>& contacts);
+#include <moreau/core/pose.hpp>
+#include <moreau/version.hpp>
 
 int main() {
+  const moreau::Pose<moreau::Space<3>> pose;
   std::cout << "moreau " << MOREAU_VERSION_STRING << '\n';
-  return pairs_of_another_unit({}) == 0 ? 0 : 1;
+  return pose.is_finite() ? 0 : 1;
 }
