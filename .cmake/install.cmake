@@ -23,3 +23,23 @@ install(FILES ${PROJECT_BINARY_DIR}/moreau-config.cmake
         DESTINATION ${package_dir})
 install(FILES ${PROJECT_BINARY_DIR}/moreau.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/moreau)
+
+# A package of the headers for Debian and its kin: `cpack -G DEB` in the build folder.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_PACKAGE_NAME libmoreau-dev)
+  set(CPACK_PACKAGE_CONTACT "The moreau authors <moreau@example.org>"
+      CACHE STRING "Who packs: name and address")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+  set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/.cmake/debian_files.cmake)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
+  set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Contact dynamics of rigid grains (headers)")
+  set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+      "Moreau-Jean time stepping with Signorini-Coulomb contacts for polyhedra,
+polygons, spheres, disks and rounded shapes, in C++20 headers.")
+  include(CPack)
+endif()

@@ -74,7 +74,7 @@ void run() {
   world.set_spin(drum, setup::rate * axis);
   world.set_gravity(-9.81 * S::Vector::Unit(up));
 
-  moreau::CsvWriter table("drum.csv", {"t", "angle"});
+  moreau::CsvWriter table("drum.csv", {{"t", "s"}, {"angle", "degrees"}});
   double sum = 0;
   int count = 0;
   for (int step = 1; world.time() < setup::duration; ++step) {

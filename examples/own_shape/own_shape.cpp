@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A shape of your own: the body sum |x_i / a_i|^p <= 1 offers its farthest points, a box and a
 // mass, and the library does the rest. Twenty of them fall on a floor.
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <moreau/moreau.hpp>
@@ -36,6 +37,23 @@ struct Superellipsoid {
   }
 };
 
+/// Nanoseconds to find the contact of two pebbles of which one turns a little from call to call.
+double nanoseconds_per_pair(const Superellipsoid& pebble) {
+  const moreau::Placed<Superellipsoid> a(pebble);
+  moreau::Placed<Superellipsoid> b(pebble);
+  moreau::PairCache<S> cache;
+  moreau::Manifold<S> manifold;
+  const int calls = 2000;
+  int touching = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < calls; ++k) {
+    b.update(pebble, {{0.004, 0.003, 0.015}, S::exp({1e-5 * k, 0.3, 0})});
+    touching += moreau::collide(a, b, 1e-3, manifold, cache);
+  }
+  const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+  return touching > 0 ? time.count() / calls : 0;
+}
+
 int main() {
   using Law = moreau::SignoriniCoulomb<double>;
   moreau::Simulation<Superellipsoid, Law> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
@@ -59,5 +77,6 @@ int main() {
     height += world.bodies().pose[world.grain(k).index()].position.z() / 20;
   std::cout << "after " << world.time() << " s: " << report.pairs
             << " pairs in contact, mean height " << height << " m, deepest overlap on the way "
-            << deepest << " m\n";
+            << deepest << " m; " << nanoseconds_per_pair({{0.014, 0.011, 0.008}, 3})
+            << " ns per pair\n";
 }

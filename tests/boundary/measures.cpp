@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Measures that use the branches between grains, across a periodic boundary.
+// Measures of whole simulations: across a periodic boundary, along a run.
+#include <cmath>
 #include <doctest/doctest.h>
 #include <vector>
 
 #include "moreau/measure/coordination.hpp"
+#include "moreau/measure/energy_balance.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/measure/stress.hpp"
 #include "moreau/measure/velocity_field.hpp"
@@ -25,7 +27,61 @@ auto position_of(const auto& simulation) {
          typename S::Vector { return simulation.bodies().pose[body].position; };
 }
 
+/// The balance of grains that fall into a box of which one wall closes in, one has a mass and gives
+/// way, and of which the grains rub on all.
+template <class ShapeT>
+moreau::EnergyBalance<moreau::SpaceOf<ShapeT>> balance_of(double h) {
+  using S = moreau::SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  scenes::BoxOfGrains<ShapeT> box(12);
+  auto& world = box.simulation;
+  world.set_velocity(box.walls[0], 0.05 * Vector::UnitX() + 0.02 * Vector::Unit(S::dim - 1));
+  world.set_wall_mass(box.walls[1], 0.01);
+  world.set_force(box.walls[1], -0.5 * Vector::UnitX());
+  world.set_force(box.grains[0], 0.01 * Vector::UnitX());
+  moreau::EnergyBalance<S> energy(world);
+  for (double t = 0; t < 0.2; t += h) energy.add(world, world.step(h), h);
+  return energy;
+}
+
+/// The size of what is balanced.
+double turnover(const moreau::EnergyTerms& terms) {
+  return std::abs(terms.gravity) + std::abs(terms.forces) + std::abs(terms.drives) +
+         std::abs(terms.impacts) + std::abs(terms.friction) + std::abs(terms.correction);
+}
+
 }  // namespace
+
+TEST_CASE_TEMPLATE("the energy balance closes to rounding where the inertia does not turn", ShapeT,
+                   Sphere<Space<3>>, moreau::Polygon<double>) {
+  const auto energy = balance_of<ShapeT>(1e-3);
+  const moreau::EnergyTerms& terms = energy.terms();
+  CHECK(std::abs(energy.imbalance()) < 1e-12 * turnover(terms));
+  // Every term takes part, with its sign.
+  CHECK(terms.gravity > 0);
+  CHECK(terms.impacts > 0);
+  CHECK(terms.friction > 0);
+  CHECK(terms.drives > 1e-3 * terms.impacts);
+  CHECK(std::abs(terms.forces) > 1e-3 * terms.impacts);
+  CHECK(terms.rolling == 0);
+  CHECK(energy.kinetic_at_start() == 0);
+}
+
+TEST_CASE("the energy balance of bodies whose inertia turns closes as the step shrinks") {
+  const auto coarse = balance_of<moreau::Polyhedron<double>>(1e-3);
+  const auto fine = balance_of<moreau::Polyhedron<double>>(2.5e-4);
+  CHECK(std::abs(coarse.imbalance()) < 1e-2 * turnover(coarse.terms()));
+  CHECK(std::abs(fine.imbalance()) < 0.5 * std::abs(coarse.imbalance()));
+}
+
+TEST_CASE("a balance is kept of the bodies that it began with") {
+  scenes::BoxOfGrains<Sphere<Space<3>>> box(2);
+  moreau::EnergyBalance<Space<3>> energy(box.simulation);
+  const auto report = box.simulation.step(1e-3);
+  CHECK_THROWS_AS(energy.add(box.simulation, report, 0), std::invalid_argument);
+  box.simulation.add_wall({0, 0, -1}, {0, 0, 1});
+  CHECK_THROWS_AS(energy.add(box.simulation, report, 1e-3), std::invalid_argument);
+}
 
 TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, Sphere<Space<3>>,
                    Sphere<Space<2>>) {

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: MIT
-# Builds and runs the twenty-line example as a project of its own, outside this one's source tree.
-#   WAY       find_package | build_tree | add_subdirectory | fetch_content | pkg_config
+# Builds and runs a program as a project of its own, outside this one's source tree.
+#   WAY       find_package | build_tree | add_subdirectory | fetch_content | pkg_config | plain
+#             | debian_package
 #   LIBRARY   this project's source    BUILD     its build folder
 #   COMPILER  the C++ compiler         GENERATOR of build files
+#   EIGEN     its include folder
+# One way builds the whole twenty-line example, fully optimized, for the warnings that only
+# optimizers give; two build two units with all of moreau.hpp; for the others it is enough that
+# the headers are found, and Eigen's.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
 
@@ -16,14 +21,33 @@ function(run)
     list(JOIN ARGV " " command)
     message(FATAL_ERROR "${WAY}: failed: ${command}\n${output}")
   endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# A compiler and a few flags, no build system.
+function(run_compiled flags)
+  run(sh -c "${COMPILER} -std=c++20 ${warnings} ${flags} project/*.cpp -o hello")
+  run(./hello)
+endfunction()
+
+function(run_with_pkg_config share)
+  set(ENV{PKG_CONFIG_PATH} ${share}/pkgconfig)
+  # Eigen is not asked for warnings.
+  run_compiled("$(pkg-config --cflags moreau | sed 's/-I\\([^ ]*eigen3\\)/-isystem \\1/')")
 endfunction()
 
 file(MAKE_DIRECTORY ${WORK}/project)
-# Two ways build the whole example; for the others it is enough that the headers are found.
-if(WAY MATCHES "find_package|add_subdirectory")
+if(WAY STREQUAL "find_package")
   file(COPY_FILE ${LIBRARY}/examples/hello/hello.cpp ${WORK}/project/hello.cpp)
+  set(build_type Release)
 else()
-  file(COPY_FILE ${LIBRARY}/tests/consumer/version.cpp ${WORK}/project/hello.cpp)
+  set(units hello.cpp)
+  if(WAY MATCHES "plain|build_tree")
+    set(units two_units/hello.cpp two_units/other.cpp)
+  endif()
+  list(TRANSFORM units PREPEND ${LIBRARY}/tests/consumer/)
+  file(COPY ${units} DESTINATION ${WORK}/project)
+  set(build_type Debug)
 endif()
 
 # An installed tree must not depend on where it was installed: move it.
@@ -32,38 +56,53 @@ if(WAY MATCHES "find_package|pkg_config")
   file(RENAME ${WORK}/staging ${WORK}/prefix)
 endif()
 
-if(WAY STREQUAL "pkg_config")
-  set(ENV{PKG_CONFIG_PATH} ${WORK}/prefix/share/pkgconfig)
-  run(sh -c "${COMPILER} -std=c++20 -O1 ${warnings} \
-             $(pkg-config --cflags moreau | sed 's/-I\\([^ ]*eigen3\\)/-isystem \\1/') \
-             project/hello.cpp -o hello")
-  run(./hello)
-  file(REMOVE_RECURSE ${WORK})
-  return()
-endif()
-
-# One of them optimizes fully, for the warnings that only optimizers give; the others save the time,
-# but without any optimization the program would run for minutes.
-set(build_type Debug)
-if(WAY STREQUAL "find_package")
-  set(build_type Release)
-endif()
-set(options -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${warnings}
-            -DCMAKE_CXX_FLAGS_DEBUG=-O1
-            -DCMAKE_BUILD_TYPE=${build_type})
-if(WAY STREQUAL "find_package")
-  list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix)
-elseif(WAY STREQUAL "build_tree")
-  list(APPEND options -Dmoreau_DIR=${BUILD})
+set(options -DCMAKE_BUILD_TYPE=${build_type})
+if(WAY STREQUAL "plain")
+  run_compiled("-I ${LIBRARY}/include -isystem ${EIGEN}")
+elseif(WAY STREQUAL "pkg_config")
+  run_with_pkg_config(${WORK}/prefix/share)
+elseif(WAY STREQUAL "debian_package")
+  # Packed, looked at, unpacked beside the system, used.
+  get_filename_component(bin ${CMAKE_COMMAND} DIRECTORY)
+  run(${bin}/cpack -G DEB --config ${BUILD}/CPackConfig.cmake -B ${WORK})
+  file(GLOB package ${WORK}/libmoreau-dev_*_all.deb)
+  run(dpkg-deb --field ${package} Depends)
+  if(NOT output MATCHES "libeigen3-dev")
+    message(FATAL_ERROR "${WAY}: the package does not depend on Eigen: ${output}")
+  endif()
+  run(dpkg-deb --contents ${package})
+  foreach(file include/moreau/moreau.hpp share/pkgconfig/moreau.pc
+               share/cmake/moreau/moreau-config.cmake share/doc/libmoreau-dev/copyright
+               share/doc/libmoreau-dev/changelog.gz)
+    if(NOT output MATCHES "-rw-r--r-- root/root +[0-9]+ [^\n]*\\./usr/${file}\n")
+      message(FATAL_ERROR "${WAY}: ${file} is not in the package as it should:\n${output}")
+    endif()
+  endforeach()
+  run(dpkg-deb --extract ${package} ${WORK}/root)
+  run_with_pkg_config(${WORK}/root/usr/share)
 else()
-  list(APPEND options -DMOREAU_SOURCE_DIR=${LIBRARY})
+  set(project ${WAY})
+  if(WAY STREQUAL "find_package")
+    list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+  elseif(WAY STREQUAL "build_tree")
+    list(APPEND options -Dmoreau_DIR=${BUILD})
+    set(project find_package)
+  elseif(WAY STREQUAL "fetch_content")
+    # From a clone, as from anywhere; where this is no repository, from the files.
+    execute_process(COMMAND git clone --quiet --no-hardlinks ${LIBRARY} ${WORK}/clone
+                    RESULT_VARIABLE no_repository ERROR_VARIABLE reason)
+    if(no_repository)
+      message(STATUS "Not cloned, the files are taken as they are: ${reason}")
+      list(APPEND options -DFETCHCONTENT_SOURCE_DIR_MOREAU=${LIBRARY})
+    endif()
+    list(APPEND options -DMOREAU_REPOSITORY=${WORK}/clone)
+  else()
+    list(APPEND options -DMOREAU_SOURCE_DIR=${LIBRARY})
+  endif()
+  file(COPY_FILE ${LIBRARY}/tests/consumer/${project}/CMakeLists.txt ${WORK}/project/CMakeLists.txt)
+  run(${CMAKE_COMMAND} -S project -B build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
+      -DCMAKE_CXX_FLAGS=${warnings} -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${options})
+  run(${CMAKE_COMMAND} --build build)
+  run(build/hello)
 endif()
-set(project ${WAY})
-if(WAY STREQUAL "build_tree")
-  set(project find_package)
-endif()
-file(COPY_FILE ${LIBRARY}/tests/consumer/${project}/CMakeLists.txt ${WORK}/project/CMakeLists.txt)
-run(${CMAKE_COMMAND} -S project -B build ${options})
-run(${CMAKE_COMMAND} --build build)
-run(build/hello)
 file(REMOVE_RECURSE ${WORK})

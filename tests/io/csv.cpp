@@ -29,6 +29,15 @@ TEST_CASE("a table has its header and its numbers, shortest form") {
   CHECK(read(path) == "t,f,x,v,f_g\n2e-04,6000,-0.1,0.1,1\nnan,-inf,0,-0,9223372036854775808\n");
 }
 
+TEST_CASE("columns say their units") {
+  const TemporaryFolder folder("csv");
+  CsvWriter csv(folder / "units.csv", {{"t", "s"}, {"v", "m/s"}, "contacts"});
+  csv.row(0.5, 2.0, 7);
+  CHECK(read(folder / "units.csv") == "t [s],v [m/s],contacts\n0.5,2,7\n");
+  CsvWriter one(folder / "one.csv", {{"t", "s"}});
+  CHECK(read(folder / "one.csv") == "t [s]\n");
+}
+
 TEST_CASE("numbers read back to the same bits") {
   const TemporaryFolder folder("csv");
   std::mt19937_64 random(1);
@@ -69,6 +78,8 @@ TEST_CASE("bad tables are refused") {
   CHECK_THROWS_AS(CsvWriter(path, {}), std::invalid_argument);
   CHECK_THROWS_AS(CsvWriter(path, {"a", ""}), std::invalid_argument);
   CHECK_THROWS_AS(CsvWriter(path, {"a,b"}), std::invalid_argument);
+  CHECK_THROWS_AS(CsvWriter(path, {{"a", "m,s"}}), std::invalid_argument);
+  CHECK_THROWS_AS(CsvWriter(path, {{"", "m"}}), std::invalid_argument);
   CHECK_THROWS_AS(CsvWriter(path, {"a"}, 0), std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(path));
   CsvWriter csv(path, {"a", "b"});

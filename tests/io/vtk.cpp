@@ -7,9 +7,12 @@
 #include <map>
 #include <vector>
 
+#include "moreau/shape/capsule.hpp"
+#include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
+#include "detect/shapes.hpp"
 #include "temporary_folder.hpp"
 
 namespace {
@@ -155,6 +158,69 @@ TEST_CASE("polygons are one cell each, disks and balls points") {
   CHECK(file.array<float>("PointData", "size") == std::vector<float>{2, 4, 6, 8});
 }
 
+TEST_CASE_TEMPLATE("every shape is drawn by its surface", S, Space<2>, Space<3>) {
+  using Core =
+      std::remove_cvref_t<decltype(samples::grain(S{}, *std::declval<std::mt19937_64*>()))>;
+  using Shape = OneOf<Sphere<S>, Capsule<S>, Core, Rounded<Core>>;
+  std::mt19937_64 random(4);
+  const Core core = samples::grain(S{}, random);
+  const Shape shapes[] = {Sphere<S>(0.7), Capsule<S>(1, 0.3), core, Rounded<Core>(core, 0.2)};
+  const TemporaryFolder folder("vtk");
+  VtkWriter<S>({4}).write_grains(
+      folder / "mixed.vtp", 4, [&](std::size_t k) -> const Shape& { return shapes[k]; },
+      [](std::size_t k) {
+        return Pose<S>{4 * double(k) * S::Vector::UnitX(), S::identity()};
+      },
+      [](std::size_t) -> typename S::Twist { return S::Twist::Zero(); });
+  const Vtp file(folder / "mixed.vtp");
+  const auto points = file.array<float>("Points", "Points");
+  const auto corners = file.array<std::int32_t>("Polys", "connectivity");
+  const auto ends = file.array<std::int32_t>("Polys", "offsets");
+  const auto id = file.array<std::int32_t>("CellData", "id");
+  REQUIRE(ends.size() == id.size());
+  const auto x = [&](std::int32_t point, int axis) {
+    return double(points[std::size_t(3 * point + axis)]);
+  };
+  // What the faces enclose: fans of triangles, over any line or point.
+  double enclosed[4] = {};
+  std::size_t first = 0;
+  for (std::size_t f = 0; f < ends.size(); ++f) {
+    const double origin = 4 * id[f];
+    for (std::size_t k = first; k < std::size_t(ends[f]); ++k) {
+      const auto p = corners[first], q = corners[k],
+                 r = corners[k + 1 < std::size_t(ends[f]) ? k + 1 : first];
+      if (S::angular_dim == 1) {
+        enclosed[id[f]] += ((x(q, 0) - origin) * x(r, 1) - x(q, 1) * (x(r, 0) - origin)) / 2;
+      } else {
+        Eigen::Matrix3d sides;
+        for (int axis = 0; axis < 3; ++axis) sides.row(axis) << x(p, axis), x(q, axis), x(r, axis);
+        sides.row(0).array() -= origin;
+        enclosed[id[f]] += sides.determinant() / 6;
+      }
+    }
+    first = std::size_t(ends[f]);
+  }
+  for (int k = 0; k < 4; ++k) {
+    CHECK(enclosed[k] < shapes[k].volume() * (1 + 1e-5));  // inscribed
+    CHECK(enclosed[k] == doctest::Approx(shapes[k].volume()).epsilon(k == 2 ? 1e-5 : 0.03));
+  }
+  CHECK_THROWS_AS(VtkWriter<S>({-1}), std::invalid_argument);
+  CHECK_THROWS_AS(VtkWriter<S>({7}), std::invalid_argument);
+}
+
+TEST_CASE("fields are points with means, where there are grains") {
+  const TemporaryFolder folder("vtk");
+  using S = Space<2>;
+  GridField<S> field({S::Vector(0, 0), S::Vector(2, 2)}, {2, 2});
+  field.add(S::Vector(1.5, 0.5), S::Vector(3, 4));
+  VtkWriter<S>().write_field(folder / "field.vtp", field);
+  const Vtp file(folder / "field.vtp");
+  CHECK(file.count("Verts") == 1);
+  CHECK(file.array<float>("Points", "Points") == std::vector<float>{1.5, 0.5, 0});
+  CHECK(file.array<float>("PointData", "value") == std::vector<float>{3, 4, 0});
+  CHECK(file.array<std::int32_t>("PointData", "grains") == std::vector<std::int32_t>{1});
+}
+
 TEST_CASE("contacts are lines with their force, boxes their edges") {
   const TemporaryFolder folder("vtk");
   using S = Space<3>;
@@ -233,8 +299,16 @@ TEST_CASE("VTK reads the files") {
       folder / "balls.vtp", 5, [](std::size_t) { return Ball<double>(0.5); }, pose_of, twist_of);
   const std::vector<ContactSegment<S>> contacts = {segment<S>({0, 0, 0}, {0, 0, 2}, 8)};
   writer.write_contacts(folder / "contacts.vtp", contacts);
+  VtkWriter<S>({3, false})
+      .write_grains(
+          folder / "surfaces.vtp", 2, [](std::size_t) { return Ball<double>(0.5); }, pose_of,
+          twist_of);
+  PvdSeries series(folder / "run.pvd");
+  for (const char* name : {"grains.vtp", "balls.vtp", "surfaces.vtp"}) series.add(0.25, name);
+  series.add(0.5, "contacts.vtp");
   std::ofstream(folder / "check.py") << R"(
 import sys, vtk
+import xml.etree.ElementTree as xml
 def load(name):
     reader = vtk.vtkXMLPolyDataReader()
     failed = []
@@ -253,6 +327,14 @@ assert abs(mass.GetVolume() - 5 / 6) < 1e-5, mass.GetVolume()
 balls = load('balls.vtp')
 assert balls.GetNumberOfVerts() == 5
 assert balls.GetPointData().GetArray('size').GetValue(4) == 1
+surfaces = load('surfaces.vtp')
+mass.SetInputData(surfaces)
+ball = 3.14159265 / 6
+assert 0.99 * ball < mass.GetVolume() / 2 < ball, mass.GetVolume()
+assert surfaces.GetCellData().GetArray('size').GetValue(0) == 1
+series = xml.parse(sys.argv[1] + '/run.pvd').findall('Collection/DataSet')
+assert [float(s.get('timestep')) for s in series] == [0.25, 0.25, 0.25, 0.5]
+for s in series: assert load(s.get('file')).GetNumberOfCells() > 0
 contacts = load('contacts.vtp')
 assert contacts.GetNumberOfLines() == 1
 assert contacts.GetCellData().GetArray('normal_force').GetValue(0) == 8

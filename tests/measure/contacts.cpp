@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Measures that read the contacts: overlap, coordination, stress, force chains.
+// Measures that read the contacts: overlap, coordination, stress, force chains, fabric,
+// distribution of forces.
+#include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "moreau/measure/contact_classes.hpp"
 #include "moreau/measure/coordination.hpp"
+#include "moreau/measure/fabric.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/measure/force_distribution.hpp"
 #include "moreau/measure/overlap.hpp"
+#include "moreau/measure/pair_forces.hpp"
 #include "moreau/measure/stress.hpp"
 
 namespace {
@@ -30,6 +36,14 @@ struct Assembly {
     contacts.keys.push_back({a, b, FeatureKey{}});
     contacts.classes.push_back(ContactClass::vertex_face);
     contacts.impulses.push_back(frame.transpose() * impulse);
+  }
+  std::vector<PairForce<S>> pairs(double step = 1) const {
+    std::vector<PairForce<S>> found;
+    pair_forces(contacts, step, found);
+    return found;
+  }
+  Fabric<S> fabric_in(const Aabb<S>& box) const {
+    return fabric<S>(pairs(), box, position_of(), is_grain());
   }
   auto position_of() const {
     return [this](std::uint32_t body) { return position[body]; };
@@ -198,6 +212,188 @@ TEST_CASE("force chains run from centre to centre, to the wall's contact point")
   CHECK(segments[2].normal_force == 0);
 }
 
+TEST_CASE("the points of a pair carry one force") {
+  using S = Space<3>;
+  using V = S::Vector;
+  Assembly<S> all;
+  all.position = {V(0, 0, 0), V(0, 0, 2), V(50, 50, 0)};
+  all.grain = {true, true, false};
+  all.add(0, 1, V(1, 0, 1), V::UnitZ(), V(0, 1, 3));
+  all.add(0, 1, V(-1, 0, 1), V::UnitZ(), V(4, -1, 1));
+  all.add(0, 1, V(0, 1, 1), V::UnitZ(), V::Zero());  // touches without force
+  all.add(0, 2, V(0, 0, -1), -V::UnitZ(), V(0, 0, -4));
+  all.add(1, 2, V(0, 0, 1), -V::UnitZ(), V(0, 0, 0));
+  const auto pairs = all.pairs(0.5);
+  REQUIRE(pairs.size() == 2);
+  CHECK(pairs[0].points == 2);
+  CHECK((pairs[0].normal - V::UnitZ()).norm() < 1e-15);
+  CHECK((pairs[0].force - V(8, 0, 8)).norm() < 1e-14);
+  CHECK(pairs[0].normal_force == doctest::Approx(8));
+  CHECK(pairs[0].friction_force == doctest::Approx(8));
+  CHECK((pairs[0].lever_a - V(0.5, 0, 1)).norm() < 1e-15);  // a quarter of the way at -1
+  CHECK((pairs[0].lever_b - V(0.5, 0, -1)).norm() < 1e-15);
+  CHECK(pairs[1].b == 2);
+  CHECK(pairs[1].normal_force == doctest::Approx(8));
+  CHECK(pairs[1].friction_force == 0);
+}
+
+TEST_CASE_TEMPLATE("the fabric of a lattice is isotropic, that of chains their direction", S,
+                   Space<2>, Space<3>) {
+  using V = typename S::Vector;
+  using M = typename S::Matrix;
+  // One pair of grains for every normal that is given.
+  const auto with = [](const std::vector<V>& normals) {
+    Assembly<S> all;
+    for (const V& n : normals) {
+      const auto a = static_cast<std::uint32_t>(all.position.size());
+      all.position.push_back(V::Zero());
+      all.position.push_back(n);
+      all.grain.insert(all.grain.end(), {true, true});
+      all.add(a, a + 1, n / 2, n, n);
+      all.add(a, a + 1, n / 2, n, 3 * n);  // a second point changes nothing
+    }
+    all.position.push_back(V::Zero());
+    all.grain.push_back(false);
+    const auto wall = static_cast<std::uint32_t>(all.position.size() - 1);
+    all.add(0, wall, V::Zero(), V::UnitX(), V::UnitX());  // nor does a wall
+    return all;
+  };
+  const Aabb<S> box{V::Constant(-1), V::Constant(1)};
+  std::vector<V> axes;
+  for (int k = 0; k < S::dim; ++k) axes.push_back(V::Unit(k));
+  const auto lattice = with(axes).fabric_in(box);
+  CHECK(lattice.pairs == std::size_t{S::dim});
+  CHECK((lattice.tensor - M::Identity() / S::dim).norm() < 1e-15);
+  CHECK(lattice.anisotropy().norm() < 1e-14);
+
+  // Three along x for one along the last axis.
+  const auto chains =
+      with({V::UnitX(), -V::UnitX(), V::UnitX(), V::Unit(S::dim - 1)}).fabric_in(box);
+  M expected = M::Zero();
+  expected(0, 0) = 0.75;
+  expected(S::dim - 1, S::dim - 1) = 0.25;
+  CHECK((chains.tensor - expected).norm() < 1e-15);
+  CHECK(chains.anisotropy()(0, 0) ==
+        doctest::Approx(S::dim * (S::dim + 2) / 2.0 * (0.75 - 1.0 / S::dim)));
+  CHECK(std::abs(chains.anisotropy().trace()) < 1e-14);
+
+  // Pairs whose centre of pressure lies outside are not counted.
+  Aabb<S> above = box;
+  above.lower[0] = 0.25;
+  CHECK(with(axes).fabric_in(above).pairs == 1);
+  above.lower[0] = 0.75;
+  CHECK(with(axes).fabric_in(above).pairs == 0);
+  CHECK(with(axes).fabric_in(above).anisotropy().norm() == 0);
+  CHECK_THROWS_AS(with(axes).fabric_in({}), std::invalid_argument);
+}
+
+TEST_CASE("the anisotropy of a density of normals is read off its fabric") {
+  // E(theta) = (1 + a cos 2(theta - c)) / 2 pi, by the quantiles of equal shares.
+  using S = Space<2>;
+  const double pi = std::acos(-1.0), a = 0.6, c = 0.4;
+  const int count = 20000;
+  std::vector<PairForce<S>> pairs;
+  for (int k = 0; k < count; ++k) {
+    const double share = 2 * pi * (k + 0.5) / count;
+    double theta = share;
+    for (int i = 0; i < 100; ++i) theta = share - a / 2 * std::sin(2 * theta);
+    const S::Vector n(std::cos(theta + c), std::sin(theta + c));
+    pairs.push_back({0, 1, 1, ContactClass::edge_edge, n, n, -n, n, 1, 0});
+  }
+  const Aabb<S> box{S::Vector(-2, -2), S::Vector(2, 2)};
+  const auto origin = [](std::uint32_t) { return S::Vector(0, 0); };
+  const auto found = fabric<S>(pairs, box, origin, [](std::uint32_t) { return true; });
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(c).toRotationMatrix();
+  const Eigen::Matrix2d expected = turn * Eigen::Vector2d(a, -a).asDiagonal() * turn.transpose();
+  CHECK((found.anisotropy() - expected).norm() < 1e-6);
+}
+
+TEST_CASE("the distribution of forces is a density of their ratio to the mean") {
+  const std::vector<double> forces = {1, 1, 3, 3, 3, 7, 10, 4};  // mean 4
+  const auto of = [&](std::size_t k) { return forces[k]; };
+  const auto found = force_distribution<double>(forces.size(), of, 4, 2.0);
+  CHECK(found.count == 8);
+  CHECK(found.mean == 4);
+  CHECK(found.width == 0.5);
+  CHECK(found.density == std::vector<double>{0.5, 0.75, 0.25, 0.25});
+  CHECK(found.beyond == 0.125);
+  CHECK(found.ratio(1) == 0.75);
+  double all = found.beyond;
+  for (const double p : found.density) all += p * found.width;
+  CHECK(all == 1);
+
+  // Exponentially distributed forces, by their quantiles: P = exp(-f/<f>).
+  const std::size_t many = 100000;
+  const auto quantile = [&](std::size_t k) { return -3 * std::log((double(k) + 0.5) / many); };
+  const auto decay = force_distribution<double>(many, quantile, 20, 5.0);
+  CHECK(decay.mean == doctest::Approx(3).epsilon(1e-4));
+  for (std::size_t k = 0; k < 20; ++k) {
+    const double mean = (std::exp(-0.25 * double(k)) - std::exp(-0.25 * double(k + 1))) / 0.25;
+    CHECK(decay.density[k] == doctest::Approx(mean).epsilon(5e-3));
+  }
+
+  const auto none = force_distribution<double>(3, [](std::size_t) { return 0.0; });
+  CHECK(none.mean == 0);
+  CHECK(none.density[0] == 0);
+  CHECK(force_distribution<double>(0, of).count == 0);
+  const auto negative = [](std::size_t) { return -1.0; };
+  CHECK_THROWS_AS(force_distribution<double>(1, negative), std::invalid_argument);
+  CHECK_THROWS_AS(force_distribution<double>(8, of, 0), std::invalid_argument);
+  CHECK_THROWS_AS(force_distribution<double>(8, of, 4, 0.0), std::invalid_argument);
+}
+
+TEST_CASE("classes of contacts share the coordination and the force") {
+  using S = Space<3>;
+  using V = S::Vector;
+  Assembly<S> all;
+  all.position.assign(4, V::Zero());
+  all.grain = {true, true, true, false};
+  const auto push = [&](std::uint32_t a, std::uint32_t b, double impulse, ContactClass c) {
+    all.add(a, b, V::Zero(), V::UnitX(), V(impulse, 0, 0));
+    all.contacts.classes.back() = c;
+  };
+  for (int point = 0; point < 3; ++point) push(0, 1, 1, ContactClass::face_face);
+  push(0, 2, 2, ContactClass::vertex_face);
+  push(0, 3, 4, ContactClass::vertex_face);
+  push(1, 2, 0, ContactClass::edge_edge);  // carries nothing
+  push(2, 3, 1, ContactClass::edge_face);
+  const auto found = contact_classes<S>(all.pairs(), 3, all.is_grain());
+  CHECK(found[ContactClass::face_face].pairs == 1);
+  CHECK(found[ContactClass::face_face].points == 3);
+  CHECK(found[ContactClass::face_face].neighbours == doctest::Approx(2.0 / 3));
+  CHECK(found[ContactClass::face_face].force == doctest::Approx(0.3));
+  CHECK(found[ContactClass::vertex_face].pairs == 2);
+  CHECK(found[ContactClass::vertex_face].neighbours == doctest::Approx(1));
+  CHECK(found[ContactClass::vertex_face].force == doctest::Approx(0.6));
+  CHECK(found[ContactClass::edge_edge].pairs == 0);
+  double neighbours = 0;
+  for (const auto& share : found.shares) neighbours += share.neighbours;
+  CHECK(neighbours == doctest::Approx(all.coordination(0).neighbours));
+  CHECK(contact_classes<S>({}, 0, all.is_grain())[ContactClass::face_face].force == 0);
+}
+
+TEST_CASE_TEMPLATE("stress of a lattice under pressure is the pressure on every axis", S, Space<2>,
+                   Space<3>) {
+  // Grains one apart in a unit lattice; each bond carries the pressure over its unit section.
+  using V = typename S::Vector;
+  const double pressure = 5, step = 1e-2;
+  Assembly<S> lattice;
+  lattice.position = {V::Constant(0.5)};
+  lattice.grain = {true};
+  PeriodicCell<S> cell;
+  for (int k = 0; k < S::dim; ++k) {
+    cell.set(k, 0, 1);
+    lattice.position.push_back(lattice.position[0] + V::Unit(k));  // the image next to it
+    lattice.grain.push_back(true);
+    lattice.add(0, std::uint32_t(k + 1), lattice.position[0] + V::Unit(k) / 2, V::Unit(k),
+                pressure * step * V::Unit(k));
+  }
+  const Aabb<S> box{V::Zero(), V::Ones()};
+  const auto sigma =
+      contact_stress(lattice.contacts, step, box, lattice.position_of(), lattice.is_grain(), cell);
+  CHECK((sigma - pressure * S::Matrix::Identity()).norm() < 1e-13);
+}
+
 TEST_CASE("a step that is no time is refused") {
   using S = Space<2>;
   const Assembly<S> none;
@@ -210,6 +406,7 @@ TEST_CASE("a step that is no time is refused") {
     CHECK_THROWS_AS(
         contact_segments(none.contacts, step, none.position_of(), none.is_grain(), segments),
         std::invalid_argument);
+    CHECK_THROWS_AS(none.pairs(step), std::invalid_argument);
     CHECK_THROWS_AS(contact_stress(none.contacts, step, box, none.position_of(), none.is_grain()),
                     std::invalid_argument);
   }

@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 #include <random>
 
+#include "moreau/measure/grid_field.hpp"
+
 namespace {
 
 using namespace moreau;
@@ -78,4 +80,43 @@ TEST_CASE("cells hold means, outsiders are left out") {
   CHECK_THROWS_AS(VelocityField<Space<3>>({V(0, 0, 0), V(4, 1, 2)}, 0, 2), std::invalid_argument);
   CHECK_THROWS_AS(VelocityField<Space<3>>({V(0, 0, 0), V(4, 1, 2)}, 2, 0), std::invalid_argument);
   CHECK_THROWS_AS(VelocityField<Space<3>>({V(0, 0, 0), V(4, 0, 2)}, 2, 2), std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("a grid holds the weighted means of its cells, along every axis", S, Space<2>,
+                   Space<3>) {
+  using V = typename S::Vector;
+  typename GridField<S>::Cells cells;
+  for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = k + 2;
+  const Aabb<S> box{V::Zero(), V::Constant(6)};
+  GridField<S> field(box, cells);
+  // The displacement of a homogeneous strain, sampled at the centres of the cells.
+  typename S::Matrix gradient = S::Matrix::Identity();
+  gradient(0, S::dim - 1) = 0.5;
+  for (std::size_t k = 0; k < field.size(); ++k) {
+    const V x = field.sample(k).position;
+    field.add(x, gradient * x);
+    field.add(x, gradient * x + V::UnitX(), 2);
+  }
+  std::size_t count = 1;
+  for (const std::size_t n : cells) count *= n;
+  REQUIRE(field.size() == count);
+  for (std::size_t k = 0; k < field.size(); ++k) {
+    const auto sample = field.sample(k);
+    CHECK(sample.grains == 2);
+    CHECK(sample.weight == 3);
+    CHECK((sample.value - gradient * sample.position - 2 * V::UnitX() / 3).norm() < 1e-14);
+  }
+  CHECK(field.sample(0).position == V(box.upper.cwiseQuotient(2 * V::LinSpaced(2, S::dim + 1))));
+  CHECK(field.sample(1).position[0] == 4.5);  // the first axis runs fastest
+  field.clear();
+  field.add(V::Constant(6), V::Ones());  // the upper bounds lie outside
+  for (std::size_t k = 0; k < field.size(); ++k) CHECK(field.sample(k).grains == 0);
+  PeriodicCell<S> cell;
+  for (int k = 0; k < S::dim; ++k) cell.set(k, 0, 6);
+  field.add(V::Constant(6.5), V::Ones(), 1, cell);  // the image at 0.5
+  CHECK(field.sample(0).value == V(V::Ones()));
+  CHECK_THROWS_AS(field.add(V::Zero(), V::Zero(), 0), std::invalid_argument);
+  cells[0] = 0;
+  CHECK_THROWS_AS(GridField<S>(box, cells), std::invalid_argument);
+  CHECK_THROWS_AS(GridField<S>({}, field.cells()), std::invalid_argument);
 }

@@ -45,6 +45,7 @@ class HarmonicForce {
     require(std::isfinite(start), self, "start", start, "must be finite");
     rate_ = 2 * std::numbers::pi * frequency;
   }
+  /// f(t) [N] at the time t [s].
   double operator()(double t) const { return mean_ - amplitude_ * std::sin(rate_ * (t - start_)); }
 
  private:

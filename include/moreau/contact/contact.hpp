@@ -18,7 +18,8 @@ namespace moreau {
 /// of the image which touches.
 template <class S>
 struct Contact {
-  std::uint32_t a, b;          ///< bodies
+  std::uint32_t a;             ///< the one body
+  std::uint32_t b;             ///< the other
   std::uint32_t law;           ///< index into the table of laws
   typename S::Scalar gap;      ///< [m], < 0 is penetration
   typename S::Matrix frame;    ///< columns n, t[, s]; world axes
@@ -28,22 +29,24 @@ struct Contact {
 
 /// What makes a contact point the same one in the next step.
 struct ContactKey {
-  std::uint32_t a, b;
-  FeatureKey feature;
+  std::uint32_t a;     ///< the one body
+  std::uint32_t b;     ///< the other
+  FeatureKey feature;  ///< of the pair that makes the point
   friend constexpr auto operator<=>(const ContactKey&, const ContactKey&) = default;
 };
 
 /// The contacts of one step, arrays in one order, sorted by (a, b, feature).
 template <class S>
 struct Contacts {
-  std::vector<Contact<S>> points;
-  std::vector<ContactKey> keys;
-  std::vector<ContactClass> classes;
+  std::vector<Contact<S>> points;            ///< with their geometry
+  std::vector<ContactKey> keys;              ///< one per point
+  std::vector<ContactClass> classes;         ///< of the pair, one per point
   std::vector<typename S::Vector> impulses;  ///< in the contact frame, normal first [N s]
   /// Of rolling and twisting resistance, on b, in the contact frame [N m s]; empty without.
   std::vector<typename S::Angular> couples;
 
-  std::size_t size() const { return points.size(); }
+  std::size_t size() const { return points.size(); }  ///< number of points
+  /// Takes out all points; keeps the memory.
   void clear() {
     points.clear();
     keys.clear();

@@ -66,8 +66,8 @@ class BodyDelassus {
     }
   }
 
-  std::size_t size() const { return rows_.size(); }
-  std::size_t body_count() const { return scaled_.size(); }
+  std::size_t size() const { return rows_.size(); }          ///< contacts
+  std::size_t body_count() const { return scaled_.size(); }  ///< bodies, walls included
 
   /// W_cc in the contact's frame.
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
@@ -75,6 +75,7 @@ class BodyDelassus {
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return {rows_[c].a, rows_[c].b}; }
   /// Scaled rows J M^-1/2 of a contact at its two bodies.
   const WideRows& rows_a(std::size_t c) const { return rows_[c].ja; }
+  /// The same of body b.
   const WideRows& rows_b(std::size_t c) const { return rows_[c].jb; }
   /// Relative velocity without any impulse, with the law's offset [m/s].
   const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }

@@ -13,14 +13,18 @@ namespace moreau {
 /// LocalBlock of as many contacts as there are lanes, with the reciprocals that its solution needs.
 template <class S>
 struct LaneBlock {
-  static constexpr std::size_t dim = S::dim, tangents = dim - 1;
+  static constexpr std::size_t dim = S::dim;        ///< rows of a contact
+  static constexpr std::size_t tangents = dim - 1;  ///< of them, in the plane of contact
   using W = detail::Wide<typename S::Scalar, detail::widest_bytes>;
   using Values = typename W::Values;
   using Vector = std::array<Values, dim>;
   using Tangent = std::array<Values, tangents>;
 
-  Values normal, inverse_normal;
-  Tangent coupling, slip, inverse_slip;
+  Values normal;          ///< as in LocalBlock
+  Values inverse_normal;  ///< 1 / normal
+  Tangent coupling;       ///< as in LocalBlock
+  Tangent slip;           ///< as in LocalBlock
+  Tangent inverse_slip;   ///< 1 / slip
 
   /// An unloaded contact's: W = 1.
   static LaneBlock unit() {
@@ -30,6 +34,7 @@ struct LaneBlock {
       block.slip[t] = block.inverse_slip[t] = W::broadcast(1);
     return block;
   }
+  /// Puts a block into a lane.
   void set(std::size_t lane, const LocalBlock<S>& block) {
     normal[lane] = block.normal;
     inverse_normal[lane] = 1 / block.normal;
@@ -39,6 +44,7 @@ struct LaneBlock {
       inverse_slip[t][lane] = 1 / block.slip[Eigen::Index(t)];
     }
   }
+  /// The block in a lane.
   LocalBlock<S> operator[](std::size_t lane) const {
     LocalBlock<S> block;
     block.normal = normal[lane];

@@ -23,7 +23,7 @@ template <class S>
 struct LocalBlock {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
-  static constexpr int tangents = S::dim - 1;
+  static constexpr int tangents = S::dim - 1;  ///< D - 1
   using Tangent = Eigen::Matrix<Scalar, tangents, 1>;
 
   Scalar normal;     ///< w_nn
@@ -39,7 +39,9 @@ struct LocalBlock {
     for (int t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
     return u;
   }
+  /// Of W [1/kg].
   Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
+  /// W [1/kg], normal first.
   typename S::Matrix matrix() const {
     typename S::Matrix w;
     for (int k = 0; k < S::dim; ++k) w.col(k) = *this * Vector(Vector::Unit(k));

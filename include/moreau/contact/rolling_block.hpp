@@ -10,10 +10,12 @@
 
 namespace moreau {
 
+/// W of one contact with couples, in its own frame: u = W r with u = (velocity, R spin) and
+/// r = (impulse, couple / R).
 template <class S>
 struct RollingBlock {
   using Scalar = typename S::Scalar;
-  static constexpr int rows = S::dim + S::angular_dim;
+  static constexpr int rows = S::dim + S::angular_dim;  ///< of the contact: force, then couple / R
   using Vector = Eigen::Matrix<Scalar, rows, 1>;
   using Coupling = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
 
@@ -30,7 +32,7 @@ struct RollingBlock {
     u.template tail<S::angular_dim>() = coupling.transpose() * push + spin * couple;
     return u;
   }
-  Scalar trace() const { return point.trace() + spin.trace(); }
+  Scalar trace() const { return point.trace() + spin.trace(); }  ///< of W [1/kg]
 };
 
 }  // namespace moreau

@@ -48,26 +48,32 @@ class RollingDelassus {
     }
   }
 
-  std::size_t size() const { return rows_.size(); }
-  std::size_t body_count() const { return points_.body_count(); }
+  std::size_t size() const { return rows_.size(); }                ///< contacts
+  std::size_t body_count() const { return points_.body_count(); }  ///< bodies, walls included
   /// The operator of the points alone.
   const BodyDelassus<S>& points() const { return points_; }
   /// What a couple / R is to be multiplied by [m].
   Scalar radius(std::size_t c) const { return rows_[c].radius; }
 
-  const RollingBlock<S>& block(std::size_t c) const { return rows_[c].block; }
+  const RollingBlock<S>& block(std::size_t c) const { return rows_[c].block; }  ///< W of contact c
+  /// A and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return points_.bodies(c); }
+  /// Relative velocity of contact c without impulses, in its frame [m/s].
   Vector free_velocity(std::size_t c) const {
     return joined(points_.free_velocity(c), rows_[c].free);
   }
+  /// As BodyDelassus::offset_normal.
   void offset_normal(std::size_t c, Scalar offset) { points_.offset_normal(c, offset); }
+  /// Relative velocity of contact c under the impulses applied, in its frame [m/s].
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);
     return joined(points_.velocity(c),
                   row.free + row.kb.transpose() * spin_of(b) - row.ka.transpose() * spin_of(a));
   }
+  /// The first component of velocity(c) [m/s].
   Scalar normal_velocity(std::size_t c) const { return points_.normal_velocity(c); }
+  /// Adds an impulse on b (and its opposite on a), in the frame [N s].
   void apply(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);
@@ -76,7 +82,9 @@ class RollingDelassus {
     points_.add_scaled_spin(b, row.kb * couple);
     points_.add_scaled_spin(a, -(row.ka * couple));
   }
+  /// Takes back all impulses.
   void clear() { points_.clear(); }
+  /// As BodyDelassus::scaled_velocity.
   auto scaled_velocity(std::size_t body) const { return points_.scaled_velocity(body); }
 
  private:

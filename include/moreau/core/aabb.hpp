@@ -14,17 +14,22 @@ struct Aabb {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
+  /// Least coordinates [m].
   Vector lower = Vector::Constant(std::numeric_limits<Scalar>::infinity());
+  /// Largest coordinates [m].
   Vector upper = Vector::Constant(-std::numeric_limits<Scalar>::infinity());
 
+  /// Whether they have a point in common, be it one of the boundary.
   bool overlaps(const Aabb& other) const {
     return (lower.array() <= other.upper.array()).all() &&
            (other.lower.array() <= upper.array()).all();
   }
+  /// Whether all points of the other are points of this one.
   bool contains(const Aabb& other) const {
     return (lower.array() <= other.lower.array()).all() &&
            (other.upper.array() <= upper.array()).all();
   }
+  /// Grows to hold the point [m].
   void merge(const Vector& x) {
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);

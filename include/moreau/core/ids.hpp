@@ -12,9 +12,10 @@ namespace moreau {
 /// An index that knows what it counts. Trivially copyable; ordered like its value.
 template <class Tag>
 struct Id {
-  std::uint32_t value = 0;
+  std::uint32_t value = 0;  ///< counted from 0
 
   constexpr Id() = default;
+  /// The id of what stands at this position.
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
 
   /// The position in the array of what it counts.

@@ -11,13 +11,14 @@ template <class S>
 struct Pose {
   using Vector = typename S::Vector;
 
-  Vector position = Vector::Zero();
-  typename S::Rotation rotation = S::identity();
+  Vector position = Vector::Zero();               ///< of the centre of mass, world axes [m]
+  typename S::Rotation rotation = S::identity();  ///< from body to world axes
 
   /// World coordinates of a point given in body coordinates.
   Vector operator()(const Vector& x_body) const { return position + rotation * x_body; }
   /// Body coordinates of a point given in world coordinates.
   Vector to_body(const Vector& x) const { return rotation.inverse() * (x - position); }
+  /// Whether no number in it is infinite or none.
   bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }
 };
 

@@ -44,7 +44,8 @@ struct Space<2, T> {
   static Rotation exp(const Angular& w) { return Rotation(w[0]); }
   /// q, free of the drift that many small rotations leave: an angle has none.
   static Rotation normalized(const Rotation& q) { return q; }
-  static Rotation identity() { return Rotation(T(0)); }
+  static Rotation identity() { return Rotation(T(0)); }  ///< no rotation
+  /// Whether no number in it is infinite or none.
   static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }
   /// Whether q is a rotation at all: in space, a quaternion of unit length.
   static bool is_rotation(const Rotation& q) { return is_finite(q); }
@@ -77,9 +78,9 @@ struct Space<2, T> {
 template <std::floating_point T>
 struct Space<3, T> {
   using Scalar = T;
-  static constexpr int dim = 3;
-  static constexpr int angular_dim = 3;
-  static constexpr int dofs = 6;
+  static constexpr int dim = 3;          ///< D
+  static constexpr int angular_dim = 3;  ///< A
+  static constexpr int dofs = 6;         ///< D + A
 
   using Vector = Eigen::Matrix<T, 3, 1>;
   using Matrix = Eigen::Matrix<T, 3, 3>;
@@ -100,19 +101,28 @@ struct Space<3, T> {
     q.vec() = (sinc / T(2)) * w;
     return q;
   }
+  /// q, free of the drift that many small rotations leave.
   static Rotation normalized(const Rotation& q) { return q.normalized(); }
-  static Rotation identity() { return Rotation::Identity(); }
+  static Rotation identity() { return Rotation::Identity(); }  ///< no rotation
+  /// Whether no number in it is infinite or none.
   static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
+  /// Whether q is a rotation at all: of unit length.
   static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
+  /// Angular quantities from body to world axes.
   static Inertia adjoint(const Rotation& q) { return q.toRotationMatrix(); }
+  /// A contact frame for angular quantities: n, t, s.
   static Inertia angular_frame(const Matrix& frame) { return frame; }
+  /// D x A with lever(r) w = w x r.
   static Lever lever(const Vector& r) {
     Lever l;
     l << T(0), r.z(), -r.y(), -r.z(), T(0), r.x(), r.y(), -r.x(), T(0);
     return l;
   }
+  /// lever(r) w without forming the matrix [m/s].
   static Vector spin(const Angular& w, const Vector& r) { return w.cross(r); }
+  /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
   static Angular moment(const Vector& r, const Vector& f) { return r.cross(f); }
+  /// w x I w [N m].
   static Angular gyroscopic(const Inertia& I, const Angular& w) { return w.cross(I * w); }
   /// d(I(q) w) = (I lever'(w) - [I w]x) dw, where [a]x b = a x b = -lever(a) b.
   static Inertia gyroscopic_jacobian(const Inertia& I, const Angular& w) {

@@ -14,7 +14,8 @@ namespace moreau {
 
 /// Two boxes by their place in the input; first < second.
 struct IndexPair {
-  std::uint32_t first, second;
+  std::uint32_t first;   ///< index of a box
+  std::uint32_t second;  ///< of another, greater
   friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 

@@ -35,6 +35,7 @@ constexpr const char* name(ContactClass c) {
 /// (vertex of a, face of b), (face of a, vertex of b), (edge of a, edge of b). It does not depend
 /// on which of the two faces served as reference of the clipping.
 struct FeatureKey {
+  /// Of the feature of a, then of b.
   enum class Kind : std::uint8_t {
     vertex_face = 0,
     face_vertex = 1,
@@ -43,7 +44,7 @@ struct FeatureKey {
     vertex_edge = 4,
     edge_vertex = 5
   };
-  std::uint64_t value = 0;
+  std::uint64_t value = 0;  ///< kind, a and b in one number, ordered so
 
   constexpr FeatureKey() = default;
   /// @param a,b indices of the feature of a and of b, each below 2^28
@@ -51,9 +52,9 @@ struct FeatureKey {
       : value(static_cast<std::uint64_t>(kind) << 56 | static_cast<std::uint64_t>(a) << 28 |
               static_cast<std::uint64_t>(b)) {}
 
-  constexpr Kind kind() const { return static_cast<Kind>(value >> 56); }
-  constexpr std::size_t a() const { return value >> 28 & 0xfffffff; }
-  constexpr std::size_t b() const { return value & 0xfffffff; }
+  constexpr Kind kind() const { return static_cast<Kind>(value >> 56); }  ///< of the two features
+  constexpr std::size_t a() const { return value >> 28 & 0xfffffff; }     ///< index of a's feature
+  constexpr std::size_t b() const { return value & 0xfffffff; }           ///< index of b's feature
   /// The same point with the roles of a and b exchanged.
   constexpr FeatureKey swapped() const {
     constexpr Kind other[] = {Kind::face_vertex,   Kind::vertex_face, Kind::edge_edge,
@@ -68,19 +69,20 @@ template <class S>
 struct ManifoldPoint {
   typename S::Vector position;  ///< world, midway between the two surfaces [m]
   typename S::Scalar gap;       ///< along the manifold's normal [m], < 0 is penetration
-  FeatureKey feature;
+  FeatureKey feature;           ///< what makes it the same point in the next step
 };
 
 /// The points where a pair touches or is about to, with one common normal.
 /// Reused from pair to pair: clear() keeps the memory.
 template <class S>
 struct Manifold {
-  typename S::Vector normal = S::Vector::Zero();  ///< unit, from a to b, world axes
-  typename S::Scalar gap = 0;                     ///< the pair's signed distance [m]
-  ContactClass contact_class = ContactClass::vertex_vertex;
+  typename S::Vector normal = S::Vector::Zero();             ///< unit, from a to b, world axes
+  typename S::Scalar gap = 0;                                ///< the pair's signed distance [m]
+  ContactClass contact_class = ContactClass::vertex_vertex;  ///< of the features that touch
   std::vector<ManifoldPoint<S>> points;     ///< gap at most the margin; sorted by feature
   std::vector<typename S::Scalar> scratch;  ///< working memory of whoever fills the points
 
+  /// Takes out the points; keeps the memory.
   void clear() { points.clear(); }
   /// Points into the order of their keys.
   void sort() {

@@ -15,8 +15,10 @@ struct PairCache {
   typename S::Vector axis = S::Vector::Zero();
   /// The features that made the axis last time.
   detail::AxisKind kind = detail::AxisKind::none;
-  std::uint32_t a = 0, b = 0;
+  std::uint32_t a = 0;  ///< index of a's
+  std::uint32_t b = 0;  ///< index of b's
 
+  /// Keeps an axis for the next query.
   void remember(const detail::Axis<S>& found) {
     axis = found.normal;
     kind = found.kind;

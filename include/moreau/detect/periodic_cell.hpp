@@ -37,8 +37,8 @@ class PeriodicCell {
     length_[axis] = opens ? Scalar(0) : upper - lower;
   }
 
-  bool is_open() const { return length_.isZero(0); }  ///< along all axes
-  bool is_periodic(int axis) const { return length_[axis] > 0; }
+  bool is_open() const { return length_.isZero(0); }              ///< along all axes
+  bool is_periodic(int axis) const { return length_[axis] > 0; }  ///< 0 for x, 1 for y
   /// Along every axis [m]; zero where it is open.
   const Vector& length() const { return length_; }
   const Vector& lower() const { return lower_; }  ///< zero where it is open [m]

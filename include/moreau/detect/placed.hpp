@@ -26,7 +26,9 @@ class Placed {
   using Space = SpaceOf<ShapeT>;
   using Vector = typename Space::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const ShapeT& shape) { update(shape, Pose<Space>{}); }
+  /// At the pose.
   Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
 
   /// The shape must outlive this object's use.
@@ -34,12 +36,12 @@ class Placed {
     shape_ = &shape;
     pose_ = pose;
   }
-  const Vector& center() const { return pose_.position; }
+  const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
   /// The farthest point in the direction (any length but zero), relative to the centre [m].
   Vector support(const Vector& direction) const {
     return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);
   }
-  Aabb<Space> bounding_box() const { return shape_->bounding_box(pose_); }
+  Aabb<Space> bounding_box() const { return shape_->bounding_box(pose_); }  ///< world axes [m]
 
  private:
   const ShapeT* shape_ = nullptr;
@@ -55,7 +57,9 @@ class Placed<ShapeT> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const ShapeT& shape) { update(shape, Pose<Space>{}); }
+  /// At the pose.
   Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
 
   /// Allocates only if the shape has more vertices or faces than any before. The shape must outlive
@@ -75,8 +79,8 @@ class Placed<ShapeT> {
   /// The same orientation elsewhere; costs nothing, unlike update().
   void move_to(const Vector& center) { center_ = center; }
 
-  const ShapeT& shape() const { return *shape_; }
-  const Vector& center() const { return center_; }
+  const ShapeT& shape() const { return *shape_; }   ///< what was placed
+  const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
   /// Relative to the centre, world axes [m].
   const detail::Rows<Space>& vertices() const { return vertices_; }
   /// Unit, outward, world axes; one for each face.
@@ -91,6 +95,7 @@ class Placed<ShapeT> {
   Vector support(const Vector& direction) const {
     return vertices_[vertices_.farthest(direction).index];
   }
+  /// World axes [m].
   Aabb<Space> bounding_box() const {
     Aabb<Space> box = vertices_.bounding_box();
     box.lower += center_;
@@ -121,7 +126,7 @@ class Placed<Sphere<S>> {
     radius_ = shape.radius();
   }
   void move_to(const Vector& center) { center_ = center; }
-  const Vector& center() const { return center_; }
+  const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
   Scalar radius() const { return radius_; }
   /// The farthest point in the direction (any length but zero), relative to the centre [m].
   Vector support(const Vector& direction) const { return radius_ * direction.normalized(); }
@@ -172,9 +177,9 @@ class Placed<Segment<S>> {
     radius_ = shape.half_length();
     half_ = pose.rotation * Vector(radius_ * Vector::UnitX());
   }
-  const Vector& center() const { return center_; }
-  Scalar radius() const { return radius_; }     ///< of the ball about the centre around it [m]
-  const Vector& half() const { return half_; }  ///< from the centre to vertex 1, world axes [m]
+  const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
+  Scalar radius() const { return radius_; }         ///< of the ball about the centre around it [m]
+  const Vector& half() const { return half_; }      ///< from the centre to vertex 1, world axes [m]
   /// Vertex 0 or 1, relative to the centre [m].
   Vector vertex(std::size_t v) const { return v == 0 ? Vector(-half_) : half_; }
   /// The farthest end in the direction (any length but zero), relative to the centre [m].
@@ -207,12 +212,13 @@ class Placed<Rounded<Core>> {
     radius_ = shape.radius();
   }
   const Placed<Core>& core() const { return core_; }
-  const Vector& center() const { return center_; }
+  const Vector& center() const { return center_; }    ///< the body's origin, world axes [m]
   Scalar rounding_radius() const { return radius_; }  ///< of the ball [m]
   /// The farthest point in the direction (any length but zero), relative to the centre [m].
   Vector support(const Vector& direction) const {
     return (core_.center() - center_) + core_.support(direction) + radius_ * direction.normalized();
   }
+  /// World axes [m].
   Aabb<Space> bounding_box() const { return core_.bounding_box().inflated(radius_); }
 
  private:
@@ -258,6 +264,7 @@ class Placed<OneOf<Shapes...>> {
   Vector support(const Vector& direction) const {
     return visit([&](const auto& kind) -> Vector { return kind.support(direction); });
   }
+  /// World axes [m].
   Aabb<Space> bounding_box() const {
     return visit([](const auto& kind) -> Aabb<Space> { return kind.bounding_box(); });
   }

@@ -42,8 +42,8 @@ struct Reduction {
 
 /// A point that was kept at the step before.
 struct KeptPoint {
-  FeatureKey feature;
-  double push = 0;  ///< normal impulse that it carried, >= 0 [N s]
+  FeatureKey feature;  ///< of the point
+  double push = 0;     ///< normal impulse that it carried, >= 0 [N s]
 };
 
 namespace detail {

@@ -21,6 +21,7 @@ typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
   return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
 }
 
+/// All bodies of a simulation; entry i of every array is of body i.
 template <class S>
 struct Bodies {
   using Vector = typename S::Vector;
@@ -34,11 +35,13 @@ struct Bodies {
   std::vector<Inertia> inertia_body;  ///< about the centre, body axes [kg m^2]; zero: prescribed
   std::vector<Inertia> inverse_inertia_root_body;  ///< I^-1/2, body axes; zero: prescribed
   std::vector<typename S::Scalar> weight;          ///< mass that gravity acts on; 0 for walls [kg]
-  std::vector<MaterialId> material;
+  std::vector<MaterialId> material;                ///< of the surface
 
-  std::size_t size() const { return pose.size(); }
+  std::size_t size() const { return pose.size(); }  ///< grains and walls
+  /// Whether forces can turn it; a body without inertia keeps the spin it is given.
   bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
 
+  /// The body's axes as columns, world axes.
   typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
   /// Inertia in world axes at a rotation [kg m^2].
   Inertia inertia(std::size_t i, const typename S::Rotation& q) const {

@@ -31,7 +31,7 @@ class MoreauJean {
   explicit MoreauJean(double theta = 0.5) : theta_(theta) {
     require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
   }
-  double theta() const { return theta_; }
+  double theta() const { return theta_; }  ///< in [1/2, 1]
 
   /// Angular momentum of every body [kg m^2/s], then the move to the detection configuration.
   template <class S>

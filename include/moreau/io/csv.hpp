@@ -15,29 +15,42 @@
 
 namespace moreau {
 
+/// The name of a column and the unit of its numbers: {"x", "m"} is headed "x [m]", "x" alone "x".
+struct CsvColumn {
+  std::string_view name;  ///< not empty
+  std::string_view unit;  ///< empty: none is written
+
+  /// Not explicit, so that a name alone is a column.
+  constexpr CsvColumn(const char* name_in, const char* unit_in = "")
+      : name(name_in), unit(unit_in) {}
+};
+
 /// Writes one row at a time. Numbers are as short as they can be and still read back to the same
 /// bits; nan and inf are written so. Only whole lines go to the file, so an interrupted run leaves
 /// a valid one. No allocation per row once the longest has been written.
 class CsvWriter {
  public:
   /// Creates the file and writes the header line.
-  /// @param columns     their names, e.g. {"t", "x"}: the header is "t,x"
+  /// @param columns     names and units, e.g. {{"t", "s"}, {"x", "m"}, "contacts"}: the header is
+  ///                    "t [s],x [m],contacts"
   /// @param flush_every rows that may be held back, > 0; 1 writes every row at once
   /// @throws std::system_error naming the path if the file cannot be created or written
-  /// @throws std::invalid_argument without columns, for a name that is empty or holds a comma, a
-  ///         quote or a line break, or for flush_every = 0
-  CsvWriter(const std::filesystem::path& path, std::initializer_list<std::string_view> columns,
+  /// @throws std::invalid_argument without columns, for a name that is empty, a name or unit that
+  ///         holds a comma, a quote or a line break, or for flush_every = 0
+  CsvWriter(const std::filesystem::path& path, std::initializer_list<CsvColumn> columns,
             std::size_t flush_every = 1)
       : columns_(columns.size()),
         flush_every_(flush_every),
         file_(checked(path, columns, flush_every)) {
-    for (const std::string_view name : columns) {
+    for (const CsvColumn& column : columns) {
       if (!lines_.empty()) lines_ += ',';
-      lines_ += name;
+      lines_ += column.name;
+      if (!column.unit.empty()) lines_.append(" [").append(column.unit) += ']';
     }
     lines_ += '\n';
     flush();
   }
+  /// Hands the file on.
   CsvWriter(CsvWriter&&) = default;
   CsvWriter& operator=(CsvWriter&&) = delete;
   /// Writes what is held back; an error then goes unseen: call close() to see it.
@@ -48,8 +61,8 @@ class CsvWriter {
     }
   }
 
-  const std::filesystem::path& path() const { return file_.path(); }
-  std::size_t rows() const { return rows_; }  ///< given so far
+  const std::filesystem::path& path() const { return file_.path(); }  ///< of the file
+  std::size_t rows() const { return rows_; }                          ///< given so far
 
   /// Adds a row of numbers (floating-point or integers), as many as there are columns.
   /// @throws std::system_error naming the path if the file cannot be written, e.g. for a full disk
@@ -78,13 +91,19 @@ class CsvWriter {
 
  private:
   static const std::filesystem::path& checked(const std::filesystem::path& path,
-                                              std::initializer_list<std::string_view> columns,
+                                              std::initializer_list<CsvColumn> columns,
                                               std::size_t flush_every) {
     require(columns.size() > 0, "CsvWriter", "columns.size()", columns.size(), "must be > 0");
     require(flush_every > 0, "CsvWriter", "flush_every", flush_every, "must be > 0");
-    for (const std::string_view name : columns)
-      require(!name.empty() && name.find_first_of(",\"\r\n") == std::string_view::npos, "CsvWriter",
-              "column", name, "must be a name without comma, quote and line break");
+    for (const CsvColumn& column : columns) {
+      const auto is_plain = [](std::string_view text) {
+        return text.find_first_of(",\"\r\n") == std::string_view::npos;
+      };
+      require(!column.name.empty() && is_plain(column.name), "CsvWriter", "column", column.name,
+              "must be a name without comma, quote and line break");
+      require(is_plain(column.unit), "CsvWriter", "unit", column.unit,
+              "must have no comma, quote and line break");
+    }
     return path;
   }
 

@@ -24,8 +24,9 @@ class OutputFile {
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   }
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; }  ///< of the file
 
+  /// Appends the bytes.
   void write(std::string_view bytes) {
     errno = 0;
     if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Snapshots that ParaView opens: grains with their surfaces, contacts as lines, the box around.
+// Snapshots that ParaView opens: grains with their surfaces, contacts as lines, fields, the box
+// around.
 //
-// In ParaView: a polyhedron is its faces, a polygon one cell; their arrays lie on the cells. A
-// sphere is a point, its arrays on the points: show it with the filter Glyph, scaled by `size`.
-// Contacts: the filter Tube, its radius varying with `normal_force`.
+// In ParaView: a grain is its faces, their arrays on the cells. Spheres alone are points with their
+// arrays on the points, a hundredth of the size: show them with the filter Glyph or the
+// representation Point Gaussian, scaled by `size`; or have them drawn as faces, too (VtkOptions).
+// Contacts: the filter Tube, its radius varying with `normal_force`. Fields: the filter Glyph.
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,71 +20,18 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/io/vtk_poly_data.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/measure/grid_field.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/sphere.hpp"
+#include "moreau/shape/surface_mesh.hpp"
 
 namespace moreau {
 
-namespace detail {
-
-/// Where the arrays of a shape lie, how many values each grain has there, and its cells.
-template <class Shape>
-struct VtkShape;
-
-template <class S>
-struct VtkShape<Sphere<S>> {
-  static constexpr auto arrays_on = VtkPolyData::On::points;
-  static std::size_t values(const Sphere<S>&) { return 1; }
-  static void append(VtkPolyData& data, const Sphere<S>&, const Pose<S>& pose,
-                     std::vector<std::int32_t>& cell) {
-    cell.assign(1, data.add_point(pose.position));
-    data.add_cell(VtkPolyData::Cells::vertices, cell);
-  }
+/// How grains are drawn.
+struct VtkOptions {
+  int fineness = 2;  ///< of curved surfaces, as SurfaceMesher takes it: 320 triangles a ball
+  bool spheres_as_points = true;  ///< of assemblies of nothing but spheres
 };
-
-template <Polytope Shape>
-struct VtkShape<Shape> {
-  using S = SpaceOf<Shape>;
-  static constexpr auto arrays_on = VtkPolyData::On::cells;
-
-  static std::size_t values(const Shape& shape) { return face_count(shape, S{}); }
-  static void append(VtkPolyData& data, const Shape& shape, const Pose<S>& pose,
-                     std::vector<std::int32_t>& cell) {
-    const auto first = static_cast<std::int32_t>(data.point_count());
-    for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
-      data.add_point(pose(shape.vertices().row(i).transpose()));
-    for (std::size_t f = 0; f < face_count(shape, S{}); ++f) {
-      cell.clear();
-      append_face(shape, f, cell, S{});
-      for (std::int32_t& vertex : cell) vertex += first;
-      data.add_cell(VtkPolyData::Cells::polygons, cell);
-    }
-  }
-
- private:
-  // A polygon is its own and only face.
-  template <class T>
-  static std::size_t face_count(const Shape&, Space<2, T>) {
-    return 1;
-  }
-  template <class T>
-  static std::size_t face_count(const Shape& shape, Space<3, T>) {
-    return shape.face_count();
-  }
-  template <class T>
-  static void append_face(const Shape& shape, std::size_t, std::vector<std::int32_t>& cell,
-                          Space<2, T>) {
-    for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
-      cell.push_back(static_cast<std::int32_t>(i));
-  }
-  template <class T>
-  static void append_face(const Shape& shape, std::size_t f, std::vector<std::int32_t>& cell,
-                          Space<3, T>) {
-    for (const auto vertex : shape.face(f)) cell.push_back(static_cast<std::int32_t>(vertex));
-  }
-};
-
-}  // namespace detail
 
 /// Writes .vtp files, each whole or not at all; keeps its buffers from snapshot to snapshot.
 /// All methods throw std::system_error naming the path if the file cannot be written.
@@ -89,6 +40,10 @@ class VtkWriter {
  public:
   using Vector = typename S::Vector;
 
+  /// @throws std::invalid_argument for a fineness out of range
+  explicit VtkWriter(const VtkOptions& options = {})
+      : options_(options), mesher_(options.fineness) {}
+
   /// The grains, with `id` (the number k), `size` (circumdiameter [m]), `velocity` of the centre
   /// [m/s], `speed` and `spin` (magnitude of the angular velocity [rad/s]).
   /// @param shape_of,pose_of,velocity_of k -> shape, pose, twist (v, w) of grain k, world axes
@@ -96,26 +51,32 @@ class VtkWriter {
   void write_grains(const std::filesystem::path& path, std::size_t grain_count,
                     const ShapeOf& shape_of, const PoseOf& pose_of, const VelocityOf& velocity_of) {
     using Shape = std::remove_cvref_t<decltype(shape_of(std::size_t{}))>;
-    using Vtk = detail::VtkShape<Shape>;
     clear();
+    bool as_points = false;
+    if constexpr (std::same_as<Shape, Sphere<S>>) as_points = options_.spheres_as_points;
     for (std::size_t k = 0; k < grain_count; ++k) {
       const Shape& shape = shape_of(k);
-      Vtk::append(data_, shape, pose_of(k), cell_);
+      const std::size_t before = data_.cell_count();
+      if (as_points)
+        append_point(pose_of(k).position);
+      else
+        append_surface(shape, pose_of(k));
       const typename S::Twist twist = velocity_of(k);
       const Vector v = twist.template head<S::dim>();
-      for (std::size_t value = 0; value < Vtk::values(shape); ++value) {
+      for (std::size_t cell = before; cell < data_.cell_count(); ++cell) {
         numbers_.push_back(static_cast<std::int32_t>(k));
-        lengths_.push_back(static_cast<float>(2 * shape.circumradius()));
+        lengths_.push_back(static_cast<float>(2 * reach(shape)));
         append_vector(v, vectors_);
         first_.push_back(static_cast<float>(v.norm()));
         second_.push_back(static_cast<float>(twist.template tail<S::angular_dim>().norm()));
       }
     }
-    add<std::int32_t>(Vtk::arrays_on, "id", 1, numbers_);
-    add<float>(Vtk::arrays_on, "size", 1, lengths_);
-    add<float>(Vtk::arrays_on, "velocity", 3, vectors_);
-    add<float>(Vtk::arrays_on, "speed", 1, first_);
-    add<float>(Vtk::arrays_on, "spin", 1, second_);
+    const auto place = as_points ? VtkPolyData::On::points : VtkPolyData::On::cells;
+    add<std::int32_t>(place, "id", 1, numbers_);
+    add<float>(place, "size", 1, lengths_);
+    add<float>(place, "velocity", 3, vectors_);
+    add<float>(place, "speed", 1, first_);
+    add<float>(place, "spin", 1, second_);
     data_.write(path);
   }
 
@@ -140,6 +101,22 @@ class VtkWriter {
     add<float>(cells, "gap", 1, lengths_);
     add<std::int32_t>(cells, "class", 1, numbers_);
     add<float>(cells, "point", 3, vectors_);
+    data_.write(path);
+  }
+
+  /// The cells of a grid that hold grains, as points at their centres, with `value`, the mean in
+  /// the field's unit, and `grains`, how many there were.
+  void write_field(const std::filesystem::path& path, const GridField<S>& field) {
+    clear();
+    for (std::size_t k = 0; k < field.size(); ++k) {
+      const GridSample<S> sample = field.sample(k);
+      if (sample.grains == 0) continue;
+      append_point(sample.position);
+      append_vector(sample.value, vectors_);
+      numbers_.push_back(static_cast<std::int32_t>(sample.grains));
+    }
+    add<float>(VtkPolyData::On::points, "value", 3, vectors_);
+    add<std::int32_t>(VtkPolyData::On::points, "grains", 1, numbers_);
     data_.write(path);
   }
 
@@ -171,6 +148,34 @@ class VtkWriter {
     first_.clear();
     second_.clear();
   }
+  void append_point(const Vector& position) {
+    cell_.assign(1, data_.add_point(position));
+    data_.add_cell(VtkPolyData::Cells::vertices, cell_);
+  }
+  template <class Shape>
+  void append_surface(const Shape& shape, const Pose<S>& pose) {
+    mesher_.mesh(shape, mesh_);
+    const auto first = static_cast<std::int32_t>(data_.point_count());
+    for (const Vector& x : mesh_.points) data_.add_point(pose(x));
+    std::size_t corner = 0;
+    for (const std::int32_t end : mesh_.ends) {
+      cell_.clear();
+      for (; corner < static_cast<std::size_t>(end); ++corner)
+        cell_.push_back(first + mesh_.corners[corner]);
+      data_.add_cell(VtkPolyData::Cells::polygons, cell_);
+    }
+  }
+  /// Of the farthest point from the origin; of a shape that does not know it, in the mesh.
+  template <class Shape>
+  typename S::Scalar reach(const Shape& shape) const {
+    if constexpr (HasCircumradius<Shape>) {
+      return shape.circumradius();
+    } else {
+      typename S::Scalar farthest = 0;
+      for (const Vector& x : mesh_.points) farthest = std::max(farthest, x.norm());
+      return farthest;
+    }
+  }
   static void append_vector(const Vector& x, std::vector<float>& values) {
     for (int k = 0; k < 3; ++k) values.push_back(k < S::dim ? static_cast<float>(x[k]) : 0.0f);
   }
@@ -180,6 +185,9 @@ class VtkWriter {
     data_.add_array<T>(place, name, components, values);
   }
 
+  VtkOptions options_;
+  SurfaceMesher<S> mesher_;
+  SurfaceMesh<S> mesh_;
   VtkPolyData data_;
   std::vector<std::int32_t> cell_, numbers_;
   std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays to be added

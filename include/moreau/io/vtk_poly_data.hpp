@@ -39,9 +39,12 @@ constexpr std::string_view vtk_type_name() {
 /// have to follow that order. clear() keeps the memory for the next snapshot.
 class VtkPolyData {
  public:
+  /// Kinds of cells, in the order of a file.
   enum class Cells : std::uint8_t { vertices, lines, polygons };
+  /// What an array belongs to.
   enum class On : std::uint8_t { points, cells };
 
+  /// Takes out everything; keeps the memory.
   void clear() {
     points_.clear();
     for (auto& kind : cells_) kind = {};
@@ -63,7 +66,8 @@ class VtkPolyData {
     cells.ends.push_back(static_cast<std::int32_t>(cells.points.size()));
   }
 
-  std::size_t point_count() const { return points_.size() / 3; }
+  std::size_t point_count() const { return points_.size() / 3; }  ///< added so far
+  /// Added so far, of all kinds.
   std::size_t cell_count() const {
     std::size_t count = 0;
     for (const CellList& kind : cells_) count += kind.ends.size();
@@ -155,6 +159,7 @@ class VtkPolyData {
 /// A .pvd file: the snapshots of a run with their times, as ParaView plays them.
 class PvdSeries {
  public:
+  /// Writes nothing yet.
   explicit PvdSeries(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// Lists a file (relative to the .pvd file) at a time [s] and rewrites the series, so that it is

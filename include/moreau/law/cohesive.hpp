@@ -37,8 +37,8 @@ class Cohesive : public Law {
             "must be finite and >= 0");
   }
 
-  Scalar adhesion() const { return adhesion_; }
-  Scalar range() const { return range_; }
+  Scalar adhesion() const { return adhesion_; }  ///< gamma [N]
+  Scalar range() const { return range_; }        ///< up to which gap it acts [m]
   /// Force with which the bodies attract each other along the normal [N].
   Scalar attraction(Scalar gap) const { return gap <= range_ ? adhesion_ : Scalar(0); }
 

@@ -24,7 +24,7 @@ class Frictionless {
             "must lie in [0, 1]");
   }
 
-  T restitution() const { return restitution_; }
+  T restitution() const { return restitution_; }  ///< e [-]
 
   /// As SignoriniCoulomb's: see there.
   T velocity_offset(T gap, T before, T step) const {
@@ -44,6 +44,7 @@ class Frictionless {
 
   /// Nothing that solving depends on tells two laws of this type apart.
   std::array<T, 0> lane_parameters() const { return {}; }
+  /// See LaneLaw.
   template <class S>
   static typename LaneBlock<S>::Vector solve_lanes(
       const LaneBlock<S>& block, const typename LaneBlock<S>::Vector& b,

@@ -53,9 +53,9 @@ class HertzMindlin {
                         friction, restitution);
   }
 
-  T young() const { return young_; }
-  T shear() const { return shear_; }
-  T friction() const { return friction_; }
+  T young() const { return young_; }        ///< E* [Pa]
+  T shear() const { return shear_; }        ///< G* [Pa]
+  T friction() const { return friction_; }  ///< mu [-]
 
   /// Force on b in the contact's frame [N].
   /// @param memory in and out: xi in the frame [m]

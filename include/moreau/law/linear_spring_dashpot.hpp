@@ -43,8 +43,8 @@ class LinearSpringDashpot {
             "must be finite and >= 0");
   }
 
-  T stiffness() const { return stiffness_; }
-  T friction() const { return friction_; }
+  T stiffness() const { return stiffness_; }  ///< k_n [N/m]
+  T friction() const { return friction_; }    ///< mu [-]
   /// How long a free impact lasts [s]; a twentieth of it is a good step.
   /// @param effective_mass 1 / (1/m_a + 1/m_b) [kg]
   T duration(T effective_mass) const {

@@ -34,10 +34,11 @@ class Materials {
     laws_[law_index(b, a)] = law;
   }
 
+  /// The law between two materials.
   const Law& operator()(MaterialId a, MaterialId b) const { return laws_[law_index(a, b)]; }
   /// Position of the pair's law in laws().
   std::size_t law_index(MaterialId a, MaterialId b) const { return a.index() * count_ + b.index(); }
-  const std::vector<Law>& laws() const { return laws_; }
+  const std::vector<Law>& laws() const { return laws_; }  ///< of all pairs, see law_index()
 
  private:
   std::size_t count_;

@@ -63,10 +63,11 @@ class RollingResistance {
             "must be finite and >= 0");
   }
 
-  T friction() const { return point_.friction(); }
-  T rolling() const { return rolling_; }
-  T restitution() const { return point_.restitution(); }
+  T friction() const { return point_.friction(); }        ///< mu [-]
+  T rolling() const { return rolling_; }                  ///< eta [-]
+  T restitution() const { return point_.restitution(); }  ///< e [-]
 
+  /// As SignoriniCoulomb::velocity_offset.
   T velocity_offset(T gap, T before, T step) const {
     return point_.velocity_offset(gap, before, step);
   }

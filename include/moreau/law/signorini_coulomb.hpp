@@ -115,9 +115,9 @@ class SignoriniCoulomb {
             "static_friction", static_friction, "must be finite and >= friction");
   }
 
-  T friction() const { return friction_; }
-  T static_friction() const { return static_; }
-  T restitution() const { return restitution_; }
+  T friction() const { return friction_; }  ///< mu where it slips, and everywhere unless said [-]
+  T static_friction() const { return static_; }   ///< mu until it slips [-]
+  T restitution() const { return restitution_; }  ///< e [-]
 
   /// e = 0: the contact may close its gap within the step, max(0, g)/h, and a penetration is not
   /// thrown out. e > 0: it acts only when closed, with e min(0, u_n before); a contact that
@@ -153,6 +153,7 @@ class SignoriniCoulomb {
 
   /// See StatefulLaw: with the friction of rest, with that of slip.
   static constexpr std::size_t variants = 2;
+  /// See StatefulLaw: 0 after slip, 1 after rest.
   SignoriniCoulomb variant(std::size_t k) const {
     return SignoriniCoulomb(k == 0 ? static_ : friction_, restitution_);
   }

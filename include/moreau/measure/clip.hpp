@@ -208,8 +208,10 @@ void append_surface(const Polyhedron& shape, std::span<const typename Space<3, T
 /// Buffers of clipped_volume, kept from call to call so that it allocates nothing once warm.
 template <class S>
 struct ClipWorkspace {
-  std::vector<typename S::Vector> vertices;
-  detail::Rings<S> rings, kept, caps;
+  std::vector<typename S::Vector> vertices;  ///< of the grain, world axes [m]
+  detail::Rings<S> rings;                    ///< its faces
+  detail::Rings<S> kept;                     ///< what a plane has left of them
+  detail::Rings<S> caps;                     ///< what closes the cut
 };
 
 namespace detail {

@@ -12,6 +12,7 @@
 
 namespace moreau {
 
+/// How many neighbours carry a grain.
 struct Coordination {
   std::size_t grains = 0;    ///< counted: all, without the rattlers if those are left out
   std::size_t rattlers = 0;  ///< left out
@@ -27,7 +28,7 @@ struct Coordination {
 template <class S>
 class CoordinationCounter {
  public:
-  /// @param points     sorted by (a, b), as Contacts<S> keeps them
+  /// @param points     sorted by (a, b), as Contacts keeps them
   /// @param impulses   of the points, contact frames, normal first [N s]
   /// @param body_count number of bodies, walls included
   /// @param is_grain   body -> false for a wall

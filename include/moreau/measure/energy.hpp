@@ -18,14 +18,16 @@ struct BodyMotion {
   typename S::Twist velocity = S::Twist::Zero();     ///< (v, w) [m/s, rad/s]
 };
 
+/// Of one body or of many.
 template <class S>
 struct KineticEnergy {
   typename S::Scalar translation = 0;  ///< [J]
   typename S::Scalar rotation = 0;     ///< [J]
 
-  typename S::Scalar total() const { return translation + rotation; }
+  typename S::Scalar total() const { return translation + rotation; }  ///< [J]
 };
 
+/// Of one body or of many.
 template <class S>
 struct Momentum {
   typename S::Vector linear = S::Vector::Zero();     ///< [kg m/s]

@@ -19,7 +19,8 @@ struct ContactSegment {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a, b;          ///< bodies
+  std::uint32_t a;             ///< the one body
+  std::uint32_t b;             ///< the other
   Vector from;                 ///< centre of a [m]
   Vector to;                   ///< centre of b [m]
   Vector point;                ///< contact point [m]

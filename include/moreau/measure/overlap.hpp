@@ -17,7 +17,7 @@ struct OverlapStatistics {
   std::size_t pairs = 0;   ///< pairs of bodies with such a point
   T mean = 0;              ///< over these points
   T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point
-  T max = 0;
+  T max = 0;               ///< of all points
 
   /// Adds points of another set, e.g. of another step.
   void merge(const OverlapStatistics& other) {
@@ -32,7 +32,7 @@ struct OverlapStatistics {
   }
 };
 
-/// @param points sorted by (a, b), as Contacts<S> keeps them
+/// @param points sorted by (a, b), as Contacts keeps them
 template <class S>
 OverlapStatistics<typename S::Scalar> overlap_statistics(std::span<const Contact<S>> points) {
   using Scalar = typename S::Scalar;

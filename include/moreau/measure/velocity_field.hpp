@@ -20,7 +20,7 @@ template <class T>
 struct SectionSample {
   Eigen::Matrix<T, 2, 1> position;  ///< centre of the cell [m]
   Eigen::Matrix<T, 2, 1> velocity;  ///< mean over the grains in the cell [m/s]
-  std::size_t grains;
+  std::size_t grains;               ///< counted, in all steps
 };
 
 /// How much a velocity field turns as a whole.
@@ -49,6 +49,7 @@ class VelocityField {
     require(rows > 0, "VelocityField", "rows", rows, "must be > 0");
   }
 
+  /// Forgets all grains.
   void clear() { cells_.assign(cells_.size(), Cell{}); }
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to
@@ -63,8 +64,8 @@ class VelocityField {
     ++cell.grains;
   }
 
-  std::size_t columns() const { return columns_; }
-  std::size_t rows() const { return rows_; }
+  std::size_t columns() const { return columns_; }  ///< cells along the first axis
+  std::size_t rows() const { return rows_; }        ///< cells along the last axis
   /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
   Sample sample(std::size_t column, std::size_t row) const {
     const Cell& cell = cells_[row * columns_ + column];

@@ -33,6 +33,7 @@ inline double circumradius_of(double size, SizeReading reading) {
 /// Sizes in classes, with shares by number.
 class SizeDistribution {
  public:
+  /// Grains of one size.
   struct Class {
     double size;   ///< [m], > 0
     double share;  ///< by number, relative to the sum of all shares; >= 0
@@ -63,7 +64,7 @@ class SizeDistribution {
     return SizeDistribution({{0.025, 0.50}, {0.0375, 0.34}, {0.05, 0.16}});
   }
 
-  const std::vector<Class>& classes() const { return classes_; }
+  const std::vector<Class>& classes() const { return classes_; }  ///< in the order given
   double smallest() const { return std::min_element(begin(), end(), by_size)->size; }  ///< [m]
   double largest() const { return std::max_element(begin(), end(), by_size)->size; }   ///< [m]
 

@@ -18,12 +18,14 @@ namespace moreau {
 /// Lists of indices of varying length, one after the other in one array.
 class IndexLists {
  public:
-  std::size_t size() const { return begins_.size() - 1; }
-  std::size_t total() const { return items_.size(); }
+  std::size_t size() const { return begins_.size() - 1; }  ///< lists
+  std::size_t total() const { return items_.size(); }      ///< indices in all lists
+  /// List i.
   std::span<const std::uint32_t> operator[](std::size_t i) const {
     MOREAU_ASSERT(i < size());
     return {items_.data() + begins_[i], begins_[i + 1] - begins_[i]};
   }
+  /// Appends a list.
   void push_back(std::span<const std::uint32_t> list) {
     items_.insert(items_.end(), list.begin(), list.end());
     begins_.push_back(static_cast<std::uint32_t>(items_.size()));
@@ -36,17 +38,17 @@ class IndexLists {
 /// An edge and the two faces that share it: face[0] has it running from vertex[0] to vertex[1],
 /// face[1] the other way.
 struct PolyhedronEdge {
-  std::array<std::uint32_t, 2> vertex;
-  std::array<std::uint32_t, 2> face;
+  std::array<std::uint32_t, 2> vertex;  ///< its ends
+  std::array<std::uint32_t, 2> face;    ///< on its two sides
 };
 
 /// The incidences of a closed surface, derived from its faces.
 struct FaceTopology {
-  IndexLists faces;         ///< vertices of each face, counter-clockwise from outside
-  IndexLists face_edges;    ///< edge k of a face runs between its vertices k and k + 1
-  IndexLists vertex_faces;  ///< faces at each vertex, ascending
-  IndexLists vertex_edges;  ///< edges at each vertex, ascending
-  std::vector<PolyhedronEdge> edges;
+  IndexLists faces;                   ///< vertices of each face, counter-clockwise from outside
+  IndexLists face_edges;              ///< edge k of a face runs between its vertices k and k + 1
+  IndexLists vertex_faces;            ///< faces at each vertex, ascending
+  IndexLists vertex_edges;            ///< edges at each vertex, ascending
+  std::vector<PolyhedronEdge> edges;  ///< each once
 
   FaceTopology() = default;
 

@@ -50,6 +50,7 @@ struct Moments {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
+  /// n!
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
 
   /// The moments of the same body, all lengths times the factor.

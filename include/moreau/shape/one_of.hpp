@@ -23,7 +23,7 @@ requires(sizeof...(Shapes) > 0 &&
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// Not explicit: a OneOf<Sphere<S>, ..> may be given as a Sphere<S>.
+  /// Not explicit: a sphere may be given where a OneOf of spheres and others is asked for.
   template <class ShapeT>
   requires(std::same_as<ShapeT, Shapes> || ...) OneOf(ShapeT shape) : held_(std::move(shape)) {}
 
@@ -61,6 +61,7 @@ requires(sizeof...(Shapes) > 0 &&
   MassProperties<Space> mass_properties(Scalar density) const {
     return visit([&](const auto& shape) { return shape.mass_properties(density); });
   }
+  /// World axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return visit([&](const auto& shape) { return shape.bounding_box(pose); });
   }

@@ -48,9 +48,9 @@ class Polygon {
     return face_normals_;
   }                                                                  ///< N x 2, unit, outward
   const FaceOffsets& face_offsets() const { return face_offsets_; }  ///< N, normal . x on it [m]
-  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }
-  std::size_t face_count() const { return vertex_count(); }
-  std::size_t edge_count() const { return vertex_count(); }
+  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }  ///< N
+  std::size_t face_count() const { return vertex_count(); }  ///< N: the faces are the edges
+  std::size_t edge_count() const { return vertex_count(); }  ///< N
 
   /// Where the centre of mass was in the coordinates of the input [m].
   const Vector& centroid_of_input() const { return centroid_of_input_; }
@@ -66,6 +66,7 @@ class Polygon {
   std::size_t support_vertex(const Vector& direction) const {
     return farthest_vertex<Space>(vertices_, direction);
   }
+  /// A vertex that is farthest in the direction (any length but zero), body coordinates [m].
   Vector support(const Vector& direction) const {
     return vertices_.row(static_cast<Eigen::Index>(support_vertex(direction))).transpose();
   }
@@ -76,6 +77,7 @@ class Polygon {
     detail::require_positive(density, "Polygon::mass_properties", "density");
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
+  /// World axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return box_around<Space>(vertices_, pose);
   }

@@ -60,9 +60,9 @@ class Polyhedron {
     return face_normals_;
   }                                                                  ///< F x 3, unit, outward
   const FaceOffsets& face_offsets() const { return face_offsets_; }  ///< F, normal . x on it [m]
-  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }
-  std::size_t face_count() const { return topology_.faces.size(); }
-  std::size_t edge_count() const { return topology_.edges.size(); }
+  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }  ///< N
+  std::size_t face_count() const { return topology_.faces.size(); }                        ///< F
+  std::size_t edge_count() const { return topology_.edges.size(); }  ///< N + F - 2
   /// Triangles that its surface consists of if every face is cut into triangles: 2 V - 4.
   std::size_t triangle_count() const { return 2 * vertex_count() - 4; }
 
@@ -70,10 +70,12 @@ class Polyhedron {
   std::span<const std::uint32_t> face(std::size_t f) const { return topology_.faces[f]; }
   /// The edges of face f; the k-th runs between face(f)[k] and face(f)[k + 1].
   std::span<const std::uint32_t> face_edges(std::size_t f) const { return topology_.face_edges[f]; }
-  std::span<const Edge> edges() const { return topology_.edges; }
+  std::span<const Edge> edges() const { return topology_.edges; }  ///< each once
+  /// The faces around vertex v.
   std::span<const std::uint32_t> vertex_faces(std::size_t v) const {
     return topology_.vertex_faces[v];
   }
+  /// The edges at vertex v.
   std::span<const std::uint32_t> vertex_edges(std::size_t v) const {
     return topology_.vertex_edges[v];
   }
@@ -91,6 +93,7 @@ class Polyhedron {
   std::size_t support_vertex(const Vector& direction) const {
     return farthest_vertex<Space>(vertices_, direction);
   }
+  /// A vertex that is farthest in the direction (any length but zero), body coordinates [m].
   Vector support(const Vector& direction) const { return vertex(support_vertex(direction)); }
 
   /// @param density [kg/m^3], > 0
@@ -99,6 +102,7 @@ class Polyhedron {
     detail::require_positive(density, "Polyhedron::mass_properties", "density");
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
+  /// World axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return box_around<Space>(vertices_, pose);
   }

@@ -42,8 +42,8 @@ class Rounded {
     }
   }
 
-  const Core& core() const { return core_; }
-  Scalar radius() const { return radius_; }  ///< of the ball [m]
+  const Core& core() const { return core_; }  ///< what is rounded, in its own frame
+  Scalar radius() const { return radius_; }   ///< of the ball [m]
   /// Where the origin of the core's frame is in this shape's frame [m].
   const Vector& core_position() const { return core_position_; }
 
@@ -84,6 +84,7 @@ class Rounded {
   Pose<Space> core_pose(const Pose<Space>& pose) const {
     return {pose(core_position_), pose.rotation};
   }
+  /// World axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return core_.bounding_box(core_pose(pose)).inflated(radius_);
   }

@@ -32,6 +32,7 @@ class Segment {
     return direction.x() < 0 ? -half_length_ * Vector::UnitX() : half_length_ * Vector::UnitX();
   }
 
+  /// World axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const {
     const Vector half = (pose.rotation * Vector(half_length_ * Vector::UnitX())).cwiseAbs();
     return {pose.position - half, pose.position + half};

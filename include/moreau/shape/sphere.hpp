@@ -23,7 +23,7 @@ class Sphere {
     detail::require_positive(radius, "Sphere", "radius");
   }
 
-  Scalar radius() const { return radius_; }
+  Scalar radius() const { return radius_; }        ///< [m]
   Scalar circumradius() const { return radius_; }  ///< farthest point from the origin [m]
   Scalar inradius() const { return radius_; }      ///< nearest point of the surface [m]
   /// [m^D]: pi r^2 in the plane, pi r^2 (4 r / 3) in space.
@@ -50,6 +50,7 @@ class Sphere {
     return properties;
   }
 
+  /// World axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const {
     return {pose.position.array() - radius_, pose.position.array() + radius_};
   }

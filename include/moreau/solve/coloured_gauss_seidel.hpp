@@ -29,9 +29,10 @@
 
 namespace moreau {
 
+/// When the sweeps end, and how they go.
 struct ColouredOptions {
-  double tolerance = 1e-4;  ///< on what stop_test names [-]
-  StopTest stop_test = StopTest::natural_map;
+  double tolerance = 1e-4;                     ///< on what stop_test names [-]
+  StopTest stop_test = StopTest::natural_map;  ///< what ends the sweeps
   int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped. A solve that
                             ///< is tried again has it twice
   int check_interval = 20;  ///< sweeps from one stopping test to the next
@@ -54,7 +55,7 @@ class TeamGaussSeidel {
     detail::require_stopping(options, "ColouredGaussSeidel");
   }
 
-  const Options& options() const { return options_; }
+  const Options& options() const { return options_; }  ///< as given
 
   /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve.
   template <class Operator, class Law>

@@ -19,7 +19,7 @@ namespace moreau {
 /// A problem and where its contacts come from.
 template <class S>
 struct GatheredProblem {
-  FrictionProblem<S> problem;
+  FrictionProblem<S> problem;         ///< its matrices
   std::vector<std::size_t> contacts;  ///< index, in the step, of each contact of the problem
 };
 

@@ -57,15 +57,17 @@ enum class SweepOrder {
   symmetric,  ///< forward and backward in turn
 };
 
+/// When the sweeps end, and how they go.
 struct GaussSeidelOptions {
-  double tolerance = 1e-4;
-  StopTest stop_test = StopTest::natural_map;
-  int max_sweeps = 2000;
+  double tolerance = 1e-4;                     ///< on what stop_test names [-]
+  StopTest stop_test = StopTest::natural_map;  ///< what ends the sweeps
+  int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped
   int check_interval = 10;  ///< sweeps between two stopping tests
   double relaxation = 1;    ///< factor on each impulse change, in (0, 1]; checks use a plain sweep
-  SweepOrder order = SweepOrder::forward;
+  SweepOrder order = SweepOrder::forward;  ///< of the contacts
 };
 
+/// The reference solver: plain sweeps, one contact after another.
 class NonlinearGaussSeidel {
  public:
   using Options = GaussSeidelOptions;
@@ -81,7 +83,7 @@ class NonlinearGaussSeidel {
             options.relaxation, "must lie in (0, 1]");
   }
 
-  const Options& options() const { return options_; }
+  const Options& options() const { return options_; }  ///< as given
 
   /// Solves u = W r + b with the law of every contact.
   /// @param op       the operator W with the free velocities b; it is left with what the impulses

@@ -23,6 +23,7 @@
 
 namespace moreau {
 
+/// When the solver ends.
 struct ProximalOptions {
   double tolerance = 1e-10;  ///< on natural_map_residual()
   int max_sweeps = 1000000;  ///< of Gauss-Seidel, over all contacts
@@ -42,6 +43,7 @@ struct ProblemReport {
   bool converged = false;
 };
 
+/// Solves a friction problem to rounding where that can be done.
 class ProximalSolver {
  public:
   using Options = ProximalOptions;

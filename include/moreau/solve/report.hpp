@@ -16,12 +16,12 @@ struct SolveReport {
   /// without bound because there is no solution, the residual is small and this is not: beyond
   /// `most_left_over` no solution counts as converged. 0 where nothing approaches.
   double left_over = 0;
-  static constexpr double most_left_over = 0.1;
+  static constexpr double most_left_over = 0.1;  ///< see left_over
 
   double quad_dv = 0;   ///< LMGC90: sqrt<|dv|^2> / sqrt<|W r|^2>
   double quad_dvr = 0;  ///< LMGC90: sqrt<|dv|^2 |r|^2> / <r . W r>
   double maxm_dv = 0;   ///< the same with the maximum in the numerator
-  double maxm_dvr = 0;
+  double maxm_dvr = 0;  ///< the same with the maximum in the numerator
 
   double worst_velocity = 0;  ///< largest -(u_n + offset) > 0 [m/s]: approach left over
   double worst_gap = 0;       ///< what that closes in a step beyond contact [m]; by Simulation

@@ -14,6 +14,7 @@ namespace moreau {
 
 /// The calling thread alone.
 struct SingleThread {
+  /// See Team.
   template <class Work>
   void run(Work&& work) const {
     work(0, 1, [] {});

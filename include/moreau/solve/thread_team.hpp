@@ -112,8 +112,9 @@ class ThreadTeam {
     require(threads >= 1, "ThreadTeam", "threads", threads, "must be at least 1");
     pool_ = std::make_shared<detail::ThreadPool>(threads);
   }
-  int size() const { return pool_->size(); }
+  int size() const { return pool_->size(); }  ///< members, the calling thread included
 
+  /// See Team.
   template <class Work>
   void run(Work&& work) const {
     if (size() == 1)

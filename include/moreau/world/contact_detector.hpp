@@ -43,6 +43,7 @@ enum class ContactPoints {
   all,  ///< the whole polygon of contact: any pressure on it can be carried, blocks stand exactly
 };
 
+/// From where the bodies stand to their contacts: pairs, manifolds, the list of the step.
 template <class ShapeT, class BroadPhaseT>
 class ContactDetector {
  public:
@@ -50,14 +51,17 @@ class ContactDetector {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
+  /// Takes up a grain; the shape must outlive the detector.
   void add_grain(BodyId body, const ShapeT& shape) {
     grains_.push_back({body, &shape, Placed<ShapeT>(shape)});
     widest_ = std::max(widest_, width(shape));
     stale_ = true;
   }
+  /// Takes up a plane wall.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
     walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
   }
+  /// Takes up a cylinder around the grains.
   void add_wall(BodyId body, const CylinderWall<S>& shape) {
     cylinders_.push_back({body, shape, Placed<CylinderWall<S>>(shape)});
   }
@@ -72,7 +76,7 @@ class ContactDetector {
     shifts_.clear();
     stale_ = true;
   }
-  const PeriodicCell<S>& cell() const { return cell_; }
+  const PeriodicCell<S>& cell() const { return cell_; }  ///< open unless set
   /// The width that the cell must have twice, at least, with a grain of this shape [m].
   Scalar room_of(const ShapeT& shape, const DetectionLengths<Scalar>& lengths) const {
     return std::max(widest_, width(shape)) + around(lengths);
@@ -91,11 +95,13 @@ class ContactDetector {
     }
     place_walls(poses);
   }
+  /// Moves the walls to where their bodies are.
   void place_walls(std::span<const Pose<S>> poses) {
     for (auto& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
     for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
   }
 
+  /// Which points of a contact between faces act.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
   /// Pairs whose boxes come within the margin, sorted; recomputed only when a box has left its
@@ -157,7 +163,7 @@ class ContactDetector {
     sort(out);
   }
 
-  std::size_t pair_count() const { return pairs_.size(); }
+  std::size_t pair_count() const { return pairs_.size(); }  ///< of boxes, without the walls
   /// Pairs with at least one contact point in the last detect().
   std::size_t touching_count() const { return touching_; }
 

@@ -53,6 +53,8 @@ class ForceDynamics {
       const Vector force = materials.laws()[contact.law].force(motion, memory_[c]);
       contacts.impulses[c] = step * force;
       report.dissipation -= double(contacts.impulses[c].dot(motion.velocity));
+      report.friction -= double(contacts.impulses[c].template tail<S::dim - 1>().dot(
+          motion.velocity.template tail<S::dim - 1>()));
       apply(contact, contact.frame * force);
     }
   }

@@ -115,7 +115,8 @@ class ImpulseDynamics {
     report.solve.worst_gap = report.solve.worst_velocity * double(step);
     unknowns_.finish(operator_, contacts);
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(materials, contacts, -step);
-    velocities_after(contacts, report);
+    velocities_after();
+    measure_dissipation(bodies, contacts, report);
     integrator_.advance_configuration(bodies, std::span<const Twist>(after_), step);
   }
 
@@ -199,8 +200,8 @@ class ImpulseDynamics {
     }
   }
 
-  /// V = V_free + M^-1/2 y, and the energy that the impulses took: -sum r . (u before + u after)/2.
-  void velocities_after(const Contacts<S>& contacts, StepReport& report) {
+  /// V = V_free + M^-1/2 y.
+  void velocities_after() {
     for (std::size_t i = 0; i < roots_.size(); ++i) {
       const auto y = operator_.scaled_velocity(i);
       after_[i] = free_[i];
@@ -208,13 +209,28 @@ class ImpulseDynamics {
       after_[i].template tail<S::angular_dim>() +=
           roots_[i].angular * y.template tail<S::angular_dim>();
     }
+  }
+  /// The energy that the impulses took: -sum r . (u before + u after)/2, and so the couples.
+  void measure_dissipation(const Bodies<S>& bodies, const Contacts<S>& contacts,
+                           StepReport& report) const {
+    constexpr int tangents = S::dim - 1;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      if (contacts.impulses[c].isZero(0)) continue;
       const Contact<S>& contact = contacts.points[c];
-      const Vector mean = (before_[c] + BodyDelassus<S>::relative_velocity(
-                                            contact, after_[contact.a], after_[contact.b])) /
-                          2;
-      report.dissipation -= double(contacts.impulses[c].dot(mean));
+      const std::uint32_t a = contact.a, b = contact.b;
+      const Vector& impulse = contacts.impulses[c];
+      if (impulse.isZero(0)) continue;
+      const Vector mean =
+          (before_[c] + BodyDelassus<S>::relative_velocity(contact, after_[a], after_[b])) / 2;
+      const double friction =
+          -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
+      report.friction += friction;
+      report.dissipation += friction - double(impulse[0] * mean[0]);
+      if (contacts.couples.empty()) continue;
+      const Twist turn = (bodies.velocity[b] - bodies.velocity[a] + after_[b] - after_[a]) / 2;
+      const double rolling = -double((S::angular_frame(contact.frame) * contacts.couples[c])
+                                         .dot(turn.template tail<S::angular_dim>()));
+      report.rolling += rolling;
+      report.dissipation += rolling;
     }
   }
 

@@ -21,11 +21,12 @@
 
 namespace moreau {
 
+/// Which overlaps are taken back, and how fast.
 struct OverlapCorrectionOptions {
-  bool enabled = true;
-  double slop = 2e-4;  ///< overlap left alone, relative to the grain size
-  double rate = 0.2;   ///< share of the excess taken back per step, in (0, 1]
-  int sweeps = 10;
+  bool enabled = true;  ///< off: overlaps stay
+  double slop = 2e-4;   ///< overlap left alone, relative to the grain size
+  double rate = 0.2;    ///< share of the excess taken back per step, in (0, 1]
+  int sweeps = 10;      ///< over all contacts, >= 1
 };
 
 /// What the correction did in one step.
@@ -35,6 +36,7 @@ struct OverlapCorrectionReport {
   double largest_shift = 0;   ///< of any centre of mass [m]
 };
 
+/// Finds the shifts; see above.
 template <class S>
 class OverlapCorrection {
  public:
@@ -77,8 +79,9 @@ class OverlapCorrection {
     return true;
   }
 
+  /// Of the last step, one per body: (displacement [m], rotation vector [rad]).
   std::span<const typename S::Twist> shifts() const { return shifts_; }
-  const Options& options() const { return options_; }
+  const Options& options() const { return options_; }  ///< as given
 
  private:
   /// First-order change of the gap of a contact under the present shifts [m].

@@ -4,8 +4,7 @@
 //
 // One step, data in one direction:
 //   predict_configuration -> detect -> impulses or forces of the contacts -> advance_configuration
-// The law decides which: impulse_dynamics.hpp for set-valued laws, force_dynamics.hpp for
-// regularized ones.
+// The law decides which: impulse_dynamics.hpp for impulses, force_dynamics.hpp for forces.
 #pragma once
 
 #include <chrono>
@@ -176,7 +175,7 @@ class Simulation {
     detector_.place_walls(bodies_.pose);
     detector_.set_cell(cell, lengths(), self);
   }
-  const PeriodicCell<S>& cell() const { return detector_.cell(); }
+  const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
 
   /// Lets a wall move along its normal as a body of this mass, under set_force and the contacts.
   /// Gravity does not act on walls. An infinite mass makes it a fixed or driven wall again.
@@ -219,6 +218,7 @@ class Simulation {
   }
   /// Another solver, or the same with other options, from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
+  /// How overlaps are taken back, from the next step on.
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
     dynamics_.set_correction(options);
   }
@@ -235,20 +235,22 @@ class Simulation {
   /// @throws std::invalid_argument for a step that is not positive or not finite
   StepReport step(Scalar step);
 
-  Scalar time() const { return time_; }              ///< [s]
-  Scalar grain_size() const { return grain_size_; }  ///< [m]
-  const Bodies<S>& bodies() const { return bodies_; }
-  const Contacts<S>& contacts() const { return contacts_; }
-  const Materials<Law>& materials() const { return materials_; }
+  Scalar time() const { return time_; }                           ///< [s]
+  Scalar grain_size() const { return grain_size_; }               ///< [m]
+  const Bodies<S>& bodies() const { return bodies_; }             ///< by BodyId::index()
+  const Contacts<S>& contacts() const { return contacts_; }       ///< of the last step
+  const Materials<Law>& materials() const { return materials_; }  ///< laws
+  /// Shifts of the last step.
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
-  const Vector& gravity() const { return gravity_; }
-  std::size_t grain_count() const { return grains_.size(); }
-  BodyId grain(std::size_t k) const { return grains_[k].body; }
+  const Vector& gravity() const { return gravity_; }             ///< [m/s^2]
+  std::size_t grain_count() const { return grains_.size(); }     ///< without walls
+  BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< the k-th added
+  /// Of the k-th grain.
   const ShapeT& shape_of_grain(std::size_t k) const { return shapes_[grains_[k].shape.index()]; }
-  std::span<const BodyId> walls() const { return walls_; }
-  bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }
+  std::span<const BodyId> walls() const { return walls_; }                    ///< half-spaces
+  bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }  ///< or a wall
 
   /// Sum of the contact impulses on a body in the last step, world axes [N s].
   /// @throws std::invalid_argument for a body that is not of this simulation

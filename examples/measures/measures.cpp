@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// The same experiment in the plane and in space, from one text: grains fall into a box under a lid,
+// and the instruments tell what became of them. Prints a table for each and writes into
+// measures-output/: run.csv for plots, and for ParaView grains and contacts over time, the field of
+// displacements at the end.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <moreau/moreau.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "moreau/io/csv.hpp"
+#include "moreau/io/vtk.hpp"
+#include "moreau/measure/contact_classes.hpp"
+#include "moreau/measure/coordination.hpp"
+#include "moreau/measure/energy_balance.hpp"
+#include "moreau/measure/fabric.hpp"
+#include "moreau/measure/force_distribution.hpp"
+#include "moreau/measure/stress.hpp"
+
+namespace fs = std::filesystem;
+using Law = moreau::SignoriniCoulomb<double>;
+
+namespace setup {
+constexpr double size = 0.01, width = 0.06;   // of a grain, of the box [m]
+constexpr double pressure = 1000;             // of the lid [Pa], in the plane [N/m]
+constexpr double h = 2.5e-4, duration = 0.5;  // [s]
+}  // namespace setup
+using namespace setup;
+
+/// What the reports of a run should not have said.
+struct Watch {
+  std::size_t steps = 0, unsolved = 0;
+  double residual = 0, overlap = 0;
+
+  void operator()(const moreau::StepReport& report) {
+    ++steps;
+    if (!report.solve.converged) ++unsolved;
+    residual = std::max(residual, report.solve.residual);
+    overlap = std::max(overlap, report.max_overlap);
+  }
+};
+
+/// Grains of three sizes about a grid in an open box, gravity along the last axis.
+/// @returns their mass [kg]
+template <class World>
+double fill(World& world) {
+  using S = typename World::S;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1;
+  const moreau::ShapeId grains[] = {world.add_shape(moreau::Sphere<S>(0.40 * size)),
+                                    world.add_shape(moreau::Sphere<S>(0.45 * size)),
+                                    world.add_shape(moreau::Sphere<S>(0.50 * size))};
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> jitter(-0.05 * size, 0.05 * size);
+  const int per_side = 5, layers = 8;
+  const int count = layers * (up == 1 ? per_side : per_side * per_side);
+  double mass = 0;
+  for (int k = 0; k < count; ++k) {
+    moreau::Pose<S> pose;
+    int rest = k;
+    for (int axis = 0; axis < up; ++axis, rest /= per_side)
+      pose.position[axis] = width / per_side * (rest % per_side + 0.5) + jitter(random);
+    pose.position[up] = 1.15 * size * (rest + 0.5);
+    mass += world.bodies().weight[world.add_grain(grains[k % 3], pose, 2500).index()];
+  }
+  for (int axis = 0; axis < up; ++axis) {
+    world.add_wall(Vector::Unit(axis), Vector::Zero());
+    world.add_wall(-Vector::Unit(axis), width * Vector::Unit(axis));
+  }
+  world.add_wall(Vector::Unit(up), Vector::Zero());
+  world.set_gravity(-9.81 * Vector::Unit(up));
+  return mass;
+}
+
+template <class Shape>
+void run(const fs::path& folder) {
+  using S = moreau::SpaceOf<Shape>;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1;
+  fs::create_directories(folder);
+
+  moreau::Simulation<Shape, Law> world(size, moreau::Materials<Law>(1, Law(0.4)));
+  const double mass = fill(world), area = std::pow(width, up);
+  const moreau::BodyId lid = world.add_wall(-Vector::Unit(up), 9.5 * size * Vector::Unit(up));
+  world.set_wall_mass(lid, mass);
+  world.set_force(lid, -pressure * area * Vector::Unit(up));
+
+  const auto& bodies = world.bodies();
+  const auto position_of = [&](std::size_t body) { return bodies.pose[body].position; };
+  const auto is_grain = [&](std::size_t body) { return world.is_grain(body); };
+  const auto shape_of = [&](std::size_t k) -> const Shape& { return world.shape_of_grain(k); };
+  const auto pose_of = [&](std::size_t k) { return bodies.pose[world.grain(k).index()]; };
+  const auto twist_of = [&](std::size_t k) { return bodies.velocity[world.grain(k).index()]; };
+  std::vector<Vector> start;
+  for (std::size_t k = 0; k < world.grain_count(); ++k) start.push_back(pose_of(k).position);
+
+  moreau::CsvWriter table(folder / "run.csv", {{"t", "s"}, {"lid", "m"}, {"kinetic", "J"}});
+  moreau::VtkWriter<S> writer;
+  moreau::PvdSeries series(folder / "run.pvd");
+  std::vector<moreau::ContactSegment<S>> segments;
+  moreau::EnergyBalance<S> energy(world);
+  Watch watch;
+  for (int step = 0; world.time() < duration; ++step) {
+    const moreau::StepReport report = world.step(h);
+    watch(report);
+    energy.add(world, report, h);
+    if (step % 200 != 0) continue;
+    table.row(world.time(), position_of(lid.index())[up], energy.kinetic());
+    const std::string number = std::to_string(step / 200) + ".vtp";
+    writer.write_grains(folder / ("grains_" + number), world.grain_count(), shape_of, pose_of,
+                        twist_of);
+    moreau::contact_segments(world.contacts(), h, position_of, is_grain, segments);
+    writer.write_contacts(folder / ("contacts_" + number), segments);
+    series.add(world.time(), "grains_" + number, 0);
+    series.add(world.time(), "contacts_" + number, 1);
+  }
+
+  moreau::Aabb<S> box{Vector::Zero(), Vector::Constant(width)};
+  box.upper[up] = position_of(lid.index())[up];
+  const typename S::Matrix stress =
+      moreau::contact_stress(world.contacts(), h, box, position_of, is_grain);
+  std::vector<moreau::PairForce<S>> pairs;
+  moreau::pair_forces(world.contacts(), h, pairs);
+  const auto fabric = moreau::fabric<S>(pairs, box, position_of, is_grain);
+  const auto forces = moreau::force_distribution<double>(
+      pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; }, 12, 4.0);
+  moreau::CoordinationCounter<S> counter;
+  const auto coordination = counter.count(world.contacts().points, world.contacts().impulses,
+                                          bodies.size(), is_grain, 2);
+  typename moreau::GridField<S>::Cells cells;
+  cells.fill(6);
+  moreau::GridField<S> displacement(box, cells);
+  for (std::size_t k = 0; k < world.grain_count(); ++k)
+    displacement.add(pose_of(k).position, pose_of(k).position - start[k]);
+  writer.write_field(folder / "displacement.vtp", displacement);
+
+  const moreau::EnergyTerms& terms = energy.terms();
+  std::cout << folder.filename().string() << ", " << world.grain_count() << " grains\n"
+            << "  steps " << watch.steps << ", unsolved " << watch.unsolved << ", worst residual "
+            << watch.residual << ", deepest overlap " << watch.overlap / size << " d\n"
+            << "  stress along the lid's axis " << stress(up, up) << ", across " << stress(0, 0)
+            << "; the lid's " << pressure << '\n'
+            << "  neighbours " << coordination.neighbours << " without " << coordination.rattlers
+            << " rattlers; fabric " << fabric.tensor.diagonal().transpose() << '\n'
+            << "  share of forces above the mean, by bins of a third:";
+  for (std::size_t k = 3; k < 12; ++k) std::cout << ' ' << forces.density[k] * forces.width;
+  std::cout << "\n  energy [J]: gravity " << terms.gravity << ", lid " << terms.forces
+            << ", impacts " << terms.impacts << ", friction " << terms.friction << ", imbalance "
+            << energy.imbalance() << '\n';
+}
+
+int main() {
+  run<moreau::Disk<double>>("measures-output/plane");
+  run<moreau::Ball<double>>("measures-output/space");
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Which way the contacts of an assembly look.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/measure/control_volume.hpp"
+#include "moreau/measure/pair_forces.hpp"
+
+namespace moreau {
+
+/// Which way the contacts look.
+template <class S>
+struct Fabric {
+  /// Mean of n n^T over the pairs, world axes: symmetric, of trace 1, identity / D if the normals
+  /// point everywhere alike. Zero without pairs.
+  typename S::Matrix tensor = S::Matrix::Zero();
+  std::size_t pairs = 0;  ///< counted
+
+  /// The traceless a of E(n) = (1 + n . a n) / (area of the unit sphere), the density of normals
+  /// that has this tensor: a = D (D + 2)/2 (tensor - identity / D). In the plane its eigenvalues
+  /// are +-a of E = (1 + a cos 2(theta - theta_c)) / 2 pi.
+  /// Source: K. Kanatani, Int. J. Eng. Sci. 22 (1984) 149, fabric tensors of the third kind.
+  typename S::Matrix anisotropy() const {
+    using Scalar = typename S::Scalar;
+    if (pairs == 0) return S::Matrix::Zero();
+    constexpr Scalar dim = S::dim;
+    return dim * (dim + 2) / 2 * (tensor - S::Matrix::Identity() / dim);
+  }
+};
+
+/// The fabric tensor of the pairs of grains that carry force and whose centre of pressure lies in
+/// the control volume. Each pair counts once, whatever it carries and by however many points.
+/// Contacts with walls are left out: their normals are the walls'.
+/// @param pairs          of pair_forces()
+/// @param control_volume world axes [m]
+/// @param position_of    body -> its centre of mass in world axes [m]
+/// @param is_grain       body -> false for a wall
+/// @param cell           if it is periodic: a pair counts if an image of it lies in the control
+///                       volume, which is at most as long as the cell
+/// @throws std::invalid_argument if the control volume is no box
+/// Source: M. Satake, IUTAM Conf. on Deformation and Failure of Granular Materials (1982) 63.
+template <class S>
+Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_volume,
+                 const auto& position_of, const auto& is_grain, const PeriodicCell<S>& cell = {}) {
+  require_control_volume(control_volume, "fabric");
+  Fabric<S> result;
+  for (const PairForce<S>& pair : pairs) {
+    if (!is_grain(pair.a) || !is_grain(pair.b)) continue;
+    const typename S::Vector point = cell.image_from(
+        control_volume.lower, typename S::Vector(position_of(pair.a) + pair.lever_a));
+    if (!control_volume.contains({point, point})) continue;
+    result.tensor += pair.normal * pair.normal.transpose();
+    ++result.pairs;
+  }
+  if (result.pairs > 0) result.tensor /= static_cast<typename S::Scalar>(result.pairs);
+  return result;
+}
+
+}  // namespace moreau

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Means over the grains in each cell of a grid: fields of velocity, of displacement, of any vector
+// that grains have.
+//
+//   GridField<S> velocity(box, {20, 20, 10}), displacement(box, {20, 20, 10});
+//   velocity.add(x, v, mass);               // for every grain, in one step or in many
+//   displacement.add(x_then, x - x_then);   // since the configuration then, which it refers to
+//
+// The poses of a periodic simulation are not wrapped, so that their differences are displacements.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/measure/control_volume.hpp"
+
+namespace moreau {
+
+/// One cell of a grid.
+template <class S>
+struct GridSample {
+  typename S::Vector position;  ///< its centre [m]
+  typename S::Vector value;     ///< weighted mean over its grains; zero without
+  typename S::Scalar weight;    ///< sum over its grains
+  std::size_t grains;           ///< counted, in all steps
+};
+
+/// Weighted means of a vector over the grains whose centres lie in each cell.
+template <class S>
+class GridField {
+ public:
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Cells = std::array<std::size_t, std::size_t{S::dim}>;
+
+  /// @param control_volume world axes [m]
+  /// @param cells          number of them along every axis, > 0
+  /// @throws std::invalid_argument for no cells or a control volume that is no box
+  GridField(const Aabb<S>& control_volume, const Cells& cells)
+      : box_(control_volume), cells_(cells) {
+    require_control_volume(control_volume, "GridField");
+    std::size_t count = 1;
+    for (const std::size_t n : cells) {
+      require(n > 0, "GridField", "cells", n, "must be > 0 along every axis");
+      count *= n;
+    }
+    sums_.resize(count);
+  }
+
+  /// Forgets all grains.
+  void clear() { sums_.assign(sums_.size(), Sum{}); }
+
+  /// Counts a grain if its centre lies in the control volume; call it over several steps to average
+  /// in time.
+  /// @param position of its centre [m]; in a periodic cell, of any image
+  /// @param value    in any unit
+  /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
+  /// @throws std::invalid_argument for a weight that is not positive
+  void add(const Vector& position, const Vector& value, Scalar weight = 1,
+           const PeriodicCell<S>& periodic = {}) {
+    require(weight > 0, "GridField::add", "weight", weight, "must be > 0");
+    const Vector image = periodic.image_from(box_.lower, position);
+    const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
+    if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
+    std::size_t index = 0;
+    for (int axis = S::dim; axis-- > 0;) {
+      const std::size_t n = cells_[std::size_t(axis)];
+      const auto k = static_cast<std::size_t>(share[axis] * Scalar(n));
+      index = index * n + (k < n ? k : n - 1);
+    }
+    Sum& sum = sums_[index];
+    sum.value += weight * value;
+    sum.weight += weight;
+    ++sum.grains;
+  }
+
+  const Aabb<S>& control_volume() const { return box_; }  ///< [m]
+  const Cells& cells() const { return cells_; }           ///< along every axis
+  std::size_t size() const { return sums_.size(); }       ///< cells in all
+  /// Cell number k; the first axis runs fastest.
+  GridSample<S> sample(std::size_t k) const {
+    const Sum& sum = sums_[k];
+    Vector share;
+    for (int axis = 0; axis < S::dim; ++axis) {
+      const std::size_t n = cells_[std::size_t(axis)];
+      share[axis] = (Scalar(k % n) + Scalar(0.5)) / Scalar(n);
+      k /= n;
+    }
+    const Vector mean = sum.grains > 0 ? Vector(sum.value / sum.weight) : Vector(Vector::Zero());
+    return {box_.lower + share.cwiseProduct(box_.upper - box_.lower), mean, sum.weight, sum.grains};
+  }
+
+ private:
+  struct Sum {
+    Vector value = Vector::Zero();
+    Scalar weight = 0;
+    std::size_t grains = 0;
+  };
+
+  Aabb<S> box_;
+  Cells cells_;
+  std::vector<Sum> sums_;
+};
+
+}  // namespace moreau

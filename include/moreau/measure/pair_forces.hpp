@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What the contact points of a pair of bodies carry together: the contact of which one speaks in
+// the statistics of forces, whatever the number of points it was made of.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/error.hpp"
+
+namespace moreau {
+
+/// The points of a pair with normal impulse > 0, taken together. All vectors in world axes.
+template <class S>
+struct PairForce {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  std::uint32_t a;             ///< the one body
+  std::uint32_t b;             ///< the other
+  std::size_t points;          ///< that carry force, > 0
+  ContactClass contact_class;  ///< of the pair
+  Vector normal;               ///< unit, from a to b; in a drum the mean over the points
+  Vector lever_a;              ///< from the centre of a to the centre of pressure [m]
+  Vector lever_b;              ///< from the centre of b to the centre of pressure [m]
+  Vector force;                ///< that b receives [N]
+  Scalar normal_force;         ///< sum over the points, > 0 [N]
+  Scalar friction_force;       ///< magnitude of the sum of the tangential forces [N]
+};
+
+/// Fills `pairs` with the pairs that carry force, in the order of `contacts`.
+/// @param step impulses are divided by it [s]
+/// @throws std::invalid_argument if the step is not positive
+template <class S>
+void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,
+                 std::vector<PairForce<S>>& pairs) {
+  require(step > 0, "pair_forces", "step", step, "must be > 0");
+  pairs.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Contact<S>& contact = contacts.points[c];
+    const typename S::Scalar push = contacts.impulses[c][0] / step;
+    if (!(push > 0)) continue;
+    if (pairs.empty() || pairs.back().a != contact.a || pairs.back().b != contact.b)
+      pairs.push_back({contact.a, contact.b, 0, contacts.classes[c], S::Vector::Zero(),
+                       S::Vector::Zero(), S::Vector::Zero(), S::Vector::Zero(), 0, 0});
+    PairForce<S>& pair = pairs.back();
+    ++pair.points;
+    pair.normal += push * contact.frame.col(0);
+    pair.lever_a += push * contact.lever_a;
+    pair.lever_b += push * contact.lever_b;
+    pair.force += contact.frame * contacts.impulses[c] / step;
+    pair.normal_force += push;
+  }
+  for (PairForce<S>& pair : pairs) {
+    pair.lever_a /= pair.normal_force;
+    pair.lever_b /= pair.normal_force;
+    pair.friction_force = (pair.force - pair.normal).norm();
+    pair.normal.normalize();
+  }
+}
+
+}  // namespace moreau
