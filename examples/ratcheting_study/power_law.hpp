@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Straight lines and power laws through measured points.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace study {
+
+struct Point {
+  double x, y;
+};
+
+/// y = intercept + slope x by least squares.
+struct Line {
+  double intercept = std::nan(""), slope = std::nan("");
+  double slope_error = std::nan("");  ///< standard error; nan for fewer than three points
+  std::size_t points = 0;
+};
+
+/// @returns a line of nan for fewer than two different x
+inline Line fit_line(const std::vector<Point>& points) {
+  Line line;
+  line.points = points.size();
+  const auto n = static_cast<Eigen::Index>(points.size());
+  if (n < 2) return line;
+  Eigen::MatrixX2d terms(n, 2);
+  Eigen::VectorXd y(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    terms.row(i) << 1, points[std::size_t(i)].x;
+    y[i] = points[std::size_t(i)].y;
+  }
+  const double mean = terms.col(1).mean();
+  const double spread = (terms.col(1).array() - mean).square().sum();
+  if (!(spread > 0)) return line;
+  const Eigen::Vector2d c = terms.colPivHouseholderQr().solve(y);
+  line.intercept = c[0];
+  line.slope = c[1];
+  if (n > 2) line.slope_error = std::sqrt((y - terms * c).squaredNorm() / double(n - 2) / spread);
+  return line;
+}
+
+/// y = prefactor x^exponent by least squares of the logarithms.
+struct PowerLaw {
+  double prefactor = std::nan(""), exponent = std::nan("");
+  double exponent_error = std::nan("");  ///< standard error
+  std::size_t points = 0;                ///< used: those with x > 0 and y > 0
+};
+
+inline PowerLaw fit_power_law(const std::vector<Point>& points) {
+  std::vector<Point> logs;
+  for (const Point& p : points)
+    if (p.x > 0 && p.y > 0) logs.push_back({std::log(p.x), std::log(p.y)});
+  const Line line = fit_line(logs);
+  return {std::exp(line.intercept), line.slope, line.slope_error, line.points};
+}
+
+/// y = factor x by least squares of the logarithms.
+struct Proportion {
+  double factor = std::nan("");   ///< geometric mean of y/x
+  double scatter = std::nan("");  ///< root mean square of ln(y / (factor x))
+  std::size_t points = 0;
+};
+
+inline Proportion fit_proportion(const std::vector<Point>& points) {
+  Proportion fit;
+  double sum = 0, squares = 0;
+  for (const Point& p : points) {
+    if (!(p.x > 0 && p.y > 0)) continue;
+    const double ratio = std::log(p.y / p.x);
+    sum += ratio;
+    squares += ratio * ratio;
+    ++fit.points;
+  }
+  if (fit.points == 0) return fit;
+  const double n = double(fit.points), mean = sum / n;
+  fit.factor = std::exp(mean);
+  fit.scatter = std::sqrt(std::max(0.0, squares / n - mean * mean));
+  return fit;
+}
+
+}  // namespace study
