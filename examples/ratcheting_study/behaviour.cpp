@@ -113,14 +113,14 @@ void read_state(const Table& wall, const Table& state, const Result& r, Behaviou
   b.roll_strength = strength.value();
 }
 
-void read_packing(const Table& packing, const Result& r, Behaviour& b) {
+void read_packing(const Table& wall, const Table& packing, const Result& r, Behaviour& b) {
   Mean extension, contraction, box;
   for (const Period& period : r.periods) {
     const auto change = [&](const char* column, double from, double to) {
       return value_at(packing, column, to) - value_at(packing, column, from);
     };
     extension.add(change("rho_inner", period.onset, period.peak));
-    contraction.add(change("rho_inner", period.peak, period.finish));
+    contraction.add(change("rho_inner", period.peak, falls_back(wall, period, 0.9)));
     box.add(change("rho_box", period.onset, period.peak));
   }
   b.rho_extension = extension.value();
@@ -138,7 +138,7 @@ Behaviour read_behaviour(const std::filesystem::path& output, const Result& r) {
       packing(folder / "packing.csv");
   read_wall(wall, r, b);
   read_state(wall, state, r, b);
-  read_packing(packing, r, b);
+  read_packing(wall, packing, r, b);
   return b;
 }
 

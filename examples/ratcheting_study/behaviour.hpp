@@ -26,8 +26,9 @@ struct Behaviour {
   double active_xx = std::nan(""), active_zz = std::nan("");  ///< while x grows [Pa]
   double roll = std::nan(""), roll_strength = std::nan("");   ///< while x falls [rad/s, -]
 
-  double rho_extension = std::nan(""), rho_contraction = std::nan("");  ///< inner, change [-]
-  double box_extension = std::nan("");                                  ///< whole box, change [-]
+  double rho_extension = std::nan("");    ///< inner, change while x grows [-]
+  double rho_contraction = std::nan("");  ///< inner, change while x falls by 90 % of its way [-]
+  double box_extension = std::nan("");    ///< whole box, change [-]
 };
 
 Behaviour read_behaviour(const std::filesystem::path& output, const Result& r);

@@ -66,7 +66,8 @@ struct Pushed {
   double displacement;
 };
 
-/// beta in [0, 2] for which measured over predicted scatters least, and what is left.
+/// beta in [0, 2], the only parameter, for which the measured displacements deviate least from the
+/// predicted ones, and what is left.
 struct MovingShare {
   double beta = std::nan("");
   Proportion measured_over_predicted;
@@ -80,7 +81,7 @@ inline MovingShare fit_moving_share(const std::vector<Pushed>& runs) {
     for (const Pushed& run : runs)
       points.push_back({sine_displacement(run.push, beta), run.displacement});
     const Proportion fit = fit_proportion(points);
-    if (k == 0 || fit.scatter < best.measured_over_predicted.scatter) best = {beta, fit};
+    if (k == 0 || fit.deviation < best.measured_over_predicted.deviation) best = {beta, fit};
   }
   return best;
 }

@@ -96,6 +96,7 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(names));
   app.add_flag("--list", o.list, "number, state, name and series of the cases, and no more");
   app.add_flag("--report-only", o.report_only, "run nothing");
+  app.add_flag("--no-report", o.no_report, "only run");
   app.add_option("--jobs", o.jobs, "cases at once")->check(CLI::Range(1, 1024));
   app.add_option("--output", o.output, "folder of the runs, made if missing");
   app.add_option("--results", o.results, "folder of tables, figures and report; OUTPUT/results");
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  o.no_report = !o.selection.numbers.empty();
+  o.no_report = o.no_report || !o.selection.numbers.empty();
   if (o.results.empty()) o.results = (fs::path(o.output) / "results").string();
   if (o.program.empty())
     o.program = (fs::read_symlink("/proc/self/exe").parent_path() / "ratcheting").string();

@@ -59,8 +59,8 @@ std::string name_of(const Parameters& p, const Parameters& base, double usual_du
 }
 
 /// One second as in the paper, five periods where that is longer.
-double duration_at(double frequency) {
-  return std::max(1.0, 5 / frequency);
+double duration_at(const std::string& plan, double frequency) {
+  return plan == "small" ? 0.6 : std::max(1.0, 5 / frequency);
 }
 
 /// Collects cases; one that is asked for twice is there once, in both sets.
@@ -74,7 +74,7 @@ class Builder {
     const Parameters base = baseline(plan_, shape, seed);
     Parameters p = base;
     change(p);
-    const double usual = duration_at(p.frequency);
+    const double usual = duration_at(plan_, p.frequency);
     if (p.duration == base.duration) p.duration = usual;
     const std::string name = name_of(p, base, usual);
     const auto [place, is_new] = place_of_.try_emplace(name, cases_.size());

@@ -61,8 +61,9 @@ inline PowerLaw fit_power_law(const std::vector<Point>& points) {
 
 /// y = factor x by least squares of the logarithms.
 struct Proportion {
-  double factor = std::nan("");   ///< geometric mean of y/x
-  double scatter = std::nan("");  ///< root mean square of ln(y / (factor x))
+  double factor = std::nan("");     ///< geometric mean of y/x
+  double scatter = std::nan("");    ///< root mean square of ln(y / (factor x))
+  double deviation = std::nan("");  ///< root mean square of ln(y/x): from y = x
   std::size_t points = 0;
 };
 
@@ -80,6 +81,7 @@ inline Proportion fit_proportion(const std::vector<Point>& points) {
   const double n = double(fit.points), mean = sum / n;
   fit.factor = std::exp(mean);
   fit.scatter = std::sqrt(std::max(0.0, squares / n - mean * mean));
+  fit.deviation = std::sqrt(squares / n);
   return fit;
 }
 

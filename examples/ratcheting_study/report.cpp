@@ -205,7 +205,7 @@ std::string prediction(const Shapes& shapes) {
       "fmax "
       "ν²], so C = 0.228 (f_a/mg)² (m + m_w)/(m_w + βm); here with the full sine and each run's "
       "own "
-      "f_a. No other parameter is fitted.\n\n" +
+      "f_a. β is the only parameter that is fitted.\n\n" +
       header("", shapes);
   const auto line = [&](const char* name, const std::function<double(const Sample&)>& value) {
     text += std::string("| ") + name + " |";
@@ -218,7 +218,8 @@ std::string prediction(const Shapes& shapes) {
   line("f_a/mg at the baseline", [](const Sample& x) {
     return x.base != nullptr ? x.base->thrust / x.base->weight : std::nan("");
   });
-  line("β of least scatter", [](const Sample& x) { return x.prediction.beta; });
+  line("β of least deviation from measured = predicted",
+       [](const Sample& x) { return x.prediction.beta; });
   line("measured / predicted with it",
        [](const Sample& x) { return x.prediction.measured_over_predicted.factor; });
   line("scatter", [](const Sample& x) { return x.prediction.measured_over_predicted.scatter; });

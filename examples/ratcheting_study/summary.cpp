@@ -33,9 +33,17 @@ Proportion master_fit(const Series& series, double beta) {
   return fit_proportion(points);
 }
 
+/// beta shows in runs with different walls only.
+bool walls_differ(const Series& series) {
+  std::set<double> ratios;
+  for (const Result* r : series) ratios.insert(r->c.parameters.wall_mass_ratio);
+  return ratios.size() >= 3;
+}
+
+/// C and beta of least scatter.
 MovingShare best_master(const Series& series) {
   MovingShare best;
-  if (series.size() < 4) return best;
+  if (!walls_differ(series)) return best;
   for (int k = 0; k <= 400; ++k) {
     const double beta = 0.005 * k;
     const Proportion fit = master_fit(series, beta);
@@ -95,7 +103,7 @@ SampleSummary summarize_sample(const std::filesystem::path& output,
     third.push_back({sine_displacement(r->push(), 1.0 / 3), r->dx_max});
   }
   if (pushed.size() >= 4) {
-    sample.prediction = fit_moving_share(pushed);
+    if (walls_differ(all)) sample.prediction = fit_moving_share(pushed);
     sample.prediction_third = fit_proportion(third);
   }
   fit_compaction_rates(frequencies, sample);

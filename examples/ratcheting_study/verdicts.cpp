@@ -171,7 +171,10 @@ Cell roll_cell(const ShapeSummary& s) {
     value += "; at the largest speed " +
              text_of(100 * first->base->json["passive_field"]["agreement"].get<double>(), 2) +
              " % of the cells turn alike";
-  return {value + (roll.mean < 0 ? "; clockwise" : "; counter-clockwise"), std::nullopt};
+  const bool clockwise = roll.mean < 0;
+  return {value + (clockwise ? "; clockwise, counter-clockwise with the wall at the left"
+                             : "; counter-clockwise, clockwise with the wall at the left"),
+          std::nullopt};
 }
 
 Cell rho_x_cell(const ShapeSummary& s) {
@@ -252,6 +255,17 @@ void judge_period(const Shapes& shapes, Rows& rows) {
   rows.push_back(row(shapes, "12 1e4 Δρ out, in; inner volume", "> 0, < 0", "signs", rho_x_cell));
 }
 
+void judge_rate(const Shapes& shapes, Rows& rows) {
+  rows.push_back(row(shapes, "13 compaction rate, 5 Hz, 6 kN [1/s]", "0.025 (3D), 2D slower",
+                     "×2 (3D)", [](const ShapeSummary& s) {
+                       Cell cell = ranged(
+                           s, [](const Sample& x) { return of_base(x, &Result::rate); }, 0.0125,
+                           0.05);
+                       if (plane(s)) cell.holds.reset();
+                       return cell;
+                     }));
+}
+
 void judge_scaling(const Shapes& shapes, Rows& rows) {
   rows.push_back(row(shapes, "14 phase portraits 5, 10 Hz scaled", "collapse", "< 15 %",
                      [](const ShapeSummary& s) {
@@ -315,22 +329,25 @@ void judge_constant(const Shapes& shapes, Rows& rows) {
   }));
 }
 
+/// Frequencies at which the packing loosened have no place in the fits; their number is told.
+void tell_negative_rates(const Shapes& shapes, Row& r) {
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    std::size_t negative = 0;
+    for (const Sample& sample : shapes[k].samples) negative += sample.negative_rates;
+    if (!r.cells[k].value.empty() && negative > 0)
+      r.cells[k].value += "; without " + std::to_string(negative) + " where ρ fell";
+  }
+}
+
 void judge_compaction(const Shapes& shapes, Rows& rows) {
   const auto add = [&](const char* quantity, const char* paper, const char* accepted, double low,
                        double high, const std::function<double(const Sample&)>& value) {
     rows.push_back(row(shapes, quantity, paper, accepted,
                        [=](const ShapeSummary& s) { return ranged(s, value, low, high); }));
   };
-  rows.push_back(row(shapes, "13 compaction rate, 5 Hz, 6 kN [1/s]", "0.025 (3D), 2D slower",
-                     "×2 (3D)", [](const ShapeSummary& s) {
-                       Cell cell = ranged(
-                           s, [](const Sample& x) { return of_base(x, &Result::rate); }, 0.0125,
-                           0.05);
-                       if (plane(s)) cell.holds.reset();
-                       return cell;
-                     }));
   add("18 ν_c [Hz], two branches", "10", "7–14", 7, 14,
       [](const Sample& x) { return x.branches.nu_c; });
+  tell_negative_rates(shapes, rows.back());
   add("18 slope below ν_c", "1", "1 ± 0.3", 0.7, 1.3,
       [](const Sample& x) { return x.slopes.below.exponent; });
   add("18 slope above ν_c", "−1", "−1 ± 0.3", -1.3, -0.7,
@@ -352,6 +369,7 @@ std::vector<Row> judge(const std::vector<Result>& results,
   judge_setting(results, shapes, rows);
   judge_density(shapes, rows);
   judge_period(shapes, rows);
+  judge_rate(shapes, rows);
   judge_scaling(shapes, rows);
   judge_constant(shapes, rows);
   judge_compaction(shapes, rows);

@@ -9,15 +9,15 @@ set format y "10^{%L}"
 set xlabel "ν  [Hz]"
 set key bottom left
 set ylabel "Δx_{max}  [mm]"
-law(name, shape, x) = value(name."_prefactor", shape) * x**value(name."_exponent", shape)
+law(name, shape, x) = number(name."_prefactor", shape) * x**number(name."_exponent", shape)
 do for [name in "dx v"] {
   column = name eq "dx" ? 2 : 4
   set ylabel (name eq "dx" ? "Δx_{max}  [mm]" : "v_{max}, passive  [mm/s]")
   commands = ""
   do for [shape in shapes] {
     if (has("frequencies", shape)) {
-      p = value(name."_frequency_prefactor", shape); e = value(name."_frequency_exponent", shape)
-      commands = commands.sprintf("file_of('frequencies', '%s') using 1:(mm($%d)):(mm($%d)) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, column, column + 1, point_of(shape), color_of(shape), title_of(shape), known(e) ? sprintf(": ν^{%.2f}", e) : "")
+      p = number(name."_frequency_prefactor", shape); e = number(name."_frequency_exponent", shape)
+      commands = commands.sprintf("file_of('frequencies', '%s') using 1:(mm($%d)):(mm(error($%d))) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, column, column + 1, point_of(shape), color_of(shape), title_of(shape), known(e) ? sprintf(": ν^{%.2f}", e) : "")
       if (known(e)) { commands = commands.sprintf("mm(%g * x**%g) with lines linewidth 0.8 linecolor rgb '%s' notitle, ", p, e, color_of(shape)) }
     }
   }

@@ -13,8 +13,8 @@ commands = ""
 do for [shape in shapes] {
   if (has("wall-mass", shape)) {
     unit = real(system(sprintf("awk -F, '$1 == 0.5 {print $2; found = 1} END {if (!found) print \"NaN\"}' '%s'", file_of("wall-mass", shape))))
-    beta = value("wall_beta", shape)
-    if (known(unit)) { commands = commands.sprintf("file_of('wall-mass', '%s') using 1:($2 / %g):($3 / %g) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, unit, unit, point_of(shape), color_of(shape), title_of(shape), known(beta) ? sprintf(": β = %.2f", beta) : "") }
+    beta = number("wall_beta", shape)
+    if (known(unit)) { commands = commands.sprintf("file_of('wall-mass', '%s') using 1:($2 / %g):(error($3) / %g) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, unit, unit, point_of(shape), color_of(shape), title_of(shape), known(beta) ? sprintf(": β = %.2f", beta) : "") }
     if (known(unit) && known(beta)) { commands = commands.sprintf("(0.5 + %g) / (x + %g) with lines linewidth 0.8 linecolor rgb '%s' notitle, ", beta, beta, color_of(shape)) }
   }
 }

@@ -15,12 +15,14 @@ do for [shape in shapes] {
       set multiplot next
       continue
     }
+    set xrange [*:*]  # stats leaves out what lies beyond
+    set yrange [*:*]
     stats file_of(name, shape) using 5 skip 1 nooutput
     unit = STATS_mean
-    l = value("length", shape); h = value("height", shape)
+    l = number("length", shape); h = number("height", shape)
     set xrange [-0.01 * l:1.01 * l]
     set yrange [-0.01 * h:1.01 * h]
-    set title sprintf("%s, %s\nσ_{xx} = %.2g kPa, σ_{zz} = %.2g kPa", title_of(shape), state, 1e-3 * value(state."_xx", shape), 1e-3 * value(state."_zz", shape)) font ",13"
+    set title sprintf("%s, %s\nσ_{xx} = %.3g kPa, σ_{zz} = %.3g kPa", title_of(shape), state, 1e-3 * number(state."_xx", shape), 1e-3 * number(state."_zz", shape)) font ",13"
     plot for [k = 1:9] file_of(name, shape) using ($5 > 0.5 * k * unit && ($5 <= 0.5 * (k + 1) * unit || k == 9) ? $1 : NaN):2:($3 - $1):($4 - $2) skip 1 with vectors nohead linewidth 0.6 * k linecolor rgb color_of(shape)
   }
 }

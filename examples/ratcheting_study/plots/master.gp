@@ -3,7 +3,7 @@
 # paper; crosses: the closed form from each run's own active thrust.
 width = 1500; height = 1150
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 2 margins 0.07, 0.98, 0.07, 0.96 spacing 0.08, 0.1
+set multiplot layout 2, 2 margins 0.07, 0.98, 0.07, 0.95 spacing 0.08, 0.14
 set logscale xy
 set format "10^{%L}"
 set xlabel "(mg)^2 / [(m + m_w) f_{max} ν^2]  [mm]"
@@ -16,7 +16,7 @@ do for [shape in shapes] {
     continue
   }
   set title title_of(shape)
-  c = value("C", shape); beta = value("beta", shape)
+  c = number("C", shape); beta = number("beta", shape)
   commands = ""
   do for [k = 1:4] {
     symbol = word("8 6 4 12", k) + 0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Mean loops in the phase plane at two frequencies, raw above and scaled below.
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 4 columnsfirst margins 0.06, 0.99, 0.09, 0.94 spacing 0.06, 0.13
+set multiplot layout 2, 4 columnsfirst margins 0.06, 0.99, 0.09, 0.94 spacing 0.06, 0.16
 set xzeroaxis linetype 1 linecolor rgb grey
 do for [shape in shapes] {
   if (!has("loop5", shape)) {
@@ -15,7 +15,7 @@ do for [shape in shapes] {
   set ylabel (shape eq "polyhedron" ? "v  [mm/s]" : "")
   plot file_of("loop5", shape) using (mm($1)):(mm($2)) skip 1 with lines linecolor rgb blue title "5 Hz", \
        file_of("loop10", shape) using (mm($1)):(mm($2)) skip 1 with lines linecolor rgb red title "10 Hz"
-  distance = value("loop_distance", shape)
+  distance = number("loop_distance", shape)
   set title (known(distance) ? sprintf("largest distance %.0f %%", 100 * distance) : "") font ",13"
   unset key
   set xlabel "(x − x_j) ν²  [mm/s²]"

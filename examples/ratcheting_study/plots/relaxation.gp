@@ -2,7 +2,7 @@
 # Does the frequency of the fastest compaction follow sqrt(g/d)? Raw above, scaled below.
 width = 1400; height = 1100
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 2 columnsfirst margins 0.08, 0.98, 0.07, 0.96 spacing 0.09, 0.1
+set multiplot layout 2, 2 columnsfirst margins 0.08, 0.98, 0.07, 0.95 spacing 0.09, 0.14
 set logscale xy
 set format y "10^{%L}"
 set key bottom left

@@ -2,7 +2,7 @@
 # The change of the solid fraction since the start, in the inner control volume and in the box.
 width = 1400; height = 1000
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 2 margins 0.08, 0.98, 0.07, 0.96 spacing 0.09, 0.1
+set multiplot layout 2, 2 margins 0.08, 0.98, 0.07, 0.95 spacing 0.09, 0.14
 set xlabel "t  [s]"
 set ylabel "Δρ"
 set xrange [0:1]

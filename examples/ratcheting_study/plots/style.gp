@@ -18,9 +18,8 @@ if (format eq "svg") {
 set output out
 set encoding utf8
 set datafile separator ","
-set datafile missing "nan"
 set border linewidth 0.8 linecolor rgb "#444444"
-set tics nomirror textcolor rgb "#444444"
+set tics nomirror textcolor rgb "#444444" font ",12"
 set grid linetype 1 linewidth 0.4 linecolor rgb "#d8d8d8"
 set key opaque box linecolor rgb "#d8d8d8" samplen 2
 blue = "#1f5fa8"
@@ -29,6 +28,7 @@ green = "#2e7d4f"
 orange = "#d07a00"
 grey = "#7a7a7a"
 mm(x) = 1e3 * x
+error(x) = x == x ? x : 0  # a spread that is not known is not drawn
 kN(f) = 1e-3 * f
 shapes = "polyhedron polygon sphere disk"
 title_of(shape) = shape eq "polyhedron" ? "3D, polyhedra" : shape eq "polygon" ? "2D, polygons" : shape eq "sphere" ? "3D, spheres" : "2D, disks"
@@ -37,5 +37,5 @@ point_of(shape) = shape eq "polyhedron" ? 7 : shape eq "polygon" ? 5 : shape eq 
 file_of(name, shape) = data."/".name."_".shape.".csv"
 has(name, shape) = system("test $(cat '".file_of(name, shape)."' 2>/dev/null | wc -l) -gt 1 && echo 1 || echo 0") + 0
 # A number of values.csv, NaN if it is not there.
-value(name, shape) = real(system(sprintf("awk -F, -v wanted='%s_%s' '$1 == wanted {print $2; found = 1} END {if (!found) print \"NaN\"}' '%s/values.csv'", name, shape, data)))
+number(name, shape) = real(system(sprintf("awk -F, -v wanted='%s_%s' '$1 == wanted {print $2; found = 1} END {if (!found) print \"NaN\"}' '%s/values.csv'", name, shape, data)))
 known(x) = x == x

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The wall's displacement over time, above the force on it.
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 4 columnsfirst margins 0.055, 0.99, 0.09, 0.94 spacing 0.05, 0.03
+set multiplot layout 2, 4 columnsfirst margins 0.055, 0.99, 0.09, 0.94 spacing 0.055, 0.03
 unset key
 set xrange [0:1]
 do for [shape in shapes] {
