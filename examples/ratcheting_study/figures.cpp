@@ -215,10 +215,8 @@ void add_values(const ShapeSummary& s, Values& values) {
     values.add("height_" + s.shape, sample.base->height);
     const Parameters& p = sample.base->c.parameters;
     values.add("mass_ratio_" + s.shape, p.wall_mass_ratio);
-    if (sample.base->json.contains("passive_field")) {
-      values.add("roll_" + s.shape, sample.base->json["passive_field"]["roll"]);
-      values.add("roll_strength_" + s.shape, sample.base->json["passive_field"]["strength"]);
-    }
+    values.add("roll_" + s.shape, sample.base->facts.roll);
+    values.add("roll_strength_" + s.shape, sample.base->facts.roll_strength);
   }
 }
 

@@ -2,9 +2,7 @@
 // Straight lines and power laws through measured points.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/QR>
-
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -26,21 +24,23 @@ struct Line {
 inline Line fit_line(const std::vector<Point>& points) {
   Line line;
   line.points = points.size();
-  const auto n = static_cast<Eigen::Index>(points.size());
-  if (n < 2) return line;
-  Eigen::MatrixX2d terms(n, 2);
-  Eigen::VectorXd y(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    terms.row(i) << 1, points[std::size_t(i)].x;
-    y[i] = points[std::size_t(i)].y;
+  if (points.size() < 2) return line;
+  const double n = double(points.size());
+  Point mean{0, 0};
+  for (const Point& p : points) mean = {mean.x + p.x / n, mean.y + p.y / n};
+  double xx = 0, xy = 0, left = 0;
+  for (const Point& p : points) {
+    xx += (p.x - mean.x) * (p.x - mean.x);
+    xy += (p.x - mean.x) * (p.y - mean.y);
   }
-  const double mean = terms.col(1).mean();
-  const double spread = (terms.col(1).array() - mean).square().sum();
-  if (!(spread > 0)) return line;
-  const Eigen::Vector2d c = terms.colPivHouseholderQr().solve(y);
-  line.intercept = c[0];
-  line.slope = c[1];
-  if (n > 2) line.slope_error = std::sqrt((y - terms * c).squaredNorm() / double(n - 2) / spread);
+  if (!(xx > 0)) return line;
+  line.slope = xy / xx;
+  line.intercept = mean.y - line.slope * mean.x;
+  for (const Point& p : points) {
+    const double residual = p.y - line.intercept - line.slope * p.x;
+    left += residual * residual;
+  }
+  if (points.size() > 2) line.slope_error = std::sqrt(left / (n - 2) / xx);
   return line;
 }
 

@@ -46,18 +46,11 @@ std::string completeness(const std::vector<Case>& plan, const std::vector<Result
             (set == sets.rbegin()->first ? "." : ",");
   std::size_t steps = 0, capped = 0;
   for (const Result& r : results) {
-    steps += r.json.at("solver").at("steps").get<std::size_t>();
-    capped += r.json.at("solver").at("capped_steps").get<std::size_t>();
+    steps += r.facts.steps;
+    capped += r.facts.capped_steps;
   }
   return text + "\nOf " + std::to_string(steps) + " steps " + std::to_string(capped) +
          " ended at the cap of sweeps; all others met the stopping test.\n";
-}
-
-std::string versions(const std::vector<Result>& results) {
-  if (results.empty()) return "";
-  const auto& v = results.front().json.at("versions");
-  return "moreau " + v.value("moreau", "") + ", Eigen " + v.value("eigen", "") + ", " +
-         v.value("compiler", "");
 }
 
 std::string verdict_table(const std::vector<Row>& rows, const Shapes& shapes) {
@@ -290,7 +283,7 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       "` from the runs that are done; the study "
       "is that of Azéma, Radjai, Peyroux, Richefeu and Saussine, "
       "[arXiv 0711.1081](https://arxiv.org/abs/0711.1081). " +
-      versions(results) +
+      (results.empty() ? "" : results.front().facts.versions) +
       ". Every run stands in [cases.csv](cases.csv), what the figures show in [data](data), the "
       "wall clock in [wall_clock.md](wall_clock.md).\n\n" +
       completeness(plan, results) + "\n## Against the paper\n\n" +

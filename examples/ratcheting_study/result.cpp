@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "runner.hpp"
 #include "table.hpp"
@@ -28,6 +29,42 @@ ratcheting::Period read_period(const nlohmann::json& json, double frequency) {
   period.v_max_passive = json.at("v_max_passive");
   period.f_g_active = json.at("f_g_active");
   return period;
+}
+
+std::optional<Facts::Range> read_range(const nlohmann::json& sample, const char* key) {
+  if (!sample.contains(key)) return std::nullopt;
+  return Facts::Range{sample[key][0], sample[key][1]};
+}
+
+Facts read_facts(const nlohmann::json& json) {
+  Facts f;
+  const auto& versions = json.at("versions");
+  f.versions = "moreau " + versions.value("moreau", "") + ", Eigen " + versions.value("eigen", "") +
+               ", " + versions.value("compiler", "");
+  const auto& sample = json.at("sample");
+  f.settled = sample.value("settled", false);
+  f.vertices = read_range(sample, "vertices");
+  f.faces = read_range(sample, "faces");
+  if (sample.contains("circumradii"))
+    for (const auto& size : sample["circumradii"])
+      f.circumradii.emplace_back(size.at("radius"), size.at("grains"));
+  const auto& solver = json.at("solver");
+  f.steps = solver.at("steps");
+  f.capped_steps = solver.at("capped_steps");
+  f.mean_sweeps = solver.at("mean_sweeps");
+  f.worst_residual = solver.at("worst_residual");
+  f.mean_overlap = solver.at("mean_overlap_over_d");
+  f.max_overlap = solver.at("max_overlap_over_d");
+  f.median_ms = solver.at("median_ms_total");
+  f.prepare_seconds = json.at("wall_clock_seconds").value("prepare", 0.0);
+  f.vibrate_seconds = json.at("wall_clock_seconds").value("vibrate", 0.0);
+  if (json.contains("passive_field")) {
+    const auto& field = json["passive_field"];
+    f.roll = field.at("roll");
+    f.roll_strength = field.at("strength");
+    f.roll_agreement = field.at("agreement");
+  }
+  return f;
 }
 
 /// Mean of a field over the periods.
@@ -86,14 +123,15 @@ std::optional<Result> read_result(const std::filesystem::path& output, const Cas
   Result r{};
   r.c = c;
   std::ifstream file(folder / "run.json");
-  r.json = nlohmann::json::parse(file);
-  r.mass = r.json.at("sample").at("mass");
-  r.wall_mass = r.json.at("sample").at("wall_mass");
-  r.length = r.json.at("box").at("length");
-  r.height = r.json.at("box").at("height");
+  const auto json = nlohmann::json::parse(file);
+  r.facts = read_facts(json);
+  r.mass = json.at("sample").at("mass");
+  r.wall_mass = json.at("sample").at("wall_mass");
+  r.length = json.at("box").at("length");
+  r.height = json.at("box").at("height");
   r.weight = r.mass * c.parameters.gravity;
-  for (const auto& json : r.json.at("periods")) {
-    const ratcheting::Period period = read_period(json, c.parameters.frequency);
+  for (const auto& entry : json.at("periods")) {
+    const ratcheting::Period period = read_period(entry, c.parameters.frequency);
     if (period.start >= filling_time - 1e-9) r.periods.push_back(period);
   }
   summarize_wall(r);

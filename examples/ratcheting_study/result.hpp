@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "../ratcheting/periods.hpp"
 #include "closed_form.hpp"
+#include "facts.hpp"
 #include "plan.hpp"
 
 namespace study {
@@ -20,7 +20,7 @@ constexpr double filling_time = 0.15;
 /// Means over the periods of a run; nan without one. SI units.
 struct Result {
   Case c;
-  nlohmann::json json;  ///< run.json
+  Facts facts;
   double mass, wall_mass, length, height;
   double weight;  ///< m g [N]
 

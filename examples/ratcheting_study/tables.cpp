@@ -39,13 +39,6 @@ std::string joined(const std::set<std::string>& words) {
   return all;
 }
 
-double seconds_of(const Result& r) {
-  double sum = 0;
-  for (const auto& [stage, seconds] : r.json.at("wall_clock_seconds").items())
-    sum += seconds.get<double>();
-  return sum;
-}
-
 }  // namespace
 
 void write_cases(const std::filesystem::path& folder, const std::vector<Result>& results) {
@@ -58,7 +51,6 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
       "max_overlap_over_d\n";
   for (const Result& r : results) {
     const Parameters& p = r.c.parameters;
-    const auto& solver = r.json.at("solver");
     CsvLine line;
     line << double(r.c.number) << r.c.name << joined(r.c.sets) << p.shape << double(p.seed)
          << p.frequency << p.fmax << p.fmin << p.gravity << p.wall_mass_ratio << p.box_ratio
@@ -66,15 +58,15 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
          << (p.size_reading == moreau::SizeReading::circumdiameter ? "circumdiameter"
                                                                    : "circumradius")
          << p.lid_force << p.step << p.tolerance << double(p.correction) << p.duration << r.mass
-         << r.wall_mass << r.length << r.height
-         << double(r.json.at("sample").value("settled", false)) << double(r.periods.size())
-         << r.dx_max << r.dx_spread << r.v_max << r.delay << r.thrust / r.weight
-         << r.net_contraction << double(r.contracting) << r.rho_initial << r.rho_0 << r.rho_final
-         << r.box_initial << r.box_final << r.rate << r.compaction_per_period << r.constant
+         << r.wall_mass << r.length << r.height << double(r.facts.settled)
+         << double(r.periods.size()) << r.dx_max << r.dx_spread << r.v_max << r.delay
+         << r.thrust / r.weight << r.net_contraction << double(r.contracting) << r.rho_initial
+         << r.rho_0 << r.rho_final << r.box_initial << r.box_final << r.rate
+         << r.compaction_per_period << r.constant
          << r.dx_max / sine_displacement(r.push(), 1.0 / 3);
-    for (const char* key : {"steps", "capped_steps", "mean_sweeps", "worst_residual",
-                            "mean_overlap_over_d", "max_overlap_over_d"})
-      line << solver.at(key).get<double>();
+    const Facts& f = r.facts;
+    line << double(f.steps) << double(f.capped_steps) << f.mean_sweeps << f.worst_residual
+         << f.mean_overlap << f.max_overlap;
     text += std::move(line).end();
   }
   moreau::write_atomically(folder / "cases.csv", text);
@@ -85,15 +77,14 @@ void write_wall_clock(const std::filesystem::path& folder, const std::vector<Res
   std::map<std::pair<std::string, std::string>, std::pair<double, std::size_t>> of_series;
   double all = 0, steps = 0;
   for (const Result& r : results) {
-    const auto& clock = r.json.at("wall_clock_seconds");
+    const Facts& f = r.facts;
     CsvLine line;
-    line << double(r.c.number) << r.c.name << clock.value("prepare", 0.0)
-         << clock.value("vibrate", 0.0) << r.json.at("solver").at("steps").get<double>()
-         << r.json.at("solver").at("median_ms_total").get<double>();
+    line << double(r.c.number) << r.c.name << f.prepare_seconds << f.vibrate_seconds
+         << double(f.steps) << f.median_ms;
     csv += std::move(line).end();
-    const double seconds = seconds_of(r);
+    const double seconds = f.prepare_seconds + f.vibrate_seconds;
     all += seconds;
-    steps += r.json.at("solver").at("steps").get<double>();
+    steps += double(f.steps);
     for (const std::string& set : r.c.sets) {
       auto& [sum, runs] =
           of_series[{set, r.c.parameters.shape + ", seed " + std::to_string(r.c.parameters.seed)}];

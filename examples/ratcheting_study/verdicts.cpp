@@ -36,38 +36,36 @@ double of_base(const Sample& sample, double Result::*field) {
   return sample.base != nullptr ? sample.base->*field : std::nan("");
 }
 
-std::string range_of(const nlohmann::json& sample, const char* key) {
-  if (!sample.contains(key)) return "";
-  return std::to_string(sample[key][0].get<int>()) + "–" +
-         std::to_string(sample[key][1].get<int>());
+std::string range_of(const Facts::Range& range) {
+  return std::to_string(range[0]) + "–" + std::to_string(range[1]);
 }
 
 Cell sample_cell(const ShapeSummary& s) {
   const Sample* first = first_of(s);
   if (first == nullptr) return {};
-  const nlohmann::json& sample = first->base->json["sample"];
+  const Facts& f = first->base->facts;
   Cell cell;
   cell.value = std::to_string(first->base->c.parameters.grains);
-  if (sample.contains("vertices")) cell.value += "; vertices " + range_of(sample, "vertices");
-  if (!plane(s) && sample.contains("faces")) {
-    cell.value += ", faces " + range_of(sample, "faces");
-    cell.holds = sample["vertices"][0] >= 8 && sample["vertices"][1] <= 37 &&
-                 sample["faces"][0] >= 12 && sample["faces"][1] <= 70;
+  if (f.vertices) cell.value += "; vertices " + range_of(*f.vertices);
+  if (!plane(s) && f.vertices && f.faces) {
+    const auto [fewest, most] = *f.vertices;
+    const auto [fewest_faces, most_faces] = *f.faces;
+    cell.value += ", faces " + range_of(*f.faces);
+    cell.holds = fewest >= 8 && most <= 37 && fewest_faces >= 12 && most_faces <= 70;
   }
   return cell;
 }
 
 Cell sizes_cell(const ShapeSummary& s) {
   const Sample* first = first_of(s);
-  if (first == nullptr || !first->base->json["sample"].contains("circumradii")) return {};
+  if (first == nullptr || first->base->facts.circumradii.empty()) return {};
   Cell cell;
   const double grains = double(first->base->c.parameters.grains);
   const double wanted_size[] = {0.025, 0.0375, 0.05}, wanted_share[] = {0.50, 0.34, 0.16};
   bool exact = true;
   std::size_t k = 0;
-  for (const auto& size : first->base->json["sample"]["circumradii"]) {
-    const double d = 2 * size["radius"].get<double>(),
-                 share = size["grains"].get<double>() / grains;
+  for (const auto& [radius, count] : first->base->facts.circumradii) {
+    const double d = 2 * radius, share = double(count) / grains;
     cell.value += (k > 0 ? ", " : "") + text_of(100 * share, 2) + " % of " + text_of(100 * d, 3);
     exact = exact && k < 3 && std::abs(d - wanted_size[k]) < 1e-6 &&
             std::abs(share - wanted_share[k]) <= 1 / grains;
@@ -89,7 +87,7 @@ Cell method_cell(const ShapeSummary& s) {
 Cell preparation_cell(const ShapeSummary& s) {
   const Sample* first = first_of(s);
   if (first == nullptr) return {};
-  const bool settled = first->base->json["sample"].value("settled", false);
+  const bool settled = first->base->facts.settled;
   const double raise = first->base->c.parameters.lid_raise;
   return {std::string(settled ? "settled" : "still moving after 1 s") + "; lid up " +
               text_of(100 * raise) + " cm",
@@ -167,9 +165,8 @@ Cell roll_cell(const ShapeSummary& s) {
       over_samples(s, [](const Sample& x) { return x.behaviour.roll_strength; });
   if (first == nullptr || roll.samples == 0) return {};
   std::string value = text_of(roll, 2) + " rad/s, strength " + text_of(strength.mean, 2);
-  if (first->base->json.contains("passive_field"))
-    value += "; at the largest speed " +
-             text_of(100 * first->base->json["passive_field"]["agreement"].get<double>(), 2) +
+  if (std::isfinite(first->base->facts.roll_agreement))
+    value += "; at the largest speed " + text_of(100 * first->base->facts.roll_agreement, 2) +
              " % of the cells turn alike";
   const bool clockwise = roll.mean < 0;
   return {value + (clockwise ? "; clockwise, counter-clockwise with the wall at the left"
