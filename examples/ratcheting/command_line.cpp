@@ -75,11 +75,15 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
          "what the sizes 2.5, 3.75 and 5 cm are: twice the largest distance from barycentre "
          "to vertex, or that distance")
       ->check(CLI::IsMember({"circumdiameter", "circumradius"}));
+  app.add_option("--size-scale", p.size_scale, "factor on the sizes of all grains")
+      ->check(positive);
   app.add_option("--box-ratio", p.box_ratio, "height / length of the box")->check(positive);
   app.add_option("--box-length", p.box_length, "length and width [m]; 0: from the volume")
       ->check(not_negative);
   app.add_option("--lid-force", p.lid_force, "of the preparation, in weights of the sample at 9.81")
       ->check(positive);
+  app.add_option("--lid-raise", p.lid_raise, "of the lid after the preparation [m]")
+      ->check(not_negative);
   app.add_option("--method", p.method,
                  "contact-dynamics, or springs and dashpots over the same grains, whose steps are "
                  "no longer than a twentieth of an impact")
@@ -111,6 +115,8 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--seed", p.seed, "of the sample")->check(whole);
   app.add_option("--snapshots", p.snapshots, "ParaView files over the run; 0: none")
       ->check(CLI::Range(0, 100000));
+  bool no_pictures = false;
+  app.add_flag("--no-pictures", no_pictures, "do not draw the packing and its force chains");
   bool no_plots = false;
   app.add_flag("--no-plots", no_plots, "do not call gnuplot");
   app.add_option("--output", p.output, "folder, made if missing; its files are overwritten");
@@ -134,6 +140,7 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   p.size_reading = readings.at(reading);
   p.stop_test = test == "qm16" ? moreau::StopTest::qm16 : moreau::StopTest::natural_map;
   p.correction = !no_correction;
+  p.pictures = !no_pictures;
   p.plots = !no_plots;
   return p;
 }

@@ -193,7 +193,7 @@ class Experiment {
     laws.set(moreau::MaterialId(0), moreau::MaterialId(2), Method::law(p, 0));
     moreau::Tolerances tolerances;
     tolerances.margin = p.margin;
-    const double size = moreau::SizeDistribution::azema2008().smallest();
+    const double size = p.size_scale * moreau::SizeDistribution::azema2008().smallest();
     if constexpr (Method::solves)
       return Simulation(size, laws, Solver(solver_options(p), p.threads), tolerances);
     else

@@ -26,6 +26,7 @@ struct Parameters {
   double duration = 1;           ///< of the vibration [s]
   double step = 2e-4;            ///< h [s]
   moreau::SizeReading size_reading = moreau::SizeReading::circumdiameter;
+  double size_scale = 1;    ///< of all grains, against the paper's 2.5, 3.75 and 5 cm
   double box_ratio = 1;     ///< H / L aimed at
   double box_length = 0;    ///< L = W [m]; 0: from the sample's volume
   double lid_force = 10;    ///< in units of m 9.81 m/s^2
@@ -49,7 +50,8 @@ struct Parameters {
   bool correction = true;  ///< overlap correction outside the velocity problem
   int threads = 1;
   std::uint64_t seed = 1;
-  int snapshots = 20;  ///< ParaView files over the duration; 0: none
+  int snapshots = 20;    ///< ParaView files over the duration; 0: none
+  bool pictures = true;  ///< PNG of the packing and of its force chains
   bool plots = true;
   std::string output = "ratcheting-output";
 

@@ -17,6 +17,7 @@
 
 #include "experiment.hpp"
 #include "parameters.hpp"
+#include "passive_field.hpp"
 #include "periods.hpp"
 #include "summary.hpp"
 
@@ -66,6 +67,7 @@ class Recorder {
                             experiment_.wall_force()};
     samples_.push_back(sample);
     totals_.add(report, shift, total);
+    passive_field_.look(parameters_, experiment_);
     wall_.row(sample.t, sample.f, sample.x, sample.v, sample.f_g);
     solver_.row(step, report.pairs, report.points, report.solve.sweeps, report.solve.residual,
                 report.max_overlap, report.mean_overlap, report.ms_detect, report.ms_solve,
@@ -122,6 +124,7 @@ class Recorder {
   const std::vector<WallSample>& samples() const { return samples_; }
   const std::vector<PackingSample>& packing_samples() const { return packing_samples_; }
   const SolverTotals& totals() const { return totals_; }
+  const PassiveField<ExperimentT>& passive_field() const { return passive_field_; }
 
  private:
   std::string file(const char* name) const { return (folder_ / name).string(); }
@@ -136,6 +139,7 @@ class Recorder {
   std::vector<WallSample> samples_;
   std::vector<PackingSample> packing_samples_;
   SolverTotals totals_;
+  PassiveField<ExperimentT> passive_field_;
 };
 
 }  // namespace ratcheting

@@ -137,22 +137,27 @@ int run_method(const Parameters& asked) {
   const auto packing_steps =
       static_cast<std::size_t>(std::max(1LL, std::llround(packing_interval / p.step)));
   const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
+  const auto show = [&](const char* suffix) {
+    views.write_chains(suffix);
+    if (p.pictures) views.picture(suffix);
+  };
   std::size_t snapshots = 0;
   for (; done < total && !interrupted(); ++done) {
     const moreau::StepReport report = experiment.vibrate();
     recorder.record_step(done + 1, report, total);
     if ((done + 1) % packing_steps == 0) recorder.record_packing();
     const double end = double(done + 1) * p.step;
-    if (end >= active && end < active + p.step) views.picture("_active");
-    if (end >= jammed && end < jammed + p.step) views.picture("_jammed");
+    if (end >= active && end < active + p.step) show("_active");
+    if (end >= jammed && end < jammed + p.step) show("_jammed");
     const std::size_t wanted = std::size_t(p.snapshots) * (done + 1) / total;
     if (wanted > snapshots) views.snapshot(int(snapshots = wanted));
     progress.vibrating(done + 1, total, report, experiment.displacement());
   }
-  views.picture("");
+  if (p.pictures) views.picture("");
   progress.finish();
   json.stage("vibrate", watch.lap());
   recorder.flush();
+  recorder.passive_field().write(p.output);
   write_events(p.output, find_periods(recorder.samples(), p));
   json.write(p, experiment, recorder, done < total);
   if (p.plots) plot(p.output);

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,14 +18,12 @@
 
 #include "experiment.hpp"
 #include "parameters.hpp"
+#include "parameters_json.hpp"
 #include "periods.hpp"
 #include "recorder.hpp"
 
 namespace ratcheting {
 
-using Json = nlohmann::ordered_json;
-
-Json to_json(const Parameters& p);
 Json to_json(const Period& period);
 /// @param size the smallest grain's, d [m]
 Json to_json(const SolverTotals& totals, double size);
@@ -48,6 +47,7 @@ class RunJson {
                        {"mass", experiment.mass()},
                        {"weight", experiment.mass() * p.gravity},
                        {"thickness", experiment.thickness()}};
+    add_counts(experiment);
   }
   void stage(const char* name, double seconds) { json_["wall_clock_seconds"][name] = seconds; }
 
@@ -69,6 +69,14 @@ class RunJson {
     json_["results"] =
         ratcheting::results(p, experiment.mass(), experiment.wall_mass(), experiment.length(),
                             periods, recorder.packing_samples());
+    if (const auto& field = recorder.passive_field(); !field.empty()) {
+      const auto roll = field.roll();
+      json_["passive_field"] = {{"t", field.time()},
+                                {"wall_velocity", field.wall_velocity()},
+                                {"roll", roll.angular_velocity},
+                                {"strength", roll.strength},
+                                {"agreement", roll.agreement}};
+    }
     json_["periods"] = Json::array();
     for (const Period& period : periods) json_["periods"].push_back(to_json(period));
     json_["solver"] = to_json(recorder.totals(), experiment.simulation().grain_size());
@@ -77,6 +85,27 @@ class RunJson {
   const Json& results() const { return json_.at("results"); }
 
  private:
+  /// How many grains there are of each circumradius, and the ranges of vertices and faces.
+  template <class ExperimentT>
+  void add_counts(const ExperimentT& experiment) {
+    std::map<double, std::size_t> sizes;
+    std::set<std::size_t> vertices, faces;
+    const auto& simulation = experiment.simulation();
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const auto& shape = simulation.shape_of_grain(k);
+      // Grains of a size differ by rounding: their radii are measured on the scaled shape.
+      ++sizes[std::round(1e9 * double(shape.circumradius())) / 1e9];
+      if constexpr (requires { shape.vertices(); })
+        vertices.insert(std::size_t(shape.vertices().rows()));
+      if constexpr (requires { shape.face_count(); }) faces.insert(shape.face_count());
+    }
+    Json& sample = json_["sample"];
+    sample["circumradii"] = Json::array();
+    for (const auto& [radius, count] : sizes)
+      sample["circumradii"].push_back({{"radius", radius}, {"grains", count}});
+    if (!vertices.empty()) sample["vertices"] = {*vertices.begin(), *vertices.rbegin()};
+    if (!faces.empty()) sample["faces"] = {*faces.begin(), *faces.rbegin()};
+  }
   void write(const Parameters& p) const {
     moreau::write_atomically(std::filesystem::path(p.output) / "run.json", json_.dump(2) + "\n");
   }

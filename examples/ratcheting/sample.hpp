@@ -68,7 +68,7 @@ Grains<Shape> make_grains(const Parameters& p, std::mt19937_64& random) {
   const std::vector<double> sizes = distribution.sample(p.grains, random);
   Grains<Shape> grains;
   for (std::size_t i = 0; i < p.grains; ++i) {
-    const double radius = moreau::circumradius_of(sizes[i], p.size_reading);
+    const double radius = moreau::circumradius_of(p.size_scale * sizes[i], p.size_reading);
     grains.shapes.push_back(bases[i % bases.size()].scaled(radius));
     grains.circumradii.push_back(radius);
     grains.volume += grains.shapes.back().volume();

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "moreau/io/csv.hpp"
 #include "moreau/io/vtk.hpp"
 #include "moreau/measure/force_chains.hpp"
 
@@ -45,6 +47,28 @@ class Views {
     writer_.write_contacts(folder_ / contacts, segments_);
     grains_.add(experiment_.time(), grains);
     contacts_.add(experiment_.time(), contacts);
+  }
+
+  /// chains.csv, or with a suffix to its name: contacts under force in the middle quarter of the
+  /// box, as lines from centre to centre in the section with x to the right and z up.
+  void write_chains(const std::string& suffix) {
+    constexpr double section = 0.25;
+    const auto& simulation = experiment_.simulation();
+    moreau::force_chains<S>(simulation.contacts(), step_, position(), is_grain(), segments_);
+    moreau::CsvWriter file(folder_ / ("chains" + suffix + ".csv"),
+                           {"x_from", "z_from", "x_to", "z_to", "normal_force"});
+    const auto box = experiment_.box();
+    for (const auto& chain : segments_) {
+      bool inside = true;
+      for (int k = 1; k + 1 < S::dim; ++k) {
+        const double share = (chain.point[k] - box.lower[k]) / (box.upper[k] - box.lower[k]);
+        inside = inside && std::abs(share - 0.5) <= section / 2;
+      }
+      if (inside)
+        file.row(chain.from[0], chain.from[S::dim - 1], chain.to[0], chain.to[S::dim - 1],
+                 chain.normal_force);
+    }
+    file.close();
   }
 
   /// packing.png and force_chains.png, or with a suffix to their names.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "parameters_json.hpp"
+
+namespace ratcheting {
+
+Json to_json(const Parameters& p) {
+  return {{"shape", p.shape},
+          {"grains", p.grains},
+          {"frequency", p.frequency},
+          {"fmax", p.fmax},
+          {"fmin", p.fmin},
+          {"gravity", p.gravity},
+          {"density", p.density},
+          {"wall_mass_ratio", p.wall_mass_ratio},
+          {"duration", p.duration},
+          {"step", p.step},
+          {"size_reading", p.size_reading == moreau::SizeReading::circumdiameter ? "circumdiameter"
+                                                                                 : "circumradius"},
+          {"size_scale", p.size_scale},
+          {"box_ratio", p.box_ratio},
+          {"box_length", p.box_length},
+          {"lid_force_weights", p.lid_force},
+          {"lid_raise", p.lid_raise},
+          {"friction", p.friction},
+          {"method", p.method},
+          {"stiffness", p.stiffness},
+          {"restitution", p.restitution},
+          {"tolerance", p.tolerance},
+          {"stop_test", p.stop_test == moreau::StopTest::qm16 ? "qm16" : "residual"},
+          {"max_sweeps", p.max_sweeps},
+          {"preparation_step", p.preparation_step},
+          {"preparation_tolerance", p.preparation_tolerance},
+          {"preparation_sweeps", p.preparation_sweeps},
+          {"preparation_time", p.preparation_time},
+          {"margin", p.margin},
+          {"overlap_correction", p.correction},
+          {"threads", p.threads},
+          {"seed", p.seed}};
+}
+
+}  // namespace ratcheting

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The velocity field while the wall pushes the grains back in: the instant of its largest inward
+// speed, after the box has filled.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+#include "moreau/io/csv.hpp"
+#include "moreau/measure/velocity_field.hpp"
+
+#include "parameters.hpp"
+
+namespace ratcheting {
+
+template <class ExperimentT>
+class PassiveField {
+ public:
+  using S = typename ExperimentT::S;
+  using Field = moreau::VelocityField<S>;
+
+  /// Looks at the state after a step and keeps its field if the wall was never faster inward since
+  /// the first maximum of the force.
+  void look(const Parameters& p, const ExperimentT& experiment) {
+    if (experiment.time() < 0.75 / p.frequency) return;
+    const double v = experiment.wall_velocity();
+    if (v >= 0 || (field_ && v >= wall_velocity_)) return;
+    time_ = experiment.time();
+    wall_velocity_ = v;
+    const auto& simulation = experiment.simulation();
+    field_.emplace(experiment.box(), cells, cells);
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const std::size_t body = simulation.grain(k).index();
+      field_->add(simulation.bodies().pose[body].position,
+                  simulation.bodies().velocity[body].template head<S::dim>());
+    }
+  }
+
+  bool empty() const { return !field_; }
+  double time() const { return time_; }                    ///< [s]
+  double wall_velocity() const { return wall_velocity_; }  ///< outward positive [m/s]
+  auto roll() const { return field_->roll(); }
+
+  /// velocity_field.csv: cells of the section, x to the right and z up, mean velocity, grains.
+  void write(const std::filesystem::path& folder) const {
+    if (!field_) return;
+    moreau::CsvWriter file(folder / "velocity_field.csv", {"x", "z", "v_x", "v_z", "grains"});
+    for (std::size_t row = 0; row < cells; ++row)
+      for (std::size_t column = 0; column < cells; ++column) {
+        const auto sample = field_->sample(column, row);
+        file.row(sample.position.x(), sample.position.y(), sample.velocity.x(), sample.velocity.y(),
+                 sample.grains);
+      }
+    file.close();
+  }
+
+ private:
+  static constexpr std::size_t cells = 10;  ///< each way
+
+  std::optional<Field> field_;
+  double time_ = 0, wall_velocity_ = 0;
+};
+
+}  // namespace ratcheting

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <initializer_list>
+#include <map>
+#include <string_view>
+
+#include "moreau/io/csv.hpp"
+#include "moreau/io/output_file.hpp"
+
+#include "runner.hpp"
+#include "table.hpp"
+
+namespace study {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Six digits: what a figure can show.
+double six(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return std::strtod(text, nullptr);
+}
+
+fs::path data_file(const fs::path& folder, const std::string& name, const std::string& shape) {
+  return folder / "data" / (name + "_" + shape + ".csv");
+}
+
+/// Some columns of a table, every `every`-th row.
+void copy_columns(const fs::path& from, const fs::path& to, const std::vector<std::string>& columns,
+                  std::size_t every = 1) {
+  const Table table(from);
+  std::string text;
+  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
+  text += '\n';
+  char digits[32];
+  for (std::size_t row = 0; row < table.rows(); row += every) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      std::snprintf(digits, sizeof digits, k == 0 ? "%.6g" : ",%.6g", table[columns[k]][row]);
+      text += digits;
+    }
+    text += '\n';
+  }
+  moreau::write_atomically(to, text);
+}
+
+/// What is seen of one run: the trajectory, packing and pictures of the baseline.
+void write_baseline(const fs::path& output, const fs::path& folder, const Result& base) {
+  const fs::path run = folder_of(output, base.c);
+  const std::string& shape = base.c.parameters.shape;
+  const auto file = [&](const char* name) { return data_file(folder, name, shape); };
+  copy_columns(run / "wall.csv", file("wall"), {"t", "f", "x", "v", "f_g"}, 2);
+  copy_columns(run / "packing.csv", file("packing"), {"t", "rho_inner", "rho_box"});
+  copy_columns(run / "state.csv", file("state"),
+               {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"});
+  copy_columns(run / "events.csv", file("events"),
+               {"period", "t_before", "x_before", "t_onset", "t_force_min", "t_peak", "x_peak",
+                "t_after", "x_after"});
+  if (fs::exists(run / "velocity_field.csv"))
+    copy_columns(run / "velocity_field.csv", file("velocity_field"),
+                 {"x", "z", "v_x", "v_z", "grains"});
+  for (const char* state : {"chains_active", "chains_jammed"})
+    if (fs::exists(run / (std::string(state) + ".csv")))
+      copy_columns(run / (std::string(state) + ".csv"), file(state),
+                   {"x_from", "z_from", "x_to", "z_to", "normal_force"});
+}
+
+void write_loop(const fs::path& output, const fs::path& folder, const Result& r) {
+  const Parameters& p = r.c.parameters;
+  const int nu = static_cast<int>(std::lround(p.frequency));
+  moreau::CsvWriter file(data_file(folder, "loop" + std::to_string(nu), p.shape),
+                         {"x", "v", "x_scaled", "v_scaled"});
+  for (const Point& point : mean_loop(output, r))
+    file.row(six(point.x), six(point.y), six(point.x * p.frequency * p.frequency),
+             six(point.y * p.frequency));
+  file.close();
+}
+
+/// Mean and spread over the samples at each value of the parameter.
+void write_series(const fs::path& folder, const std::vector<Result>& results,
+                  const ShapeSummary& shape, const char* set, double Parameters::*parameter) {
+  std::map<double, std::vector<const Result*>> at;
+  for (const SampleSummary& sample : shape.samples)
+    for (const Result* r : series_of(results, set, shape.shape, sample.seed, parameter))
+      at[r->c.parameters.*parameter].push_back(r);
+  if (at.empty()) return;
+  moreau::CsvWriter file(data_file(folder, set, shape.shape),
+                         {"value", "dx_max", "dx_spread", "v_max", "v_spread", "rate",
+                          "rate_spread", "thrust_over_weight", "constant", "samples"});
+  for (const auto& [value, runs] : at) {
+    const auto of = [&](const auto& field) {
+      std::vector<double> values;
+      for (const Result* r : runs) values.push_back(field(*r));
+      return estimate(values);
+    };
+    const Estimate dx = of([](const Result& r) { return r.dx_max; });
+    const Estimate v = of([](const Result& r) { return r.v_max; });
+    const Estimate rate = of([](const Result& r) { return r.rate; });
+    const Estimate thrust = of([](const Result& r) { return r.thrust / r.weight; });
+    const Estimate constant = of([](const Result& r) { return r.constant; });
+    file.row(six(value), six(dx.mean), six(dx.spread), six(v.mean), six(v.spread), six(rate.mean),
+             six(rate.spread), six(thrust.mean), six(constant.mean), dx.samples);
+  }
+  file.close();
+}
+
+/// One line per run: what was varied (1 frequency, 2 force, 3 gravity, 4 wall mass), load,
+/// displacement, and the closed form's with beta = 1/3 and with the fitted beta.
+void write_master(const fs::path& folder, const std::vector<Result>& results,
+                  const ShapeSummary& shape) {
+  moreau::CsvWriter file(data_file(folder, "master", shape.shape),
+                         {"varied", "load", "dx_max", "predicted_third", "predicted"});
+  for (const SampleSummary& sample : shape.samples)
+    for (const Result* r : master_series(results, shape.shape, sample.seed)) {
+      const auto& sets = r->c.sets;
+      const int varied = sets.contains("frequencies") ? 1
+                         : sets.contains("fmax")      ? 2
+                         : sets.contains("gravity")   ? 3
+                                                      : 4;
+      file.row(varied, six(r->scaled_load()), six(r->dx_max),
+               six(sine_displacement(r->push(), 1.0 / 3)),
+               six(sine_displacement(r->push(), sample.prediction.beta)));
+    }
+  file.close();
+}
+
+/// 1: the baseline's gravity and sizes, 2: other gravity, 3: other sizes.
+void write_relaxation(const fs::path& folder, const std::vector<Result>& results,
+                      const ShapeSummary& shape) {
+  const Series series = series_of(results, "relaxation", shape.shape, 1);
+  if (series.empty()) return;
+  moreau::CsvWriter file(data_file(folder, "relaxation", shape.shape),
+                         {"condition", "frequency", "scaled_frequency", "rate", "scaled_rate"});
+  for (const Result* r : series) {
+    const Parameters& p = r->c.parameters;
+    const double unit = std::sqrt(p.gravity / (0.025 * p.size_scale));
+    const int condition = p.gravity != 9.81 ? 2 : p.size_scale != 1 ? 3 : 1;
+    file.row(condition, p.frequency, six(p.frequency / unit), six(r->rate), six(r->rate / unit));
+  }
+  file.close();
+}
+
+/// The solid fraction at the force maxima, each a twentieth of the periods so far after the last.
+void write_long(const fs::path& output, const fs::path& folder, const Result& r) {
+  const Parameters& p = r.c.parameters;
+  const Table packing(folder_of(output, r.c) / "packing.csv");
+  const int nu = static_cast<int>(std::lround(p.frequency));
+  moreau::CsvWriter file(data_file(folder, "long" + std::to_string(nu), p.shape),
+                         {"t", "periods", "rho_inner", "rho_box"});
+  double next = 0.75;
+  for (double period = 0.75; (period) / p.frequency <= p.duration; period += 1) {
+    if (period < next) continue;
+    next = 1.05 * period;
+    const double t = period / p.frequency;
+    file.row(six(t), period, six(value_at(packing, "rho_inner", t)),
+             six(value_at(packing, "rho_box", t)));
+  }
+  file.close();
+}
+
+/// Lines name,value that the scripts look up: NAME_shape.
+class Values {
+ public:
+  void add(const std::string& name, double value) {
+    if (!std::isfinite(value)) return;
+    char text[32];
+    std::snprintf(text, sizeof text, ",%.6g\n", value);
+    lines_ += name + text;
+  }
+  void write(const fs::path& path) const {
+    moreau::write_atomically(path, "name,value\n" + lines_);
+  }
+
+ private:
+  std::string lines_;
+};
+
+void add_values(const ShapeSummary& s, Values& values) {
+  const auto add = [&](const char* name, const auto& of) {
+    values.add(std::string(name) + "_" + s.shape, over_samples(s, of).mean);
+  };
+  using Sample = SampleSummary;
+  add("dx_frequency_exponent", [](const Sample& x) { return x.dx_frequency.exponent; });
+  add("dx_frequency_prefactor", [](const Sample& x) { return x.dx_frequency.prefactor; });
+  add("v_frequency_exponent", [](const Sample& x) { return x.v_frequency.exponent; });
+  add("v_frequency_prefactor", [](const Sample& x) { return x.v_frequency.prefactor; });
+  add("dx_fmax_exponent", [](const Sample& x) { return x.dx_fmax.exponent; });
+  add("dx_fmax_prefactor", [](const Sample& x) { return x.dx_fmax.prefactor; });
+  add("dx_gravity_exponent", [](const Sample& x) { return x.dx_gravity.exponent; });
+  add("dx_gravity_prefactor", [](const Sample& x) { return x.dx_gravity.prefactor; });
+  add("C", [](const Sample& x) { return x.master.factor; });
+  add("C_scatter", [](const Sample& x) { return x.master.scatter; });
+  add("beta", [](const Sample& x) { return x.prediction.beta; });
+  add("wall_beta", [](const Sample& x) { return x.wall_share.beta; });
+  add("nu_c", [](const Sample& x) { return x.branches.nu_c; });
+  add("rate_prefactor", [](const Sample& x) { return x.branches.prefactor; });
+  add("single_nu_c", [](const Sample& x) { return x.single.nu_c; });
+  add("single_prefactor", [](const Sample& x) { return x.single.prefactor; });
+  add("loop_distance", [](const Sample& x) { return x.loop_distance; });
+  for (const Sample& sample : s.samples) {
+    if (sample.seed != 1 || sample.base == nullptr) continue;
+    const Behaviour& b = sample.behaviour;
+    values.add("jammed_xx_" + s.shape, b.jammed_xx);
+    values.add("jammed_zz_" + s.shape, b.jammed_zz);
+    values.add("active_xx_" + s.shape, b.active_xx);
+    values.add("active_zz_" + s.shape, b.active_zz);
+    values.add("length_" + s.shape, sample.base->length);
+    values.add("height_" + s.shape, sample.base->height);
+    const Parameters& p = sample.base->c.parameters;
+    values.add("mass_ratio_" + s.shape, p.wall_mass_ratio);
+    values.add("roll_" + s.shape, sample.base->facts.roll);
+    values.add("roll_strength_" + s.shape, sample.base->facts.roll_strength);
+  }
+}
+
+void write_shape(const fs::path& output, const fs::path& folder, const std::vector<Result>& results,
+                 const ShapeSummary& shape) {
+  for (const double frequency : {5.0, 10.0}) {
+    const Result* r =
+        find(results, "frequencies", shape.shape, 1, &Parameters::frequency, frequency);
+    if (r == nullptr) continue;
+    if (frequency == 5) write_baseline(output, folder, *r);
+    write_loop(output, folder, *r);
+  }
+  write_series(folder, results, shape, "frequencies", &Parameters::frequency);
+  write_series(folder, results, shape, "fmax", &Parameters::fmax);
+  write_series(folder, results, shape, "gravity", &Parameters::gravity);
+  write_series(folder, results, shape, "wall-mass", &Parameters::wall_mass_ratio);
+  write_master(folder, results, shape);
+  write_relaxation(folder, results, shape);
+  for (const Result& r : results)
+    if (r.c.sets.contains("long") && r.c.parameters.shape == shape.shape)
+      write_long(output, folder, r);
+}
+
+}  // namespace
+
+const std::vector<Figure>& figures() {
+  static const std::vector<Figure> all{
+      {"x_t",
+       "The wall's displacement under the harmonic force, 5 Hz (paper, fig. 4)",
+       {"frequencies"}},
+      {"one_period",
+       "One period: blocked, out (a to b), back in (b to c) (paper, fig. 5)",
+       {"frequencies"}},
+      {"velocity_field",
+       "Velocities while the wall moves in, at its largest speed (paper, fig. 6)",
+       {"frequencies"}},
+      {"f_g_x",
+       "Force of the grains on the wall over its displacement (paper, fig. 7)",
+       {"frequencies"}},
+      {"force_chains",
+       "Normal forces, jammed and active, in a section (paper, fig. 8)",
+       {"frequencies"}},
+      {"rho_t", "Change of the solid fraction over time (paper, fig. 9)", {"frequencies"}},
+      {"rho_x",
+       "Change of the solid fraction over the displacement (paper, fig. 10)",
+       {"frequencies"}},
+      {"phase_portrait",
+       "Phase portraits at 5 and 10 Hz, raw and scaled (paper, fig. 11)",
+       {"frequencies"}},
+      {"dx_v_frequency",
+       "Largest displacement and passive speed over the frequency (paper, fig. 12)",
+       {"frequencies"}},
+      {"dx_fmax", "Largest displacement over the force (paper, fig. 13)", {"fmax"}},
+      {"dx_gravity", "Largest displacement over gravity (paper, fig. 14)", {"gravity"}},
+      {"dx_wall_mass", "Largest displacement over the mass of the wall", {"wall-mass"}},
+      {"master",
+       "Largest displacement over the scaled load, with C and with the closed form from the "
+       "measured thrust (paper, fig. 15)",
+       {"frequencies", "fmax", "gravity", "wall-mass"}},
+      {"compaction_rate",
+       "Compaction rate over the frequency with both forms (paper, fig. 16)",
+       {"frequencies"}},
+      {"relaxation", "Compaction rate for other gravity and other sizes", {"relaxation"}},
+      {"rho_log_t", "Solid fraction over a hundred periods", {"long"}}};
+  return all;
+}
+
+void write_figure_data(const fs::path& output, const fs::path& folder,
+                       const std::vector<Result>& results,
+                       const std::vector<ShapeSummary>& shapes) {
+  fs::create_directories(folder / "data");
+  Values values;
+  for (const ShapeSummary& shape : shapes) {
+    write_shape(output, folder, results, shape);
+    add_values(shape, values);
+  }
+  values.write(folder / "data" / "values.csv");
+}
+
+std::vector<std::string> draw_figures(const fs::path& folder,
+                                      const std::vector<std::string>& names) {
+  fs::create_directories(folder / "figures");
+  std::vector<std::string> missing;
+  for (const Figure& figure : figures()) {
+    const std::string name = figure.name;
+    if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
+    for (const char* format : {"png", "svg"}) {
+      const std::string command = "gnuplot -e \"data='" + (folder / "data").string() +
+                                  "'; format='" + format + "'; out='" +
+                                  (folder / "figures" / (name + "." + format)).string() + "'\" '" +
+                                  STUDY_PLOTS + "/" + name + ".gp' 2>&1";
+      if (std::system(command.c_str()) != 0) missing.push_back(name + "." + format);
+    }
+  }
+  return missing;
+}
+
+}  // namespace study

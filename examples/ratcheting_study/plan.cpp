@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "plan.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace study {
+
+namespace {
+
+/// As short as can be, reads back to the same bits.
+std::string text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// The options of `ratcheting` that the plans vary, with their mark in the name of a case.
+struct Option {
+  std::string_view flag, mark, unit;
+  std::function<double(const Parameters&)> value;
+};
+
+const std::vector<Option>& options() {
+  static const std::vector<Option> all{
+      {"--frequency", "", "Hz", [](const Parameters& p) { return p.frequency; }},
+      {"--fmax", "fmax", "N", [](const Parameters& p) { return p.fmax; }},
+      {"--fmin", "fmin", "N", [](const Parameters& p) { return p.fmin; }},
+      {"--gravity", "g", "", [](const Parameters& p) { return p.gravity; }},
+      {"--wall-mass-ratio", "mw", "m", [](const Parameters& p) { return p.wall_mass_ratio; }},
+      {"--box-ratio", "H", "L", [](const Parameters& p) { return p.box_ratio; }},
+      {"--size-scale", "size", "x", [](const Parameters& p) { return p.size_scale; }},
+      {"--lid-force", "lid", "mg", [](const Parameters& p) { return p.lid_force; }},
+      {"--lid-raise", "raise", "m", [](const Parameters& p) { return p.lid_raise; }},
+      {"--step", "h", "s", [](const Parameters& p) { return p.step; }},
+      {"--tolerance", "tol", "", [](const Parameters& p) { return p.tolerance; }},
+      {"--duration", "T", "s", [](const Parameters& p) { return p.duration; }},
+      {"--grains", "N", "", [](const Parameters& p) { return double(p.grains); }}};
+  return all;
+}
+
+/// polyhedron-s1-5Hz, then what differs from `base`. The duration is told only where it is not the
+/// one that the frequency brings.
+std::string name_of(const Parameters& p, const Parameters& base, double usual_duration) {
+  std::string name = p.shape + "-s" + std::to_string(p.seed) + "-" + text(p.frequency) + "Hz";
+  for (const Option& option : options()) {
+    const double usual = option.flag == "--duration" ? usual_duration : option.value(base);
+    if (option.flag == "--frequency" || option.value(p) == usual) continue;
+    name += "-" + std::string(option.mark) + text(option.value(p)) + std::string(option.unit);
+  }
+  if (p.size_reading != base.size_reading) name += "-circumradius";
+  if (p.correction != base.correction) name += "-uncorrected";
+  return name;
+}
+
+/// One second as in the paper, five periods where that is longer.
+double duration_at(const std::string& plan, double frequency) {
+  return plan == "small" ? 0.6 : std::max(1.0, 5 / frequency);
+}
+
+/// Collects cases; one that is asked for twice is there once, in both sets.
+class Builder {
+ public:
+  explicit Builder(std::string plan) : plan_(std::move(plan)) {}
+
+  /// Adds the baseline of a shape and seed with changes.
+  void add(const std::string& set, const std::string& shape, std::size_t seed,
+           const std::function<void(Parameters&)>& change) {
+    const Parameters base = baseline(plan_, shape, seed);
+    Parameters p = base;
+    change(p);
+    const double usual = duration_at(plan_, p.frequency);
+    if (p.duration == base.duration) p.duration = usual;
+    const std::string name = name_of(p, base, usual);
+    const auto [place, is_new] = place_of_.try_emplace(name, cases_.size());
+    if (is_new) cases_.push_back({cases_.size() + 1, name, p, {}});
+    cases_[place->second].sets.insert(set);
+  }
+  std::vector<Case> cases() && { return std::move(cases_); }
+
+ private:
+  std::string plan_;
+  std::vector<Case> cases_;
+  std::map<std::string, std::size_t> place_of_;
+};
+
+using Names = std::initializer_list<const char*>;
+using Numbers = std::initializer_list<double>;
+
+/// A series of one parameter: `field` points to it.
+void series(Builder& plan, const char* set, Names shapes, std::size_t seed,
+            double Parameters::*field, Numbers values) {
+  for (const double value : values)
+    for (const char* shape : shapes)
+      plan.add(set, shape, seed, [&](Parameters& p) { p.*field = value; });
+}
+
+// The paper's study, in the order of what it tells.
+std::vector<Case> paper_plan() {
+  Builder plan("paper");
+  const Names angular{"polyhedron", "polygon"}, round{"sphere", "disk"};
+  const Names all{"polyhedron", "polygon", "sphere", "disk"};
+  const auto nu = &Parameters::frequency;
+  const auto fmax = &Parameters::fmax;
+  const auto g = &Parameters::gravity;
+  const auto wall = &Parameters::wall_mass_ratio;
+
+  // Twelve frequencies: decades for the power laws, close to each other about 10 Hz for nu_c.
+  series(plan, "frequencies", angular, 1, nu, {5, 10, 20, 60, 2, 7, 15, 35, 8.5, 12, 3.5});
+  series(plan, "frequencies", round, 1, nu, {5, 10, 20, 60, 2, 7, 15, 35, 8.5, 12, 3.5});
+  for (const Names& shapes : {angular, round}) {
+    series(plan, "fmax", shapes, 1, fmax, {2000, 4000, 6000, 10000});
+    series(plan, "gravity", shapes, 1, g, {2.5, 5, 9.81, 20});
+    series(plan, "wall-mass", shapes, 1, wall, {0.1, 0.5, 1, 2, 4});
+  }
+  // f never below the active thrust, about 0.3 mg = 80 N; f never above the passive one; f never
+  // above the active one.
+  series(plan, "states", all, 1, &Parameters::fmin, {0, 400});
+  series(plan, "states", all, 1, fmax, {300, 60});
+  for (const char* shape : angular) {
+    plan.add("reading", shape, 1, [](Parameters&) {});
+    plan.add("reading", shape, 1,
+             [](Parameters& p) { p.size_reading = moreau::SizeReading::circumradius; });
+  }
+  series(plan, "box-ratio", angular, 1, &Parameters::box_ratio, {0.7, 1, 1.5});
+  series(plan, "lid-force", angular, 1, &Parameters::lid_force, {3, 10, 30});
+  for (const double frequency : {5.0, 10.0, 20.0, 2.0})
+    for (const char* shape : angular)
+      plan.add("uncorrected", shape, 1, [&](Parameters& p) {
+        p.frequency = frequency;
+        p.correction = false;
+      });
+  for (const double frequency : {5.0, 20.0, 60.0})
+    for (const char* shape : angular) {
+      plan.add("numerics", shape, 1, [&](Parameters& p) { p.frequency = frequency; });
+      plan.add("numerics", shape, 1, [&](Parameters& p) {
+        p.frequency = frequency;
+        p.step = 1e-4;
+      });
+      plan.add("numerics", shape, 1, [&](Parameters& p) {
+        p.frequency = frequency;
+        p.tolerance = 1e-5;
+      });
+    }
+  series(plan, "frequencies", all, 1, nu, {1});
+  for (const std::size_t seed : {2u, 3u}) {
+    series(plan, "frequencies", all, seed, nu, {5, 10, 20, 60, 2, 7, 15, 35, 8.5, 12, 3.5});
+    series(plan, "fmax", all, seed, fmax, {2000, 4000, 6000, 10000});
+    series(plan, "gravity", all, seed, g, {2.5, 5, 9.81, 20});
+    series(plan, "wall-mass", all, seed, wall, {0.1, 0.5, 1, 2, 4});
+  }
+  // Does nu_c follow sqrt(g/d)? Force, gap and everything else stay what they are.
+  for (const double frequency : {5.0, 7.0, 10.0, 15.0, 20.0, 35.0, 3.5, 2.0})
+    for (const char* shape : angular) {
+      plan.add("relaxation", shape, 1, [&](Parameters& p) { p.frequency = frequency; });
+      plan.add("relaxation", shape, 1, [&](Parameters& p) {
+        p.frequency = frequency;
+        p.gravity = 2.5;
+      });
+      plan.add("relaxation", shape, 1, [&](Parameters& p) {
+        p.frequency = frequency;
+        p.size_scale = 1.5;
+      });
+    }
+  for (const char* shape : {"polygon", "polyhedron", "disk", "sphere"})
+    plan.add("long", shape, 1, [](Parameters& p) {
+      p.frequency = 20;
+      p.duration = 5;
+    });
+  plan.add("long", "polygon", 1, [](Parameters& p) { p.duration = 20; });
+  return std::move(plan).cases();
+}
+
+// Few grains, for a look at the whole in about a minute: no result of it means anything.
+std::vector<Case> small_plan() {
+  Builder plan("small");
+  const Names shapes{"polygon", "disk"};
+  series(plan, "frequencies", shapes, 1, &Parameters::frequency, {5, 10, 20});
+  series(plan, "fmax", shapes, 1, &Parameters::fmax, {250, 500});
+  return std::move(plan).cases();
+}
+
+template <class Value>
+bool wanted(const std::vector<Value>& asked, const Value& value) {
+  return asked.empty() || std::find(asked.begin(), asked.end(), value) != asked.end();
+}
+
+/// @throws std::invalid_argument if a case with the property `of` is asked for and there is none
+template <class Value>
+void require_known(const std::vector<Case>& plan, const std::vector<Value>& asked, const char* what,
+                   const std::function<bool(const Case&, const Value&)>& has) {
+  for (const Value& value : asked)
+    if (std::none_of(plan.begin(), plan.end(), [&](const Case& c) { return has(c, value); })) {
+      if constexpr (std::is_same_v<Value, std::string>)
+        throw std::invalid_argument(std::string(what) + ": no case of the plan has " + value);
+      else
+        throw std::invalid_argument(std::string(what) + ": no case of the plan has " +
+                                    std::to_string(value));
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> plan_names() {
+  return {"paper", "small"};
+}
+
+Parameters baseline(const std::string& plan, const std::string& shape, std::size_t seed) {
+  Parameters p;
+  p.shape = shape;
+  p.seed = seed;
+  if (plan == "small") {
+    p.grains = 150;
+    p.fmax = 500;
+    p.step = 5e-4;
+  }
+  return p;
+}
+
+std::vector<Case> make_plan(const std::string& name) {
+  if (name == "paper") return paper_plan();
+  if (name == "small") return small_plan();
+  throw std::invalid_argument("--plan: there is no plan " + name);
+}
+
+std::vector<Case> select(const std::vector<Case>& plan, const Selection& s) {
+  using Name = std::string;
+  require_known<Name>(plan, s.sets, "--set",
+                      [](const Case& c, const Name& set) { return c.sets.contains(set); });
+  require_known<Name>(plan, s.shapes, "--shape",
+                      [](const Case& c, const Name& shape) { return c.parameters.shape == shape; });
+  require_known<std::size_t>(plan, s.seeds, "--seed", [](const Case& c, const std::size_t& seed) {
+    return c.parameters.seed == seed;
+  });
+  require_known<std::size_t>(
+      plan, s.numbers, "--case",
+      [](const Case& c, const std::size_t& number) { return c.number == number; });
+  std::vector<Case> selected;
+  for (const Case& c : plan) {
+    const bool in_sets =
+        s.sets.empty() || std::any_of(s.sets.begin(), s.sets.end(),
+                                      [&](const Name& set) { return c.sets.contains(set); });
+    if (in_sets && wanted(s.shapes, c.parameters.shape) &&
+        wanted(s.seeds, std::size_t(c.parameters.seed)) && wanted(s.numbers, c.number))
+      selected.push_back(c);
+  }
+  return selected;
+}
+
+std::vector<std::string> arguments(const Parameters& p) {
+  const Parameters usual;
+  std::vector<std::string> list{"--shape", p.shape, "--seed", std::to_string(p.seed)};
+  for (const Option& option : options())
+    if (option.value(p) != option.value(usual)) {
+      list.emplace_back(option.flag);
+      list.push_back(text(option.value(p)));
+    }
+  if (p.size_reading != usual.size_reading)
+    list.insert(list.end(), {"--size-reading", "circumradius"});
+  if (!p.correction) list.emplace_back("--no-correction");
+  return list;
+}
+
+}  // namespace study

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# Every run at the baseline box: displacement over scaled load. Lines: C of the fit and of the
+# paper; crosses: the closed form from each run's own active thrust.
+width = 1500; height = 1150
+load system("dirname '".ARG0."'")."/style.gp"
+set multiplot layout 2, 2 margins 0.07, 0.98, 0.07, 0.95 spacing 0.08, 0.14
+set logscale xy
+set format "10^{%L}"
+set xlabel "(mg)^2 / [(m + m_w) f_{max} ν^2]  [mm]"
+set ylabel "Δx_{max}  [mm]"
+set key bottom right
+varied = "frequency force gravity wall_mass"
+do for [shape in shapes] {
+  if (!has("master", shape)) {
+    set multiplot next
+    continue
+  }
+  set title title_of(shape)
+  c = number("C", shape); beta = number("beta", shape)
+  commands = ""
+  do for [k = 1:4] {
+    symbol = word("8 6 4 12", k) + 0
+    commands = commands.sprintf("file_of('master', '%s') using ($1 == %d ? mm($2) : NaN):(mm($3)) skip 1 with points pointtype %d linecolor rgb '%s' title '%s', ", shape, k, symbol, color_of(shape), k == 4 ? "wall mass" : word(varied, k))
+  }
+  if (known(beta)) { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($5)) skip 1 with points pointtype 2 pointsize 0.7 linecolor rgb 'black' title 'closed form, β = %.2f', ", shape, beta) }
+  if (known(c)) { commands = commands.sprintf("%g * x with lines linecolor rgb '%s' title 'C = %.3f', ", c, color_of(shape), c) }
+  paper = shape eq "polyhedron" || shape eq "sphere" ? 0.01 : 0.05
+  eval "plot ".commands.sprintf("%g * x with lines dashtype 2 linecolor rgb grey title 'paper: C = %g'", paper, paper)
+}
+unset multiplot

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing (Debian), builds the study and runs it. Without arguments the small plan;
+# with arguments they alone go to the program, whose default is the whole study.
+set -euo pipefail
+top=$(cd "$(dirname "$0")/../.." && pwd)
+"$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
+cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON \
+  -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF >/dev/null
+echo "building the study in $top/build/study"
+cmake --build "$top/build/study" --target ratcheting ratcheting_study
+[ $# -gt 0 ] || set -- --plan small
+echo "ratcheting_study $*"
+exec "$top/build/study/examples/ratcheting_study" "$@"

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+#include "moreau/io/output_file.hpp"
+
+#include "../ratcheting/parameters_json.hpp"
+#include "process.hpp"
+
+namespace study {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t stop = 0;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Rough cost of a case relative to the others; only the time left depends on it.
+double cost_of(const Case& c) {
+  const Parameters& p = c.parameters;
+  const double shape = p.shape == "polyhedron" ? 8
+                       : p.shape == "sphere"   ? 2.5
+                       : p.shape == "polygon"  ? 1.2
+                                               : 0.6;
+  return shape * double(p.grains) * (0.2 + p.duration / p.step / 5000);
+}
+
+struct Running {
+  pid_t process;
+  const Case* c;
+  FileLock lock;
+  Clock::time_point begin;
+};
+
+fs::path partial(const fs::path& output, const Case& c) {
+  return output / "cases" / (c.name + ".partial");
+}
+
+/// One study at work.
+class Runner {
+ public:
+  Runner(const std::vector<Case>& cases, const RunOptions& options)
+      : cases_(cases), options_(options), begin_(Clock::now()), told_(begin_) {
+    for (const Case& c : cases)
+      if (!is_done(options.output, c)) cost_left_ += cost_of(c);
+    cost_of_all_ = cost_left_;
+  }
+
+  RunSummary run() {
+    while (stop == 0 && (next_ < cases_.size() || !running_.empty())) {
+      while (stop == 0 && next_ < cases_.size() && running_.size() < options_.jobs)
+        begin(cases_[next_++]);
+      while (const auto ending = ended_child()) finish(*ending);
+      tell();
+      if (!running_.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    if (stop != 0) abandon();
+    return std::move(summary_);
+  }
+
+ private:
+  void begin(const Case& c) {
+    if (is_done(options_.output, c)) {
+      ++summary_.skipped;
+      return;
+    }
+    const fs::path locks = options_.output / "locks";
+    fs::create_directories(locks);
+    auto lock = FileLock::attempt(locks / c.name);
+    if (!lock) {
+      ++summary_.busy;
+      cost_left_ -= cost_of(c);
+      std::printf("case %zu %s: another study runs it\n", c.number, c.name.c_str());
+      return;
+    }
+    if (is_done(options_.output, c)) {  // by another study, since the first look
+      ++summary_.skipped;
+      cost_left_ -= cost_of(c);
+      return;
+    }
+    const fs::path folder = partial(options_.output, c);
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::vector<std::string> list = arguments(c.parameters);
+    list.insert(list.end(),
+                {"--snapshots", "0", "--no-pictures", "--no-plots", "--output", folder.string()});
+    const pid_t process = start(options_.program, list, folder / "log.txt");
+    running_.push_back({process, &c, std::move(*lock), Clock::now()});
+  }
+
+  void finish(const Ending& ending) {
+    const auto place = std::find_if(running_.begin(), running_.end(),
+                                    [&](const Running& r) { return r.process == ending.process; });
+    if (place == running_.end()) return;
+    const Case& c = *place->c;
+    const double seconds = seconds_since(place->begin);
+    const fs::path from = partial(options_.output, c), to = folder_of(options_.output, c);
+    cost_left_ -= cost_of(c);
+    std::string problem = ending.well ? "" : ending.what;
+    if (ending.well) {
+      fs::remove_all(to);
+      fs::rename(from, to);
+      if (!is_done(options_.output, c)) problem = "its run.json tells of another case";
+    }
+    if (problem.empty()) {
+      ++summary_.ran;
+      std::printf("case %zu %s: done in %.0f s; %s\n", c.number, c.name.c_str(), seconds,
+                  left().c_str());
+    } else {
+      std::printf("case %zu %s: %s, see %s; the next start runs it again\n", c.number,
+                  c.name.c_str(), problem.c_str(), (from / "log.txt").c_str());
+      summary_.failed.push_back(c.name + ": " + problem);
+    }
+    std::fflush(stdout);
+    running_.erase(place);
+  }
+
+  std::string left() const {
+    const double done = cost_of_all_ - cost_left_;
+    char text[96];
+    if (done <= 0) return "";
+    std::snprintf(text, sizeof text, "%.0f %% in %.0f min, about %.0f min left",
+                  100 * done / cost_of_all_, seconds_since(begin_) / 60,
+                  seconds_since(begin_) / done * std::max(0.0, cost_left_) / 60);
+    return text;
+  }
+
+  /// Now and then which cases are running.
+  void tell() {
+    if (running_.empty() || seconds_since(told_) < 60) return;
+    told_ = Clock::now();
+    std::printf("running:");
+    for (const Running& r : running_)
+      std::printf(" %zu %s (%.0f s)", r.c->number, r.c->name.c_str(), seconds_since(r.begin));
+    std::printf("; %s\n", left().c_str());
+    std::fflush(stdout);
+  }
+
+  void abandon() {
+    for (const Running& r : running_) kill(r.process, SIGKILL);
+    while (!running_.empty()) {
+      if (const auto ending = ended_child())
+        std::erase_if(running_, [&](const Running& r) { return r.process == ending->process; });
+      else
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    summary_.interrupted = true;
+  }
+
+  const std::vector<Case>& cases_;
+  const RunOptions& options_;
+  std::size_t next_ = 0;
+  std::vector<Running> running_;
+  RunSummary summary_;
+  double cost_of_all_ = 0, cost_left_ = 0;
+  Clock::time_point begin_, told_;
+};
+
+}  // namespace
+
+fs::path folder_of(const fs::path& output, const Case& c) {
+  return output / "cases" / c.name;
+}
+
+bool is_done(const fs::path& output, const Case& c) {
+  std::ifstream file(folder_of(output, c) / "run.json");
+  if (!file) return false;
+  const auto json = ratcheting::Json::parse(file, nullptr, false);
+  if (json.is_discarded() || json.value("interrupted", true) || !json.contains("parameters"))
+    return false;
+  // A parameter that the run does not know is one that came later: it had its default.
+  const auto usual = ratcheting::to_json(Parameters{}), wanted = ratcheting::to_json(c.parameters);
+  const auto& had = json["parameters"];
+  for (const auto& [key, value] : wanted.items())
+    if (value != (had.contains(key) ? had[key] : usual[key])) return false;
+  return true;
+}
+
+RunSummary run_cases(const std::vector<Case>& cases, const RunOptions& options) {
+  std::signal(SIGINT, [](int) { stop = 1; });
+  std::signal(SIGTERM, [](int) { stop = 1; });
+  fs::create_directories(options.output / "cases");
+  return Runner(cases, options).run();
+}
+
+}  // namespace study

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "moreau/io/output_file.hpp"
+
+#include "report.hpp"
+#include "verdicts.hpp"
+
+namespace study {
+
+namespace {
+
+/// Comma-separated values, numbers to nine digits: what the same runs give on any day.
+class CsvLine {
+ public:
+  CsvLine& operator<<(const std::string& text) {
+    line_ += (line_.empty() ? "" : ",") + text;
+    return *this;
+  }
+  CsvLine& operator<<(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return *this << std::string(text);
+  }
+  std::string end() && { return std::move(line_) + "\n"; }
+
+ private:
+  std::string line_;
+};
+
+std::string joined(const std::set<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
+  return all;
+}
+
+}  // namespace
+
+void write_cases(const std::filesystem::path& folder, const std::vector<Result>& results) {
+  std::string text =
+      "case,name,sets,shape,seed,frequency,fmax,fmin,gravity,wall_mass_ratio,box_ratio,size_scale,"
+      "reading,lid_force,step,tolerance,corrected,duration,mass,wall_mass,length,height,settled,"
+      "periods,dx_max,dx_spread,v_max,delay,thrust_over_weight,net_contraction,contracting,"
+      "rho_initial,rho_0,rho_final,rho_box_initial,rho_box_final,rate,compaction_per_period,C,"
+      "dx_over_closed_form_third,steps,capped_steps,mean_sweeps,worst_residual,mean_overlap_over_d,"
+      "max_overlap_over_d\n";
+  for (const Result& r : results) {
+    const Parameters& p = r.c.parameters;
+    CsvLine line;
+    line << double(r.c.number) << r.c.name << joined(r.c.sets) << p.shape << double(p.seed)
+         << p.frequency << p.fmax << p.fmin << p.gravity << p.wall_mass_ratio << p.box_ratio
+         << p.size_scale
+         << (p.size_reading == moreau::SizeReading::circumdiameter ? "circumdiameter"
+                                                                   : "circumradius")
+         << p.lid_force << p.step << p.tolerance << double(p.correction) << p.duration << r.mass
+         << r.wall_mass << r.length << r.height << double(r.facts.settled)
+         << double(r.periods.size()) << r.dx_max << r.dx_spread << r.v_max << r.delay
+         << r.thrust / r.weight << r.net_contraction << double(r.contracting) << r.rho_initial
+         << r.rho_0 << r.rho_final << r.box_initial << r.box_final << r.rate
+         << r.compaction_per_period << r.constant
+         << r.dx_max / sine_displacement(r.push(), 1.0 / 3);
+    const Facts& f = r.facts;
+    line << double(f.steps) << double(f.capped_steps) << f.mean_sweeps << f.worst_residual
+         << f.mean_overlap << f.max_overlap;
+    text += std::move(line).end();
+  }
+  moreau::write_atomically(folder / "cases.csv", text);
+}
+
+void write_wall_clock(const std::filesystem::path& folder, const std::vector<Result>& results) {
+  std::string csv = "case,name,prepare,vibrate,steps,median_ms_per_step\n";
+  std::map<std::pair<std::string, std::string>, std::pair<double, std::size_t>> of_series;
+  double all = 0, steps = 0;
+  for (const Result& r : results) {
+    const Facts& f = r.facts;
+    CsvLine line;
+    line << double(r.c.number) << r.c.name << f.prepare_seconds << f.vibrate_seconds
+         << double(f.steps) << f.median_ms;
+    csv += std::move(line).end();
+    const double seconds = f.prepare_seconds + f.vibrate_seconds;
+    all += seconds;
+    steps += double(f.steps);
+    for (const std::string& set : r.c.sets) {
+      auto& [sum, runs] =
+          of_series[{set, r.c.parameters.shape + ", seed " + std::to_string(r.c.parameters.seed)}];
+      sum += seconds;
+      ++runs;
+    }
+  }
+  moreau::write_atomically(folder / "wall_clock.csv", csv);
+  std::string text = "# Wall clock\n\nSeconds of one process each, preparation and vibration. " +
+                     std::to_string(results.size()) + " runs, " + text_of(all / 60, 4) +
+                     " min in all, " + text_of(1e3 * all / steps, 3) +
+                     " ms per step of the vibration. A run in several series counts in each.\n\n"
+                     "| series | sample | runs | min |\n|---|---|---|---|\n";
+  for (const auto& [key, value] : of_series)
+    text += "| " + key.first + " | " + key.second + " | " + std::to_string(value.second) + " | " +
+            text_of(value.first / 60, 3) + " |\n";
+  moreau::write_atomically(folder / "wall_clock.md", text);
+}
+
+}  // namespace study

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include "verdicts.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <set>
+
+namespace study {
+
+namespace {
+
+using Sample = SampleSummary;
+
+bool plane(const ShapeSummary& s) {
+  return s.shape == "polygon" || s.shape == "disk";
+}
+
+/// The lowest sample that has a baseline.
+const Sample* first_of(const ShapeSummary& s) {
+  for (const Sample& sample : s.samples)
+    if (sample.base != nullptr) return &sample;
+  return nullptr;
+}
+
+Cell ranged(const ShapeSummary& s, const std::function<double(const Sample&)>& value, double low,
+            double high, int digits = 3) {
+  const Estimate e = over_samples(s, value);
+  return {text_of(e, digits), within(e.mean, low, high)};
+}
+Cell told(const ShapeSummary& s, const std::function<double(const Sample&)>& value,
+          int digits = 3) {
+  return {text_of(over_samples(s, value), digits), std::nullopt};
+}
+double of_base(const Sample& sample, double Result::*field) {
+  return sample.base != nullptr ? sample.base->*field : std::nan("");
+}
+
+std::string range_of(const Facts::Range& range) {
+  return std::to_string(range[0]) + "–" + std::to_string(range[1]);
+}
+
+Cell sample_cell(const ShapeSummary& s) {
+  const Sample* first = first_of(s);
+  if (first == nullptr) return {};
+  const Facts& f = first->base->facts;
+  Cell cell;
+  cell.value = std::to_string(first->base->c.parameters.grains);
+  if (f.vertices) cell.value += "; vertices " + range_of(*f.vertices);
+  if (!plane(s) && f.vertices && f.faces) {
+    const auto [fewest, most] = *f.vertices;
+    const auto [fewest_faces, most_faces] = *f.faces;
+    cell.value += ", faces " + range_of(*f.faces);
+    cell.holds = fewest >= 8 && most <= 37 && fewest_faces >= 12 && most_faces <= 70;
+  }
+  return cell;
+}
+
+Cell sizes_cell(const ShapeSummary& s) {
+  const Sample* first = first_of(s);
+  if (first == nullptr || first->base->facts.circumradii.empty()) return {};
+  Cell cell;
+  const double grains = double(first->base->c.parameters.grains);
+  const double wanted_size[] = {0.025, 0.0375, 0.05}, wanted_share[] = {0.50, 0.34, 0.16};
+  bool exact = true;
+  std::size_t k = 0;
+  for (const auto& [radius, count] : first->base->facts.circumradii) {
+    const double d = 2 * radius, share = double(count) / grains;
+    cell.value += (k > 0 ? ", " : "") + text_of(100 * share, 2) + " % of " + text_of(100 * d, 3);
+    exact = exact && k < 3 && std::abs(d - wanted_size[k]) < 1e-6 &&
+            std::abs(share - wanted_share[k]) <= 1 / grains;
+    ++k;
+  }
+  cell.value += " cm";
+  cell.holds = exact && k == 3;
+  return cell;
+}
+
+Cell method_cell(const ShapeSummary& s) {
+  const Sample* first = first_of(s);
+  if (first == nullptr) return {};
+  const Parameters& p = first->base->c.parameters;
+  return {text_of(p.friction) + "; 0; " + text_of(p.step) + " s",
+          p.friction == 0.4 && p.step == 2e-4};
+}
+
+Cell preparation_cell(const ShapeSummary& s) {
+  const Sample* first = first_of(s);
+  if (first == nullptr) return {};
+  const bool settled = first->base->facts.settled;
+  const double raise = first->base->c.parameters.lid_raise;
+  return {std::string(settled ? "settled" : "still moving after 1 s") + "; lid up " +
+              text_of(100 * raise) + " cm",
+          raise == 0.01};
+}
+
+Cell load_cell(const std::vector<Result>& results, const ShapeSummary& s) {
+  std::set<double> forces;
+  for (const Result& r : results)
+    if (r.c.sets.contains("fmax") && r.c.parameters.shape == s.shape)
+      forces.insert(r.c.parameters.fmax);
+  Cell cell;
+  for (const double force : forces)
+    cell.value += (cell.value.empty() ? "" : ", ") + text_of(1e-3 * force);
+  if (!cell.value.empty()) cell.value += " kN";
+  if (!forces.empty()) cell.holds = forces.size() >= 4;
+  return cell;
+}
+
+Cell contraction_cell(const ShapeSummary& s) {
+  Cell cell;
+  for (const Sample& sample : s.samples) {
+    if (sample.base == nullptr || sample.base->periods.empty()) continue;
+    const std::size_t n = sample.base->periods.size(), falls = sample.base->contracting;
+    cell.value += (cell.value.empty() ? "" : "; ") + std::to_string(falls) + " of " +
+                  std::to_string(n) + ", " + text_of(100 * sample.behaviour.early_share, 2) +
+                  " % by 0.1 s";
+    cell.holds = cell.holds.value_or(true) && 4 * falls >= 3 * n;
+  }
+  return cell;
+}
+
+Cell order_cell(const ShapeSummary& s) {
+  const Estimate lead = over_samples(s, [](const Sample& x) { return x.behaviour.onset_lead; });
+  const Estimate delay =
+      over_samples(s, [](const Sample& x) { return 1e3 * of_base(x, &Result::delay); });
+  const Estimate net =
+      over_samples(s, [](const Sample& x) { return 1e3 * of_base(x, &Result::net_contraction); });
+  if (lead.samples == 0) return {};
+  return {"starts " + text_of(lead, 2) + " of a period before the minimum; δt_r " +
+              text_of(delay, 3) + " ms; x_j − x_j' " + text_of(net, 2) + " mm",
+          std::abs(lead.mean) < 0.125 && delay.mean > 0 && net.mean > 0};
+}
+
+Cell loop_cell(const ShapeSummary& s) {
+  const auto value = [&](double Behaviour::*field) {
+    return over_samples(s, [field](const Sample& x) { return x.behaviour.*field; });
+  };
+  const Estimate active = value(&Behaviour::active_force),
+                 passive = value(&Behaviour::passive_force);
+  const Estimate rise = value(&Behaviour::active_slope), fall = value(&Behaviour::passive_slope);
+  if (active.samples == 0) return {};
+  return {"f_g " + text_of(active.mean) + " N out, " + text_of(passive.mean) + " N in; slopes " +
+              text_of(1e-3 * rise.mean) + ", " + text_of(1e-3 * fall.mean) + " N/mm",
+          rise.mean > 0 && fall.mean < 0 && passive.mean > active.mean &&
+              std::abs(fall.mean) > rise.mean};
+}
+
+Cell stress_cell(const ShapeSummary& s) {
+  const auto value = [&](double Behaviour::*field) {
+    return 1e-3 * over_samples(s, [field](const Sample& x) { return x.behaviour.*field; }).mean;
+  };
+  const double jx = value(&Behaviour::jammed_xx), jz = value(&Behaviour::jammed_zz);
+  const double ax = value(&Behaviour::active_xx), az = value(&Behaviour::active_zz);
+  if (!std::isfinite(jx)) return {};
+  return {"jammed " + text_of(jx) + ", " + text_of(jz) + " kPa; active " + text_of(ax) + ", " +
+              text_of(az) + " kPa",
+          jx > jz && az > ax};
+}
+
+Cell roll_cell(const ShapeSummary& s) {
+  const Sample* first = first_of(s);
+  const Estimate roll = over_samples(s, [](const Sample& x) { return x.behaviour.roll; });
+  const Estimate strength =
+      over_samples(s, [](const Sample& x) { return x.behaviour.roll_strength; });
+  if (first == nullptr || roll.samples == 0) return {};
+  std::string value = text_of(roll, 2) + " rad/s, strength " + text_of(strength.mean, 2);
+  if (std::isfinite(first->base->facts.roll_agreement))
+    value += "; at the largest speed " + text_of(100 * first->base->facts.roll_agreement, 2) +
+             " % of the cells turn alike";
+  const bool clockwise = roll.mean < 0;
+  return {value + (clockwise ? "; clockwise, counter-clockwise with the wall at the left"
+                             : "; counter-clockwise, clockwise with the wall at the left"),
+          std::nullopt};
+}
+
+Cell rho_x_cell(const ShapeSummary& s) {
+  const auto value = [&](double Behaviour::*field) {
+    return over_samples(s, [field](const Sample& x) { return 1e4 * (x.behaviour.*field); });
+  };
+  const Estimate out = value(&Behaviour::rho_extension), in = value(&Behaviour::rho_contraction);
+  if (out.samples == 0) return {};
+  return {text_of(out, 2) + ", " + text_of(in, 2) + "; whole box " +
+              text_of(value(&Behaviour::box_extension), 2) + " out",
+          out.mean > 0 && in.mean < 0};
+}
+
+/// Builds a row with a cell per shape.
+Row row(const std::vector<ShapeSummary>& shapes, const char* quantity, const char* paper,
+        const char* accepted, const std::function<Cell(const ShapeSummary&)>& cell) {
+  Row r{quantity, paper, accepted, {}};
+  for (const ShapeSummary& shape : shapes) r.cells.push_back(cell(shape));
+  return r;
+}
+
+using Rows = std::vector<Row>;
+using Shapes = std::vector<ShapeSummary>;
+
+void judge_setting(const std::vector<Result>& results, const Shapes& shapes, Rows& rows) {
+  rows.push_back(row(shapes, "1 grains", "1200; 8–37 vertices, 12–70 faces", "exact", sample_cell));
+  rows.push_back(
+      row(shapes, "2 sizes", "50 % of 2.5, 34 % of 3.75, 16 % of 5 cm", "exact", sizes_cell));
+  rows.push_back(
+      row(shapes, "3 friction; restitution; step", "0.4; 0; 2e-4 s", "exact", method_cell));
+  rows.push_back(row(shapes, "4 preparation", "by the lid, without gravity; lid up 1 cm", "exact",
+                     preparation_cell));
+  rows.push_back(row(shapes, "5 fmax, with fmin = 0", "four in 2–10 kN", "exact",
+                     [&](const ShapeSummary& s) { return load_cell(results, s); }));
+}
+
+void judge_density(const Shapes& shapes, Rows& rows) {
+  const auto rho = [&](const char* quantity, const char* paper, double Result::*field, double low,
+                       double high) {
+    rows.push_back(row(shapes, quantity, paper, "±0.02 (3D)", [=](const ShapeSummary& s) {
+      Cell cell = ranged(
+          s, [=](const Sample& x) { return of_base(x, field); }, low, high);
+      if (plane(s)) cell.holds.reset();
+      return cell;
+    }));
+  };
+  rho("6 ρ at the start, inner volume", "0.50", &Result::rho_initial, 0.48, 0.52);
+  rho("6 ρ0 at 0.2 s, inner volume", "0.51", &Result::rho_0, 0.49, 0.53);
+  rho("6 ρ at the start, whole box", "–", &Result::box_initial, 0, 1);
+  rows.back().accepted = "–";
+  for (Cell& cell : rows.back().cells) cell.holds.reset();
+  rows.push_back(row(shapes, "6 rise (ρ0 − ρ)/ρ", "2 %", "1–3 % (3D)", [](const ShapeSummary& s) {
+    Cell cell = ranged(
+        s,
+        [](const Sample& x) {
+          return 100 * (of_base(x, &Result::rho_0) / of_base(x, &Result::rho_initial) - 1);
+        },
+        1, 3);
+    if (plane(s)) cell.holds.reset();
+    if (!cell.value.empty()) cell.value += " %";
+    return cell;
+  }));
+}
+
+void judge_period(const Shapes& shapes, Rows& rows) {
+  rows.push_back(row(shapes, "7 x(t): x_j falls", "in four periods; fast at first, t < 0.1 s",
+                     "in ≥ 3 of 4", contraction_cell));
+  rows.push_back(row(shapes, "8 one period",
+                     "starts near the minimum of f, peaks later, x_j' < x_j", "order, δt_r > 0",
+                     order_cell));
+  rows.push_back(row(shapes, "9 f_g(x)",
+                     "out: flat, slightly rising with x; in: rises fast as x falls", "signs",
+                     loop_cell));
+  rows.push_back(row(shapes, "10 σxx, σzz", "jammed: horizontal; active: vertical",
+                     "σxx > σzz jammed, reverse active", stress_cell));
+  rows.push_back(row(shapes, "11 passive velocity field (x right, z up, wall at the right)",
+                     "clockwise roll, wall's side not said", "one roll, sign told", roll_cell));
+  rows.push_back(row(shapes, "12 1e4 Δρ out, in; inner volume", "> 0, < 0", "signs", rho_x_cell));
+}
+
+void judge_rate(const Shapes& shapes, Rows& rows) {
+  rows.push_back(row(shapes, "13 compaction rate, 5 Hz, 6 kN [1/s]", "0.025 (3D), 2D slower",
+                     "×2 (3D)", [](const ShapeSummary& s) {
+                       Cell cell = ranged(
+                           s, [](const Sample& x) { return of_base(x, &Result::rate); }, 0.0125,
+                           0.05);
+                       if (plane(s)) cell.holds.reset();
+                       return cell;
+                     }));
+}
+
+void judge_scaling(const Shapes& shapes, Rows& rows) {
+  rows.push_back(row(shapes, "14 phase portraits 5, 10 Hz scaled", "collapse", "< 15 %",
+                     [](const ShapeSummary& s) {
+                       Cell cell = ranged(
+                           s, [](const Sample& x) { return 100 * x.loop_distance; }, 0, 15);
+                       if (!cell.value.empty()) cell.value += " %";
+                       return cell;
+                     }));
+  const auto exponent = [&](const char* quantity, const char* paper, const char* accepted,
+                            PowerLaw Sample::*law, double low, double high) {
+    rows.push_back(row(shapes, quantity, paper, accepted, [=](const ShapeSummary& s) {
+      return ranged(
+          s, [=](const Sample& x) { return (x.*law).exponent; }, low, high);
+    }));
+  };
+  exponent("15 Δx_max over ν", "−2", "−2 ± 0.1", &Sample::dx_frequency, -2.1, -1.9);
+  exponent("15 v_max, passive, over ν", "−1", "−1 ± 0.1", &Sample::v_frequency, -1.1, -0.9);
+  exponent("16 Δx_max over fmax", "−1", "−1 ± 0.1", &Sample::dx_fmax, -1.1, -0.9);
+  exponent("16 Δx_max over g", "2", "2 ± 0.15", &Sample::dx_gravity, 1.85, 2.15);
+  rows.push_back(row(shapes, "16 Δx_max ∝ m/(m + m_w): scatter over five wall masses", "0",
+                     "< 20 %", [](const ShapeSummary& s) {
+                       return ranged(
+                           s, [](const Sample& x) { return x.paper_wall_scatter; }, 0, 0.2);
+                     }));
+  rows.push_back(row(shapes, "16 β of Δx_max ∝ 1/(m_w + βm)", "1", "–", [](const ShapeSummary& s) {
+    return told(s, [](const Sample& x) { return x.wall_share.beta; });
+  }));
+}
+
+/// Row 17 wants more of C in the plane than in space; told in the plane's cells.
+void compare_constants(const Shapes& shapes, Row& r) {
+  for (std::size_t k = 0; k + 1 < shapes.size(); k += 2) {
+    if (r.cells[k].value.empty() || r.cells[k + 1].value.empty()) continue;
+    const auto constant = [&](std::size_t i) {
+      return over_samples(shapes[i], [](const Sample& x) { return x.master.factor; }).mean;
+    };
+    r.cells[k + 1].value += constant(k + 1) > constant(k) ? "; above 3D" : "; not above 3D";
+  }
+}
+
+void judge_constant(const Shapes& shapes, Rows& rows) {
+  rows.push_back(row(shapes, "17 C, with m + m_w", "0.01 (3D), 0.05 (2D)", "×3; C(2D) > C(3D)",
+                     [](const ShapeSummary& s) {
+                       const double paper = plane(s) ? 0.05 : 0.01;
+                       return ranged(
+                           s, [](const Sample& x) { return x.master.factor; }, paper / 3,
+                           3 * paper);
+                     }));
+  compare_constants(shapes, rows.back());
+  const auto scatter = [&](const char* quantity, const char* accepted, double high,
+                           const std::function<double(const Sample&)>& value) {
+    rows.push_back(row(shapes, quantity, "one line", accepted,
+                       [=](const ShapeSummary& s) { return ranged(s, value, 0, high); }));
+  };
+  scatter("17 scatter about the line, with m + m_w", "< 20 %", 0.2,
+          [](const Sample& x) { return x.master.scatter; });
+  scatter("17 scatter, with m_w + βm", "< 20 %", 0.2,
+          [](const Sample& x) { return x.master_share.measured_over_predicted.scatter; });
+  rows.push_back(row(shapes, "17 that β", "1", "–", [](const ShapeSummary& s) {
+    return told(s, [](const Sample& x) { return x.master_share.beta; });
+  }));
+}
+
+/// Frequencies at which the packing loosened have no place in the fits; their number is told.
+void tell_negative_rates(const Shapes& shapes, Row& r) {
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    std::size_t negative = 0;
+    for (const Sample& sample : shapes[k].samples) negative += sample.negative_rates;
+    if (!r.cells[k].value.empty() && negative > 0)
+      r.cells[k].value += "; without " + std::to_string(negative) + " where ρ fell";
+  }
+}
+
+void judge_compaction(const Shapes& shapes, Rows& rows) {
+  const auto add = [&](const char* quantity, const char* paper, const char* accepted, double low,
+                       double high, const std::function<double(const Sample&)>& value) {
+    rows.push_back(row(shapes, quantity, paper, accepted,
+                       [=](const ShapeSummary& s) { return ranged(s, value, low, high); }));
+  };
+  add("18 ν_c [Hz], two branches", "10", "7–14", 7, 14,
+      [](const Sample& x) { return x.branches.nu_c; });
+  tell_negative_rates(shapes, rows.back());
+  add("18 slope below ν_c", "1", "1 ± 0.3", 0.7, 1.3,
+      [](const Sample& x) { return x.slopes.below.exponent; });
+  add("18 slope above ν_c", "−1", "−1 ± 0.3", -1.3, -0.7,
+      [](const Sample& x) { return x.slopes.above.exponent; });
+  add("18 Δρ_max/ρ0, two branches", "0.005", "×2", 0.0025, 0.01,
+      [](const Sample& x) { return x.branches.prefactor; });
+  add("18 Δρ_max/ρ0, single form", "0.005", "×2", 0.0025, 0.01,
+      [](const Sample& x) { return x.single.prefactor; });
+  rows.push_back(row(shapes, "18 ν_c [Hz], single form", "10", "–", [](const ShapeSummary& s) {
+    return told(s, [](const Sample& x) { return x.single.nu_c; });
+  }));
+}
+
+}  // namespace
+
+std::vector<Row> judge(const std::vector<Result>& results,
+                       const std::vector<ShapeSummary>& shapes) {
+  Rows rows;
+  judge_setting(results, shapes, rows);
+  judge_density(shapes, rows);
+  judge_period(shapes, rows);
+  judge_rate(shapes, rows);
+  judge_scaling(shapes, rows);
+  judge_constant(shapes, rows);
+  judge_compaction(shapes, rows);
+  return rows;
+}
+
+}  // namespace study

@@ -1,0 +1,80 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# The study as a program, with few grains: a killed case is told and run again, what is done is
+# skipped, and after kill -9 and a new start all tables are the same bytes. Argument: the executable.
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+children_of() { cat "/proc/$1/task/$1/children" 2>/dev/null; }
+has_child() { [ -n "$(children_of "$1")" ]; }
+study() { "$program" --plan small --jobs 2 "$@"; }
+# wait_for seconds command...: until it succeeds
+wait_for() {
+  local left=$(($1 * 20))
+  shift
+  until "$@" >/dev/null 2>&1; do
+    [ $((left -= 1)) -gt 0 ] || return 1
+    sleep 0.05
+  done
+}
+
+for wrong in "--plan large" "--set nothing" "--case 999" "--shape cube" "--jobs 0" "--figure none"; do
+  # shellcheck disable=SC2086
+  "$program" $wrong --output "$folder/wrong" --list >/dev/null 2>&1
+  [ $? = 2 ] || fail "$wrong was not refused"
+done
+study --list --output "$folder/a" >"$folder/list" || fail "list"
+cases=$(wc -l <"$folder/list")
+
+# One case of a killed process: said, left out, run by the next start.
+"$program" --plan small --case 1 --output "$folder/a" >"$folder/killed.log" 2>&1 &
+pid=$!
+wait_for 20 has_child "$pid" || fail "no case was started"
+# shellcheck disable=SC2046
+kill -9 $(children_of "$pid")
+wait "$pid"
+[ $? = 1 ] || fail "a killed case did not end with status 1"
+grep -q "killed by signal 9" "$folder/killed.log" || fail "a killed case is not told"
+grep -q done <(study --list --output "$folder/a") && fail "a killed case counts as done"
+
+# The study itself killed: its processes end, what it had done stays.
+"$program" --plan small --jobs 2 --output "$folder/a" >"$folder/first.log" 2>&1 &
+pid=$!
+wait_for 60 grep -q "done in" "$folder/first.log" || fail "nothing was done"
+children=$(children_of "$pid")
+kill -9 "$pid"
+wait "$pid" 2>/dev/null
+for child in $children; do
+  wait_for 5 bash -c "! kill -0 $child" || fail "process $child outlived its study"
+done
+study --output "$folder/a" >"$folder/second.log" 2>&1 || fail "second start: $(tail -3 "$folder/second.log")"
+grep -q " 0 failed" "$folder/second.log" || fail "second start"
+grep -q " 0 were done before" "$folder/second.log" && fail "the second start skipped nothing"
+[ "$(grep -c ' done ' <(study --list --output "$folder/a"))" = "$cases" ] || fail "not all is done"
+
+study --output "$folder/b" --report-only >/dev/null 2>&1 || fail "report of nothing"
+# The same without a kill, by the tasks of a job array.
+for task in $(seq "$cases"); do
+  study --case "$task" --output "$folder/b" >>"$folder/array.log" 2>&1 || fail "task $task"
+done
+[ -e "$folder/b/results/wall_clock.csv" ] || fail "no wall clock"
+study --output "$folder/b" --report-only >/dev/null || fail "report"
+diff -r --brief --exclude 'wall_clock.*' --exclude '*.svg' --exclude '*.png' "$folder/a/results" \
+  "$folder/b/results" || fail "tables differ after kill -9"
+for table in cases.csv report.md data/values.csv; do
+  [ -s "$folder/a/results/$table" ] || fail "no $table"
+done
+if command -v gnuplot >/dev/null; then
+  for figure in "$(dirname "$0")"/../../examples/ratcheting_study/plots/*.gp; do
+    name=$(basename "$figure" .gp)
+    [ "$name" = style ] || [ -s "$folder/a/results/figures/$name.png" ] || fail "no figure $name"
+  done
+fi
+[ "$failures" = 0 ] && echo "all passed"
+exit "$failures"
