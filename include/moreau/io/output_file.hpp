@@ -9,6 +9,9 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#if __has_include(<unistd.h>)
+#include <unistd.h>
+#endif
 
 namespace moreau {
 
@@ -30,6 +33,15 @@ class OutputFile {
     errno = 0;
     if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
       fail("write");
+  }
+  /// Waits until what was written is on the disk, where the system can say so.
+  void sync() {
+#if __has_include(<unistd.h>)
+    errno = 0;
+    // Pipes and the like have no disk.
+    if (file_ && ::fsync(::fileno(file_.get())) != 0 && errno != EINVAL && errno != ENOTSUP)
+      fail("write");
+#endif
   }
   /// Closes the file and checks that all of it could be written. No write() after it.
   void close() {
@@ -53,8 +65,8 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Replaces a file as a whole: a reader, or an interrupted run, finds the old one or the new one,
-/// never a part.
+/// Replaces a file as a whole: a reader, or a run that is killed, finds the old one or the new one,
+/// never a part. On the way the new one is beside it, under its name with ".part".
 /// @throws std::system_error naming the path
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path partial = path;
@@ -63,6 +75,7 @@ inline void write_atomically(const std::filesystem::path& path, std::string_view
   try {
     OutputFile file(partial);
     file.write(bytes);
+    file.sync();
     file.close();
     std::filesystem::rename(partial, path);
   } catch (...) {

@@ -50,6 +50,12 @@ struct Moments {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
+  /// Whether the scalar can hold them: of a shape far too small or far too large it cannot.
+  bool are_regular() const {
+    return std::isfinite(volume) && volume > 0 && second.allFinite() &&
+           (inertia().diagonal().array() > 0).all();
+  }
+
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
 
   /// The moments of the same body, all lengths times the factor.

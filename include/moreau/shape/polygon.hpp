@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/moments.hpp"
@@ -39,6 +40,8 @@ class Polygon {
     centroid_of_input_ = vertices[ring[0]] + center;
     vertices_.rowwise() -= center.transpose();
     moments_ = sum_moments();
+    require(moments_.are_regular(), "Polygon", "second moment", moments_.second.trace(),
+            "m^4 must be positive and finite");
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
     set_faces();
   }
@@ -95,6 +98,18 @@ class Polygon {
   }
 
  private:
+  friend struct StateAccess;
+  Polygon() = default;
+  auto state() {
+    return std::tie(vertices_, face_normals_, face_offsets_, centroid_of_input_, circumradius_,
+                    inradius_, normal_spacing_, moments_);
+  }
+  void restored() const {
+    const Eigen::Index count = vertices_.rows();
+    require(count >= 3 && face_normals_.rows() == count && face_offsets_.size() == count, "Polygon",
+            "vertices", count, "must be 3 at least, with as many edges");
+  }
+
   Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
 
   Moments<Space> sum_moments() const {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/face_plane.hpp"
@@ -118,7 +119,22 @@ class Polyhedron {
   }
 
  private:
+  friend struct StateAccess;
   Polyhedron() = default;
+  auto state() {
+    return std::tie(topology_, vertices_, face_normals_, face_offsets_, centroid_of_input_,
+                    circumradius_, inradius_, normal_spacing_, moments_);
+  }
+  /// What follows from the faces.
+  void restored() {
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (std::size_t f = 0; f < topology_.faces.size(); ++f)
+      faces.emplace_back(topology_.faces[f].begin(), topology_.faces[f].end());
+    topology_ = FaceTopology(vertex_count(), faces, "Polyhedron");
+    const auto count = static_cast<Eigen::Index>(faces.size());
+    require(face_normals_.rows() == count && face_offsets_.size() == count, "Polyhedron", "faces",
+            count, "must each have a plane");
+  }
 
   Vector vertex(std::size_t i) const {
     return vertices_.row(static_cast<Eigen::Index>(i)).transpose();
@@ -159,6 +175,8 @@ class Polyhedron {
     centroid_of_input_ = vertices[0] + center;
     vertices_.rowwise() -= center.transpose();
     moments_ = sum_moments();
+    require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
+            "m^5 must be positive and finite");
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
     set_planes();
   }
