@@ -52,8 +52,9 @@ struct Moments {
 
   /// Whether the scalar can hold them: of a shape far too small or far too large it cannot.
   bool are_regular() const {
-    return std::isfinite(volume) && volume > 0 && second.allFinite() &&
-           (inertia().diagonal().array() > 0).all();
+    const typename S::Inertia about_origin = inertia();
+    return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&
+           (about_origin.diagonal().array() > 0).all();
   }
 
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }

@@ -25,7 +25,8 @@ class Polygon {
 
   /// The convex hull of the vertices [m]; those inside or on an edge are dropped, the others keep
   /// their cyclic order, the first of the input first.
-  /// @throws std::invalid_argument for fewer than 3, one that is not finite, or collinear ones
+  /// @throws std::invalid_argument for fewer than 3, one that is not finite, collinear ones, or
+  ///   moments that the scalar cannot hold
   explicit Polygon(std::span<const Vector> vertices) {
     const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");
     vertices_.resize(static_cast<Eigen::Index>(ring.size()), 2);
@@ -84,7 +85,9 @@ class Polygon {
   }
 
   /// The same polygon, all lengths times the factor, > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
+  /// the
+  ///   moments
   Polygon scaled(T factor) const {
     detail::require_positive(factor, "Polygon::scaled", "factor");
     Polygon copy = *this;
@@ -94,6 +97,8 @@ class Polygon {
     copy.inradius_ *= factor;
     copy.centroid_of_input_ *= factor;
     copy.moments_ = moments_.scaled(factor);
+    require(copy.moments_.are_regular(), "Polygon::scaled", "second moment",
+            copy.moments_.second.trace(), "m^4 must be positive and finite");
     return copy;
   }
 

@@ -33,7 +33,8 @@ class Polyhedron {
 
   /// The convex hull of the vertices [m]; those inside, on a face or on an edge are dropped, the
   /// others keep their order. Coplanar triangles are one face.
-  /// @throws std::invalid_argument for fewer than 4, one that is not finite, or coplanar ones
+  /// @throws std::invalid_argument for fewer than 4, one that is not finite, coplanar ones, or
+  ///   moments that the scalar cannot hold
   explicit Polyhedron(std::span<const Vector> vertices) {
     auto faces = convex_hull(vertices, "Polyhedron");
     const std::vector<Vector> kept = drop_unused(vertices, faces);
@@ -105,7 +106,9 @@ class Polyhedron {
   }
 
   /// The same polyhedron, all lengths times the factor, > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
+  /// the
+  ///   moments
   Polyhedron scaled(T factor) const {
     detail::require_positive(factor, "Polyhedron::scaled", "factor");
     Polyhedron copy = *this;
@@ -115,6 +118,8 @@ class Polyhedron {
     copy.inradius_ *= factor;
     copy.centroid_of_input_ *= factor;
     copy.moments_ = moments_.scaled(factor);
+    require(copy.moments_.are_regular(), "Polyhedron::scaled", "second moment",
+            copy.moments_.second.trace(), "m^5 must be positive and finite");
     return copy;
   }
 

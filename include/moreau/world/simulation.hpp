@@ -99,8 +99,9 @@ class Simulation {
     require(std::isfinite(density) && density > 0, self, "density", density,
             "must be finite and > 0");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
-    require(std::isfinite(mass.mass) && mass.mass > 0, self, "mass", mass.mass,
-            "must be finite and > 0");
+    require(std::isfinite(mass.mass) && mass.mass > 0 && mass.inertia.allFinite() &&
+                inverse_root<S>(mass.inertia).allFinite(),
+            self, "mass", mass.mass, "must be finite and > 0, as must be the inertia");
     require(mass.center.norm() <= Scalar(1e-3) * grain_size_, self, "center of mass", mass.center,
             "must be the origin of the shape's frame");
     cell().require_room(detector_.room_of(shapes_[shape.index()], lengths()), self);
