@@ -51,6 +51,8 @@ struct Parameters {
   std::uint64_t seed = 1;
   int snapshots = 20;  ///< ParaView files over the duration; 0: none
   bool plots = true;
+  int checkpoint_every = 0;  ///< steps of the vibration from one checkpoint to the next; 0: none
+  bool resume = false;       ///< from the checkpoint in the folder, if there is one
   std::string output = "ratcheting-output";
 
   /// f(t), compressive force on the moving wall [N] (paper, eq. 1).

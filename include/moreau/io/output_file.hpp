@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -20,9 +21,16 @@ namespace moreau {
 class OutputFile {
  public:
   /// Empties the file or creates it; its folder must exist.
-  explicit OutputFile(const std::filesystem::path& path) : path_(path) {
+  /// @param keep goes on behind so many bytes of a file that is there, and cuts off what follows
+  ///             them; a file that has less is an error
+  explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0) : path_(path) {
     errno = 0;
-    file_.reset(std::fopen(path.c_str(), "wb"));
+    if (keep > 0) {
+      std::error_code error;
+      if (std::filesystem::file_size(path, error) < keep || error) fail("go on with");
+      std::filesystem::resize_file(path, keep);
+    }
+    file_.reset(std::fopen(path.c_str(), keep > 0 ? "ab" : "wb"));
     if (!file_) fail("open");
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   }
