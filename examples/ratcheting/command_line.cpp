@@ -119,6 +119,12 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_flag("--no-pictures", no_pictures, "do not draw the packing and its force chains");
   bool no_plots = false;
   app.add_flag("--no-plots", no_plots, "do not call gnuplot");
+  app.add_option("--checkpoint-every", p.checkpoint_every,
+                 "steps after which all is written down, to be taken up by --resume; 0: never")
+      ->check(CLI::Range(0, 1000000000));
+  app.add_flag("--resume", p.resume,
+               "go on from the checkpoint in the output folder, if there is one: same parameters, "
+               "same results");
   app.add_option("--output", p.output, "folder, made if missing; its files are overwritten");
 
   try {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy.hpp"
 #include "moreau/world/simulation.hpp"
 
@@ -126,6 +128,18 @@ class Experiment {
     const double f = parameters_.force(time() + parameters_.step / 2);
     simulation_.set_force(wall_, -f * Vector::UnitX());
     return simulation_.step(parameters_.step);
+  }
+
+  /// Writes down the state, with what else belongs to the run.
+  template <class... More>
+  void write_checkpoint(const std::filesystem::path& path, const More&... more) const {
+    moreau::write_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
+  }
+  /// In place of prepare(), by an experiment of the same parameters.
+  /// @throws std::runtime_error naming the path for a file that is none of those
+  template <class... More>
+  void read_checkpoint(const std::filesystem::path& path, More&... more) {
+    moreau::read_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
   }
 
   double time() const { return simulation_.time() - start_; }  ///< since f started [s]

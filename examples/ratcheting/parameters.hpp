@@ -53,6 +53,8 @@ struct Parameters {
   int snapshots = 20;    ///< ParaView files over the duration; 0: none
   bool pictures = true;  ///< PNG of the packing and of its force chains
   bool plots = true;
+  int checkpoint_every = 0;  ///< steps of the vibration from one checkpoint to the next; 0: none
+  bool resume = false;       ///< from the checkpoint in the folder, if there is one
   std::string output = "ratcheting-output";
 
   /// f(t), compressive force on the moving wall [N] (paper, eq. 1).

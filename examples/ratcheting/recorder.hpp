@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -34,16 +36,34 @@ class Recorder {
   using S = typename ExperimentT::S;
   static constexpr int up = S::dim - 1;
 
-  Recorder(const Parameters& p, const ExperimentT& experiment)
+  /// What has been recorded, with the sizes of the four tables, which a checkpoint keeps.
+  struct Record {
+    std::array<std::uint64_t, 4> sizes{};
+    moreau::Aabb<S> inner;
+    std::vector<WallSample> samples;
+    std::vector<PackingSample> packing_samples;
+    SolverTotals totals;
+  };
+
+  /// @param record what to go on from; none makes new tables
+  Recorder(const Parameters& p, const ExperimentT& experiment, const Record& record = {})
       : parameters_(p),
         experiment_(experiment),
         folder_(p.output),
-        wall_(file("wall.csv"), {"t", "f", "x", "v", "f_g"}),
+        wall_(file("wall.csv"), {"t", "f", "x", "v", "f_g"}, 1, record.sizes[0]),
         packing_(file("packing.csv"),
-                 {"t", "rho_inner", "rho_box", "kinetic_energy", "contacts", "coordination"}),
-        state_(file("state.csv"), {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"}),
-        solver_(file("solver.csv"), {"step", "pairs", "points", "sweeps", "residual", "max_overlap",
-                                     "mean_overlap", "ms_detect", "ms_solve", "ms_total"}) {}
+                 {"t", "rho_inner", "rho_box", "kinetic_energy", "contacts", "coordination"}, 1,
+                 record.sizes[1]),
+        state_(file("state.csv"), {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"}, 1,
+               record.sizes[2]),
+        solver_(file("solver.csv"),
+                {"step", "pairs", "points", "sweeps", "residual", "max_overlap", "mean_overlap",
+                 "ms_detect", "ms_solve", "ms_total"},
+                1, record.sizes[3]),
+        inner_(record.inner),
+        samples_(record.samples),
+        packing_samples_(record.packing_samples),
+        totals_(record.totals) {}
 
   /// Of the control volume from the side walls, 2 d [m].
   static double inset(const ExperimentT& experiment) {
@@ -120,6 +140,13 @@ class Recorder {
         workspace_);
   }
 
+  Record record() const {
+    return {{wall_.size(), packing_.size(), state_.size(), solver_.size()},
+            inner_,
+            samples_,
+            packing_samples_,
+            totals_};
+  }
   const moreau::Aabb<S>& inner() const { return inner_; }
   const std::vector<WallSample>& samples() const { return samples_; }
   const std::vector<PackingSample>& packing_samples() const { return packing_samples_; }

@@ -101,22 +101,11 @@ double lightest_grain(const Parameters& p, double thickness) {
   return p.density * thickness * volume;
 }
 
-template <class ShapeT, class Method>
-int run_method(const Parameters& asked) {
-  Stopwatch watch;
-  const double thickness = thickness_of<ShapeT>(asked);
-  const Parameters p = Method::settled(asked, lightest_grain<ShapeT>(asked, thickness));
-  using ExperimentT = Experiment<ShapeT, Method>;
-  ExperimentT experiment(p, thickness);
-  require_experiment(p, experiment);
-  require_writable(p.output);
-  Recorder<ExperimentT> recorder(p, experiment);
-  RunJson json(p, experiment);
-  Progress progress;
-  const auto total = static_cast<std::size_t>(std::llround(p.duration / p.step));
-  std::size_t done = 0;
-  std::printf("%zu grains, %.4g kg, box %.4g m long\n", p.grains, experiment.mass(),
-              experiment.length());
+/// The packing before the force starts, and the first line of packing.csv.
+/// @returns whether it came about: not if it was interrupted
+template <class ExperimentT>
+bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>& recorder,
+             RunJson& json, Progress& progress, Stopwatch& watch) {
   try {
     experiment.prepare([&](const char* stage, const moreau::StepReport& report) {
       progress.preparing(stage, report, experiment.simulation().time());
@@ -127,13 +116,56 @@ int run_method(const Parameters& asked) {
     json.stage("prepare", watch.lap());
     json.write_unprepared(p);
     std::printf("interrupted before the force started: no results\n");
-    return 130;
+    return false;
   }
   json.stage("prepare", watch.lap());
   recorder.set_control_volume();
   recorder.record_packing();
+  return true;
+}
+
+/// All that decides the results of a run.
+inline std::string identity(const Parameters& p) {
+  Json json = to_json(p);
+  json.erase("threads");
+  return json.dump();
+}
+
+template <class ShapeT, class Method>
+int run_method(const Parameters& asked) {
+  Stopwatch watch;
+  const double thickness = thickness_of<ShapeT>(asked);
+  const Parameters p = Method::settled(asked, lightest_grain<ShapeT>(asked, thickness));
+  using ExperimentT = Experiment<ShapeT, Method>;
+  ExperimentT experiment(p, thickness);
+  require_experiment(p, experiment);
+  require_writable(p.output);
   Views<ExperimentT> views(experiment, p.step, p.output);
-  if (p.snapshots > 0) views.snapshot(0);
+  typename Recorder<ExperimentT>::Record record;
+  std::size_t done = 0, snapshots = 0;
+  const auto checkpoint = std::filesystem::path(p.output) / "checkpoint.snapshot";
+  const bool resumes = p.resume && std::filesystem::exists(checkpoint);
+  if (resumes) {
+    std::string made_by;
+    experiment.read_checkpoint(checkpoint, made_by, done, snapshots, record, views.grains(),
+                               views.contacts());
+    if (made_by != identity(p))
+      throw std::invalid_argument("--resume: " + checkpoint.string() +
+                                  " was made with other parameters: " + made_by);
+  }
+  Recorder<ExperimentT> recorder(p, experiment, record);
+  RunJson json(p, experiment);
+  Progress progress;
+  const auto total = static_cast<std::size_t>(std::llround(p.duration / p.step));
+  std::printf("%zu grains, %.4g kg, box %.4g m long\n", p.grains, experiment.mass(),
+              experiment.length());
+  if (resumes) {
+    std::printf("going on after %zu of %zu steps\n", done, total);
+    json.resumed(done);
+  } else if (!prepare(p, experiment, recorder, json, progress, watch)) {
+    return 130;
+  }
+  if (!resumes && p.snapshots > 0) views.snapshot(0);
   const auto packing_steps =
       static_cast<std::size_t>(std::max(1LL, std::llround(packing_interval / p.step)));
   const double active = 1.25 / p.frequency, jammed = 1.75 / p.frequency;
@@ -141,7 +173,6 @@ int run_method(const Parameters& asked) {
     views.write_chains(suffix);
     if (p.pictures) views.picture(suffix);
   };
-  std::size_t snapshots = 0;
   for (; done < total && !interrupted(); ++done) {
     const moreau::StepReport report = experiment.vibrate();
     recorder.record_step(done + 1, report, total);
@@ -151,6 +182,10 @@ int run_method(const Parameters& asked) {
     if (end >= jammed && end < jammed + p.step) show("_jammed");
     const std::size_t wanted = std::size_t(p.snapshots) * (done + 1) / total;
     if (wanted > snapshots) views.snapshot(int(snapshots = wanted));
+    if (p.checkpoint_every > 0 &&
+        ((done + 1) % std::size_t(p.checkpoint_every) == 0 || interrupted()))
+      experiment.write_checkpoint(checkpoint, identity(p), done + 1, snapshots, recorder.record(),
+                                  views.grains(), views.contacts());
     progress.vibrating(done + 1, total, report, experiment.displacement());
   }
   if (p.pictures) views.picture("");

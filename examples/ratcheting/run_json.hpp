@@ -49,6 +49,7 @@ class RunJson {
                        {"thickness", experiment.thickness()}};
     add_counts(experiment);
   }
+  void resumed(std::size_t step) { json_["resumed_at_step"] = step; }
   void stage(const char* name, double seconds) { json_["wall_clock_seconds"][name] = seconds; }
 
   /// Of a run that ended within the preparation.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "moreau/world/step_report.hpp"
@@ -51,6 +52,12 @@ struct SolverTotals {
     ms_solve += report.ms_solve;
     ms_total += report.ms_total;
     ms_of_step.push_back(report.ms_total);
+  }
+  auto state() {  ///< see moreau/core/state.hpp
+    return std::tie(steps, capped, most_sweeps, sweeps, residual, worst_residual, pairs, points,
+                    max_overlap, mean_overlap, mean_overlap_first, mean_overlap_last, dissipation,
+                    correction_work, correction_travel, correction_drift, ms_detect, ms_solve,
+                    ms_total, ms_of_step);
   }
   double mean(double sum) const { return steps > 0 ? sum / double(steps) : 0; }
   double median_ms() const {

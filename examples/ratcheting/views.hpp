@@ -70,6 +70,9 @@ class Views {
     }
     file.close();
   }
+  /// The series of grains and of contacts, which a checkpoint keeps.
+  moreau::PvdSeries& grains() { return grains_; }
+  moreau::PvdSeries& contacts() { return contacts_; }
 
   /// packing.png and force_chains.png, or with a suffix to their names.
   void picture(const std::string& suffix) {

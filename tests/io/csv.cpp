@@ -72,6 +72,27 @@ TEST_CASE("rows are held back by whole lines only") {
   CHECK(read(path) == "i,square\n0,0\n1,1\n2,4\n3,9\n4,16\n");
 }
 
+TEST_CASE("a table goes on where it was") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "rows.csv";
+  std::uintmax_t size = 0;
+  {
+    CsvWriter csv(path, {"i"}, 3);
+    for (int i = 0; i < 5; ++i) csv.row(i);
+    size = csv.size();
+    csv.row(5);
+  }
+  {
+    CsvWriter csv(path, {"i"}, 1, size);
+    csv.row(7);
+    CHECK(csv.size() == size + 2);
+  }
+  CHECK(read(path) == "i\n0\n1\n2\n3\n4\n7\n");
+  CHECK_THROWS_WITH_AS(CsvWriter(path, {"i"}, 1, 1000), doctest::Contains("cannot go on with"),
+                       std::system_error);
+  CHECK(read(path).size() == size + 2);
+}
+
 TEST_CASE("bad tables are refused") {
   const TemporaryFolder folder("csv");
   const auto path = folder / "bad.csv";

@@ -29,12 +29,12 @@ using Numbers = std::vector<double>;
 
 /// A 2 x 2 matrix in any of the three storages.
 void write_matrix(hid_t parent, const std::string& name, int nz, const std::vector<int>& p,
-                  const std::vector<int>& i, const Numbers& x) {
+                  const std::vector<int>& i, const Numbers& x, int columns = 2) {
   using namespace moreau::detail;
   const auto matrix = create_hdf5_group(parent, name);
   write_hdf5(matrix, "nzmax", int(x.size()));
   write_hdf5(matrix, "m", 2);
-  write_hdf5(matrix, "n", 2);
+  write_hdf5(matrix, "n", columns);
   write_hdf5(matrix, "nz", nz);
   write_hdf5(matrix, "p", std::span<const int>(p));
   write_hdf5(matrix, "i", std::span<const int>(i));
@@ -49,11 +49,12 @@ detail::Hdf5Handle new_file(const std::filesystem::path& path) {
 
 /// One contact in the plane.
 void write_storage(const std::filesystem::path& path, int nz, const std::vector<int>& p,
-                   const std::vector<int>& i, const Numbers& x, int dimension = 2) {
+                   const std::vector<int>& i, const Numbers& x, int dimension = 2,
+                   int columns = 2) {
   const auto file = new_file(path);
   const auto local = detail::create_hdf5_group(file, "fclib_local");
   detail::write_hdf5(local, "spacedim", dimension);
-  write_matrix(local, "W", nz, p, i, x);
+  write_matrix(local, "W", nz, p, i, x, columns);
   const auto vectors = detail::create_hdf5_group(local, "vectors");
   write_vector(vectors, "q", {-1, 0.5});
   write_vector(vectors, "mu", {0.3});
@@ -148,6 +149,21 @@ TEST_CASE("bad files are refused") {
   CHECK_THROWS_WITH_AS(read_fclib(path),
                        "read_fclib: column of an entry of W = 7 must lie in the matrix",
                        std::invalid_argument);
+  write_storage(path, 1, {0}, {0}, {1}, 2, 2000000000);
+  CHECK_THROWS_WITH_AS(read_fclib(path), doctest::Contains("W/n = 2000000000 must be as many"),
+                       std::invalid_argument);
+  {
+    write_storage(path, 1, {0}, {0}, {1});
+    const detail::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), &H5Fclose, "");
+    const hsize_t many = hsize_t(1) << 40;
+    H5Ldelete(file, "fclib_local/vectors/q", H5P_DEFAULT);
+    const detail::Hdf5Handle space(H5Screate_simple(1, &many, nullptr), &H5Sclose, "");
+    const detail::Hdf5Handle set(H5Dcreate2(file, "fclib_local/vectors/q", H5T_NATIVE_DOUBLE, space,
+                                            H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                 &H5Dclose, "");
+  }
+  CHECK_THROWS_WITH_AS(read_fclib(path), doctest::Contains("q claims 1099511627776 numbers"),
+                       std::runtime_error);
   write_storage(path, -3, {0, 1, 3}, {0, 0, 1}, {1, 0.5, 2.5});
   CHECK_THROWS_AS(read_fclib(path), std::invalid_argument);
   write_storage(path, -2, {0, 1, 3}, {0, 0, 1}, {1, 0.5, 2.5}, 3);

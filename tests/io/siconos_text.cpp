@@ -113,6 +113,8 @@ TEST_CASE("bad texts are refused by name") {
         self + "W = 1e400 must be a finite number");
   CHECK(error_of("2 1 2 2 2 2 2-by-2, nzmax: 1 nnz: 1, 1-norm: 1\ncol 0 : locations 0 to x") ==
         self + "location = x must be an integer >= -1");
+  CHECK(error_of("2 1 2 2 2000000000 1 x triplet: 2-by-2, nzmax: 1 nnz: 1\n0 0 : 1\n-1 0 0.3") ==
+        self + "columns of W = 2000000000 must be as many as its rows");
   CHECK(error_of("2 1 2 2 2 2 nothing here").find("sparse W") != std::string::npos);
 }
 

@@ -154,3 +154,18 @@ TEST_CASE_TEMPLATE("bad arguments are named", T, double, float) {
 }
 
 }  // namespace
+
+TEST_CASE("a polygon of which the scalar cannot hold the moments is refused") {
+  using V = Eigen::Vector2f;
+  const auto square = [](float side) {
+    const std::vector<V> corners{{0, 0}, {side, 0}, {side, side}, {0, side}};
+    return moreau::Polygon<float>(std::span<const V>(corners));
+  };
+  CHECK_NOTHROW(square(1e-9f));
+  CHECK_THROWS_WITH_AS(square(1e-12f), doctest::Contains("Polygon: second moment = 0 m^4"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(square(1e11f), doctest::Contains("Polygon: second moment = inf m^4"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(square(1).scaled(1e-12f),
+                       doctest::Contains("Polygon::scaled: second moment"), std::invalid_argument);
+}

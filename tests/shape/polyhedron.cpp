@@ -425,3 +425,17 @@ TEST_CASE_TEMPLATE("bad arguments are named", T, double, float) {
 }
 
 }  // namespace
+
+TEST_CASE("a polyhedron of which the scalar cannot hold the moments is refused") {
+  const auto tetrahedron = [](float size) {
+    return hull<float>({{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}});
+  };
+  CHECK_NOTHROW(tetrahedron(1e-6f));
+  CHECK_THROWS_WITH_AS(tetrahedron(1e-10f), doctest::Contains("Polyhedron: second moment = 0 m^5"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(tetrahedron(1e9f), doctest::Contains("Polyhedron: second moment = inf m^5"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(tetrahedron(1).scaled(1e9f),
+                       doctest::Contains("Polyhedron::scaled: second moment"),
+                       std::invalid_argument);
+}

@@ -6,6 +6,7 @@
 // separates; the impulse r is what b receives, in the frame, so r_n > 0 pushes; a receives -F r.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -46,6 +47,16 @@ struct Contacts {
   std::vector<typename S::Angular> couples;
 
   std::size_t size() const { return points.size(); }  ///< number of points
+  /// Whether all arrays are as long (couples may be empty), and all contacts between so many bodies
+  /// and of so many laws.
+  bool are_valid(std::size_t bodies, std::size_t laws) const {
+    if (keys.size() != size() || classes.size() != size() || impulses.size() != size() ||
+        (!couples.empty() && couples.size() != size()))
+      return false;
+    return std::all_of(points.begin(), points.end(), [&](const Contact<S>& point) {
+      return point.a < bodies && point.b < bodies && point.law < laws;
+    });
+  }
   /// Takes out all points; keeps the memory.
   void clear() {
     points.clear();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "moreau/core/space.hpp"
@@ -61,6 +62,7 @@ struct FeatureKey {
                               Kind::vertex_vertex, Kind::edge_vertex, Kind::vertex_edge};
     return FeatureKey(other[value >> 56], b(), a());
   }
+  auto state() { return std::tie(value); }  ///< see core/state.hpp
   friend constexpr auto operator<=>(const FeatureKey&, const FeatureKey&) = default;
 };
 

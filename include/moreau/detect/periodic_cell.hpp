@@ -9,6 +9,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -88,6 +89,9 @@ class PeriodicCell {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(lower_, length_); }
+
   Vector lower_ = Vector::Zero(), length_ = Vector::Zero();
 };
 

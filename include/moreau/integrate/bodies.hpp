@@ -5,8 +5,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "moreau/contact/delassus.hpp"
@@ -38,6 +40,35 @@ struct Bodies {
   std::vector<MaterialId> material;                ///< of the surface
 
   std::size_t size() const { return pose.size(); }  ///< grains and walls
+  /// Adds a body at rest that no force moves.
+  void push_back(const Pose<S>& at, MaterialId of) {
+    pose.push_back(at);
+    velocity.push_back(Twist::Zero());
+    force.push_back(Twist::Zero());
+    inverse_mass.push_back(Vector::Zero());
+    inertia_body.push_back(Inertia::Zero());
+    inverse_inertia_root_body.push_back(Inertia::Zero());
+    weight.push_back(0);
+    material.push_back(of);
+  }
+  /// Makes body i a free one.
+  /// @param mass    [kg], > 0
+  /// @param inertia about the centre, body axes [kg m^2], positive definite
+  void set_mass(std::size_t i, typename S::Scalar mass, const Inertia& inertia) {
+    inverse_mass[i] = Vector::Constant(1 / mass);
+    inertia_body[i] = inertia;
+    inverse_inertia_root_body[i] = inverse_root<S>(inertia);
+    weight[i] = mass;
+  }
+  /// Whether all arrays are as long, and all materials of so many.
+  bool are_valid(std::size_t materials) const {
+    for (const std::size_t count :
+         {velocity.size(), force.size(), inverse_mass.size(), inertia_body.size(),
+          inverse_inertia_root_body.size(), weight.size(), material.size()})
+      if (count != size()) return false;
+    return std::all_of(material.begin(), material.end(),
+                       [&](MaterialId one) { return one.index() < materials; });
+  }
   /// Whether forces can turn it; a body without inertia keeps the spin it is given.
   bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
 

@@ -18,6 +18,7 @@
 #include <span>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/integrate/spin.hpp"
 
@@ -79,6 +80,9 @@ class MoreauJean {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(theta_); }
+
   double theta_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <string>
@@ -34,14 +35,19 @@ class CsvWriter {
   /// @param columns     names and units, e.g. {{"t", "s"}, {"x", "m"}, "contacts"}: the header is
   ///                    "t [s],x [m],contacts"
   /// @param flush_every rows that may be held back, > 0; 1 writes every row at once
+  /// @param keep        > 0: goes on with a table that is there behind so many bytes, as size()
+  /// gave
+  ///                    them, and cuts off what follows them
   /// @throws std::system_error naming the path if the file cannot be created or written
   /// @throws std::invalid_argument without columns, for a name that is empty, a name or unit that
   ///         holds a comma, a quote or a line break, or for flush_every = 0
   CsvWriter(const std::filesystem::path& path, std::initializer_list<CsvColumn> columns,
-            std::size_t flush_every = 1)
+            std::size_t flush_every = 1, std::uintmax_t keep = 0)
       : columns_(columns.size()),
         flush_every_(flush_every),
-        file_(checked(path, columns, flush_every)) {
+        written_(keep),
+        file_(checked(path, columns, flush_every), keep) {
+    if (keep > 0) return;
     for (const CsvColumn& column : columns) {
       if (!lines_.empty()) lines_ += ',';
       lines_ += column.name;
@@ -63,6 +69,8 @@ class CsvWriter {
 
   const std::filesystem::path& path() const { return file_.path(); }  ///< of the file
   std::size_t rows() const { return rows_; }                          ///< given so far
+  /// Bytes of the table so far, with those that are held back.
+  std::uintmax_t size() const { return written_ + lines_.size(); }
 
   /// Adds a row of numbers (floating-point or integers), as many as there are columns.
   /// @throws std::system_error naming the path if the file cannot be written, e.g. for a full disk
@@ -81,6 +89,7 @@ class CsvWriter {
   void flush() {
     if (lines_.empty()) return;
     file_.write(lines_);
+    written_ += lines_.size();
     lines_.clear();
   }
   /// flush(), then closes the file. No row() after it.
@@ -115,6 +124,7 @@ class CsvWriter {
   }
 
   std::size_t columns_, flush_every_, rows_ = 0;
+  std::uintmax_t written_;
   std::string lines_;
   OutputFile file_;
 };

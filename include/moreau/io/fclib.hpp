@@ -76,6 +76,11 @@ std::vector<Number> read_hdf5(hid_t group, const std::string& name) {
   const Hdf5Handle space(H5Dget_space(set), &H5Sclose, "read the size of " + name);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count < 0) throw std::runtime_error("HDF5: cannot read the size of " + name);
+  // Compression by deflate shrinks 1032 times at most, and a number was a byte at least: what
+  // claims more is not in the file, and does not fit into memory either.
+  if (static_cast<hsize_t>(count) / 1100 > H5Dget_storage_size(set))
+    throw std::runtime_error("HDF5: " + name + " claims " + std::to_string(count) +
+                             " numbers, which are not there");
   std::vector<Number> numbers(static_cast<std::size_t>(count));
   if (count > 0 &&
       H5Dread(set, hdf5_type(Number()), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0)
@@ -117,8 +122,10 @@ inline Hdf5Handle create_hdf5_group(hid_t parent, const std::string& name) {
 /// A matrix in the storage of CSparse: nz = -2 compressed rows, -1 compressed columns, >= 0 that
 /// many triplets. Of these p holds the columns and i the rows, as in CSparse and as files are
 /// written; FCLIB's own header says the opposite.
-/// @param group holds the matrix as its subgroup `name`
-inline RowSparse read_fclib_matrix(hid_t group, const std::string& name) {
+/// @param group  holds the matrix as its subgroup `name`
+/// @param rows_wanted,columns_wanted its size: one that the file claims is not believed
+inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::size_t rows_wanted,
+                                   std::size_t columns_wanted) {
   constexpr const char* self = "read_fclib";
   constexpr int compressed_rows = -2, compressed_columns = -1;
   const auto matrix = open_hdf5_group(group, name);
@@ -126,7 +133,10 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name) {
   const int form = read_hdf5_integer(matrix, "nz");
   const std::vector<int> p = read_hdf5<int>(matrix, "p"), index = read_hdf5<int>(matrix, "i");
   const std::vector<double> x = read_hdf5<double>(matrix, "x");
-  require(rows >= 0 && columns >= 0, self, name + "/m", rows, "must be >= 0, as must be n");
+  require(rows >= 0 && std::size_t(rows) == rows_wanted, self, name + "/m", rows,
+          "must be as many as the vectors have numbers");
+  require(columns >= 0 && std::size_t(columns) == columns_wanted, self, name + "/n", columns,
+          "must be as many as the vectors have numbers");
   Triplets entries;
   if (form >= 0) {
     const auto count = std::size_t(form);
@@ -158,11 +168,6 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name) {
 inline void condense(const RowSparse& mass, const RowSparse& h, const std::vector<double>& f,
                      const std::vector<double>& w, RawFrictionProblem& raw) {
   constexpr const char* self = "read_fclib";
-  require(mass.rows() == mass.cols(), self, "M/n", mass.cols(), "must be M/m");
-  require(h.rows() == mass.rows(), self, "H/m", h.rows(), "must be the size of M");
-  require(Eigen::Index(f.size()) == h.rows(), self, "size of f", f.size(), "must be the size of M");
-  require(Eigen::Index(w.size()) == h.cols(), self, "size of w", w.size(),
-          "must be the columns of H");
   using Sparse = Eigen::SparseMatrix<double>;
   using Map = Eigen::Map<const Eigen::VectorXd>;
   Eigen::SparseLU<Sparse> lu(Sparse{mass});
@@ -218,12 +223,14 @@ inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
   const auto vectors = detail::open_hdf5_group(group, "vectors");
   raw.friction = detail::read_hdf5<double>(vectors, "mu");
   if (is_local) {
-    raw.delassus = detail::read_fclib_matrix(group, "W");
     raw.free_velocity = detail::read_hdf5<double>(vectors, "q");
+    const std::size_t size = raw.free_velocity.size();
+    raw.delassus = detail::read_fclib_matrix(group, "W", size, size);
   } else {
-    detail::condense(detail::read_fclib_matrix(group, "M"), detail::read_fclib_matrix(group, "H"),
-                     detail::read_hdf5<double>(vectors, "f"),
-                     detail::read_hdf5<double>(vectors, "w"), raw);
+    const auto f = detail::read_hdf5<double>(vectors, "f");
+    const auto w = detail::read_hdf5<double>(vectors, "w");
+    detail::condense(detail::read_fclib_matrix(group, "M", f.size(), f.size()),
+                     detail::read_fclib_matrix(group, "H", f.size(), w.size()), f, w, raw);
   }
   return detail::checked_problem(raw, self);
 }

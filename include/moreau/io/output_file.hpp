@@ -3,12 +3,16 @@
 #pragma once
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
+#if __has_include(<unistd.h>)
+#include <unistd.h>
+#endif
 
 namespace moreau {
 
@@ -17,9 +21,16 @@ namespace moreau {
 class OutputFile {
  public:
   /// Empties the file or creates it; its folder must exist.
-  explicit OutputFile(const std::filesystem::path& path) : path_(path) {
+  /// @param keep goes on behind so many bytes of a file that is there, and cuts off what follows
+  ///             them; a file that has less is an error
+  explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0) : path_(path) {
     errno = 0;
-    file_.reset(std::fopen(path.c_str(), "wb"));
+    if (keep > 0) {
+      std::error_code error;
+      if (std::filesystem::file_size(path, error) < keep || error) fail("go on with");
+      std::filesystem::resize_file(path, keep);
+    }
+    file_.reset(std::fopen(path.c_str(), keep > 0 ? "ab" : "wb"));
     if (!file_) fail("open");
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   }
@@ -31,6 +42,15 @@ class OutputFile {
     errno = 0;
     if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
       fail("write");
+  }
+  /// Waits until what was written is on the disk, where the system can say so.
+  void sync() {
+#if __has_include(<unistd.h>)
+    errno = 0;
+    // Pipes and the like have no disk.
+    if (file_ && ::fsync(::fileno(file_.get())) != 0 && errno != EINVAL && errno != ENOTSUP)
+      fail("write");
+#endif
   }
   /// Closes the file and checks that all of it could be written. No write() after it.
   void close() {
@@ -54,8 +74,8 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Replaces a file as a whole: a reader, or an interrupted run, finds the old one or the new one,
-/// never a part.
+/// Replaces a file as a whole: a reader, or a run that is killed, finds the old one or the new one,
+/// never a part. On the way the new one is beside it, under its name with ".part".
 /// @throws std::system_error naming the path
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path partial = path;
@@ -64,6 +84,7 @@ inline void write_atomically(const std::filesystem::path& path, std::string_view
   try {
     OutputFile file(partial);
     file.write(bytes);
+    file.sync();
     file.close();
     std::filesystem::rename(partial, path);
   } catch (...) {

@@ -212,6 +212,7 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   detail::TextMatrix w;
   w.rows = scan.integer("rows of W");
   w.columns = scan.integer("columns of W");
+  require(w.columns == w.rows, self, "columns of W", w.columns, "must be as many as its rows");
   switch (storage) {
     case dense:
       detail::scan_dense(scan, w);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/io/output_file.hpp"
 
 namespace moreau {
@@ -178,6 +179,9 @@ class PvdSeries {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(lines_); }
+
   std::filesystem::path path_;
   std::string lines_;
 };

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
@@ -43,6 +44,9 @@ class Cohesive : public Law {
   Scalar attraction(Scalar gap) const { return gap <= range_ ? adhesion_ : Scalar(0); }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(static_cast<Law&>(*this), adhesion_, range_); }
+
   Scalar adhesion_, range_;
 };
 

@@ -10,6 +10,7 @@
 #include "moreau/contact/lane_problem.hpp"
 #include "moreau/contact/local_problem.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -69,6 +70,9 @@ class Frictionless {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(restitution_); }
+
   T restitution_;
 };
 

@@ -17,6 +17,7 @@
 #include <concepts>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/law/regularized.hpp"
 
 namespace moreau {
@@ -78,6 +79,9 @@ class HertzMindlin {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(young_, shear_, friction_, damping_); }
+
   T young_, shear_, friction_, damping_;
 };
 

@@ -15,6 +15,7 @@
 #include <concepts>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/law/regularized.hpp"
 
 namespace moreau {
@@ -69,6 +70,9 @@ class LinearSpringDashpot {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(stiffness_, tangential_, friction_, damping_); }
+
   T stiffness_, tangential_, friction_, damping_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -41,6 +42,13 @@ class Materials {
   const std::vector<Law>& laws() const { return laws_; }  ///< of all pairs, see law_index()
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(count_, laws_); }
+  void restored() const {
+    require(count_ > 0 && laws_.size() / count_ == count_ && laws_.size() % count_ == 0,
+            "Materials", "count", count_, "must be > 0, with a law for every pair");
+  }
+
   std::size_t count_;
   std::vector<Law> laws_;
 };

@@ -22,6 +22,7 @@
 #include "moreau/contact/local_problem.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/law/coulomb_lanes.hpp"
 
 namespace moreau {
@@ -205,6 +206,9 @@ class SignoriniCoulomb {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(friction_, restitution_, static_); }
+
   T friction_, restitution_, static_;
 };
 

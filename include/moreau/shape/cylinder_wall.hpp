@@ -5,6 +5,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -35,8 +36,12 @@ class CylinderWall {
   Scalar radius() const { return radius_; }      ///< [m]
 
  private:
-  Angular axis_;
-  Scalar radius_;
+  friend struct StateAccess;
+  CylinderWall() = default;
+  auto state() { return std::tie(axis_, radius_); }
+
+  Angular axis_ = Angular::Zero();
+  Scalar radius_ = 0;
 };
 
 }  // namespace moreau

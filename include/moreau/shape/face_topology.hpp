@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -32,6 +33,14 @@ class IndexLists {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(begins_, items_); }
+  void restored() const {
+    require(!begins_.empty() && begins_.front() == 0 && begins_.back() == items_.size() &&
+                std::is_sorted(begins_.begin(), begins_.end()),
+            "IndexLists", "begins", begins_.size(), "of them must rise to the number of items");
+  }
+
   std::vector<std::uint32_t> begins_{0}, items_;
 };
 
@@ -51,6 +60,7 @@ struct FaceTopology {
   std::vector<PolyhedronEdge> edges;  ///< each once
 
   FaceTopology() = default;
+  auto state() { return std::tie(faces); }  ///< the rest follows; see core/state.hpp
 
   /// @param vertex_count number of vertices; each must be in a face
   /// @param function     named in errors

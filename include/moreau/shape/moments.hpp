@@ -50,6 +50,13 @@ struct Moments {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
+  /// Whether the scalar can hold them: of a shape far too small or far too large it cannot.
+  bool are_regular() const {
+    const typename S::Inertia about_origin = inertia();
+    return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&
+           (about_origin.diagonal().array() > 0).all();
+  }
+
   /// n!
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
 

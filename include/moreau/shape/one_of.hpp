@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 
 namespace moreau {
@@ -72,6 +73,12 @@ requires(sizeof...(Shapes) > 0 &&
   }
 
  private:
+  friend struct StateAccess;
+  OneOf()
+      : held_(std::in_place_index<0>,
+              StateAccess::blank<std::tuple_element_t<0, std::tuple<Shapes...>>>()) {}
+  auto state() { return std::tie(held_); }
+
   std::variant<Shapes...> held_;
 };
 

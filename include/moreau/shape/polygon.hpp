@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/moments.hpp"
@@ -24,7 +25,8 @@ class Polygon {
 
   /// The convex hull of the vertices [m]; those inside or on an edge are dropped, the others keep
   /// their cyclic order, the first of the input first.
-  /// @throws std::invalid_argument for fewer than 3, one that is not finite, or collinear ones
+  /// @throws std::invalid_argument for fewer than 3, one that is not finite, collinear ones, or
+  ///   moments that the scalar cannot hold
   explicit Polygon(std::span<const Vector> vertices) {
     const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");
     vertices_.resize(static_cast<Eigen::Index>(ring.size()), 2);
@@ -39,6 +41,8 @@ class Polygon {
     centroid_of_input_ = vertices[ring[0]] + center;
     vertices_.rowwise() -= center.transpose();
     moments_ = sum_moments();
+    require(moments_.are_regular(), "Polygon", "second moment", moments_.second.trace(),
+            "m^4 must be positive and finite");
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
     set_faces();
   }
@@ -83,7 +87,9 @@ class Polygon {
   }
 
   /// The same polygon, all lengths times the factor, > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
+  /// the
+  ///   moments
   Polygon scaled(T factor) const {
     detail::require_positive(factor, "Polygon::scaled", "factor");
     Polygon copy = *this;
@@ -93,10 +99,24 @@ class Polygon {
     copy.inradius_ *= factor;
     copy.centroid_of_input_ *= factor;
     copy.moments_ = moments_.scaled(factor);
+    require(copy.moments_.are_regular(), "Polygon::scaled", "second moment",
+            copy.moments_.second.trace(), "m^4 must be positive and finite");
     return copy;
   }
 
  private:
+  friend struct StateAccess;
+  Polygon() = default;
+  auto state() {
+    return std::tie(vertices_, face_normals_, face_offsets_, centroid_of_input_, circumradius_,
+                    inradius_, normal_spacing_, moments_);
+  }
+  void restored() const {
+    const Eigen::Index count = vertices_.rows();
+    require(count >= 3 && face_normals_.rows() == count && face_offsets_.size() == count, "Polygon",
+            "vertices", count, "must be 3 at least, with as many edges");
+  }
+
   Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
 
   Moments<Space> sum_moments() const {

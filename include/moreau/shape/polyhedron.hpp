@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/face_plane.hpp"
@@ -32,7 +33,8 @@ class Polyhedron {
 
   /// The convex hull of the vertices [m]; those inside, on a face or on an edge are dropped, the
   /// others keep their order. Coplanar triangles are one face.
-  /// @throws std::invalid_argument for fewer than 4, one that is not finite, or coplanar ones
+  /// @throws std::invalid_argument for fewer than 4, one that is not finite, coplanar ones, or
+  ///   moments that the scalar cannot hold
   explicit Polyhedron(std::span<const Vector> vertices) {
     auto faces = convex_hull(vertices, "Polyhedron");
     const std::vector<Vector> kept = drop_unused(vertices, faces);
@@ -108,7 +110,9 @@ class Polyhedron {
   }
 
   /// The same polyhedron, all lengths times the factor, > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
+  /// the
+  ///   moments
   Polyhedron scaled(T factor) const {
     detail::require_positive(factor, "Polyhedron::scaled", "factor");
     Polyhedron copy = *this;
@@ -118,11 +122,28 @@ class Polyhedron {
     copy.inradius_ *= factor;
     copy.centroid_of_input_ *= factor;
     copy.moments_ = moments_.scaled(factor);
+    require(copy.moments_.are_regular(), "Polyhedron::scaled", "second moment",
+            copy.moments_.second.trace(), "m^5 must be positive and finite");
     return copy;
   }
 
  private:
+  friend struct StateAccess;
   Polyhedron() = default;
+  auto state() {
+    return std::tie(topology_, vertices_, face_normals_, face_offsets_, centroid_of_input_,
+                    circumradius_, inradius_, normal_spacing_, moments_);
+  }
+  /// What follows from the faces.
+  void restored() {
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (std::size_t f = 0; f < topology_.faces.size(); ++f)
+      faces.emplace_back(topology_.faces[f].begin(), topology_.faces[f].end());
+    topology_ = FaceTopology(vertex_count(), faces, "Polyhedron");
+    const auto count = static_cast<Eigen::Index>(faces.size());
+    require(face_normals_.rows() == count && face_offsets_.size() == count, "Polyhedron", "faces",
+            count, "must each have a plane");
+  }
 
   Vector vertex(std::size_t i) const {
     return vertices_.row(static_cast<Eigen::Index>(i)).transpose();
@@ -163,6 +184,8 @@ class Polyhedron {
     centroid_of_input_ = vertices[0] + center;
     vertices_.rowwise() -= center.transpose();
     moments_ = sum_moments();
+    require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
+            "m^5 must be positive and finite");
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
     set_planes();
   }

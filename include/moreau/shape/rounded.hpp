@@ -4,6 +4,7 @@
 #include <cmath>
 #include <concepts>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/rounded_moments.hpp"
 #include "moreau/shape/vertices.hpp"
@@ -97,8 +98,12 @@ class Rounded {
   }
 
  private:
+  friend struct StateAccess;
+  Rounded() : core_(StateAccess::blank<Core>()) {}
+  auto state() { return std::tie(core_, radius_, core_position_, moments_); }
+
   Core core_;
-  Scalar radius_;
+  Scalar radius_ = 0;
   Vector core_position_ = Vector::Zero();
   Moments<Space> moments_;
 };

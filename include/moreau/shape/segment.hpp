@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/vertices.hpp"
 
@@ -45,7 +46,11 @@ class Segment {
   }
 
  private:
-  Scalar half_length_;
+  friend struct StateAccess;
+  Segment() = default;
+  auto state() { return std::tie(half_length_); }
+
+  Scalar half_length_ = 0;
 };
 
 }  // namespace moreau

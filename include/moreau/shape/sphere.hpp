@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "moreau/core/state.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/vertices.hpp"
 
@@ -62,7 +63,11 @@ class Sphere {
   }
 
  private:
-  Scalar radius_;
+  friend struct StateAccess;
+  Sphere() = default;
+  auto state() { return std::tie(radius_); }
+
+  Scalar radius_ = 0;
 };
 
 template <std::floating_point T = double>

@@ -21,6 +21,7 @@
 #include <limits>
 #include <span>
 
+#include "moreau/core/state.hpp"
 #include "moreau/solve/coloured_sweeps.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/report.hpp"
@@ -74,6 +75,9 @@ class TeamGaussSeidel {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(options_); }
+
   template <class Operator, class Law>
   SolveReport attempt(Operator& op, std::span<const Law> laws,
                       std::span<const std::uint32_t> law_of,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/solve/report.hpp"
 #include "moreau/solve/residual.hpp"
 #include "moreau/solve/sweep_change.hpp"
@@ -115,6 +116,9 @@ class NonlinearGaussSeidel {
   }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(options_); }
+
   /// The change of one contact's impulse that solves its local problem.
   template <class Operator, class Law>
   static typename Operator::Vector improve(const Operator& op, const Law& law, std::size_t c,

@@ -16,6 +16,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/collide_cylinder_wall.hpp"
@@ -163,11 +164,31 @@ class ContactDetector {
     sort(out);
   }
 
+  /// Takes the bodies anew, once their shapes have been read from a file; the pairs stay.
+  /// @param add_all adds grains and walls in the order in which they were added before
+  void rebuild(auto&& add_all) {
+    const bool stale = stale_;
+    grains_.clear();
+    walls_.clear();
+    cylinders_.clear();
+    widest_ = 0;
+    add_all();
+    stale_ = stale;
+    bool valid = caches_.size() == pairs_.size();
+    valid = valid && shifts_.size() == (cell_.is_open() ? 0 : pairs_.size());
+    for (const IndexPair& pair : pairs_)
+      valid = valid && pair.first < pair.second && pair.second < grains_.size();
+    require(valid, "ContactDetector", "pairs", pairs_.size(), "must be of grains there are");
+  }
+
   std::size_t pair_count() const { return pairs_.size(); }  ///< of boxes, without the walls
   /// Pairs with at least one contact point in the last detect().
   std::size_t touching_count() const { return touching_; }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_); }
+
   struct Grain {
     BodyId body;
     const ShapeT* shape;

@@ -10,6 +10,7 @@
 #include "moreau/contact/delassus.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/warm_start.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
@@ -64,6 +65,9 @@ class ForceDynamics {
   }
 
  private:
+  friend struct moreau::StateAccess;
+  auto state() { return std::tie(integrator_, loads_, memory_); }
+
   static ContactMotion<S> motion_of(const Bodies<S>& bodies, const Contact<S>& contact,
                                     Scalar elapsed) {
     const std::uint32_t a = contact.a, b = contact.b;

@@ -14,6 +14,7 @@
 #include "moreau/contact/delassus.hpp"
 #include "moreau/contact/rolling_delassus.hpp"
 #include "moreau/contact/warm_start.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
@@ -121,6 +122,9 @@ class ImpulseDynamics {
   }
 
  private:
+  friend struct moreau::StateAccess;
+  auto state() { return std::tie(solver_, correction_, integrator_); }
+
   static constexpr bool stateful = StatefulLaw<Law, S>;
 
   /// What the attraction does to the bodies, as if it were an external force.

@@ -18,6 +18,7 @@
 
 #include "moreau/contact/delassus.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -84,6 +85,9 @@ class OverlapCorrection {
   const Options& options() const { return options_; }  ///< as given
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(options_, shifts_); }
+
   /// First-order change of the gap of a contact under the present shifts [m].
   Scalar closing(const BodyDelassus<S>& op, std::size_t c, const Contact<S>& contact) const {
     return op.rows_b(c).col(0).dot(scaled_[contact.b]) -

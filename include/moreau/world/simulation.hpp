@@ -20,23 +20,21 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/periodic_cell.hpp"
 #include "moreau/detect/reduce.hpp"
 #include "moreau/detect/sweep_and_prune.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/integrate/concepts.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
-#include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
-#include "moreau/solve/coloured_gauss_seidel.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/contact_detector.hpp"
+#include "moreau/world/defaults.hpp"
 #include "moreau/world/force_dynamics.hpp"
 #include "moreau/world/impulse_dynamics.hpp"
 #include "moreau/world/overlap_correction.hpp"
@@ -44,14 +42,6 @@
 #include "moreau/world/tolerances.hpp"
 
 namespace moreau {
-
-/// What goes with a law unless the user says otherwise.
-template <class Law, class S>
-using DefaultIntegrator = std::conditional_t<RegularizedLaw<Law, S>, VelocityVerlet, MoreauJean>;
-template <class Law, class S>
-using DefaultSolver = std::conditional_t<
-    RegularizedLaw<Law, S>, NoSolver,
-    std::conditional_t<PointLaw<Law, S>, ColouredGaussSeidel, NonlinearGaussSeidel>>;
 
 /// @tparam ShapeT     of the grains; its Space is the simulation's
 /// @tparam Law        contact law between two materials: set-valued or regularized
@@ -108,13 +98,14 @@ class Simulation {
     require(std::isfinite(density) && density > 0, self, "density", density,
             "must be finite and > 0");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
-    require(std::isfinite(mass.mass) && mass.mass > 0, self, "mass", mass.mass,
-            "must be finite and > 0");
+    require(std::isfinite(mass.mass) && mass.mass > 0 && mass.inertia.allFinite() &&
+                inverse_root<S>(mass.inertia).allFinite(),
+            self, "mass", mass.mass, "must be finite and > 0, as must be the inertia");
     require(mass.center.norm() <= Scalar(1e-3) * grain_size_, self, "center of mass", mass.center,
             "must be the origin of the shape's frame");
     cell().require_room(detector_.room_of(shapes_[shape.index()], lengths()), self);
     const BodyId body = push_body(pose, material, self);
-    set_inertia(body.index(), Vector::Constant(1 / mass.mass), mass.inertia, mass.mass);
+    bodies_.set_mass(body.index(), mass.mass, mass.inertia);
     detector_.add_grain(body, shapes_[shape.index()]);
     grains_.push_back({body, shape});
     return body;
@@ -132,7 +123,6 @@ class Simulation {
     pose.position = point;
     pose.rotation = S::normalized(typename S::Rotation(S::contact_frame(normal)));
     const BodyId body = push_body(pose, material, self);
-    set_inertia(body.index(), Vector::Zero(), S::Inertia::Zero(), 0);
     detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
     walls_.push_back(body);
     return body;
@@ -154,7 +144,8 @@ class Simulation {
     Pose<S> pose;
     pose.position = point;
     const BodyId body = push_body(pose, material, self);
-    detector_.add_wall(body, CylinderWall<S>(axis, radius));
+    drums_.push_back({body, CylinderWall<S>(axis, radius)});
+    detector_.add_wall(body, drums_.back().shape);
     return body;
   }
 
@@ -287,6 +278,32 @@ class Simulation {
     BodyId body;
     ShapeId shape;
   };
+  struct Drum {
+    BodyId body;
+    CylinderWall<S> shape = StateAccess::blank<CylinderWall<S>>();
+  };
+
+  friend struct StateAccess;
+  auto state() {
+    return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, shapes_,
+                    grains_, walls_, drums_, bodies_, contacts_, detector_);
+  }
+  void restored() {
+    const auto exists = [&](BodyId body) { return body.index() < bodies_.size(); };
+    bool valid = bodies_.are_valid(materials_.count()) &&
+                 contacts_.are_valid(bodies_.size(), materials_.laws().size());
+    for (const Grain& grain : grains_)
+      valid = valid && exists(grain.body) && grain.shape.index() < shapes_.size();
+    for (const BodyId wall : walls_) valid = valid && exists(wall);
+    for (const Drum& drum : drums_) valid = valid && exists(drum.body);
+    require(valid, "Simulation", "bodies", bodies_.size(), "must be those that all else is of");
+    detector_.rebuild([&] {
+      for (const Grain& grain : grains_)
+        detector_.add_grain(grain.body, shapes_[grain.shape.index()]);
+      for (const BodyId wall : walls_) detector_.add_wall(wall, HalfSpace<S>(Vector::UnitX()));
+      for (const Drum& drum : drums_) detector_.add_wall(drum.body, drum.shape);
+    });
+  }
 
   static double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
@@ -308,24 +325,8 @@ class Simulation {
   BodyId push_body(const Pose<S>& pose, MaterialId material, const char* function) {
     require(material.index() < materials_.count(), function, "material", material,
             "must be the id of a material");
-    bodies_.pose.push_back(pose);
-    bodies_.velocity.push_back(Twist::Zero());
-    bodies_.force.push_back(Twist::Zero());
-    bodies_.inverse_mass.push_back(Vector::Zero());
-    bodies_.inertia_body.push_back(S::Inertia::Zero());
-    bodies_.inverse_inertia_root_body.push_back(S::Inertia::Zero());
-    bodies_.weight.push_back(0);
-    bodies_.material.push_back(material);
+    bodies_.push_back(pose, material);
     return BodyId(bodies_.size() - 1);
-  }
-
-  void set_inertia(std::size_t i, const Vector& inverse_mass, const typename S::Inertia& inertia,
-                   Scalar weight) {
-    bodies_.inverse_mass[i] = inverse_mass;
-    bodies_.inertia_body[i] = inertia;
-    bodies_.weight[i] = weight;
-    bodies_.inverse_inertia_root_body[i] =
-        weight > 0 ? inverse_root<S>(inertia) : S::Inertia::Zero().eval();
   }
 
   DetectionLengths<Scalar> lengths() const {
@@ -357,6 +358,7 @@ class Simulation {
   std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
   std::vector<Grain> grains_;
   std::vector<BodyId> walls_;
+  std::vector<Drum> drums_;
   Bodies<S> bodies_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Objects to bytes and back. transfer(archive, object) is the one description of what an object is
+// made of, number by number; an archive writes them, reads them, or only notes their kinds. So
+// reading cannot disagree with writing.
+//
+// Numbers have the bytes of the machine. A class takes part as core/state.hpp says.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <locale>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "moreau/core/state.hpp"
+#include "moreau/io/crc64.hpp"
+
+namespace moreau::detail {
+
+/// Converts to any member of an aggregate; only to be asked for, never done.
+struct AnyMember {
+  template <class Member>
+  operator Member() const;  // NOLINT(google-explicit-constructor): it stands for an initializer
+};
+template <class X, std::size_t... Member>
+constexpr bool takes_members(std::index_sequence<Member...>) {
+  return requires {
+    X{(static_cast<void>(Member), AnyMember{})...};
+  };
+}
+/// How many members an aggregate has, if not more than Most.
+template <class X, std::size_t Most = 8>
+constexpr std::size_t member_count() {
+  if constexpr (Most == 0)
+    return 0;
+  else if constexpr (takes_members<X>(std::make_index_sequence<Most>{}))
+    return Most;
+  else
+    return member_count<X, Most - 1>();
+}
+/// References to the members of an aggregate.
+template <class X>
+auto members(X& x) {
+  constexpr std::size_t count = member_count<X>();
+  static_assert(count > 0,
+                "a class that is to be written to a file needs core/state.hpp's state()");
+  if constexpr (count == 1) {
+    auto& [a] = x;
+    return std::tie(a);
+  } else if constexpr (count == 2) {
+    auto& [a, b] = x;
+    return std::tie(a, b);
+  } else if constexpr (count == 3) {
+    auto& [a, b, c] = x;
+    return std::tie(a, b, c);
+  } else if constexpr (count == 4) {
+    auto& [a, b, c, d] = x;
+    return std::tie(a, b, c, d);
+  } else if constexpr (count == 5) {
+    auto& [a, b, c, d, e] = x;
+    return std::tie(a, b, c, d, e);
+  } else if constexpr (count == 6) {
+    auto& [a, b, c, d, e, f] = x;
+    return std::tie(a, b, c, d, e, f);
+  } else if constexpr (count == 7) {
+    auto& [a, b, c, d, e, f, g] = x;
+    return std::tie(a, b, c, d, e, f, g);
+  } else {
+    auto& [a, b, c, d, e, f, g, h] = x;
+    return std::tie(a, b, c, d, e, f, g, h);
+  }
+}
+
+template <class X>
+concept Number = std::is_arithmetic_v<X> || std::is_enum_v<X>;
+template <class X>
+concept EigenArray = std::derived_from<X, Eigen::PlainObjectBase<X>>;
+/// A generator of random numbers, whose state is a text of the standard's.
+template <class X>
+concept RandomEngine = std::uniform_random_bit_generator<X> && requires(X x, std::stringstream s) {
+  s << x;
+  s >> x;
+};
+template <class X>
+inline constexpr bool is_list = false;
+template <class X>
+inline constexpr bool is_list<std::vector<X>> = true;
+template <class X>
+inline constexpr bool is_list<std::deque<X>> = true;
+template <>
+inline constexpr bool is_list<std::string> = true;
+template <class X>
+inline constexpr bool is_array = false;
+template <class X, std::size_t Count>
+inline constexpr bool is_array<std::array<X, Count>> = true;
+template <class X>
+inline constexpr bool is_variant = false;
+template <class... Kinds>
+inline constexpr bool is_variant<std::variant<Kinds...>> = true;
+
+template <class Archive, class X>
+void transfer(Archive& archive, X& x) {
+  if constexpr (Number<X>) {
+    archive.number(x);
+  } else if constexpr (EigenArray<X>) {
+    archive.extent(x);
+    for (Eigen::Index i = 0; i < x.size(); ++i) archive.number(x.data()[i]);
+  } else if constexpr (requires { x.coeffs(); }) {  // Quaternion
+    transfer(archive, x.coeffs());
+  } else if constexpr (requires { x.smallestPositiveAngle(); }) {  // Rotation2D
+    archive.number(x.angle());
+  } else if constexpr (is_list<X>) {
+    archive.list(x);
+  } else if constexpr (is_array<X>) {
+    for (auto& item : x) transfer(archive, item);
+  } else if constexpr (is_variant<X>) {
+    archive.choice(x);
+  } else if constexpr (RandomEngine<X>) {
+    archive.text(x);
+  } else if constexpr (StateAccess::has_state<X>()) {
+    std::apply([&](auto&... part) { (transfer(archive, part), ...); }, StateAccess::state(x));
+    archive.done(x);
+  } else if constexpr (!std::is_empty_v<X>) {
+    std::apply([&](auto&... part) { (transfer(archive, part), ...); }, members(x));
+  }
+}
+
+/// Appends what it is given to its bytes. Objects are not changed.
+class ArchiveWriter {
+ public:
+  std::string bytes;
+
+  void number(const auto& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); }
+  template <class X>
+  void extent(X& x) {
+    if constexpr (X::SizeAtCompileTime == Eigen::Dynamic) {
+      number(static_cast<std::uint64_t>(x.rows()));
+      number(static_cast<std::uint64_t>(x.cols()));
+    }
+  }
+  void list(auto& items) {
+    number(static_cast<std::uint64_t>(items.size()));
+    for (auto& item : items) transfer(*this, item);
+  }
+  void choice(auto& variant) {
+    number(static_cast<std::uint64_t>(variant.index()));
+    std::visit([this](auto& kind) { transfer(*this, kind); }, variant);
+  }
+  void text(auto& engine) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << engine;
+    std::string state = out.str();
+    list(state);
+  }
+  void done(auto&) {}
+};
+
+/// Reads what an ArchiveWriter wrote. Throws std::runtime_error where the bytes cannot be that of
+/// the object; asks for no more memory than some times their number.
+class ArchiveReader {
+ public:
+  explicit ArchiveReader(std::string_view bytes) : left_(bytes) {}
+
+  std::size_t left() const { return left_.size(); }
+
+  template <class X>
+  void number(X& x) {
+    if (sizeof x > left_.size()) throw std::runtime_error("ends within an object");
+    if constexpr (std::same_as<X, bool>) {
+      if (static_cast<unsigned char>(left_[0]) > 1) throw std::runtime_error("has no such bool");
+      x = left_[0] != 0;
+    } else {
+      std::memcpy(&x, left_.data(), sizeof x);
+    }
+    left_.remove_prefix(sizeof x);
+  }
+  template <class X>
+  void extent(X& x) {
+    if constexpr (X::SizeAtCompileTime == Eigen::Dynamic) {
+      const std::size_t rows = count(), columns = count();
+      const auto fits = [](std::size_t n, Eigen::Index fixed) {
+        return fixed == Eigen::Dynamic || n == static_cast<std::size_t>(fixed);
+      };
+      if (!fits(rows, X::RowsAtCompileTime) || !fits(columns, X::ColsAtCompileTime) ||
+          (columns > 0 && rows > left_.size() / columns))
+        throw std::runtime_error("has a matrix of another size than it can have");
+      x.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+    }
+  }
+  template <class List>
+  void list(List& items) {
+    using Item = typename List::value_type;
+    items.clear();
+    for (std::size_t more = count(); more > 0; --more) {
+      items.push_back(StateAccess::blank<Item>());
+      transfer(*this, items.back());
+    }
+  }
+  template <class... Kinds>
+  void choice(std::variant<Kinds...>& variant) {
+    std::uint64_t index = 0, kind = 0;
+    number(index);
+    if (index >= sizeof...(Kinds)) throw std::runtime_error("has a kind that does not exist");
+    const auto take = [&]<class Kind>(std::in_place_type_t<Kind>) {
+      if (kind++ == index) transfer(*this, variant.template emplace<Kind>(blank<Kind>()));
+    };
+    (take(std::in_place_type<Kinds>), ...);
+  }
+  template <class Engine>
+  void text(Engine& engine) {
+    std::string state;
+    list(state);
+    std::istringstream in(state);
+    in.imbue(std::locale::classic());
+    if (!(in >> engine)) throw std::runtime_error("has no state of a random engine");
+  }
+  template <class X>
+  void done(X& x) {
+    StateAccess::restored(x);
+  }
+
+ private:
+  template <class X>
+  static X blank() {
+    return StateAccess::blank<X>();
+  }
+  /// Of what follows, each of a byte at least.
+  std::size_t count() {
+    std::uint64_t count = 0;
+    number(count);
+    if (count > left_.size()) throw std::runtime_error("ends within a list");
+    return static_cast<std::size_t>(count);
+  }
+
+  std::string_view left_;
+};
+
+/// Notes of which kinds of numbers an object is made. Two objects of one type have the same outline
+/// unless the type's members have changed between them.
+class ArchiveOutline {
+ public:
+  std::uint64_t checksum() const { return crc64(kinds_); }
+
+  template <class X>
+  void number(const X&) {
+    kinds_ += std::is_floating_point_v<X> ? 'f' : 'i';
+    kinds_ += static_cast<char>('0' + sizeof(X));
+  }
+  void extent(const auto&) { kinds_ += 'm'; }
+  template <class List>
+  void list(List&) {
+    auto item = StateAccess::blank<typename List::value_type>();
+    kinds_ += '[';
+    transfer(*this, item);
+    kinds_ += ']';
+  }
+  template <class... Kinds>
+  void choice(std::variant<Kinds...>&) {
+    const auto note = [&]<class Kind>(std::in_place_type_t<Kind>) {
+      Kind kind = StateAccess::blank<Kind>();
+      kinds_ += '|';
+      transfer(*this, kind);
+    };
+    (note(std::in_place_type<Kinds>), ...);
+  }
+  void text(auto&) { kinds_ += 't'; }
+  void done(auto&) {}
+
+ private:
+  std::string kinds_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// The whole state of a simulation in one file: a run that is stopped and taken up again goes on
+// with the same bits as one that was not.
+//
+//   write_snapshot("run.snapshot", world, steps, random);   // with whatever else belongs to the
+//   run
+//
+//   moreau::Simulation<..> world(..);                       // an empty one of the same type
+//   if (resume) read_snapshot("run.snapshot", world, steps, random);
+//   else        build(world);
+//
+// In the file is all that the next step depends on: bodies, shapes as they were built, materials,
+// walls, periodic cell, solver's options, contacts with their impulses and the laws' memories, the
+// list of pairs with what the narrow phase remembers of them. Not in it are functions of the user,
+// such as those of drives, which take their time from the simulation, and the number of threads,
+// which changes no bit.
+//
+//   "\x89MOREAU\n" | byte order | format | size of the file | outline of the objects
+//   | version of moreau | types | objects | CRC-64 of all before
+//
+// The checksum tells a file that was damaged, not one that was forged: take no snapshots from those
+// whose programs you would not run.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <cxxabi.h>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <typeinfo>
+#include <utility>
+
+#include "moreau/io/archive.hpp"
+#include "moreau/io/crc64.hpp"
+#include "moreau/io/output_file.hpp"
+#include "moreau/version.hpp"
+#include "moreau/world/simulation.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// What every snapshot begins with, whatever its format.
+struct SnapshotHead {
+  static constexpr std::uint32_t this_order = 0x01020304, this_format = 1;
+
+  std::array<char, 8> magic{'\x89', 'M', 'O', 'R', 'E', 'A', 'U', '\n'};
+  std::uint32_t order = this_order, format = this_format;
+  std::uint64_t size = 0;  ///< of the file, checksum included [bytes]
+  std::uint64_t outline = 0;
+};
+static_assert(sizeof(SnapshotHead) == 32);
+
+template <class Solver>
+struct OptionsOf {
+  using type = Solver;
+};
+template <class Solver>
+requires requires {
+  typename Solver::Options;
+}
+struct OptionsOf<Solver> {
+  using type = typename Solver::Options;
+};
+
+/// The types of a snapshot. Which broad phase there is and who visits the contacts does not matter.
+template <class World, class... More>
+struct SnapshotTypes;
+template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
+struct SnapshotTypes<Simulation<ShapeT, Law, Integrator, Broad, Solver>, More...> {
+  using type = std::tuple<ShapeT, Law, Integrator, typename OptionsOf<Solver>::type, More...>;
+
+  static std::string name() {
+    int status = 0;
+    const std::unique_ptr<char, void (*)(void*)> text(
+        abi::__cxa_demangle(typeid(type).name(), nullptr, nullptr, &status), &std::free);
+    return text ? text.get() : typeid(type).name();
+  }
+};
+
+template <class... Objects>
+std::uint64_t outline_of(Objects&... objects) {
+  ArchiveOutline outline;
+  (transfer(outline, objects), ...);
+  return outline.checksum();
+}
+
+/// @throws std::runtime_error unless these are all bytes of a snapshot of this format
+inline SnapshotHead checked_head(std::string_view bytes, const std::string& name) {
+  const auto refuse = [&](const std::string& why) { throw std::runtime_error(name + why); };
+  SnapshotHead head;
+  const std::string_view magic(head.magic.data(), head.magic.size());
+  if (bytes.substr(0, magic.size()) != magic.substr(0, bytes.size()))
+    refuse(" is no snapshot of moreau");
+  if (bytes.size() < sizeof head + sizeof(std::uint64_t))
+    refuse(" is truncated: " + std::to_string(bytes.size()) + " bytes");
+  std::memcpy(&head, bytes.data(), sizeof head);
+  if (head.order != SnapshotHead::this_order)
+    refuse(" was written on a machine with another order of bytes, or is corrupted");
+  if (head.format != SnapshotHead::this_format)
+    refuse(" has format " + std::to_string(head.format) +
+           ", moreau " MOREAU_VERSION_STRING " reads " + std::to_string(SnapshotHead::this_format));
+  if (head.size != bytes.size())
+    refuse((bytes.size() < head.size ? " is truncated: " : " is too long: ") +
+           std::to_string(bytes.size()) + " of " + std::to_string(head.size) + " bytes");
+  const std::string_view all_before = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
+  std::uint64_t checksum = 0;
+  std::memcpy(&checksum, bytes.data() + all_before.size(), sizeof checksum);
+  if (checksum != crc64(all_before)) refuse(" is corrupted: its checksum does not fit");
+  return head;
+}
+
+template <class World, class... More>
+void restore(std::string_view bytes, const std::string& name, World& world, More&... more) {
+  const SnapshotHead head = checked_head(bytes, name);
+  bytes.remove_suffix(sizeof(std::uint64_t));
+  ArchiveReader archive(bytes.substr(sizeof head));
+  // On copies: what is refused has changed nothing.
+  World loaded = world;
+  std::tuple<More...> loaded_more(more...);
+  try {
+    std::string version, types;
+    transfer(archive, version);
+    transfer(archive, types);
+    const std::string wanted = SnapshotTypes<World, More...>::name();
+    if (types != wanted) throw std::runtime_error("holds " + types + ", not " + wanted);
+    if (head.outline != outline_of(world, more...))
+      throw std::runtime_error("was written by moreau " + version +
+                               ", whose objects have other members than those of this " +
+                               MOREAU_VERSION_STRING);
+    transfer(archive, loaded);
+    std::apply([&](auto&... one) { (transfer(archive, one), ...); }, loaded_more);
+    if (archive.left() > 0) throw std::runtime_error("holds more than its objects");
+  } catch (const std::exception& error) {
+    throw std::runtime_error(name + ' ' + error.what());
+  }
+  world = std::move(loaded);
+  std::tie(more...) = std::move(loaded_more);
+}
+
+}  // namespace detail
+
+/// The state of a simulation as bytes: the same bytes if and only if the state has the same bits.
+/// @param more whatever else belongs to the run: numbers, strings, vectors, generators of random
+///             numbers, classes that core/state.hpp describes
+template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
+std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
+                     const More&... more) {
+  using World = Simulation<ShapeT, Law, Integrator, Broad, Solver>;
+  // An archive takes references that can be written through; this one only reads.
+  auto& open = const_cast<World&>(world);
+  detail::SnapshotHead head;
+  head.outline = detail::outline_of(open, const_cast<More&>(more)...);
+  detail::ArchiveWriter archive;
+  archive.bytes.resize(sizeof head);
+  std::string version = MOREAU_VERSION_STRING;
+  std::string types = detail::SnapshotTypes<World, More...>::name();
+  transfer(archive, version);
+  transfer(archive, types);
+  transfer(archive, open);
+  (transfer(archive, const_cast<More&>(more)), ...);
+  head.size = archive.bytes.size() + sizeof(std::uint64_t);
+  std::memcpy(archive.bytes.data(), &head, sizeof head);
+  archive.number(crc64(archive.bytes));
+  return std::move(archive.bytes);
+}
+
+/// Gives a simulation, and what else there is, the state that snapshot() took. Everything the
+/// simulation had is replaced but its solver's threads.
+/// @throws std::runtime_error saying why if the bytes are no snapshot, truncated, corrupted, of
+///         another format or of other types; nothing is changed then
+template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
+void restore_snapshot(std::string_view bytes,
+                      Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
+  detail::restore(bytes, "restore_snapshot: what is given", world, more...);
+}
+
+/// Writes a snapshot. A file that is there is replaced as a whole: a reader, or a run that is
+/// killed at any time, finds the old one or the new one.
+/// @throws std::system_error naming the path if the file cannot be written; one that was there is
+///         as it was
+template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
+void write_snapshot(const std::filesystem::path& path,
+                    const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
+                    const More&... more) {
+  write_atomically(path, snapshot(world, more...));
+}
+
+/// Reads what write_snapshot() wrote, into a simulation of the same type; see restore_snapshot().
+/// @throws std::system_error naming the path if the file cannot be read
+/// @throws std::runtime_error naming the path and saying why if the file is refused; nothing is
+///         changed then
+template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
+void read_snapshot(const std::filesystem::path& path,
+                   Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.is_open() || file.bad())
+    throw std::system_error(std::make_error_code(std::errc::io_error),
+                            "read_snapshot: cannot read '" + path.string() + "'");
+  detail::restore(bytes, "read_snapshot: '" + path.string() + "'", world, more...);
+}
+
+}  // namespace moreau

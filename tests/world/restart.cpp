@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// A run that is stopped and taken up again has the same bits as one that was not, and a file that
+// is not whole is refused.
+#include <csignal>
+#include <doctest/doctest.h>
+#include <random>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "moreau/boundary/drive.hpp"
+#include "moreau/io/snapshot.hpp"
+
+#include "io/temporary_folder.hpp"
+#include "world/assemblies.hpp"
+
+using namespace moreau;
+using scenes::BoxOfGrains;
+using scenes::World;
+
+namespace {
+
+/// Steps with the right wall under a harmonic force.
+template <class ShapeT>
+StepReport shake(World<ShapeT>& world, int steps) {
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  const ForceDrive drive(world.walls()[1], -Vector::UnitX(), HarmonicForce(1, 30, 20));
+  StepReport report;
+  for (int k = 0; k < steps; ++k) {
+    drive.apply(world, 5e-4);
+    report = world.step(5e-4);
+  }
+  return report;
+}
+template <class ShapeT>
+BoxOfGrains<ShapeT> shaken_box(int steps) {
+  BoxOfGrains<ShapeT> box(12);
+  box.simulation.set_wall_mass(box.walls[1], 0.1);
+  shake(box.simulation, steps);
+  return box;
+}
+/// Of the same type; all else is different.
+template <class ShapeT>
+World<ShapeT> other_world() {
+  using Law = scenes::LawOf<ShapeT>;
+  return World<ShapeT>(0.1, Materials<Law>(3, Law(0.1)));
+}
+
+/// A few disks that have touched.
+const World<Disk<>>& disks() {
+  static const BoxOfGrains<Disk<>> box = shaken_box<Disk<>>(200);
+  return box.simulation;
+}
+
+std::string refusal(const std::string& bytes) {
+  World<Disk<>> world = other_world<Disk<>>();
+  try {
+    restore_snapshot(bytes, world);
+  } catch (const std::runtime_error& error) {
+    CHECK(world.bodies().size() == 0);
+    return error.what();
+  }
+  return "";
+}
+/// The bytes with others in one place, and the checksum that fits.
+template <class Number>
+std::string with(std::string bytes, std::size_t place, Number number) {
+  std::memcpy(&bytes[place], &number, sizeof number);
+  const std::size_t end = bytes.size() - sizeof(std::uint64_t);
+  const std::uint64_t checksum = crc64(std::string_view(bytes).substr(0, end));
+  std::memcpy(&bytes[end], &checksum, sizeof checksum);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("N + M steps are N steps, a restart and M steps", ShapeT, Polyhedron<>,
+                   Polygon<>, Sphere<Space<3>>, Disk<>) {
+  const TemporaryFolder folder("restart");
+  const auto path = folder / "run.snapshot";
+  BoxOfGrains<ShapeT> box = shaken_box<ShapeT>(150);
+  write_snapshot(path, box.simulation);
+  World<ShapeT> other = other_world<ShapeT>();
+  read_snapshot(path, other);
+  REQUIRE(snapshot(other) == snapshot(box.simulation));
+  const StepReport one = shake(box.simulation, 150), two = shake(other, 150);
+  CHECK(snapshot(other) == snapshot(box.simulation));
+  CHECK(one.points > 10);
+  CHECK(one.warm_started == two.warm_started);
+  CHECK(one.candidate_pairs == two.candidate_pairs);
+  CHECK(one.solve.sweeps == two.solve.sweeps);
+  CHECK(one.dissipation == two.dissipation);
+}
+
+TEST_CASE("what else belongs to a run goes with it") {
+  std::mt19937_64 random(1);
+  random.discard(1000);
+  const int steps = 200;
+  const std::string note = "at rest";
+  const std::string bytes = snapshot(disks(), random, steps, note);
+  World<Disk<>> world = other_world<Disk<>>();
+  std::mt19937_64 random_back;
+  int steps_back = 0;
+  std::string note_back;
+  restore_snapshot(bytes, world, random_back, steps_back, note_back);
+  CHECK(random_back == random);
+  CHECK(steps_back == 200);
+  CHECK(note_back == "at rest");
+  CHECK_THROWS_WITH_AS(restore_snapshot(bytes, world), doctest::Contains("holds std::tuple<"),
+                       std::runtime_error);
+}
+
+TEST_CASE("any flipped byte and any cut is refused") {
+  const std::string bytes = snapshot(disks());
+  CHECK(refusal(bytes) == "");
+  for (std::size_t k = 0; k < bytes.size(); k += k < 300 ? 1 : 7) {
+    std::string flipped = bytes;
+    flipped[k] = static_cast<char>(flipped[k] ^ (1 << k % 8));
+    CHECK(refusal(flipped) != "");
+    CHECK(refusal(bytes.substr(0, k)).find("truncated") != std::string::npos);
+  }
+  CHECK(crc64("123456789") == 0x995dc9bbdf1939fa);
+}
+
+TEST_CASE("a refusal says why") {
+  const TemporaryFolder folder("restart");
+  const std::string bytes = snapshot(disks());
+  CHECK(refusal("t,f,x\n0,0,0\n") == "restore_snapshot: what is given is no snapshot of moreau");
+  CHECK(refusal(with(bytes, 8, std::uint32_t(0x04030201))).find("order of bytes") !=
+        std::string::npos);
+  CHECK(refusal(with(bytes, 12, std::uint32_t(7)))
+            .find("has format 7, moreau " MOREAU_VERSION_STRING " reads 1") != std::string::npos);
+  CHECK(refusal(bytes + "x").find("is too long: ") != std::string::npos);
+  CHECK(
+      refusal(with(bytes, 24, std::uint64_t(0))).find("written by moreau " MOREAU_VERSION_STRING) !=
+      std::string::npos);
+  std::string corrupted = bytes;
+  corrupted[corrupted.size() / 2] ^= 1;
+  CHECK(refusal(corrupted) ==
+        "restore_snapshot: what is given is corrupted: its checksum does not fit");
+
+  const auto path = folder / "disks.snapshot";
+  write_snapshot(path, disks());
+  World<Polygon<>> polygons = other_world<Polygon<>>();
+  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons),
+                       doctest::Contains("holds std::tuple<moreau::Sphere<"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains(path.c_str()),
+                       std::runtime_error);
+  CHECK_THROWS_WITH_AS(read_snapshot(folder / "none", polygons), doctest::Contains("cannot read"),
+                       std::system_error);
+}
+
+TEST_CASE("a disk that is full and a folder that is missing leave the old file") {
+  const TemporaryFolder folder("restart");
+  const auto path = folder / "run.snapshot";
+  write_snapshot(path, disks());
+  const std::string before = read(path);
+  CHECK_THROWS_AS(write_snapshot(folder / "missing" / "run.snapshot", disks()), std::system_error);
+  CHECK_THROWS_AS(write_snapshot(path / "below", disks()), std::system_error);
+
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit little{before.size() / 2, limit.rlim_max};
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &little);
+  CHECK_THROWS_WITH_AS(write_snapshot(path, disks()), doctest::Contains("cannot write"),
+                       std::system_error);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, old);
+  CHECK(read(path) == before);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.snapshot.part"));
+}
+
+TEST_CASE("a run that is killed while it writes leaves a whole snapshot") {
+  const TemporaryFolder folder("restart");
+  const auto path = folder / "run.snapshot";
+  const std::string one = snapshot(disks(), 1), two = snapshot(disks(), 2);
+  write_atomically(path, one);
+  for (int k = 0; k < 20; ++k) {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    while (child == 0) {
+      write_atomically(path, two);
+      write_atomically(path, one);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500 + 331 * k));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const std::string found = read(path);
+    CHECK((found == one || found == two));
+  }
+  std::ofstream(folder / "run.snapshot.part") << "half";
+  write_snapshot(path, disks(), 3);
+  World<Disk<>> world = other_world<Disk<>>();
+  int number = 0;
+  read_snapshot(path, world, number);
+  CHECK(number == 3);
+}
