@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One shape under every law of the library, each with the integrator that goes with it.
+// Grains of a shape, or of several, under every law of the library, each with the integrator that
+// goes with it.
 #pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -24,34 +29,39 @@ moreau::HertzMindlin<T> stiff_spheres(T mass) {
   return moreau::HertzMindlin<T>::of_material(T(4e10) * mass, T(0.3), T(0.4), T(0.5));
 }
 
-/// @param shape of about a centimetre
-/// @param size  diameter of a ball around it [m]
+/// @param shapes of about a centimetre
+/// @param size   diameter of a ball around any of them [m]
 template <class ShapeT>
-void all_laws(const ShapeT& shape, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT>::Scalar size) {
   using T = typename moreau::SpaceOf<ShapeT>::Scalar;
   const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
-  const T mass = shape.mass_properties(T(1000)).mass;
+  T mass = std::numeric_limits<T>::infinity();  // of the lightest
+  for (const ShapeT& shape : shapes) mass = std::min(mass, shape.mass_properties(T(1000)).mass);
   SUBCASE("SignoriniCoulomb") {
-    world(shape, coulomb, size);
+    world(shapes, coulomb, size);
   }
   SUBCASE("SignoriniCoulomb with restitution and static friction") {
-    world(shape, moreau::SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)), size);
+    world(shapes, moreau::SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)), size);
   }
   SUBCASE("Frictionless") {
-    world(shape, moreau::Frictionless<T>(), size);
+    world(shapes, moreau::Frictionless<T>(), size);
   }
   SUBCASE("Cohesive") {
-    world(shape, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(coulomb, T(1e-3)), size);
+    world(shapes, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(coulomb, T(1e-3)), size);
   }
   SUBCASE("RollingResistance") {
-    world(shape, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
+    world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
   }
   SUBCASE("LinearSpringDashpot") {
-    world(shape, conformance::stiff_springs<T>(mass), size);
+    world(shapes, conformance::stiff_springs<T>(mass), size);
   }
   SUBCASE("HertzMindlin") {
-    world(shape, conformance::stiff_spheres<T>(mass), size);
+    world(shapes, conformance::stiff_spheres<T>(mass), size);
   }
+}
+template <moreau::Shape ShapeT>
+void all_laws(const ShapeT& shape, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  all_laws(std::vector<ShapeT>{shape}, size);
 }
 
 }  // namespace conformance

@@ -128,9 +128,8 @@ class ContactDetector {
 
   /// Contact points of all pairs, sorted by (a, b, feature), with zero impulse.
   /// @param previous contacts of the step before, sorted alike: the memory of the choice of points
-  template <class Law>
   void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
-              std::span<const MaterialId> materials, const Materials<Law>& laws,
+              std::span<const MaterialId> materials, const MaterialPairs& laws,
               const Contacts<S>& previous, Contacts<S>& out) {
     out.clear();
     touching_ = 0;
@@ -248,9 +247,8 @@ class ContactDetector {
     }
   }
 
-  template <class Law>
   void detect_in_cylinders(std::size_t k, Scalar margin, std::span<const MaterialId> materials,
-                           const Materials<Law>& laws, Contacts<S>& out) {
+                           const MaterialPairs& laws, Contacts<S>& out) {
     const Grain& a = grains_[k];
     for (const auto& wall : cylinders_) {
       if (!wall.placed.reaches(boxes_[k], margin)) continue;
@@ -259,18 +257,16 @@ class ContactDetector {
     }
   }
 
-  template <class Law>
   void emit(const Grain& a, const auto& b, std::span<const MaterialId> materials,
-            const Materials<Law>& laws, const Contacts<S>& previous, Contacts<S>& out) {
+            const MaterialPairs& laws, const Contacts<S>& previous, Contacts<S>& out) {
     ++touching_;
     keep_few(a.body.value, b.body.value, previous);
     write(a, b, materials, laws, out);
   }
 
   /// The points of the manifold, seen from the centres of where the two are placed.
-  template <class Law>
   void write(const Grain& a, const auto& b, std::span<const MaterialId> materials,
-             const Materials<Law>& laws, Contacts<S>& out) {
+             const MaterialPairs& laws, Contacts<S>& out) {
     const typename S::Matrix frame = S::contact_frame(manifold_.normal);
     const auto law = static_cast<std::uint32_t>(
         laws.law_index(materials[a.body.index()], materials[b.body.index()]));

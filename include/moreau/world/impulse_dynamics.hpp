@@ -104,7 +104,7 @@ class ImpulseDynamics {
     if constexpr (AttractiveLaw<Law, S>) attract(materials, contacts, step);
     operator_.assemble(contacts.points, roots_, free_);
     report.warm_started = unknowns_.start(operator_, previous, contacts);
-    if constexpr (AttractiveLaw<Law, S>) shift_impulses(materials, contacts, step);
+    if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, 1);
     choose_laws(materials, contacts);
     if (correction_.solve(Unknowns::points(operator_), contacts.points, roots_, grain_size,
                           report.correction))
@@ -115,7 +115,7 @@ class ImpulseDynamics {
                       unknowns_.impulses(contacts), workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(step);
     unknowns_.finish(operator_, contacts);
-    if constexpr (AttractiveLaw<Law, S>) shift_impulses(materials, contacts, -step);
+    if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, -1);
     velocities_after();
     measure_dissipation(bodies, contacts, report);
     integrator_.advance_configuration(bodies, std::span<const Twist>(after_), step);
@@ -127,12 +127,15 @@ class ImpulseDynamics {
 
   static constexpr bool stateful = StatefulLaw<Law, S>;
 
-  /// What the attraction does to the bodies, as if it were an external force.
+  /// What the attraction does to the bodies, as if it were an external force. It is that of the
+  /// gaps as detected, although the correction of overlaps changes them afterwards.
   void attract(const Materials<Law>& materials, const Contacts<S>& contacts, Scalar step) {
-    for (const Contact<S>& contact : contacts.points) {
-      const Scalar force = materials.laws()[contact.law].attraction(contact.gap);
-      if (force == 0) continue;
-      const Vector pull = -step * force * contact.frame.col(0);
+    pulls_.resize(contacts.size());
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Contact<S>& contact = contacts.points[c];
+      pulls_[c] = step * materials.laws()[contact.law].attraction(contact.gap);
+      if (pulls_[c] == 0) continue;
+      const Vector pull = -pulls_[c] * contact.frame.col(0);
       pull_body(contact.b, contact.lever_b, pull);
       pull_body(contact.a, contact.lever_a, -pull);
     }
@@ -143,15 +146,10 @@ class ImpulseDynamics {
     free_[i].template tail<S::angular_dim>() +=
         root.angular * (root.angular * S::moment(lever, pull));
   }
-  /// From the impulse on b to the push against the attraction, or back.
-  void shift_impulses(const Materials<Law>& materials, Contacts<S>& contacts, Scalar step) {
+  /// From the impulse on b to the push against the attraction (sign 1), or back (-1).
+  void shift_impulses(Contacts<S>& contacts, Scalar sign) {
     const auto impulses = unknowns_.impulses(contacts);
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const Contact<S>& contact = contacts.points[c];
-      const Scalar pull = step * materials.laws()[contact.law].attraction(contact.gap);
-      if (pull == 0) continue;
-      impulses[c][0] += pull;
-    }
+    for (std::size_t c = 0; c < contacts.size(); ++c) impulses[c][0] += sign * pulls_[c];
   }
 
   /// The law of each contact in this step: that of its materials, or a variant of it.
@@ -251,6 +249,7 @@ class ImpulseDynamics {
   std::vector<Law> variants_;
   std::vector<std::uint32_t> law_of_;
   std::vector<Vector> before_;
+  std::vector<Scalar> pulls_;  // impulses of the attraction, if there is any
 };
 
 }  // namespace moreau::detail

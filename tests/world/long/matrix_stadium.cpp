@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/shape/capsule.hpp"
+
+#include "conformance/matrix.hpp"
+
+TEST_CASE_TEMPLATE("stadiums under every law", T, double, float) {
+  conformance::all_laws(moreau::Capsule<moreau::Space<2, T>>(T(0.0025), T(0.0025)), T(0.01));
+}
