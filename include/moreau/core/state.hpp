@@ -19,6 +19,7 @@ namespace moreau {
 
 /// The one friend of classes that can be written to a file.
 struct StateAccess {
+  /// Whether X lists its members by state().
   template <class X>
   static constexpr bool has_state() {
     if constexpr (requires(X & x) { x.state(); }) {
@@ -34,6 +35,7 @@ struct StateAccess {
   static auto state(X& x) {
     return x.state();
   }
+  /// Lets x make what follows from its members; its exception if there is no such object.
   template <class X>
   static void restored(X& x) {
     if constexpr (requires { x.restored(); }) x.restored();

@@ -14,6 +14,7 @@ namespace moreau {
 /// Numbers the pairs of materials, whatever the laws between them.
 class MaterialPairs {
  public:
+  /// Of so many materials.
   explicit MaterialPairs(std::size_t count) : count_(count) {}
 
   /// Number of materials.
@@ -22,7 +23,7 @@ class MaterialPairs {
   std::size_t law_index(MaterialId a, MaterialId b) const { return a.index() * count_ + b.index(); }
 
  protected:
-  std::size_t count_;
+  std::size_t count_;  ///< of materials
 };
 
 /// Maps a pair of materials to the law between them. Symmetric; a frictionless wall is a material
