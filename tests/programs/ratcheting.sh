@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # The study as a program: refuses bad values with a message and status 2, gives the same wall.csv
-# twice, leaves valid files when it is interrupted. Argument: the executable.
+# twice and over a restart, leaves valid files when it is interrupted. Argument: the executable.
 set -u
 program=$1
 folder=$(mktemp -d)
@@ -57,6 +57,26 @@ done
 cmp "$folder/one/wall.csv" "$folder/two/wall.csv" || fail "wall.csv differs from run to run"
 [ "$(head -1 "$folder/one/wall.csv")" = "t,f,x,v,f_g" ] || fail "header of wall.csv"
 [ "$(wc -l <"$folder/one/wall.csv")" = 101 ] || fail "wall.csv has not a line per step"
+
+# Killed after a checkpoint and taken up again: the same tables as without.
+"$program" "${small[@]}" --duration 0.02 --checkpoint-every 7 --output "$folder/killed" \
+  >"$folder/killed.log" 2>&1 &
+pid=$!
+for _ in $(seq 3000); do
+  [ -e "$folder/killed/checkpoint.snapshot" ] && break
+  sleep 0.01
+done
+kill -KILL "$pid" 2>/dev/null
+wait "$pid" 2>/dev/null
+"$program" "${small[@]}" --duration 0.02 --resume --output "$folder/killed" >"$folder/resumed.log" 2>&1 ||
+  fail "resumed run: $(tail -3 "$folder/resumed.log")"
+grep -q "going on after" "$folder/resumed.log" || fail "nothing was resumed"
+for table in wall packing state; do
+  cmp "$folder/one/$table.csv" "$folder/killed/$table.csv" || fail "$table.csv of a resumed run"
+done
+said=$("$program" "${small[@]}" --duration 0.02 --seed 2 --resume --output "$folder/killed" 2>&1)
+[ $? = 2 ] || fail "a checkpoint of other parameters was taken up"
+grep -qF "other parameters" <<<"$said" || fail "a checkpoint of other parameters: $said"
 
 "$program" "${small[@]}" --duration 100 --output "$folder/stopped" >"$folder/stopped.log" 2>&1 &
 pid=$!
