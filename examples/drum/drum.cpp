@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Grains in a slowly turning drum: how steep is the surface they flow down? Prints the mean dynamic
-// angle of repose; writes it over time (drum.csv) and the grains at the end (drum.vtp, for
-// ParaView):
+// angle of repose; writes it over time (drum.csv) and the grains at the end: drum.vtp for ParaView,
+// and in the plane drum.png, where light grains are fast ones.
 //
 //   gnuplot -p -e 'set datafile separator ","; plot "drum.csv" using 1:2 skip 1 with lines'
 //
@@ -17,6 +17,10 @@
 #include "moreau/io/csv.hpp"
 #include "moreau/io/vtk.hpp"
 #include "moreau/sample/ballast.hpp"
+
+#include "../ratcheting/render.hpp"  // the renderer of the study
+
+using Law = moreau::SignoriniCoulomb<double>;
 
 namespace setup {
 constexpr double radius = 0.1, slice = 0.03;  // of the drum, depth in space [m]
@@ -57,10 +61,28 @@ double angle_of_repose(const Simulation& world) {
   return std::atan2(std::abs(sum[0]), -sum[Simulation::S::dim - 1]) * 180 / std::numbers::pi;
 }
 
+void draw(const moreau::Simulation<moreau::Polygon<double>, Law>& world) {
+  const Eigen::Vector2d corner = Eigen::Vector2d::Constant(setup::radius);
+  ratcheting::Drawing drawing(-corner, corner, 700, 700);
+  const auto circle = [](double angle) -> Eigen::Vector2d {
+    return setup::radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  };
+  std::vector<Eigen::Vector2d> rim;
+  for (int k = 0; k < 200; ++k) rim.push_back(circle(std::numbers::pi * k / 100));
+  for (std::size_t k = 0; k < world.grain_count(); ++k) {
+    const std::size_t i = world.grain(k).index();
+    const double speed = world.bodies().velocity[i].head<2>().norm();
+    const auto color = ratcheting::speed_color(speed / (3 * setup::rate * setup::radius));
+    ratcheting::detail::draw_grain(world.shape_of_grain(k), world.bodies().pose[i], color, drawing);
+  }
+  drawing.outline(rim, ratcheting::screen_color(0x4A4F57), 4);
+  ratcheting::write_png("drum.png", drawing.finished());
+}
+void draw(const auto&) {}
+
 template <class Shape>
 void run() {
   using S = moreau::SpaceOf<Shape>;
-  using Law = moreau::SignoriniCoulomb<double>;
   constexpr int up = S::dim - 1;
   std::mt19937_64 random(1);
   moreau::Tolerances tolerances;
@@ -89,6 +111,7 @@ void run() {
       "drum.vtp", world.grain_count(), [&](std::size_t k) { return world.shape_of_grain(k); },
       [&](std::size_t k) { return bodies.pose[world.grain(k).index()]; },
       [&](std::size_t k) { return bodies.velocity[world.grain(k).index()]; });
+  draw(world);
   std::cout << world.grain_count() << " grains, angle of repose " << sum / count << " degrees\n";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Several kinds of grains in one simulation: balls and rods among dice. The kind of a pair is found
-// by one visit; a simulation of one kind alone has none of this.
+// by one visit; a simulation of one kind alone has none of this. Draws mixed_shapes.png.
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
@@ -8,6 +8,8 @@
 #include <moreau/moreau.hpp>
 #include <string>
 #include <vector>
+
+#include "../ratcheting/render.hpp"  // the renderer of the study
 
 using S = moreau::Space<3>;
 using Vector = S::Vector;
@@ -26,15 +28,30 @@ int main() {
                                    world.add_shape(Rod(0.01, 0.007))};
   for (int k = 0; k < 80; ++k)
     world.add_grain(kinds[k % 3],
-                    {{0.02 + 0.035 * (k % 2), 0.02 + 0.035 * (k / 2 % 2), 0.02 + 0.035 * (k / 4)},
+                    {{0.02 + 0.035 * (k % 4), 0.02 + 0.035 * (k / 4 % 4), 0.02 + 0.035 * (k / 16)},
                      S::exp({0.5 * k, 0.2 * k, 0.1})},
                     2700);
   for (int axis = 0; axis < 3; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
   for (int axis = 0; axis < 2; ++axis)
-    world.add_wall(-Vector::Unit(axis), 0.075 * Vector::Unit(axis));
+    world.add_wall(-Vector::Unit(axis), 0.145 * Vector::Unit(axis));
   world.set_gravity({0, 0, -9.81});
 
   for (int step = 0; step < 2000; ++step) world.step(5e-4);
+
+  const unsigned colors[] = {0xB3562E, 0xD3C1A5, 0x3F6E8C};
+  ratcheting::Picture picture;
+  picture.width = picture.height = 700;
+  picture.walls = false;
+  ratcheting::write_png(
+      "mixed_shapes.png",
+      ratcheting::render_packing(
+          moreau::Aabb<S>{{0, 0, 0}, {0.145, 0.145, 0.1}}, world.grain_count(),
+          [&](std::size_t k) { return world.shape_of_grain(k); },
+          [&](std::size_t k) { return world.bodies().pose[world.grain(k).index()]; },
+          [&](std::size_t k) {
+            return ratcheting::screen_color(colors[world.shape_of_grain(k).index()]);
+          },
+          picture));
 
   // What touches what.
   const char* names[] = {"ball", "die", "rod"};

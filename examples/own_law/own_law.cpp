@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A contact law of one's own: greased faces. Normal impulses obey Signorini's condition; the
 // tangential one is viscous, r_t = -drag u_t. A crate on a slope then slides at the speed where the
-// drag of its contact points balances its weight.
+// drag of its contact points balances its weight. Prints its speed, which plot.gp draws:
+//
+//   own_law > own_law.txt; gnuplot plot.gp
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -59,9 +61,16 @@ int main() {
   const auto crate = simulation.add_grain(shape, pose, 500);
   simulation.add_wall({0, 1}, {0, 0});
   simulation.set_gravity({9.81 * std::sin(slope), -9.81 * std::cos(slope)});
-  for (int k = 0; k < 20000; ++k) simulation.step(step);
   const double mass = simulation.bodies().weight[crate.index()];
-  const double expected = mass * 9.81 * std::sin(slope) / (2 * viscosity);  // two contact points
-  std::printf("speed %.6f m/s, expected %.6f m/s\n", simulation.bodies().velocity[crate.index()][0],
-              expected);
+  const double drag = 2 * viscosity;  // of two contact points
+  std::printf("# t [s], speed [m/s], expected [m/s]\n");
+  for (int k = 0; k <= 6000; ++k) {
+    if (k % 200 == 0) {
+      const double t = simulation.time();
+      const double expected =
+          mass * 9.81 * std::sin(slope) / drag * (1 - std::exp(-drag * t / mass));
+      std::printf("%.1f %.6f %.6f\n", t, simulation.bodies().velocity[crate.index()][0], expected);
+    }
+    simulation.step(step);
+  }
 }

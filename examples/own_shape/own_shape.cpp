@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A shape of your own: the body sum |x_i / a_i|^p <= 1 offers its farthest points, a box and a
+<<<<<<< HEAD
 // mass, and the library does the rest. Twenty of them fall on a floor.
 #include <chrono>
+=======
+// mass, and the library does the rest. Twenty of them fall on a floor; own_shape.png shows them.
+>>>>>>> policies
 #include <cmath>
 #include <iostream>
 #include <moreau/moreau.hpp>
 #include <moreau/shape/support_box.hpp>
+
+#include "../ratcheting/render.hpp"  // the renderer of the study
 
 using S = moreau::Space<3>;
 
@@ -72,6 +78,17 @@ int main() {
     report = world.step(1e-3);
     deepest = std::max(deepest, report.max_overlap);
   }
+  ratcheting::Picture picture;
+  picture.width = picture.height = 700;
+  picture.walls = false;
+  ratcheting::write_png(
+      "own_shape.png",
+      ratcheting::render_packing(
+          moreau::Aabb<S>{{-0.07, -0.07, 0}, {0.13, 0.13, 0.05}}, world.grain_count(),
+          [&](std::size_t k) { return world.shape_of_grain(k); },
+          [&](std::size_t k) { return world.bodies().pose[world.grain(k).index()]; },
+          [&](std::size_t k) { return ratcheting::stone_color(0.05 * double(k), k); }, picture));
+
   double height = 0;
   for (std::size_t k = 0; k < world.grain_count(); ++k)
     height += world.bodies().pose[world.grain(k).index()].position.z() / 20;

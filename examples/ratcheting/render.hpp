@@ -50,6 +50,7 @@ struct Picture {
   int width = 1200, height = 1000;  ///< [pixels]
   double azimuth = 32;              ///< of the eye, from the front towards +x [degrees]
   double elevation = 22;            ///< of the eye above the middle of the box [degrees]
+  bool walls = true;                ///< whether the box is drawn, too, with its moving wall
 };
 
 namespace detail {
@@ -210,7 +211,7 @@ Image render_packing(const moreau::Aabb<moreau::Space<3, T>>& box, std::size_t g
   Image image(view.width, view.height, screen_color(0xFFFFFF));
   shade(scene, seen, Lighting(scene, middle, 0.62f * size), detail::oversampling, image);
   draw_edges(scene, seen, detail::oversampling / 2, image);
-  detail::draw_box(container, seen, image);
+  if (picture.walls) detail::draw_box(container, seen, image);
   return image.reduced(detail::oversampling);
 }
 
@@ -225,7 +226,7 @@ Image render_packing(const moreau::Aabb<moreau::Space<2, T>>& box, std::size_t g
   for (std::size_t k = 0; k < grain_count; ++k)
     detail::draw_grain(shape_of(k), pose_of(k), color_of(k), drawing);
   detail::draw_chains(chains, 5, drawing);
-  detail::draw_walls(box, drawing);
+  if (picture.walls) detail::draw_walls(box, drawing);
   return drawing.finished();
 }
 

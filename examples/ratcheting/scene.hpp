@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
@@ -10,7 +12,7 @@
 
 #include "moreau/core/pose.hpp"
 #include "moreau/shape/concepts.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/one_of.hpp"
 
 #include "image.hpp"
 #include "rasterizer.hpp"
@@ -40,28 +42,38 @@ class Scene {
     colors_.push_back(color);
   }
 
-  template <class T>
-  void add_grain(const moreau::Ball<T>& ball, const moreau::Pose<moreau::Space<3, T>>& pose,
-                 const Color& color) {
+  /// A round body, known by its farthest points.
+  template <moreau::ConvexShape Shape>
+  requires(!moreau::Polytope<Shape>) void add_grain(
+      const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose, const Color& color) {
+    using Vector = typename Shape::Vector;
     constexpr int meridians = 32, parallels = 16;
-    const Vector3f center = pose.position.template cast<float>();
-    const auto direction = [](int i, int j) -> Vector3f {
+    const auto corner = [&](int i, int j) -> std::array<Vector3f, 2> {
       const float phi = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / meridians;
       const float theta = std::numbers::pi_v<float> * static_cast<float>(j) / parallels;
-      return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+      const Vector3f n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                       std::cos(theta));
+      const Vector direction = n.cast<typename Shape::Space::Scalar>();
+      return {pose(shape.support(direction)).template cast<float>(),
+              (pose.rotation * direction).template cast<float>()};
     };
-    const auto add = [&](const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-      const auto r = static_cast<float>(ball.radius());
-      triangles_.push_back(
-          {{center + r * a, center + r * b, center + r * c}, {a, b, c}, object(), 0});
+    const auto add = [&](const auto& a, const auto& b, const auto& c) {
+      triangles_.push_back({{a[0], b[0], c[0]}, {a[1], b[1], c[1]}, object(), 0});
     };
     for (int i = 0; i < meridians; ++i)
       for (int j = 0; j < parallels; ++j) {
-        if (j > 0) add(direction(i, j), direction(i, j + 1), direction(i + 1, j));
-        if (j + 1 < parallels)
-          add(direction(i + 1, j), direction(i, j + 1), direction(i + 1, j + 1));
+        if (j > 0) add(corner(i, j), corner(i, j + 1), corner(i + 1, j));
+        if (j + 1 < parallels) add(corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1));
       }
     colors_.push_back(color);
+  }
+
+  /// What it is.
+  template <class... Shapes>
+  void add_grain(const moreau::OneOf<Shapes...>& shape,
+                 const moreau::Pose<moreau::SpaceOf<moreau::OneOf<Shapes...>>>& pose,
+                 const Color& color) {
+    shape.visit([&](const auto& held) { add_grain(held, pose, color); });
   }
 
   /// The ground: a square at the height of `middle` that fades into the background between

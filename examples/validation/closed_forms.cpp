@@ -3,7 +3,9 @@
 #include "cases/boxes.hpp"
 #include "cases/flight.hpp"
 #include "cases/incline.hpp"
+#include "cases/laws.hpp"
 #include "cases/rolling.hpp"
+#include "cases/rolling_off.hpp"
 #include "suite.hpp"
 
 namespace validation {
@@ -16,7 +18,9 @@ std::vector<Case> closed_forms() {
           {"oblique_impact", oblique_impact, false},
           {"toppling_block", toppling_block, false},
           {"rocking_block", rocking_block, false},
-          {"asymmetric_top", asymmetric_top, false}};
+          {"asymmetric_top", asymmetric_top, false},
+          {"off_a_ball", off_a_ball, false},
+          {"laws", other_laws, false}};
 }
 
 }  // namespace validation

@@ -32,13 +32,23 @@ inline moreau::ColouredOptions tight(double tolerance = 1e-12) {
   return options;
 }
 
+/// The solver that goes with the law.
+template <class ShapeT, class Law>
+auto solver_of(const moreau::ColouredOptions& options) {
+  using Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>;
+  typename Solver::Options own;
+  own.tolerance = options.tolerance;
+  own.max_sweeps = options.max_sweeps;
+  return Solver(own);
+}
+
 template <class ShapeT, class Law>
 World<ShapeT, Law> world_of(double size, const Law& law,
                             const moreau::ColouredOptions& options = tight(),
                             const moreau::Tolerances& tolerances = {}) {
   const Materials<Law> materials(1, law);
   if constexpr (moreau::SetValuedLaw<Law, SpaceOf<ShapeT>>)
-    return World<ShapeT, Law>(size, materials, moreau::ColouredGaussSeidel(options), tolerances);
+    return World<ShapeT, Law>(size, materials, solver_of<ShapeT, Law>(options), tolerances);
   else
     return World<ShapeT, Law>(size, materials, tolerances);
 }

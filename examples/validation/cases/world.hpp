@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"
+
+// Compiled once, in worlds/.
+extern template class moreau::Polyhedron<double>;
+extern template class moreau::Polygon<double>;
 
 namespace validation {
 
@@ -19,6 +25,8 @@ using Disk = moreau::Sphere<moreau::Space<2>>;
 
 using Coulomb = moreau::SignoriniCoulomb<double>;
 using Frictionless = moreau::Frictionless<double>;
+using Sticky = moreau::Cohesive<Coulomb>;
+using Rolling = moreau::RollingResistance<double>;
 using Springs = moreau::LinearSpringDashpot<double>;
 using Hertz = moreau::HertzMindlin<double>;
 

@@ -64,3 +64,12 @@ if (has("top")) {
   plot file("top") using 1:3 skip 1 with lines lc rgb red title "exact", \
        '' using 1:2 skip 1 with points pt 7 ps 0.6 lc rgb blue title "measured"
 }
+if (has("shear_2d")) {
+  set output folder."/shear_2d.png"
+  unset logscale
+  set key left top
+  set xlabel "inertial number I"
+  set ylabel "effective friction"
+  plot file("shear_2d") using 1:3 skip 1 with lines lc rgb red title "0.25 + 1.1 I", \
+       '' using 1:2 skip 1 with points pt 7 lc rgb blue title "measured"
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cases/world_impl.hpp"
 
+template class moreau::Polygon<double>;
+
 namespace validation {
 template moreau::StepReport World<Polygon, Coulomb>::step(double);
 }  // namespace validation

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cases/world_impl.hpp"
 
+template class moreau::Polyhedron<double>;
+
 namespace validation {
 template moreau::StepReport World<Polyhedron, Coulomb>::step(double);
 }  // namespace validation

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// What static friction, adhesion and rolling resistance add to Coulomb's law.
+#pragma once
+
+#include "scene.hpp"
+
+namespace validation {
+
+/// On a floor that speeds up by a, a ball rolls without slip iff a <= (1 + 1/k) mu_s g, k = I/(m
+/// R^2); where it slips it speeds up by mu g. (Blocks do not tell mu_s: which of their points sits
+/// on its cone is not unique, and one that slips has less friction from then on.)
+template <class ShapeT>
+void static_friction(Record& record) {
+  using S = SpaceOf<ShapeT>;
+  const double mu = 0.3, resting = 0.4, h = 1e-3, radius = 0.05,
+               unit = (1 + 1 / gyration<S>)*gravity;
+  struct Ride {
+    double slip, acceleration;
+  };
+  const auto ride = [&](double share) -> Ride {
+    OnFloor<ShapeT> scene(ShapeT(radius), radius, Coulomb(mu, 0, resting));
+    const BodyId floor = scene.world.walls()[0];
+    double start = 0;
+    for (int k = 1; k <= 100; ++k) {
+      scene.world.set_velocity(floor, share * unit * h * k * S::Vector::UnitX());
+      scene.world.step(h);
+      if (k == 50) start = scene.along();
+    }
+    const double slip = share * unit * h * 100 - scene.along() - radius * scene.spin();
+    return {slip, (scene.along() - start) / (50 * h)};
+  };
+  const std::string name = with_shape<ShapeT>("static friction") + ": ";
+  record.compare(name + "slips on a floor that speeds up by so many (1 + 1/k) g", S::dim, resting,
+                 threshold(resting - 1e-4, resting + 1e-4, 12,
+                           [&](double share) { return ride(share).slip > 1e-8; }),
+                 1e-6);
+  record.compare(name + "acceleration in slip [m/s^2]", S::dim, mu * gravity,
+                 ride(0.8).acceleration, 1e-9);
+}
+
+/// A ball under a ceiling falls iff it weighs more than the adhesion. On a floor without gravity
+/// the adhesion N alone presses a sliding ball, which then rolls at v0/(1 + k) from the time
+/// v0 k/((1 + k) mu N/m) on.
+template <class ShapeT>
+void adhesion(Record& record) {
+  using S = SpaceOf<ShapeT>;
+  const double radius = 0.05, range = 1e-6, mu = 0.3, k = gyration<S>;
+  const double mass = ShapeT(radius).mass_properties(1000).mass;
+  const std::string name = with_shape<ShapeT>("adhesion") + ": ";
+  const auto falls = [&](double share) {
+    OnFloor<ShapeT, Sticky> scene(ShapeT(radius), radius,
+                                  Sticky(Coulomb(mu), mass * gravity / share, range));
+    scene.world.set_gravity(gravity * S::Vector::Unit(S::dim - 1));
+    for (int step = 0; step < 50; ++step) scene.world.step(1e-3);
+    return scene.upward() > 1e-8;
+  };
+  record.compare(name + "a ball falls from the ceiling at weight over adhesion", S::dim, 1,
+                 threshold(1 - 1e-4, 1 + 1e-4, 12, falls), 1e-6);
+
+  const double h = 1e-3, pull = 5, exact = k / (1 + k) / (mu * pull);
+  OnFloor<ShapeT, Sticky> scene(ShapeT(radius), radius, Sticky(Coulomb(mu), mass * pull, range));
+  scene.world.set_gravity(S::Vector::Zero());
+  scene.world.set_velocity(scene.grain, S::Vector::UnitX());
+  double slip = 0, start = 0;
+  while (scene.world.time() < 0.4) {
+    scene.world.step(h);
+    if (std::abs(scene.along() - radius * scene.spin()) > 1e-9) start = scene.world.time();
+    if (scene.world.time() < 0.5 * exact)
+      slip = std::max(slip, std::abs(scene.along() - 1 + mu * pull * scene.world.time()));
+  }
+  record.vanishes(name + "error of v in slip [m/s]", S::dim, slip, 1e-9);
+  record.vanishes(name + "error of the start of rolling, over h", S::dim,
+                  std::abs(start - exact) / h, 1 + 1e-9);
+  record.compare_relative(name + "speed of rolling", S::dim, 1 / (1 + k), scene.along(), 1e-9);
+}
+
+/// A ball on an incline stays iff tan(tilt) <= eta, else rolls at g (sin - eta cos)/(1 + k): a
+/// couple of at most eta R N resists (K. Iwashita and M. Oda, J. Eng. Mech. 124 (1998) 285).
+template <class ShapeT>
+void rolling_resistance(Record& record) {
+  using S = SpaceOf<ShapeT>;
+  const double radius = 0.05, eta = 0.1, h = 1e-3;
+  const auto roll = [&](double slope) {
+    OnFloor<ShapeT, Rolling> scene(ShapeT(radius), radius, Rolling(0.5, eta), std::atan(slope));
+    for (int k = 0; k < 50; ++k) scene.world.step(h);
+    const double start = scene.along();
+    for (int k = 0; k < 50; ++k) scene.world.step(h);
+    return std::pair(scene.along(), (scene.along() - start) / (50 * h));
+  };
+  const std::string name = with_shape<ShapeT>("rolling resistance") + ": ";
+  record.compare(
+      name + "a ball rolls from tan(tilt)", S::dim, eta,
+      threshold(eta - 1e-4, eta + 1e-4, 12, [&](double slope) { return roll(slope).first > 1e-8; }),
+      1e-6);
+  const double tilt = std::atan(0.3);
+  record.compare(name + "acceleration [m/s^2]", S::dim,
+                 gravity * (std::sin(tilt) - eta * std::cos(tilt)) / (1 + gyration<S>),
+                 roll(0.3).second, 1e-9);
+}
+
+inline void other_laws(Record& record, Effort) {
+  static_friction<Ball>(record);
+  static_friction<Disk>(record);
+  adhesion<Ball>(record);
+  adhesion<Disk>(record);
+  rolling_resistance<Ball>(record);
+  rolling_resistance<Disk>(record);
+}
+
+}  // namespace validation
