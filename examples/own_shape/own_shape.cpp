@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A shape of your own: the body sum |x_i / a_i|^p <= 1 offers its farthest points, a box and a
-<<<<<<< HEAD
-// mass, and the library does the rest. Twenty of them fall on a floor.
-#include <chrono>
-=======
 // mass, and the library does the rest. Twenty of them fall on a floor; own_shape.png shows them.
->>>>>>> policies
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <moreau/moreau.hpp>
