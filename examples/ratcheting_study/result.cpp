@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "active_phase.hpp"
 #include "runner.hpp"
 #include "table.hpp"
 
@@ -83,11 +84,30 @@ void summarize_wall(Result& r) {
       periods, [&](const Period& p) { return (p.dx_max - r.dx_max) * (p.dx_max - r.dx_max); }));
   r.v_max = mean(periods, [](const Period& p) { return p.v_max_passive; });
   r.delay = mean(periods, [](const Period& p) { return p.delay(); });
-  r.thrust = mean(periods, [](const Period& p) { return p.f_g_active; });
   r.net_contraction = mean(periods, [](const Period& p) { return p.jam_before - p.jam_after; });
   r.contracting = 0;
   for (const Period& p : periods) r.contracting += p.jam_after < p.jam_before;
   r.constant = r.dx_max / r.scaled_load();
+}
+
+void summarize_active(const Table& wall, Result& r) {
+  const Parameters& p = r.c.parameters;
+  const double before = time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
+  const double n = double(r.periods.size());
+  double dx = 0, creep = 0, thrust = 0, moved = 0;
+  for (const ratcheting::Period& period : r.periods) {
+    const ActivePhase phase =
+        active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
+                     period.force_minimum - before, period.finish);
+    dx += phase.dx / n;
+    creep += phase.creep / n;
+    if (!std::isfinite(phase.thrust)) continue;
+    thrust += phase.thrust;
+    ++moved;
+  }
+  r.dx_active = n > 0 ? dx : none;
+  r.creep = n > 0 ? creep : none;
+  r.thrust = moved > 0 ? thrust / moved : none;
 }
 
 void summarize_packing(const Table& packing, Result& r) {
@@ -135,6 +155,7 @@ std::optional<Result> read_result(const std::filesystem::path& output, const Cas
     if (period.start >= filling_time - 1e-9) r.periods.push_back(period);
   }
   summarize_wall(r);
+  summarize_active(Table(folder / "wall.csv"), r);
   summarize_packing(Table(folder / "packing.csv"), r);
   return r;
 }

@@ -27,7 +27,8 @@ struct Result {
   std::vector<ratcheting::Period> periods;  ///< that begin jammed, at filling_time or after
   double dx_max, dx_spread;                 ///< mean, standard deviation over periods [m]
   double v_max;                             ///< passive, mean [m/s]
-  double delay, thrust;                     ///< delta t_r [s], f_a [N]
+  double delay;                             ///< delta t_r [s]
+  double dx_active, creep, thrust;          ///< see ActivePhase; thrust: f_a [N]
   double net_contraction;                   ///< (first x_j - last x_j') per period [m]
   std::size_t contracting;                  ///< periods with x_j' < x_j
   double rho_initial, rho_0, rho_final;     ///< inner; rho_0 at 0.2 s [-]

@@ -83,7 +83,14 @@ SampleSummary summarize_sample(const std::filesystem::path& output,
   if (sample.base != nullptr) sample.behaviour = read_behaviour(output, *sample.base);
   if (sample.base != nullptr && ten != nullptr)
     sample.loop_distance = scaled_loop_distance(output, *sample.base, *ten);
+  for (const Result* r : frequencies) {
+    const double nu = r->c.parameters.frequency, share = r->creep / r->dx_max;
+    if (nu == 5) sample.creep_5 = share;
+    if (nu == 20) sample.creep_20 = share;
+    if (nu == 60) sample.creep_60 = share;
+  }
   sample.dx_frequency = law_of(frequencies, &Parameters::frequency, &Result::dx_max);
+  sample.active_frequency = law_of(frequencies, &Parameters::frequency, &Result::dx_active);
   sample.v_frequency = law_of(frequencies, &Parameters::frequency, &Result::v_max);
   const auto series = [&](const char* set, double Parameters::*parameter) {
     return law_of(series_of(results, set, shape, seed, parameter), parameter, &Result::dx_max);
@@ -99,8 +106,8 @@ SampleSummary summarize_sample(const std::filesystem::path& output,
   std::vector<Pushed> pushed;
   std::vector<Point> third;
   for (const Result* r : all) {
-    pushed.push_back({r->push(), r->dx_max});
-    third.push_back({sine_displacement(r->push(), 1.0 / 3), r->dx_max});
+    pushed.push_back({r->push(), r->dx_active});
+    third.push_back({sine_displacement(r->push(), 1.0 / 3), r->dx_active});
   }
   if (pushed.size() >= 4) {
     if (walls_differ(all)) sample.prediction = fit_moving_share(pushed);

@@ -30,6 +30,9 @@ struct SampleSummary {
   const Result* base = nullptr;  ///< the baseline, 5 Hz and 6 kN
   Behaviour behaviour;           ///< of the baseline
   PowerLaw dx_frequency, v_frequency, dx_fmax, dx_gravity;
+  PowerLaw active_frequency;                               ///< of the displacement without creep
+  double creep_5 = std::nan(""), creep_20 = std::nan("");  ///< creep / dx at so many Hz
+  double creep_60 = std::nan("");
   double loop_distance = std::nan("");       ///< scaled phase portraits at 5 and 10 Hz
   Proportion master;                         ///< dx over (mg)^2 / [(m + m_w) fmax nu^2]: C
   MovingShare master_share;                  ///< the same with m_w + beta m, beta fitted

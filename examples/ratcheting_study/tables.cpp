@@ -45,7 +45,8 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
   std::string text =
       "case,name,sets,shape,seed,frequency,fmax,fmin,gravity,wall_mass_ratio,box_ratio,size_scale,"
       "reading,lid_force,step,tolerance,corrected,duration,mass,wall_mass,length,height,settled,"
-      "periods,dx_max,dx_spread,v_max,delay,thrust_over_weight,net_contraction,contracting,"
+      "periods,dx_max,dx_spread,dx_active,creep,v_max,delay,thrust_over_weight,net_contraction,"
+      "contracting,"
       "rho_initial,rho_0,rho_final,rho_box_initial,rho_box_final,rate,compaction_per_period,C,"
       "dx_over_closed_form_third,steps,capped_steps,mean_sweeps,worst_residual,mean_overlap_over_d,"
       "max_overlap_over_d\n";
@@ -59,11 +60,11 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
                                                                    : "circumradius")
          << p.lid_force << p.step << p.tolerance << double(p.correction) << p.duration << r.mass
          << r.wall_mass << r.length << r.height << double(r.facts.settled)
-         << double(r.periods.size()) << r.dx_max << r.dx_spread << r.v_max << r.delay
-         << r.thrust / r.weight << r.net_contraction << double(r.contracting) << r.rho_initial
-         << r.rho_0 << r.rho_final << r.box_initial << r.box_final << r.rate
+         << double(r.periods.size()) << r.dx_max << r.dx_spread << r.dx_active << r.creep << r.v_max
+         << r.delay << r.thrust / r.weight << r.net_contraction << double(r.contracting)
+         << r.rho_initial << r.rho_0 << r.rho_final << r.box_initial << r.box_final << r.rate
          << r.compaction_per_period << r.constant
-         << r.dx_max / sine_displacement(r.push(), 1.0 / 3);
+         << r.dx_active / sine_displacement(r.push(), 1.0 / 3);
     const Facts& f = r.facts;
     line << double(f.steps) << double(f.capped_steps) << f.mean_sweeps << f.worst_residual
          << f.mean_overlap << f.max_overlap;

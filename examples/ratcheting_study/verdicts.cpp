@@ -279,6 +279,8 @@ void judge_scaling(const Shapes& shapes, Rows& rows) {
     }));
   };
   exponent("15 Δx_max over ν", "−2", "−2 ± 0.1", &Sample::dx_frequency, -2.1, -1.9);
+  exponent("15 the same from where f falls below mg", "−2", "−2 ± 0.1", &Sample::active_frequency,
+           -2.1, -1.9);
   exponent("15 v_max, passive, over ν", "−1", "−1 ± 0.1", &Sample::v_frequency, -1.1, -0.9);
   exponent("16 Δx_max over fmax", "−1", "−1 ± 0.1", &Sample::dx_fmax, -1.1, -0.9);
   exponent("16 Δx_max over g", "2", "2 ± 0.15", &Sample::dx_gravity, 1.85, 2.15);
@@ -301,6 +303,21 @@ void compare_constants(const Shapes& shapes, Row& r) {
     };
     r.cells[k + 1].value += constant(k + 1) > constant(k) ? "; above 3D" : "; not above 3D";
   }
+}
+
+/// What the wall moves while the falling force still holds it: the paper has none of it.
+Row creep_row(const Shapes& shapes) {
+  return row(
+      shapes, "8 creep while blocked, (x(f = mg) − x_j)/Δx_max at 5; 20; 60 Hz", "0", "–",
+      [](const ShapeSummary& s) {
+        Cell cell;
+        for (double Sample::*creep : {&Sample::creep_5, &Sample::creep_20, &Sample::creep_60}) {
+          const std::string value =
+              text_of(over_samples(s, [=](const Sample& x) { return x.*creep; }), 2);
+          if (!value.empty()) cell.value += (cell.value.empty() ? "" : "; ") + value;
+        }
+        return cell;
+      });
 }
 
 void judge_constant(const Shapes& shapes, Rows& rows) {
@@ -366,6 +383,7 @@ std::vector<Row> judge(const std::vector<Result>& results,
   judge_setting(results, shapes, rows);
   judge_density(shapes, rows);
   judge_period(shapes, rows);
+  rows.push_back(creep_row(shapes));
   judge_rate(shapes, rows);
   judge_scaling(shapes, rows);
   judge_constant(shapes, rows);

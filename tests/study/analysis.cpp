@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "../../examples/ratcheting_study/active_phase.hpp"
 #include "../../examples/ratcheting_study/closed_form.hpp"
 #include "../../examples/ratcheting_study/compaction_fit.hpp"
 #include "../../examples/ratcheting_study/loop_distance.hpp"
@@ -155,4 +156,22 @@ TEST_CASE("verdicts and their wording") {
   CHECK(text_of(estimate({1, 2, 3, std::nan("")})) == "2 ± 1 (3)");
   CHECK(text_of(estimate({0.5})) == "0.5");
   CHECK(text_of(estimate({})).empty());
+}
+
+TEST_CASE("the active phase begins where the falling force is the weight, creep before it apart") {
+  CHECK(time_before_minimum(0.5, 0, 1, 5) == doctest::Approx(0.05));
+  CHECK(time_before_minimum(1e-6, 0, 1, 5) == doctest::Approx(1e-3 / (5 * std::acos(-1.0))));
+  CHECK(time_before_minimum(0.5, 0.6, 1, 5) == 0);
+  // Creeps by 0.2 until t = 1, moves out by 1 until 2, falls back to -1 until 3.
+  std::vector<double> t, x, v, f_g;
+  for (int k = 0; k <= 300; ++k) {
+    t.push_back(0.01 * k);
+    x.push_back(k <= 100 ? 0.002 * k : k <= 200 ? 0.2 + 0.01 * (k - 100) : 1.2 - 0.022 * (k - 200));
+    v.push_back(k <= 100 ? 0.2 : k <= 200 ? 1 : -2.2);
+    f_g.push_back(k <= 100 ? 50 : k <= 200 ? 7 : 90);
+  }
+  const ActivePhase phase = active_phase(t, x, v, f_g, 0, 1, 3);
+  CHECK(phase.creep == doctest::Approx(0.2));
+  CHECK(phase.dx == doctest::Approx(1));
+  CHECK(phase.thrust == doctest::Approx(7));
 }

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# The third period between two maxima of the force: a, where the wall starts, b, its largest
+# The third period, or the last, between two maxima of the force: a, where the wall starts, b, its largest
 # displacement, c, where it jams again.
 load system("dirname '".ARG0."'")."/style.gp"
 set multiplot layout 2, 4 columnsfirst margins 0.065, 0.99, 0.09, 0.94 spacing 0.055, 0.03
-field(shape, n) = real(system(sprintf("awk -F, '$1 == 3 {print $%d}' '%s'", n, file_of("events", shape))))
+field(shape, n) = real(system(sprintf("awk -F, '$1 <= 3 {last = $%d} END {print last}' '%s'", n, file_of("events", shape))))
 do for [shape in shapes] {
   if (!has("events", shape)) {
     set multiplot next
