@@ -129,8 +129,8 @@ void run(const fs::path& folder) {
   const auto forces = moreau::force_distribution<double>(
       pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; }, 12, 4.0);
   moreau::CoordinationCounter<S> counter;
-  const auto coordination = counter.count(world.contacts().points, world.contacts().impulses,
-                                          bodies.size(), is_grain, 2);
+  const auto coordination =
+      counter.count(world.contacts().points, world.contacts().impulses, bodies.size(), is_grain, 2);
   typename moreau::GridField<S>::Cells cells;
   cells.fill(6);
   moreau::GridField<S> displacement(box, cells);
