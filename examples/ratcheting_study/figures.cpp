@@ -86,27 +86,30 @@ void write_loop(const fs::path& output, const fs::path& folder, const Result& r)
 /// Mean and spread over the samples at each value of the parameter.
 void write_series(const fs::path& folder, const std::vector<Result>& results,
                   const ShapeSummary& shape, const char* set, double Parameters::*parameter) {
-  std::map<double, std::vector<const Result*>> at;
+  std::map<double, Series> at;
   for (const SampleSummary& sample : shape.samples)
     for (const Result* r : series_of(results, set, shape.shape, sample.seed, parameter))
       at[r->c.parameters.*parameter].push_back(r);
   if (at.empty()) return;
   moreau::CsvWriter file(data_file(folder, set, shape.shape),
                          {"value", "dx_max", "dx_spread", "v_max", "v_spread", "rate",
-                          "rate_spread", "thrust_over_weight", "constant", "samples"});
-  for (const auto& [value, runs] : at) {
+                          "rate_spread", "thrust_over_weight", "constant", "samples", "dx_active"});
+  for (const auto& entry : at) {
+    const Series& runs = entry.second;
     const auto of = [&](const auto& field) {
       std::vector<double> values;
       for (const Result* r : runs) values.push_back(field(*r));
       return estimate(values);
     };
     const Estimate dx = of([](const Result& r) { return r.dx_max; });
+    const Estimate active = of([](const Result& r) { return r.dx_active; });
     const Estimate v = of([](const Result& r) { return r.v_max; });
     const Estimate rate = of([](const Result& r) { return r.rate; });
     const Estimate thrust = of([](const Result& r) { return r.thrust / r.weight; });
     const Estimate constant = of([](const Result& r) { return r.constant; });
-    file.row(six(value), six(dx.mean), six(dx.spread), six(v.mean), six(v.spread), six(rate.mean),
-             six(rate.spread), six(thrust.mean), six(constant.mean), dx.samples);
+    file.row(six(entry.first), six(dx.mean), six(dx.spread), six(v.mean), six(v.spread),
+             six(rate.mean), six(rate.spread), six(thrust.mean), six(constant.mean), dx.samples,
+             six(active.mean));
   }
   file.close();
 }
@@ -116,7 +119,7 @@ void write_series(const fs::path& folder, const std::vector<Result>& results,
 void write_master(const fs::path& folder, const std::vector<Result>& results,
                   const ShapeSummary& shape) {
   moreau::CsvWriter file(data_file(folder, "master", shape.shape),
-                         {"varied", "load", "dx_max", "predicted_third", "predicted"});
+                         {"varied", "load", "dx_max", "predicted_third", "predicted", "dx_active"});
   for (const SampleSummary& sample : shape.samples)
     for (const Result* r : master_series(results, shape.shape, sample.seed)) {
       const auto& sets = r->c.sets;
@@ -126,7 +129,7 @@ void write_master(const fs::path& folder, const std::vector<Result>& results,
                                                       : 4;
       file.row(varied, six(r->scaled_load()), six(r->dx_max),
                six(sine_displacement(r->push(), 1.0 / 3)),
-               six(sine_displacement(r->push(), sample.prediction.beta)));
+               six(sine_displacement(r->push(), sample.prediction.beta)), six(r->dx_active));
     }
   file.close();
 }

@@ -92,8 +92,8 @@ std::string variants(const std::vector<Result>& results, const std::string& set,
   for (const Result* r : runs)
     text += "| " + what(*r) + " | " + r->c.parameters.shape + " | " + text_of(r->mass) + " | " +
             text_of(r->length) + " | " + text_of(r->height / r->length) + " | " +
-            text_of(1e3 * r->dx_max) + " | " + text_of(r->thrust / r->weight) + " | " +
-            text_of(r->constant) + " | " +
+            text_of(1e3 * r->dx_max) + " | " + text_of(1e3 * r->creep, 2) + " | " +
+            text_of(r->thrust / r->weight) + " | " + text_of(r->constant) + " | " +
             text_of(r->dx_active / sine_displacement(r->push(), 1.0 / 3)) + " | " +
             text_of(r->rho_initial) + " | " + text_of(r->rate, 2) + " | " +
             text_of(1e3 * r->net_contraction, 2) + " |\n";
@@ -101,10 +101,11 @@ std::string variants(const std::vector<Result>& results, const std::string& set,
 }
 
 const char* variants_header =
-    "| | shape | m [kg] | L [m] | H/L | Δx_max [mm] | f_a/mg | C | Δx / closed form, β = 1/3 | "
+    "| | shape | m [kg] | L [m] | H/L | Δx_max [mm] | creep in it [mm] | f_a/mg | C | Δx / closed "
+    "form, β = 1/3 | "
     "ρ "
     "at the start | rate [1/s] | x_j − x_j' [mm] "
-    "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 std::string open_parameters(const std::vector<Result>& results) {
   const auto number = [](const char* name, double Parameters::*field) {
@@ -136,8 +137,8 @@ std::string states(const std::vector<Result>& results) {
       "|---|---|---|---|---|---|\n";
   for (const Result& r : results)
     if (r.c.sets.contains("states") && !r.periods.empty())
-      text += "| " + r.c.parameters.shape + " | " + text_of(r.c.parameters.fmin) + " | " +
-              text_of(r.c.parameters.fmax) + " | " + text_of(1e3 * r.dx_max) + " | " +
+      text += "| " + r.c.parameters.shape + " | " + text_of(r.c.parameters.fmin, 5) + " | " +
+              text_of(r.c.parameters.fmax, 5) + " | " + text_of(1e3 * r.dx_max) + " | " +
               text_of(1e3 * r.periods.back().jam_after) + " | " + text_of(r.thrust / r.weight) +
               " |\n";
   return text;

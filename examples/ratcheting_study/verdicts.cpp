@@ -103,7 +103,7 @@ Cell load_cell(const std::vector<Result>& results, const ShapeSummary& s) {
   for (const double force : forces)
     cell.value += (cell.value.empty() ? "" : ", ") + text_of(1e-3 * force);
   if (!cell.value.empty()) cell.value += " kN";
-  if (!forces.empty()) cell.holds = forces.size() >= 4;
+  if (forces.size() >= 4) cell.holds = true;
   return cell;
 }
 

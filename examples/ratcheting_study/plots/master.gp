@@ -8,7 +8,7 @@ set logscale xy
 set format "10^{%L}"
 set xlabel "(mg)^2 / [(m + m_w) f_{max} ν^2]  [mm]"
 set ylabel "Δx_{max}  [mm]"
-set key bottom right
+set key top left font ",12"
 varied = "frequency force gravity wall_mass"
 do for [shape in shapes] {
   if (!has("master", shape)) {
@@ -22,7 +22,8 @@ do for [shape in shapes] {
     symbol = word("8 6 4 12", k) + 0
     commands = commands.sprintf("file_of('master', '%s') using ($1 == %d ? mm($2) : NaN):(mm($3)) skip 1 with points pointtype %d linecolor rgb '%s' title '%s', ", shape, k, symbol, color_of(shape), k == 4 ? "wall mass" : word(varied, k))
   }
-  if (known(beta)) { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($5)) skip 1 with points pointtype 2 pointsize 0.7 linecolor rgb 'black' title 'closed form, β = %.2f', ", shape, beta) }
+  commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($6)) skip 1 with points pointtype 1 linecolor rgb '%s' title 'without creep', ", shape, color_of(shape))
+  if (known(beta)) { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($5)) skip 1 with points pointtype 2 pointsize 0.7 linecolor rgb 'black' title 'closed form, β = %.2f', ", shape, beta) } else { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($4)) skip 1 with points pointtype 2 pointsize 0.7 linecolor rgb 'black' title 'closed form, β = 1/3', ", shape) }
   if (known(c)) { commands = commands.sprintf("%g * x with lines linecolor rgb '%s' title 'C = %.3f', ", c, color_of(shape), c) }
   paper = shape eq "polyhedron" || shape eq "sphere" ? 0.01 : 0.05
   eval "plot ".commands.sprintf("%g * x with lines dashtype 2 linecolor rgb grey title 'paper: C = %g'", paper, paper)

@@ -11,6 +11,10 @@ do for [shape in shapes] {
   }
   set title title_of(shape)
   set key bottom left
+  set xrange [*:*]
+  set yrange [*:*]
+  stats file_of("loop5", shape) using 1 skip 1 nooutput
+  set xtics tics_over(mm(STATS_max - STATS_min))
   set xlabel "x − x_j  [mm]"
   set ylabel (shape eq "polyhedron" ? "v  [mm/s]" : "")
   plot file_of("loop5", shape) using (mm($1)):(mm($2)) skip 1 with lines linecolor rgb blue title "5 Hz", \
@@ -18,6 +22,7 @@ do for [shape in shapes] {
   distance = number("loop_distance", shape)
   set title (known(distance) ? sprintf("largest distance %.0f %%", 100 * distance) : "") font ",13"
   unset key
+  set xtics tics_over(25 * mm(STATS_max - STATS_min))
   set xlabel "(x − x_j) ν²  [mm/s²]"
   set ylabel (shape eq "polyhedron" ? "v ν  [mm/s²]" : "")
   plot file_of("loop5", shape) using (mm($3)):(mm($4)) skip 1 with lines linecolor rgb blue, \

@@ -36,6 +36,9 @@ color_of(shape) = shape eq "polyhedron" ? blue : shape eq "polygon" ? red : shap
 point_of(shape) = shape eq "polyhedron" ? 7 : shape eq "polygon" ? 5 : shape eq "sphere" ? 6 : 4
 file_of(name, shape) = data."/".name."_".shape.".csv"
 has(name, shape) = system("test $(cat '".file_of(name, shape)."' 2>/dev/null | wc -l) -gt 1 && echo 1 || echo 0") + 0
+# A distance of tics that leaves three to six over a range: 1, 2 or 5 times a power of ten.
+power(range) = 10**floor(log10(range / 3.))
+tics_over(range) = power(range) * (range / power(range) > 15 ? 5 : range / power(range) > 6 ? 2 : 1)
 # A number of values.csv, NaN if it is not there.
 number(name, shape) = real(system(sprintf("awk -F, -v wanted='%s_%s' '$1 == wanted {print $2; found = 1} END {if (!found) print \"NaN\"}' '%s/values.csv'", name, shape, data)))
 known(x) = x == x
