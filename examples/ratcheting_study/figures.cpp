@@ -127,7 +127,7 @@ void write_master(const fs::path& folder, const std::vector<Result>& results,
                          : sets.contains("fmax")      ? 2
                          : sets.contains("gravity")   ? 3
                                                       : 4;
-      file.row(varied, six(r->scaled_load()), six(r->dx_max),
+      file.row(double(varied), six(r->scaled_load()), six(r->dx_max),
                six(sine_displacement(r->push(), 1.0 / 3)),
                six(sine_displacement(r->push(), sample.prediction.beta)), six(r->dx_active));
     }
@@ -145,7 +145,8 @@ void write_relaxation(const fs::path& folder, const std::vector<Result>& results
     const Parameters& p = r->c.parameters;
     const double unit = std::sqrt(p.gravity / (0.025 * p.size_scale));
     const int condition = p.gravity != 9.81 ? 2 : p.size_scale != 1 ? 3 : 1;
-    file.row(condition, p.frequency, six(p.frequency / unit), six(r->rate), six(r->rate / unit));
+    file.row(double(condition), p.frequency, six(p.frequency / unit), six(r->rate),
+             six(r->rate / unit));
   }
   file.close();
 }
