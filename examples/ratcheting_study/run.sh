@@ -6,7 +6,8 @@ set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 "$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
 cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON \
-  -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF >/dev/null
+  -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF \
+  "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" >/dev/null
 echo "building the study in $top/build/study"
 cmake --build "$top/build/study" --target ratcheting ratcheting_study
 [ $# -gt 0 ] || set -- --plan small
