@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "boundary/grain_of_radius.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
@@ -21,16 +22,6 @@ namespace {
 
 using Law = moreau::SignoriniCoulomb<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A ball, or the cube (square) in it.
-template <class ShapeT>
-ShapeT grain_of_radius(double radius) {
-  using Vector = typename moreau::SpaceOf<ShapeT>::Vector;
-  if constexpr (std::is_constructible_v<ShapeT, double>)
-    return ShapeT(radius);
-  else
-    return scenes::cuboid<ShapeT>(radius * Vector::Ones().normalized());
-}
 
 /// Two layers of grains at random angles on a floor, in a cell that is periodic along x; in space
 /// the box has walls along y. The whole scene is shifted along x, poses wrapped.

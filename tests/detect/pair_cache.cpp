@@ -9,25 +9,13 @@
 
 #include "moreau/detect/collide.hpp"
 
+#include "detect/same_manifold.hpp"
 #include "detect/shapes.hpp"
 #include "sanitized.hpp"
 
 using namespace moreau;
 
 namespace {
-
-template <class S>
-bool is_same(const Manifold<S>& one, const Manifold<S>& other) {
-  if (one.gap != other.gap || one.normal != other.normal ||
-      one.contact_class != other.contact_class || one.points.size() != other.points.size())
-    return false;
-  for (std::size_t k = 0; k < one.points.size(); ++k)
-    if (one.points[k].feature != other.points[k].feature ||
-        one.points[k].gap != other.points[k].gap ||
-        one.points[k].position != other.points[k].position)
-      return false;
-  return true;
-}
 
 /// Two shapes with one memory for each query, which outlives every motion.
 template <class ShapeT>

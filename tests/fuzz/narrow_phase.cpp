@@ -12,6 +12,7 @@
 
 #include "bytes.hpp"
 #include "detect/oracle.hpp"
+#include "detect/same_manifold.hpp"
 #include "shapes.hpp"
 
 namespace {
@@ -86,19 +87,6 @@ typename S::Rotation take_rotation(Bytes& bytes) {
       for (double& w : turn) w = bytes.between(-3, 3) * std::ldexp(1., -bytes.between(3, 60));
   }
   return S::normalized(S::exp(turn));
-}
-
-template <class S>
-bool is_same(const Manifold<S>& one, const Manifold<S>& other) {
-  if (one.gap != other.gap || one.normal != other.normal ||
-      one.contact_class != other.contact_class || one.points.size() != other.points.size())
-    return false;
-  for (std::size_t k = 0; k < one.points.size(); ++k)
-    if (one.points[k].feature != other.points[k].feature ||
-        one.points[k].gap != other.points[k].gap ||
-        one.points[k].position != other.points[k].position)
-      return false;
-  return true;
 }
 
 /// The three queries of a pair against each other and against the truth.

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <random>
 
+#include "boundary/grain_of_radius.hpp"
 #include "world/assemblies.hpp"
 
 using moreau::Polygon;
@@ -15,16 +16,6 @@ using moreau::Sphere;
 namespace {
 
 using Law = moreau::SignoriniCoulomb<double>;
-
-/// A ball, or the cube (square) in it.
-template <class ShapeT>
-ShapeT grain_of_radius(double radius) {
-  using Vector = typename moreau::SpaceOf<ShapeT>::Vector;
-  if constexpr (std::is_constructible_v<ShapeT, double>)
-    return ShapeT(radius);
-  else
-    return scenes::cuboid<ShapeT>(radius * Vector::Ones().normalized());
-}
 
 }  // namespace
 
