@@ -4,13 +4,7 @@
 # twice and over a restart, leaves valid files when it is interrupted. Argument: the executable.
 set -u
 program=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+source "$(dirname "$0")/failures.sh"
 
 # refuse "part of the message" options...
 refuse() {

@@ -4,13 +4,7 @@
 # skipped, and after kill -9 and a new start all tables are the same bytes. Argument: the executable.
 set -u
 program=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+source "$(dirname "$0")/failures.sh"
 children_of() { cat "/proc/$1/task/$1/children" 2>/dev/null; }
 has_child() { [ -n "$(children_of "$1")" ]; }
 study() { "$program" --plan small --jobs 2 "$@"; }
