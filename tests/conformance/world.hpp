@@ -84,6 +84,21 @@ class Assembly {
     }
     return sum;
   }
+  /// What the energy of free flight may wander by under Moreau–Jean: of second order in the turn
+  /// per step (the case asymmetric_top of the validation), nothing where all moments are equal. [J]
+  double energy_error(T step) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const auto m = motion(k);
+      const typename S::Angular w = m.velocity.template tail<S::angular_dim>();
+      const auto moments =
+          Eigen::SelfAdjointEigenSolver<typename S::Inertia>(m.inertia).eigenvalues().eval();
+      const double unevenness = 1 - double(moments.minCoeff() / moments.maxCoeff());
+      sum += unevenness * double(w.squaredNorm() * step * step) / 12 *
+             double(w.dot(m.inertia * w)) / 2;
+    }
+    return sum;
+  }
   T mass() const {
     T sum = 0;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) sum += motion(k).mass;
@@ -117,6 +132,8 @@ void cloud(const std::vector<ShapeT>& shapes, const Law& law,
   const auto before = grains.momentum();
   const double energy = grains.kinetic_energy(), mass = double(grains.mass());
   const T step = A::springs ? T(1e-5) : T(2e-4);
+  const double rise =
+      A::springs ? 0.02 * energy : 1e4 * rounding * energy + grains.energy_error(step);
   std::size_t points = 0;
   double most = 0;
   for (int k = 0; k < int(0.05 / double(step)); ++k) {
@@ -128,7 +145,7 @@ void cloud(const std::vector<ShapeT>& shapes, const Law& law,
   CHECK(std::isfinite(grains.kinetic_energy()));
   CHECK(double((after.linear - before.linear).norm()) < 1e5 * rounding * mass);
   CHECK(double((after.angular - before.angular).norm()) < 1e5 * rounding * mass * double(size));
-  CHECK(most <= energy * (1 + (A::springs ? 0.02 : 1e4 * rounding)));
+  CHECK(most - energy <= rise);
 }
 
 /// Falling into a box: what the walls push and gravity pulls is what the momentum changes by, no

@@ -27,25 +27,7 @@ class Polygon {
   /// their cyclic order, the first of the input first.
   /// @throws std::invalid_argument for fewer than 3, one that is not finite, collinear ones, or
   ///   moments that the scalar cannot hold
-  explicit Polygon(std::span<const Vector> vertices) {
-    const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");
-    vertices_.resize(static_cast<Eigen::Index>(ring.size()), 2);
-    for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
-      vertices_.row(i) =
-          (vertices[ring[static_cast<std::size_t>(i)]] - vertices[ring[0]]).transpose();
-    }
-    const Moments<Space> rough = sum_moments();
-    require(std::isfinite(rough.volume) && rough.volume > T(0), "Polygon", "area", rough.volume,
-            "m^2 must be positive and finite");
-    const Vector center = rough.first / rough.volume;
-    centroid_of_input_ = vertices[ring[0]] + center;
-    vertices_.rowwise() -= center.transpose();
-    moments_ = sum_moments();
-    require(moments_.are_regular(), "Polygon", "second moment", moments_.second.trace(),
-            "m^4 must be positive and finite");
-    circumradius_ = vertices_.rowwise().norm().maxCoeff();
-    set_faces();
-  }
+  explicit Polygon(std::span<const Vector> vertices);
 
   const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 2 [m]
   const VertexMatrix<Space>& face_normals() const {
@@ -148,5 +130,27 @@ class Polygon {
   T circumradius_ = 0, inradius_ = 0, normal_spacing_ = 0;
   Moments<Space> moments_;
 };
+
+// Outside of the class: compiled once where a program declares the class extern.
+template <std::floating_point T>
+Polygon<T>::Polygon(std::span<const Vector> vertices) {
+  const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");
+  vertices_.resize(static_cast<Eigen::Index>(ring.size()), 2);
+  for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
+    vertices_.row(i) =
+        (vertices[ring[static_cast<std::size_t>(i)]] - vertices[ring[0]]).transpose();
+  }
+  const Moments<Space> rough = sum_moments();
+  require(std::isfinite(rough.volume) && rough.volume > T(0), "Polygon", "area", rough.volume,
+          "m^2 must be positive and finite");
+  const Vector center = rough.first / rough.volume;
+  centroid_of_input_ = vertices[ring[0]] + center;
+  vertices_.rowwise() -= center.transpose();
+  moments_ = sum_moments();
+  require(moments_.are_regular(), "Polygon", "second moment", moments_.second.trace(),
+          "m^4 must be positive and finite");
+  circumradius_ = vertices_.rowwise().norm().maxCoeff();
+  set_faces();
+}
 
 }  // namespace moreau

@@ -35,27 +35,14 @@ class Polyhedron {
   /// others keep their order. Coplanar triangles are one face.
   /// @throws std::invalid_argument for fewer than 4, one that is not finite, coplanar ones, or
   ///   moments that the scalar cannot hold
-  explicit Polyhedron(std::span<const Vector> vertices) {
-    auto faces = convex_hull(vertices, "Polyhedron");
-    const std::vector<Vector> kept = drop_unused(vertices, faces);
-    build(kept, faces, "Polyhedron");
-  }
+  explicit Polyhedron(std::span<const Vector> vertices);
 
   /// From vertices [m] and faces given as cycles of them, counter-clockwise from outside.
   /// @throws std::invalid_argument unless the vertices are finite, every one is in 3 faces, every
   ///   edge is in two faces, once in each direction, and every face is planar and has all other
   ///   vertices strictly below it; coplanar neighbours have to be one face
   static Polyhedron from_faces(std::span<const Vector> vertices,
-                               std::span<const std::vector<std::uint32_t>> faces) {
-    constexpr std::string_view function = "Polyhedron::from_faces";
-    require(vertices.size() >= 4, function, "vertices.size()", vertices.size(),
-            "must be at least 4");
-    detail::require_finite(vertices, function);
-    Polyhedron polyhedron;
-    polyhedron.build(vertices, faces, function);
-    polyhedron.require_convex(vertices, function);
-    return polyhedron;
-  }
+                               std::span<const std::vector<std::uint32_t>> faces);
 
   const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 3 [m]
   const VertexMatrix<Space>& face_normals() const {
@@ -113,19 +100,7 @@ class Polyhedron {
   /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
   /// the
   ///   moments
-  Polyhedron scaled(T factor) const {
-    detail::require_positive(factor, "Polyhedron::scaled", "factor");
-    Polyhedron copy = *this;
-    copy.vertices_ *= factor;
-    copy.face_offsets_ *= factor;
-    copy.circumradius_ *= factor;
-    copy.inradius_ *= factor;
-    copy.centroid_of_input_ *= factor;
-    copy.moments_ = moments_.scaled(factor);
-    require(copy.moments_.are_regular(), "Polyhedron::scaled", "second moment",
-            copy.moments_.second.trace(), "m^5 must be positive and finite");
-    return copy;
-  }
+  Polyhedron scaled(T factor) const;
 
  private:
   friend struct StateAccess;
@@ -170,25 +145,7 @@ class Polyhedron {
   }
 
   void build(std::span<const Vector> vertices, std::span<const std::vector<std::uint32_t>> faces,
-             std::string_view function) {
-    topology_ = FaceTopology(vertices.size(), faces, function);
-    vertices_.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      vertices_.row(static_cast<Eigen::Index>(i)) = (vertices[i] - vertices[0]).transpose();
-    }
-    const Moments<Space> rough = sum_moments();
-    require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");
-    require(rough.volume > T(0), function, "volume", rough.volume,
-            "m^3 must be positive: faces run counter-clockwise seen from outside");
-    const Vector center = rough.first / rough.volume;
-    centroid_of_input_ = vertices[0] + center;
-    vertices_.rowwise() -= center.transpose();
-    moments_ = sum_moments();
-    require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
-            "m^5 must be positive and finite");
-    circumradius_ = vertices_.rowwise().norm().maxCoeff();
-    set_planes();
-  }
+             std::string_view function);
 
   Moments<Space> sum_moments() const {
     Moments<Space> sum;
@@ -252,5 +209,63 @@ class Polyhedron {
   T circumradius_ = 0, inradius_ = 0, normal_spacing_ = 0;
   Moments<Space> moments_;
 };
+
+// Outside of the class: compiled once where a program declares the class extern.
+template <std::floating_point T>
+Polyhedron<T>::Polyhedron(std::span<const Vector> vertices) {
+  auto faces = convex_hull(vertices, "Polyhedron");
+  const std::vector<Vector> kept = drop_unused(vertices, faces);
+  build(kept, faces, "Polyhedron");
+}
+
+template <std::floating_point T>
+Polyhedron<T> Polyhedron<T>::from_faces(std::span<const Vector> vertices,
+                                        std::span<const std::vector<std::uint32_t>> faces) {
+  constexpr std::string_view function = "Polyhedron::from_faces";
+  require(vertices.size() >= 4, function, "vertices.size()", vertices.size(), "must be at least 4");
+  detail::require_finite(vertices, function);
+  Polyhedron polyhedron;
+  polyhedron.build(vertices, faces, function);
+  polyhedron.require_convex(vertices, function);
+  return polyhedron;
+}
+
+template <std::floating_point T>
+Polyhedron<T> Polyhedron<T>::scaled(T factor) const {
+  detail::require_positive(factor, "Polyhedron::scaled", "factor");
+  Polyhedron copy = *this;
+  copy.vertices_ *= factor;
+  copy.face_offsets_ *= factor;
+  copy.circumradius_ *= factor;
+  copy.inradius_ *= factor;
+  copy.centroid_of_input_ *= factor;
+  copy.moments_ = moments_.scaled(factor);
+  require(copy.moments_.are_regular(), "Polyhedron::scaled", "second moment",
+          copy.moments_.second.trace(), "m^5 must be positive and finite");
+  return copy;
+}
+
+template <std::floating_point T>
+void Polyhedron<T>::build(std::span<const Vector> vertices,
+                          std::span<const std::vector<std::uint32_t>> faces,
+                          std::string_view function) {
+  topology_ = FaceTopology(vertices.size(), faces, function);
+  vertices_.resize(static_cast<Eigen::Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices_.row(static_cast<Eigen::Index>(i)) = (vertices[i] - vertices[0]).transpose();
+  }
+  const Moments<Space> rough = sum_moments();
+  require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");
+  require(rough.volume > T(0), function, "volume", rough.volume,
+          "m^3 must be positive: faces run counter-clockwise seen from outside");
+  const Vector center = rough.first / rough.volume;
+  centroid_of_input_ = vertices[0] + center;
+  vertices_.rowwise() -= center.transpose();
+  moments_ = sum_moments();
+  require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
+          "m^5 must be positive and finite");
+  circumradius_ = vertices_.rowwise().norm().maxCoeff();
+  set_planes();
+}
 
 }  // namespace moreau

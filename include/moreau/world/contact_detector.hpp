@@ -107,61 +107,13 @@ class ContactDetector {
 
   /// Pairs whose boxes come within the margin, sorted; recomputed only when a box has left its
   /// skin.
-  void find_pairs(const DetectionLengths<Scalar>& lengths) {
-    const Scalar reach = lengths.margin / 2;
-    bool left = stale_ || fat_.size() != boxes_.size();
-    for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
-      left = !fat_[k].contains(boxes_[k].inflated(reach));
-    if (!left) return;
-    stale_ = false;
-    fat_.resize(boxes_.size());
-    for (std::size_t k = 0; k < boxes_.size(); ++k)
-      fat_[k] = boxes_[k].inflated(reach + lengths.skin);
-    old_pairs_.swap(pairs_);
-    old_caches_.swap(caches_);
-    if (cell_.is_open())
-      broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
-    else
-      images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
-    carry_caches();
-  }
+  void find_pairs(const DetectionLengths<Scalar>& lengths);
 
   /// Contact points of all pairs, sorted by (a, b, feature), with zero impulse.
   /// @param previous contacts of the step before, sorted alike: the memory of the choice of points
   void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
               std::span<const MaterialId> materials, const MaterialPairs& laws,
-              const Contacts<S>& previous, Contacts<S>& out) {
-    out.clear();
-    touching_ = 0;
-    reduction_.resolution = static_cast<double>(lengths.resolution);
-    reduction_.shallower = reduction_.resolution / 10;
-    reduction_.near = reduction_.resolution;
-    std::size_t p = 0;
-    for (std::size_t k = 0; k < grains_.size(); ++k) {
-      const auto& a = grains_[k];
-      const Aabb<S> reach = boxes_[k].inflated(lengths.margin);
-      for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
-        const std::size_t second = pairs_[p].second;
-        auto& b = grains_[second];
-        const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
-        if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
-                      : reach.overlaps(boxes_[second])))
-          continue;
-        if (crosses) place(b, poses, shifts_[p]);
-        if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
-          emit(a, b, materials, laws, previous, out);
-        if (crosses) place(b, poses, Vector::Zero());
-      }
-      for (const auto& wall : walls_) {
-        if (!reaches(boxes_[k], wall.placed, lengths.margin)) continue;
-        PairCache<S> none;
-        if (collide(a.placed, wall.placed, lengths.margin, manifold_, none))
-          emit(a, wall, materials, laws, previous, out);
-      }
-      if (!cylinders_.empty()) detect_in_cylinders(k, lengths.margin, materials, laws, out);
-    }
-    sort(out);
-  }
+              const Contacts<S>& previous, Contacts<S>& out);
 
   /// Takes the bodies anew, once their shapes have been read from a file; the pairs stay.
   /// @param add_all adds grains and walls in the order in which they were added before
@@ -333,5 +285,64 @@ class ContactDetector {
   Scalar widest_ = 0;  // of the grains, however they turn [m]
   bool stale_ = true;
 };
+
+// Outside of the class: compiled once where a program declares the detector extern.
+template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Scalar>& lengths) {
+  const Scalar reach = lengths.margin / 2;
+  bool left = stale_ || fat_.size() != boxes_.size();
+  for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
+    left = !fat_[k].contains(boxes_[k].inflated(reach));
+  if (!left) return;
+  stale_ = false;
+  fat_.resize(boxes_.size());
+  for (std::size_t k = 0; k < boxes_.size(); ++k)
+    fat_[k] = boxes_[k].inflated(reach + lengths.skin);
+  old_pairs_.swap(pairs_);
+  old_caches_.swap(caches_);
+  if (cell_.is_open())
+    broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
+  else
+    images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
+  carry_caches();
+}
+
+template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>& lengths,
+                                                  std::span<const Pose<S>> poses,
+                                                  std::span<const MaterialId> materials,
+                                                  const MaterialPairs& laws,
+                                                  const Contacts<S>& previous, Contacts<S>& out) {
+  out.clear();
+  touching_ = 0;
+  reduction_.resolution = static_cast<double>(lengths.resolution);
+  reduction_.shallower = reduction_.resolution / 10;
+  reduction_.near = reduction_.resolution;
+  std::size_t p = 0;
+  for (std::size_t k = 0; k < grains_.size(); ++k) {
+    const auto& a = grains_[k];
+    const Aabb<S> reach = boxes_[k].inflated(lengths.margin);
+    for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
+      const std::size_t second = pairs_[p].second;
+      auto& b = grains_[second];
+      const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
+      if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
+                    : reach.overlaps(boxes_[second])))
+        continue;
+      if (crosses) place(b, poses, shifts_[p]);
+      if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
+        emit(a, b, materials, laws, previous, out);
+      if (crosses) place(b, poses, Vector::Zero());
+    }
+    for (const auto& wall : walls_) {
+      if (!reaches(boxes_[k], wall.placed, lengths.margin)) continue;
+      PairCache<S> none;
+      if (collide(a.placed, wall.placed, lengths.margin, manifold_, none))
+        emit(a, wall, materials, laws, previous, out);
+    }
+    if (!cylinders_.empty()) detect_in_cylinders(k, lengths.margin, materials, laws, out);
+  }
+  sort(out);
+}
 
 }  // namespace moreau

@@ -98,28 +98,7 @@ class ImpulseDynamics {
   /// From the detected contacts to the end of the step.
   void advance(Bodies<S>& bodies, const Vector& gravity, const Materials<Law>& materials,
                const Contacts<S>& previous, Contacts<S>& contacts, Scalar grain_size, Scalar step,
-               StepReport& report) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) roots_[i] = bodies.mobility_root(i);
-    integrator_.free_velocity(bodies, gravity, std::span(momentum_), std::span(free_), step);
-    if constexpr (AttractiveLaw<Law, S>) attract(materials, contacts, step);
-    operator_.assemble(contacts.points, roots_, free_);
-    report.warm_started = unknowns_.start(operator_, previous, contacts);
-    if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, 1);
-    choose_laws(materials, contacts);
-    if (correction_.solve(Unknowns::points(operator_), contacts.points, roots_, grain_size,
-                          report.correction))
-      shift_bodies(bodies, gravity, report.correction);
-    offset_velocities(bodies, materials, contacts, step);
-    report.solve =
-        solver_.solve(operator_, laws(materials), std::span<const std::uint32_t>(law_of_),
-                      unknowns_.impulses(contacts), workspace_);
-    report.solve.worst_gap = report.solve.worst_velocity * double(step);
-    unknowns_.finish(operator_, contacts);
-    if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, -1);
-    velocities_after();
-    measure_dissipation(bodies, contacts, report);
-    integrator_.advance_configuration(bodies, std::span<const Twist>(after_), step);
-  }
+               StepReport& report);
 
  private:
   friend struct moreau::StateAccess;
@@ -129,7 +108,8 @@ class ImpulseDynamics {
 
   /// What the attraction does to the bodies, as if it were an external force. It is that of the
   /// gaps as detected, although the correction of overlaps changes them afterwards.
-  void attract(const Materials<Law>& materials, const Contacts<S>& contacts, Scalar step) {
+  void attract(const Materials<Law>& materials, const Contacts<S>& contacts,
+               Scalar step) requires AttractiveLaw<Law, S> {
     pulls_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
@@ -251,5 +231,33 @@ class ImpulseDynamics {
   std::vector<Vector> before_;
   std::vector<Scalar> pulls_;  // impulses of the attraction, if there is any
 };
+
+// Outside of the class: compiled once where a program declares the dynamics extern.
+template <class S, class Law, class Integrator, class Solver>
+void ImpulseDynamics<S, Law, Integrator, Solver>::advance(Bodies<S>& bodies, const Vector& gravity,
+                                                          const Materials<Law>& materials,
+                                                          const Contacts<S>& previous,
+                                                          Contacts<S>& contacts, Scalar grain_size,
+                                                          Scalar step, StepReport& report) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) roots_[i] = bodies.mobility_root(i);
+  integrator_.free_velocity(bodies, gravity, std::span(momentum_), std::span(free_), step);
+  if constexpr (AttractiveLaw<Law, S>) attract(materials, contacts, step);
+  operator_.assemble(contacts.points, roots_, free_);
+  report.warm_started = unknowns_.start(operator_, previous, contacts);
+  if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, 1);
+  choose_laws(materials, contacts);
+  if (correction_.solve(Unknowns::points(operator_), contacts.points, roots_, grain_size,
+                        report.correction))
+    shift_bodies(bodies, gravity, report.correction);
+  offset_velocities(bodies, materials, contacts, step);
+  report.solve = solver_.solve(operator_, laws(materials), std::span<const std::uint32_t>(law_of_),
+                               unknowns_.impulses(contacts), workspace_);
+  report.solve.worst_gap = report.solve.worst_velocity * double(step);
+  unknowns_.finish(operator_, contacts);
+  if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, -1);
+  velocities_after();
+  measure_dissipation(bodies, contacts, report);
+  integrator_.advance_configuration(bodies, std::span<const Twist>(after_), step);
+}
 
 }  // namespace moreau::detail

@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: MIT
+# The usual worlds compiled once for several programs: what links the library takes them from there
+# without a line of its own.
+function(moreau_add_instances name)
+  set(folder ${PROJECT_SOURCE_DIR}/.cmake/instances)
+  add_library(${name} STATIC EXCLUDE_FROM_ALL ${folder}/space.cpp ${folder}/plane.cpp)
+  target_link_libraries(${name} PUBLIC moreau_development)
+  target_compile_options(${name} INTERFACE "SHELL:-include moreau/instances/space.hpp"
+                                           "SHELL:-include moreau/instances/plane.hpp")
+endfunction()
