@@ -64,19 +64,26 @@ struct HullInput {
  private:
   template <class Vector>
   void sort(std::span<const Vector> given) {
+    std::vector<Point> scaled;
+    for (const Vector& x : given) scaled.push_back(in_units(x.template cast<double>()));
     std::vector<std::uint32_t> order(given.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const auto &x = given[a], &y = given[b];
+      const Point &x = scaled[a], &y = scaled[b];
       if (x != y) return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
       return a < b;
     });
     for (const std::uint32_t i : order) {
-      const Point x = given[i].template cast<double>() / unit;
-      if (has_neighbour(x)) continue;
-      points.push_back(x);
+      if (has_neighbour(scaled[i])) continue;
+      points.push_back(scaled[i]);
       labels.push_back(i);
     }
+  }
+  /// Coordinates below 2^-200 become zero: all are then multiples of 2^-253, the products of three
+  /// differences lose nothing to underflow, and their signs are exact.
+  Point in_units(const Point& x) const {
+    const Point y = x / unit;
+    return (y.array().abs() < std::ldexp(1.0, -200)).select(0.0, y);
   }
   bool has_neighbour(const Point& x) const {
     for (auto y = points.rbegin(); y != points.rend() && x[0] - (*y)[0] <= flat; ++y) {
