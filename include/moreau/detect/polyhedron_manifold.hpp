@@ -11,6 +11,7 @@
 #include "moreau/detect/contact_class.hpp"
 #include "moreau/detect/contact_polygon.hpp"
 #include "moreau/detect/foot.hpp"
+#include "moreau/detect/lone_point.hpp"
 #include "moreau/detect/polyhedron_witness.hpp"
 
 namespace moreau::detail {
@@ -96,6 +97,18 @@ typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
   return middle;
 }
 
+/// Whether a contact that starts from a vertex on a face, or from two edges, is one point.
+template <std::floating_point T>
+bool is_lone_point(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, T slab, T near) {
+  using Vector = typename Space<3, T>::Vector;
+  if (axis.kind == AxisKind::face_a)
+    return is_lone_vertex(pair.b, axis.b, axis.normal, pair.a, axis.a,
+                          Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
+  return axis.kind == AxisKind::face_b &&
+         is_lone_vertex(pair.a, axis.a, Vector(-axis.normal), pair.b, axis.b,
+                        Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
+}
+
 /// Fills the manifold of a pair whose axis is known.
 template <std::floating_point T>
 void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>* simplex,
@@ -103,8 +116,18 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
   out.clear();
   out.normal = axis.normal;
   out.gap = axis.gap;
-  const auto [face_a, face_b] = facing_faces(pair, axis, margin);
+  const auto add_witness = [&] {
+    const auto witness = witness_of(pair, axis, simplex);
+    out.points.push_back(
+        {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
+    out.contact_class = class_of_point(witness.feature);
+  };
   const T near = pair.size * DetectionTolerance<T>::coincident;
+  const T slab = margin - axis.gap + pair.rounding();
+  if (is_lone_point(pair, axis, slab, near)) return add_witness();
+  const auto [face_a, face_b] = facing_faces(pair, axis, margin);
+  if (axis.kind == AxisKind::edges && is_lone_crossing(pair, axis, face_a, face_b, slab, near))
+    return add_witness();
   const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal, near,
                                   out.scratch);
   T deepest = std::numeric_limits<T>::infinity();
@@ -117,11 +140,7 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
-  if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) {
-    const auto witness = witness_of(pair, axis, simplex);
-    out.points.push_back(
-        {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
-  }
+  if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) add_witness();
   out.sort();
   switch (out.points.size()) {
     case 1:
