@@ -8,13 +8,14 @@
 // distance from the vertex of at most slab * length / rise. If the foot of the vertex is farther
 // than that from the rim of the face, the face and the slab's content meet in nothing else.
 //
-// Two edges: the corners of the overlap of two faces, one beside each edge, that are next to the
-// crossing lie along the two edges. The distance between the faces is linear, so if it leaves the
-// slab before either edge ends or leaves the other face, no corner but the crossing is in the slab.
+// Of two faces the distance is linear where they overlap, and so no corner of the overlap but the
+// lowest is in the slab if the two next to it are not. These lie along the two edges that leave it:
+// of a vertex's face, or the two that cross. Each has to rise through the slab before it ends and
+// before it leaves the other face.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "moreau/detect/edge_search.hpp"
 #include "moreau/detect/foot.hpp"
@@ -25,21 +26,6 @@
 
 namespace moreau::detail {
 
-/// Calls use(w) for the vertices at the other ends of the edges at v, until it returns false.
-template <std::floating_point T, class Use>
-bool all_neighbours(const Placed<Polyhedron<T>>& shape, std::uint32_t v, Use&& use) {
-  for (const std::uint32_t e : shape.shape().vertex_edges(v)) {
-    const auto& ends = shape.shape().edges()[e].vertex;
-    if (!use(ends[0] == v ? ends[1] : ends[0])) return false;
-  }
-  return true;
-}
-template <std::floating_point T, class Use>
-bool all_neighbours(const Placed<Polygon<T>>& shape, std::uint32_t v, Use&& use) {
-  const auto count = static_cast<std::uint32_t>(shape.vertices().size());
-  return use((v > 0 ? v : count) - 1) && use(v + 1 < count ? v + 1 : 0);
-}
-
 /// Whether a vertex on a face is the only point of the two shapes within the slab.
 /// @param up    unit normal of the face, towards the shape of the vertex
 /// @param foot  the vertex relative to the centre of the face's shape [m]
@@ -48,16 +34,32 @@ template <class ShapeT, class Vector, class T>
 bool is_lone_vertex(const Placed<ShapeT>& shape, std::uint32_t vertex, const Vector& up,
                     const Placed<ShapeT>& ground, std::uint32_t face, const Vector& foot, T slab,
                     T near) {
+  const T spread2 = shape.vertices().spread2(shape.vertices()[vertex], up, slab);
+  return spread2 < std::numeric_limits<T>::infinity() &&
+         has_foot_within(ground, face, foot, T(2) * (slab * slab * spread2 + near * near));
+}
+
+/// The same of a vertex's face and another face; catches more, once the faces are known.
+/// @param own  a face at the vertex
+template <std::floating_point T>
+bool is_lone_corner(const Placed<Polyhedron<T>>& shape, std::uint32_t vertex, std::uint32_t own,
+                    const typename Space<3, T>::Vector& up, const Placed<Polyhedron<T>>& ground,
+                    std::uint32_t face, const typename Space<3, T>::Vector& foot, T slab, T near) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto loop = shape.shape().face(own);
+  const auto at =
+      static_cast<std::size_t>(std::find(loop.begin(), loop.end(), vertex) - loop.begin());
+  if (at == loop.size()) return false;
   const Vector from = shape.vertices()[vertex];
-  T spread2 = 0;  // square of length / rise of the flattest edge
-  const bool all_leave = all_neighbours(shape, vertex, [&](std::uint32_t w) {
+  const auto leaves = [&](std::uint32_t w) {
     const Vector along = shape.vertices()[w] - from;
     const T rise = up.dot(along);
-    spread2 = std::max(spread2, along.squaredNorm() / (rise * rise));
-    return rise > slab;
-  });
-  return all_leave &&
-         has_foot_within(ground, face, foot, T(2) * (slab * slab * spread2 + near * near));
+    return rise > slab &&
+           has_foot_within(ground, face, Vector(foot + slab / rise * along), near * near);
+  };
+  return has_foot_within(ground, face, foot, near * near) &&
+         leaves(loop[at + 1 < loop.size() ? at + 1 : 0]) &&
+         leaves(loop[(at > 0 ? at : loop.size()) - 1]);
 }
 
 /// Whether the edge of one shape, level, leaves the slab above a face of the other before it ends
