@@ -13,6 +13,8 @@
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
+#include "static/archetypes.hpp"
+
 namespace {
 
 using moreau::SetValuedLaw;
@@ -49,38 +51,19 @@ static_assert(moreau::RegularizedLaw<moreau::HertzMindlin<float>, Space<2, float
 static_assert(!moreau::SetValuedLaw<moreau::HertzMindlin<double>, Space<3>>);
 static_assert(!moreau::RegularizedLaw<moreau::SignoriniCoulomb<double>, Space<3>>);
 
-/// A law for space alone is one for space alone.
-struct MinimalLaw {
-  using S = Space<3>;
-  double velocity_offset(double gap, double before, double step) const;
-  S::Vector solve(const moreau::LocalBlock<S>& block, const S::Vector& b,
-                  const S::Vector& guess) const;
-  S::Vector natural_map(const S::Vector& velocity, const S::Vector& impulse) const;
-};
-static_assert(SetValuedLaw<MinimalLaw, Space<3>>);
-static_assert(!SetValuedLaw<MinimalLaw, Space<2>>);
+// A law for space alone is one for space alone.
+static_assert(SetValuedLaw<archetypes::MinimalLaw, Space<3>>);
+static_assert(!SetValuedLaw<archetypes::MinimalLaw, Space<2>>);
 
-struct LeaksExpression : MinimalLaw {
+struct LeaksExpression : archetypes::MinimalLaw {
   auto natural_map(const S::Vector& velocity, const S::Vector& impulse) const {
     return impulse - velocity;
   }
 };
 static_assert(!SetValuedLaw<LeaksExpression, Space<3>>);
 
-template <class S>
-struct MinimalIntegrator {
-  using Scalar = typename S::Scalar;
-  using Angular = typename S::Angular;
-  using Twist = typename S::Twist;
-  void predict_configuration(moreau::Bodies<S>& bodies, std::span<Angular> momentum,
-                             Scalar step) const;
-  void free_velocity(const moreau::Bodies<S>& bodies, const typename S::Vector& gravity,
-                     std::span<const Angular> momentum, std::span<Twist> free, Scalar step) const;
-  void advance_configuration(moreau::Bodies<S>& bodies, std::span<const Twist> after,
-                             Scalar step) const;
-};
-static_assert(TimeIntegrator<MinimalIntegrator<Space<2>>, Space<2>>);
-static_assert(TimeIntegrator<MinimalIntegrator<Space<3>>, Space<3>>);
-static_assert(!TimeIntegrator<MinimalIntegrator<Space<3>>, Space<2>>);
+static_assert(TimeIntegrator<archetypes::MinimalIntegrator<Space<2>>, Space<2>>);
+static_assert(TimeIntegrator<archetypes::MinimalIntegrator<Space<3>>, Space<3>>);
+static_assert(!TimeIntegrator<archetypes::MinimalIntegrator<Space<3>>, Space<2>>);
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/sphere.hpp"
 
+#include "static/archetypes.hpp"
+
 namespace {
 
 using moreau::ConvexShape;
@@ -24,35 +26,23 @@ static_assert(!Shape<moreau::HalfSpace<moreau::Space<2>>>);
 static_assert(!Shape<moreau::HalfSpace<moreau::Space<3>>>);
 static_assert(!Shape<int>);
 
-/// Offers what a Shape is asked for and nothing else.
-template <class S>
-struct Minimal {
-  using Space = S;
-  moreau::MassProperties<S> mass_properties(typename S::Scalar density) const;
-  moreau::Aabb<S> bounding_box(const moreau::Pose<S>& pose) const;
-};
-
-template <class S>
-struct MinimalConvex : Minimal<S> {
-  typename S::Vector support(const typename S::Vector& direction) const;
-};
-
-static_assert(Shape<Minimal<moreau::Space<2>>> && !ConvexShape<Minimal<moreau::Space<2>>>);
-static_assert(Shape<Minimal<moreau::Space<3, float>>>);
-static_assert(ConvexShape<MinimalConvex<moreau::Space<2>>>);
-static_assert(ConvexShape<MinimalConvex<moreau::Space<3>>>);
-static_assert(!Polytope<MinimalConvex<moreau::Space<3>>>);
+static_assert(Shape<archetypes::Minimal<moreau::Space<2>>> &&
+              !ConvexShape<archetypes::Minimal<moreau::Space<2>>>);
+static_assert(Shape<archetypes::Minimal<moreau::Space<3, float>>>);
+static_assert(ConvexShape<archetypes::MinimalConvex<moreau::Space<2>>>);
+static_assert(ConvexShape<archetypes::MinimalConvex<moreau::Space<3>>>);
+static_assert(!Polytope<archetypes::MinimalConvex<moreau::Space<3>>>);
 
 /// Hands out an Eigen expression, which would refer to what is gone by the time it is read.
 template <class S>
-struct LeaksExpression : Minimal<S> {
+struct LeaksExpression : archetypes::Minimal<S> {
   auto support(const typename S::Vector& direction) const { return 2 * direction; }
 };
 static_assert(!ConvexShape<LeaksExpression<moreau::Space<3>>>);
 
 /// Changes as it answers.
 template <class S>
-struct SupportNotConst : Minimal<S> {
+struct SupportNotConst : archetypes::Minimal<S> {
   typename S::Vector support(const typename S::Vector& direction);
 };
 static_assert(!ConvexShape<SupportNotConst<moreau::Space<3>>>);

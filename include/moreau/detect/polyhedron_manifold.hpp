@@ -11,9 +11,25 @@
 #include "moreau/detect/contact_class.hpp"
 #include "moreau/detect/contact_polygon.hpp"
 #include "moreau/detect/foot.hpp"
+#include "moreau/detect/lone_point.hpp"
 #include "moreau/detect/polyhedron_witness.hpp"
 
 namespace moreau::detail {
+
+/// Of some faces the one that faces the direction most.
+template <std::floating_point T>
+std::uint32_t most_aligned(const Placed<Polyhedron<T>>& shape,
+                           std::span<const std::uint32_t> candidates,
+                           const typename Space<3, T>::Vector& direction) {
+  std::uint32_t best = candidates[0];
+  T most = -2;
+  for (const std::uint32_t f : candidates)
+    if (const T aligned = direction.dot(shape.normals()[f]); aligned > most) {
+      best = f;
+      most = aligned;
+    }
+  return best;
+}
 
 /// Of the faces at a vertex, the one with most of its vertices (three are enough) at or above the
 /// height along the direction; of those the one that faces it most.
@@ -45,11 +61,15 @@ std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape, FeatureKind kind, 
                           const typename Space<3, T>::Vector& direction, T slab) {
   if (kind == FeatureKind::face) return id;
   const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
-  if (kind == FeatureKind::vertex)
-    return facing_face(shape, shape.shape().vertex_faces(id), direction, height(id) - slab);
+  const auto choose = [&](std::span<const std::uint32_t> candidates, T top, int own) {
+    // Where no vertex but the feature's is so high, all candidates have as many.
+    return shape.vertices().count_above(direction, top - slab) <= own
+               ? most_aligned(shape, candidates, direction)
+               : facing_face(shape, candidates, direction, top - slab);
+  };
+  if (kind == FeatureKind::vertex) return choose(shape.shape().vertex_faces(id), height(id), 1);
   const auto& edge = shape.shape().edges()[id];
-  const T top = std::max(height(edge.vertex[0]), height(edge.vertex[1]));
-  return facing_face(shape, std::span<const std::uint32_t>(edge.face), direction, top - slab);
+  return choose(edge.face, std::max(height(edge.vertex[0]), height(edge.vertex[1])), 2);
 }
 
 /// The two faces whose overlap is the region of contact. Only vertices within margin - gap of a
@@ -96,6 +116,37 @@ typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
   return middle;
 }
 
+/// Whether a vertex on a face is a contact of one point, whatever the faces at the vertex.
+template <std::floating_point T>
+bool is_lone_vertex(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, T slab, T near) {
+  using Vector = typename Space<3, T>::Vector;
+  if (axis.kind == AxisKind::face_a)
+    return is_lone_vertex(pair.b, axis.b, axis.normal, pair.a, axis.a,
+                          Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
+  return axis.kind == AxisKind::face_b &&
+         is_lone_vertex(pair.a, axis.a, Vector(-axis.normal), pair.b, axis.b,
+                        Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
+}
+
+/// Whether the overlap of the facing faces has one corner within the slab.
+template <std::floating_point T>
+bool is_lone_point(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis,
+                   std::uint32_t face_a, std::uint32_t face_b, T slab, T near) {
+  using Vector = typename Space<3, T>::Vector;
+  switch (axis.kind) {
+    case AxisKind::face_a:
+      return is_lone_corner(pair.b, axis.b, face_b, axis.normal, pair.a, face_a,
+                            Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
+    case AxisKind::face_b:
+      return is_lone_corner(pair.a, axis.a, face_a, Vector(-axis.normal), pair.b, face_b,
+                            Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
+    case AxisKind::edges:
+      return is_lone_crossing(pair, axis, face_a, face_b, slab, near);
+    default:
+      return false;
+  }
+}
+
 /// Fills the manifold of a pair whose axis is known.
 template <std::floating_point T>
 void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>* simplex,
@@ -103,8 +154,17 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
   out.clear();
   out.normal = axis.normal;
   out.gap = axis.gap;
-  const auto [face_a, face_b] = facing_faces(pair, axis, margin);
+  const auto add_witness = [&] {
+    const auto witness = witness_of(pair, axis, simplex);
+    out.points.push_back(
+        {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
+    out.contact_class = class_of_point(witness.feature);
+  };
   const T near = pair.size * DetectionTolerance<T>::coincident;
+  const T slab = margin - axis.gap + pair.rounding();
+  if (is_lone_vertex(pair, axis, slab, near)) return add_witness();
+  const auto [face_a, face_b] = facing_faces(pair, axis, margin);
+  if (is_lone_point(pair, axis, face_a, face_b, slab, near)) return add_witness();
   const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal, near,
                                   out.scratch);
   T deepest = std::numeric_limits<T>::infinity();
@@ -117,11 +177,7 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
-  if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) {
-    const auto witness = witness_of(pair, axis, simplex);
-    out.points.push_back(
-        {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
-  }
+  if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) add_witness();
   out.sort();
   switch (out.points.size()) {
     case 1:

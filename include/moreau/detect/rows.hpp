@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
@@ -98,6 +99,25 @@ class Rows {
     const auto sum = W::template fold<W::lanes / 2>(
         above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
     return -std::ptrdiff_t{sum[0]} - copies;
+  }
+  /// The square of the largest distance / rise of the other rows, seen from one of them; infinite
+  /// if one rises no more than `least`.
+  T spread2(const Vector& apex, const Vector& up, T least) const {
+    const auto from = broadcast(apex), d = broadcast(up);
+    const auto infinite = W::broadcast(std::numeric_limits<T>::infinity());
+    typename W::Values widest{};
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+      typename W::Values rise{}, length2{};
+      for (std::size_t k = 0; k < S::dim; ++k) {
+        const auto x = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes}) - from[k];
+        rise += d[k] * x;
+        length2 += x * x;
+      }
+      const auto low = length2 == 0 ? typename W::Values{} : infinite;
+      const auto here = rise > least ? length2 / (rise * rise) : low;
+      widest = here > widest ? here : widest;
+    }
+    return W::maximum(widest)[0];
   }
   /// The box around the rows.
   Aabb<S> bounding_box() const {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Policies that offer what their concept asks for and nothing else. Their functions are declared
+// only: what is compiled with them is never run.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "moreau/detect/broad_phase.hpp"
+#include "moreau/integrate/concepts.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/regularized.hpp"
+#include "moreau/shape/concepts.hpp"
+
+namespace archetypes {
+
+/// Offers what a Shape is asked for and nothing else.
+template <class S>
+struct Minimal {
+  using Space = S;
+  moreau::MassProperties<S> mass_properties(typename S::Scalar density) const;
+  moreau::Aabb<S> bounding_box(const moreau::Pose<S>& pose) const;
+};
+
+template <class S>
+struct MinimalConvex : Minimal<S> {
+  typename S::Vector support(const typename S::Vector& direction) const;
+};
+
+/// A law for space alone.
+struct MinimalLaw {
+  using S = moreau::Space<3>;
+  double velocity_offset(double gap, double before, double step) const;
+  S::Vector solve(const moreau::LocalBlock<S>& block, const S::Vector& b,
+                  const S::Vector& guess) const;
+  S::Vector natural_map(const S::Vector& velocity, const S::Vector& impulse) const;
+};
+
+template <class S>
+struct MinimalSprings {
+  typename S::Vector force(const moreau::ContactMotion<S>& motion,
+                           typename S::Vector& memory) const;
+};
+
+template <class S>
+struct MinimalIntegrator {
+  using Scalar = typename S::Scalar;
+  using Angular = typename S::Angular;
+  using Twist = typename S::Twist;
+  void predict_configuration(moreau::Bodies<S>& bodies, std::span<Angular> momentum,
+                             Scalar step) const;
+  void free_velocity(const moreau::Bodies<S>& bodies, const typename S::Vector& gravity,
+                     std::span<const Angular> momentum, std::span<Twist> free, Scalar step) const;
+  void advance_configuration(moreau::Bodies<S>& bodies, std::span<const Twist> after,
+                             Scalar step) const;
+};
+
+template <class S>
+struct MinimalForceIntegrator {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Loads = std::span<const typename S::Twist>;
+  void predict_configuration(moreau::Bodies<S>& bodies, Loads loads, const Vector& gravity,
+                             Scalar step) const;
+  void advance_configuration(moreau::Bodies<S>& bodies, Loads loads, const Vector& gravity,
+                             Scalar step) const;
+};
+
+template <class S>
+struct MinimalBroadPhase {
+  void find_pairs(std::span<const moreau::Aabb<S>> boxes, std::vector<moreau::IndexPair>& pairs);
+};
+
+}  // namespace archetypes
