@@ -170,6 +170,7 @@ inline void condense(const RowSparse& mass, const RowSparse& h, const std::vecto
   constexpr const char* self = "read_fclib";
   using Sparse = Eigen::SparseMatrix<double>;
   using Map = Eigen::Map<const Eigen::VectorXd>;
+  require(mass.rows() > 0, self, "M", mass.rows(), "must have rows");
   Eigen::SparseLU<Sparse> lu(Sparse{mass});
   require(lu.info() == Eigen::Success, self, "M", mass.rows(), "must be regular");
   const Sparse by_columns = h;
