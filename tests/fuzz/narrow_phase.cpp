@@ -2,6 +2,7 @@
 // Two shapes anywhere: the narrow phase agrees with the exhaustive search, and what it remembers of
 // the pair changes no bit.
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -100,13 +101,14 @@ class Trial {
   void at(const Pose<S>& pose_a, const Pose<S>& pose_b) {
     a_.update(shape_a_, pose_a);
     b_.update(shape_b_, pose_b);
-    const double size = shape_a_.circumradius() + shape_b_.circumradius(), tiny = 1e-12 * size;
+    const double size = shape_a_.circumradius() + shape_b_.circumradius();
+    const double tiny = 1e-12 * size + 16 * std::numeric_limits<double>::epsilon() *
+                                           (pose_a.position.norm() + pose_b.position.norm());
     const auto truth = oracle::signed_gap(shape_a_, pose_a, shape_b_, pose_b);
     const SignedDistance<S> found = distance(a_, b_);
     hold(std::abs(found.gap - truth.gap) < tiny, "the gap is that of the exhaustive search");
     hold(std::abs(found.normal.norm() - 1) < 1e-12, "unit normal");
-    hold((found.witness_b - found.witness_a - found.gap * found.normal).norm() <
-             tiny + 1e-15 * pose_a.position.norm(),
+    hold((found.witness_b - found.witness_a - found.gap * found.normal).norm() < tiny,
          "witnesses are the gap apart");
     const SignedDistance<S> again = distance(a_, b_, of_distance_);
     hold(again.gap == found.gap && again.normal == found.normal &&
