@@ -135,7 +135,7 @@ TEST_CASE("files that cannot be written are named") {
 TEST_CASE("a disk that fills up leaves whole lines, and the table goes on when there is room") {
   const TemporaryFolder folder("csv");
   const auto path = folder / "rows.csv";
-  for (const std::size_t flush_every : {1, 4}) {
+  for (const std::size_t flush_every : {std::size_t(1), std::size_t(4)}) {
     std::string told = "i,square\n";
     CsvWriter csv(path, {"i", "square"}, flush_every);
     {
