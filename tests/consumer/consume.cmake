@@ -7,8 +7,8 @@
 #   EIGEN     its include folder
 # One way builds the whole twenty-line example, fully optimized, for the warnings that only
 # optimizers give; two build two units with all of moreau.hpp; for the others it is enough that
-# the headers are found, and Eigen's. Those that come as a subproject meet globals with the names
-# that the library has for its own.
+# the headers are found, and Eigen's. The subdirectory meets globals with the names that
+# the library has for its own.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
 
@@ -43,7 +43,7 @@ if(WAY STREQUAL "find_package")
   set(build_type Release)
 else()
   set(units hello.cpp)
-  if(WAY MATCHES "add_subdirectory|fetch_content")
+  if(WAY STREQUAL "add_subdirectory")
     set(units globals.cpp)
   endif()
   if(WAY MATCHES "plain|build_tree")
