@@ -62,8 +62,9 @@ struct LocalProblem {
   }
 };
 
-/// The solution obeys the law, whatever the guess; it scales with the velocity; what is tangential
-/// never drives; offsets keep what is open open.
+/// The solution obeys the law, whatever the guess and the unit; it scales with the velocity, unless
+/// the law has constants of a unit; what is tangential never drives; offsets keep what is open
+/// open.
 template <class S, class Law>
 requires moreau::SetValuedLaw<Law, S>
 void set_valued_law(const Law& law, int problems = 5000) {
@@ -80,10 +81,15 @@ void set_valued_law(const Law& law, int problems = 5000) {
     const Vector u = p.block * r + p.velocity;
     const double size = double(r.norm() + p.velocity.norm());
     map = std::max(map, double(law.natural_map(u, r).norm()) / size);
+    const Vector eightfold = T(8) * r;
+    const Vector map_of_eight = moreau::detail::natural_map(law, u, eightfold, T(8));
+    map = std::max(map, double(map_of_eight.norm()) / (8 * size));
     const Vector again = law.solve(p.block, p.velocity, Vector(Vector::Zero()));
     guessed = std::max(guessed, double((again - r).norm()) / size);
-    const Vector twice = law.solve(p.block, Vector(2 * p.velocity), p.guess);
-    scaled = std::max(scaled, double((twice - 2 * r).norm()) / size);
+    if constexpr (!requires { law.natural_map(u, r, T(8)); }) {
+      const Vector twice = law.solve(p.block, Vector(2 * p.velocity), p.guess);
+      scaled = std::max(scaled, double((twice - 2 * r).norm()) / size);
+    }
     constexpr int aside = Problem::rows - 1;
     driven = std::max(
         driven, double(u.template tail<aside>().dot(r.template tail<aside>())) / (size * size));

@@ -7,7 +7,8 @@
 #   EIGEN     its include folder
 # One way builds the whole twenty-line example, fully optimized, for the warnings that only
 # optimizers give; two build two units with all of moreau.hpp; for the others it is enough that
-# the headers are found, and Eigen's.
+# the headers are found, and Eigen's. The subdirectory meets globals with the names that
+# the library has for its own.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
 
@@ -42,6 +43,9 @@ if(WAY STREQUAL "find_package")
   set(build_type Release)
 else()
   set(units hello.cpp)
+  if(WAY STREQUAL "add_subdirectory")
+    set(units globals.cpp)
+  endif()
   if(WAY MATCHES "plain|build_tree")
     set(units two_units/hello.cpp two_units/other.cpp)
   endif()

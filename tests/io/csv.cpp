@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/io/csv.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -9,7 +10,9 @@
 #include <limits>
 #include <random>
 #include <sstream>
+#include <sys/mman.h>
 
+#include "faults.hpp"
 #include "temporary_folder.hpp"
 
 using namespace moreau;
@@ -126,6 +129,70 @@ TEST_CASE("files that cannot be written are named") {
   } catch (const std::system_error& error) {
     CHECK(std::string(error.what()).find("/dev/full") != std::string::npos);
     CHECK(error.code() == std::errc::no_space_on_device);
+  }
+}
+
+TEST_CASE("a disk that fills up leaves whole lines, and the table goes on when there is room") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "rows.csv";
+  for (const std::size_t flush_every : {std::size_t(1), std::size_t(4)}) {
+    std::string told = "i,square\n";
+    CsvWriter csv(path, {"i", "square"}, flush_every);
+    {
+      const FullDisk full(told.size() + 50);
+      std::size_t whole = 0;
+      CHECK_THROWS_AS(
+          [&] {
+            for (int i = 0; i < 100; ++i) {
+              whole = told.size();
+              told += std::to_string(i) + ',' + std::to_string(i * i) + '\n';
+              csv.row(i, i * i);
+            }
+          }(),
+          std::system_error);
+      const std::string found = read(path);
+      CHECK(found.back() == '\n');
+      CHECK(told.starts_with(found));
+      if (flush_every == 1) CHECK(found.size() == whole);
+      CHECK_THROWS_AS(csv.flush(), std::system_error);
+      CHECK(read(path) == found);
+    }
+    csv.flush();
+    CHECK(read(path) == told);
+  }
+}
+
+TEST_CASE("a folder that may not be written to is named") {
+  const TemporaryFolder folder("csv");
+  const UnwritableFolder closed(folder / "");
+  try {
+    CsvWriter csv(folder / "wall.csv", {"t"});
+    FAIL("did not throw");
+  } catch (const std::system_error& error) {
+    CHECK(std::string(error.what()).find((folder / "wall.csv").string()) != std::string::npos);
+    CHECK(error.code() == std::errc::permission_denied);
+  }
+}
+
+TEST_CASE("a run that is killed leaves all rows that it had written") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "rows.csv";
+  // Shared with the process that writes.
+  auto* told = static_cast<volatile int*>(
+      mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  for (int k = 0; k < 10; ++k) {
+    CsvWriter csv(path, {"i", "square"});
+    *told = 0;
+    kill_while(std::chrono::microseconds(500 + 331 * k), [&] {
+      csv.row(*told, *told * 0.1);
+      *told = *told + 1;
+    });
+    CsvWriter whole(folder / "whole.csv", {"i", "square"}, 1000);
+    for (int i = 0; i <= *told; ++i) whole.row(i, i * 0.1);
+    whole.close();
+    const std::string found = read(path);
+    CHECK(read(folder / "whole.csv").starts_with(found));
+    CHECK(std::count(found.begin(), found.end(), '\n') > *told);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "moreau/shape/polyhedron.hpp"
 
 #include "detect/shapes.hpp"
+#include "faults.hpp"
 #include "temporary_folder.hpp"
 
 namespace {
@@ -271,6 +272,48 @@ TEST_CASE("the series is whole after every snapshot") {
   CHECK(text.find("<DataSet timestep=\"0.10000000000000001\" part=\"1\" "
                   "file=\"contacts_1.vtp\"/>") != std::string::npos);
   CHECK_THROWS_AS(PvdSeries(folder / "missing" / "x.pvd").add(0, "x"), std::system_error);
+}
+
+TEST_CASE("full disks, closed folders and a kill leave whole files") {
+  const TemporaryFolder folder("vtk");
+  const auto path = folder / "field.vtp", series_path = folder / "run.pvd";
+  const auto write = [&](int points) {
+    VtkPolyData data;
+    for (int k = 0; k < points; ++k) data.add_point(Eigen::Vector2d(k, 1));
+    data.write(path);
+  };
+  PvdSeries series(series_path);
+  write(1000);
+  const std::string one = read(path);
+  write(2000);
+  const std::string two = read(path);
+  series.add(0, "field.vtp");
+  const std::string first = read(series_path);
+  {
+    const FullDisk full(10);
+    CHECK_THROWS_WITH_AS(write(1000), doctest::Contains("cannot write"), std::system_error);
+    CHECK_THROWS_WITH_AS(series.add(1, "x.vtp"), doctest::Contains("cannot write"),
+                         std::system_error);
+  }
+  {
+    const UnwritableFolder closed(folder / "");
+    CHECK_THROWS_WITH_AS(write(1000), doctest::Contains(path.c_str()), std::system_error);
+    CHECK_THROWS_WITH_AS(series.add(2, "x.vtp"), doctest::Contains(series_path.c_str()),
+                         std::system_error);
+  }
+  CHECK(read(path) == two);
+  CHECK(read(series_path) == first);
+  for (int k = 0; k < 10; ++k) {
+    kill_while(std::chrono::microseconds(500 + 331 * k), [&] {
+      write(1000);
+      write(2000);
+      series.add(3, "field.vtp");
+    });
+    const std::string found = read(path), listed = read(series_path);
+    CHECK((found == one || found == two));
+    CHECK(listed.starts_with(first.substr(0, first.find("</Collection>"))));
+    CHECK(listed.ends_with("</Collection>\n</VTKFile>\n"));
+  }
 }
 
 // Where VTK's Python module is installed, its own reader has the last word.

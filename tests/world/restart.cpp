@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A run that is stopped and taken up again has the same bits as one that was not, and a file that
 // is not whole is refused.
-#include <csignal>
 #include <doctest/doctest.h>
 #include <random>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <thread>
-#include <unistd.h>
 
 #include "moreau/boundary/drive.hpp"
 #include "moreau/io/snapshot.hpp"
 
+#include "io/faults.hpp"
 #include "io/temporary_folder.hpp"
 #include "world/assemblies.hpp"
 
@@ -40,6 +36,23 @@ BoxOfGrains<ShapeT> shaken_box(int steps) {
   shake(box.simulation, steps);
   return box;
 }
+/// What a user has of his own: members in the open, and members that are named.
+struct Note {
+  std::vector<double> numbers;
+  std::string text;
+};
+class Tally {
+ public:
+  void add(int n) { count_ += n; }
+  int count() const { return count_; }
+
+ private:
+  friend struct moreau::StateAccess;
+  auto state() { return std::tie(count_); }
+
+  int count_ = 0;
+};
+
 /// Of the same type; all else is different.
 template <class ShapeT>
 World<ShapeT> other_world() {
@@ -94,19 +107,22 @@ TEST_CASE_TEMPLATE("N + M steps are N steps, a restart and M steps", ShapeT, Pol
 }
 
 TEST_CASE("what else belongs to a run goes with it") {
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(1), random_back;
   random.discard(1000);
   const int steps = 200;
-  const std::string note = "at rest";
-  const std::string bytes = snapshot(disks(), random, steps, note);
+  const Note note{{1, 2.5}, "at rest"};
+  Tally tally, tally_back;
+  tally.add(7);
+  const std::string bytes = snapshot(disks(), random, steps, note, tally);
   World<Disk<>> world = other_world<Disk<>>();
-  std::mt19937_64 random_back;
   int steps_back = 0;
-  std::string note_back;
-  restore_snapshot(bytes, world, random_back, steps_back, note_back);
+  Note note_back;
+  restore_snapshot(bytes, world, random_back, steps_back, note_back, tally_back);
   CHECK(random_back == random);
   CHECK(steps_back == 200);
-  CHECK(note_back == "at rest");
+  CHECK(note_back.numbers == note.numbers);
+  CHECK(note_back.text == "at rest");
+  CHECK(tally_back.count() == 7);
   CHECK_THROWS_WITH_AS(restore_snapshot(bytes, world), doctest::Contains("holds std::tuple<"),
                        std::runtime_error);
 }
@@ -151,23 +167,23 @@ TEST_CASE("a refusal says why") {
                        std::system_error);
 }
 
-TEST_CASE("a disk that is full and a folder that is missing leave the old file") {
+TEST_CASE("a disk that is full and a folder that is missing or closed leave the old file") {
   const TemporaryFolder folder("restart");
   const auto path = folder / "run.snapshot";
   write_snapshot(path, disks());
   const std::string before = read(path);
   CHECK_THROWS_AS(write_snapshot(folder / "missing" / "run.snapshot", disks()), std::system_error);
   CHECK_THROWS_AS(write_snapshot(path / "below", disks()), std::system_error);
-
-  rlimit limit{};
-  getrlimit(RLIMIT_FSIZE, &limit);
-  const rlimit little{before.size() / 2, limit.rlim_max};
-  const auto old = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &little);
-  CHECK_THROWS_WITH_AS(write_snapshot(path, disks()), doctest::Contains("cannot write"),
-                       std::system_error);
-  setrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, old);
+  {
+    const FullDisk full(before.size() / 2);
+    CHECK_THROWS_WITH_AS(write_snapshot(path, disks()), doctest::Contains("cannot write"),
+                         std::system_error);
+  }
+  {
+    const UnwritableFolder closed(folder / "");
+    CHECK_THROWS_WITH_AS(write_snapshot(path, disks()), doctest::Contains(path.c_str()),
+                         std::system_error);
+  }
   CHECK(read(path) == before);
   CHECK_FALSE(std::filesystem::exists(folder / "run.snapshot.part"));
 }
@@ -178,15 +194,10 @@ TEST_CASE("a run that is killed while it writes leaves a whole snapshot") {
   const std::string one = snapshot(disks(), 1), two = snapshot(disks(), 2);
   write_atomically(path, one);
   for (int k = 0; k < 20; ++k) {
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    while (child == 0) {
+    kill_while(std::chrono::microseconds(500 + 331 * k), [&] {
       write_atomically(path, two);
       write_atomically(path, one);
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(500 + 331 * k));
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
+    });
     const std::string found = read(path);
     CHECK((found == one || found == two));
   }

@@ -24,6 +24,7 @@ template <class ShapeT>
 class Placed {
  public:
   using Space = SpaceOf<ShapeT>;
+  using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
   /// At the origin, not turned.
@@ -36,7 +37,13 @@ class Placed {
     shape_ = &shape;
     pose_ = pose;
   }
+  /// The same orientation elsewhere.
+  void move_to(const Vector& center) { pose_.position = center; }
+
+  const ShapeT& shape() const { return *shape_; }          ///< what was placed
   const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
+  /// Radius of the ball about the centre that holds the shape [m].
+  Scalar radius() const requires HasCircumradius<ShapeT> { return shape_->circumradius(); }
   /// The farthest point in the direction (any length but zero), relative to the centre [m].
   Vector support(const Vector& direction) const {
     return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);

@@ -56,10 +56,12 @@ constexpr std::size_t member_count() {
 /// References to the members of an aggregate.
 template <class X>
 auto members(X& x) {
-  constexpr std::size_t count = member_count<X>();
+  constexpr std::size_t count = std::is_aggregate_v<X> ? member_count<X>() : 0;
   static_assert(count > 0,
                 "a class that is to be written to a file needs core/state.hpp's state()");
-  if constexpr (count == 1) {
+  if constexpr (count == 0) {
+    return std::tuple<>();
+  } else if constexpr (count == 1) {
     auto& [a] = x;
     return std::tie(a);
   } else if constexpr (count == 2) {

@@ -23,7 +23,8 @@ class OutputFile {
   /// Empties the file or creates it; its folder must exist.
   /// @param keep goes on behind so many bytes of a file that is there, and cuts off what follows
   ///             them; a file that has less is an error
-  explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0) : path_(path) {
+  explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0)
+      : path_(path), written_(keep) {
     errno = 0;
     if (keep > 0) {
       std::error_code error;
@@ -37,11 +38,16 @@ class OutputFile {
 
   const std::filesystem::path& path() const { return path_; }  ///< of the file
 
-  /// Appends the bytes.
+  /// Appends the bytes. If not all of them find room, a file on a disk has none of them.
   void write(std::string_view bytes) {
     errno = 0;
-    if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
+    if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+      const int reason = errno;
+      take_back();
+      errno = reason;
       fail("write");
+    }
+    written_ += bytes.size();
   }
   /// Waits until what was written is on the disk, where the system can say so.
   void sync() {
@@ -64,6 +70,13 @@ class OutputFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
+  /// What was written of the bytes for which there was no room.
+  void take_back() {
+#if __has_include(<unistd.h>)
+    if (file_ && ::ftruncate(::fileno(file_.get()), static_cast<off_t>(written_)) == 0)
+      std::fseek(file_.get(), 0, SEEK_END);
+#endif
+  }
   [[noreturn]] void fail(const char* what) const {
     const int reason = errno != 0 ? errno : EIO;
     throw std::system_error(reason, std::generic_category(),
@@ -71,6 +84,7 @@ class OutputFile {
   }
 
   std::filesystem::path path_;
+  std::uintmax_t written_;  // bytes, those that were kept included
   std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <locale>
 #include <span>
 #include <sstream>
 #include <string>
@@ -168,6 +169,7 @@ class PvdSeries {
   /// @throws std::system_error naming the path
   void add(double time, std::string_view file, int part = 0) {
     std::ostringstream line;
+    line.imbue(std::locale::classic());
     line.precision(17);
     line << "<DataSet timestep=\"" << time << "\" part=\"" << part << "\" file=\"" << file
          << "\"/>\n";

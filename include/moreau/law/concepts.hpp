@@ -31,7 +31,9 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// - solve(block, b, guess): the impulse [N s] that satisfies u = W r + b and the law; exact.
 ///   b [m/s] is the relative velocity at zero impulse with the offset; guess any impulse nearby.
 /// - natural_map(u, r): r - P_K(r - u'), zero exactly on solutions; u and r in one unit. With u = 0
-///   it is what of r the law forbids.
+///   it is what of r the law forbids. A law with constants of a unit, such as a bound of r [N s],
+///   has natural_map(u, r, scale = 1): r is the impulse times scale [1/kg], and so must its
+///   constants be.
 ///
 /// A law with `static constexpr bool rolls = true` carries a couple beside the force: block, u, r
 /// and b are those of a RollingBlock, with D + A rows, rolling and twisting last.
@@ -45,6 +47,19 @@ concept SetValuedLaw = std::copyable<L> &&
   { law.solve(block, vector, vector) } -> std::same_as<typename BlockOf<L, S>::Vector>;
   { law.natural_map(vector, vector) } -> std::same_as<typename BlockOf<L, S>::Vector>;
 };
+
+namespace detail {
+
+/// The natural map of u [m/s] and r, the impulse times scale [1/kg].
+template <class L, class Vector>
+Vector natural_map(const L& law, const Vector& u, const Vector& r, typename Vector::Scalar scale) {
+  if constexpr (requires { law.natural_map(u, r, scale); })
+    return law.natural_map(u, r, scale);
+  else
+    return law.natural_map(u, r);
+}
+
+}  // namespace detail
 
 template <class L, class S>
 concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;

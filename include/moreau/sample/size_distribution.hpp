@@ -84,8 +84,9 @@ class SizeDistribution {
     }
     std::vector<std::size_t> order(classes_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return remainder[a] > remainder[b] || (remainder[a] == remainder[b] && a < b);
+    });
     for (std::size_t i = 0; i < left; ++i) ++count[order[i % order.size()]];
     return count;
   }

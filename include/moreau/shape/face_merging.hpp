@@ -63,10 +63,12 @@ class FaceMerging {
       const auto& [a, b, c] = t.vertex;
       area_.push_back((points[b] - points[a]).cross(points[c] - points[a]));
     }
+    std::vector<double> size;
+    for (const Eigen::Vector3d& area : area_) size.push_back(area.squaredNorm());
     std::vector<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return area_[a].squaredNorm() > area_[b].squaredNorm();
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return size[a] > size[b] || (size[a] == size[b] && a < b);
     });
     group_.assign(triangles.size(), none);
     for (const std::uint32_t t : order) {

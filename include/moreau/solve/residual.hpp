@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 
+#include "moreau/law/concepts.hpp"
 #include "moreau/solve/report.hpp"
 
 namespace moreau {
@@ -36,10 +37,11 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
     if (r[0] == 0 && op.normal_velocity(c) >= 0) continue;
     const Vector u = op.velocity(c);
     if (!std::isfinite(u[0])) continue;  // cannot act in this step
-    const Vector scaled = r * static_cast<typename Operator::Scalar>(scale);
+    const auto to_velocity = static_cast<typename Operator::Scalar>(scale);
+    const Vector scaled = r * to_velocity;
     const double free = std::min(0.0, double(op.free_velocity(c)[0]));
     approach += free * free;
-    map += double(laws[law_of[c]].natural_map(u, scaled).squaredNorm());
+    map += double(detail::natural_map(laws[law_of[c]], u, scaled, to_velocity).squaredNorm());
     norm += double(scaled.squaredNorm());
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
     const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// A run that may end at any moment: started again, it goes on, and its table has the same bytes as
+// that of a run that never ended. Disks of random sizes rain into a box that shakes. Writes into
+// restart-output/.
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <moreau/moreau.hpp>
+#include <random>
+#include <string>
+
+#include "moreau/boundary/drive.hpp"
+#include "moreau/io/csv.hpp"
+#include "moreau/io/snapshot.hpp"
+
+namespace fs = std::filesystem;
+using Disk = moreau::Disk<double>;
+using Law = moreau::SignoriniCoulomb<double>;
+using World = moreau::Simulation<Disk, Law>;
+using Vector = World::Vector;
+
+namespace setup {
+constexpr double size = 0.01, width = 0.1, h = 5e-4;  // of a grain, of the box [m]; step [s]
+constexpr int steps = 3000, snapshot_every = 500, grain_every = 100;
+}  // namespace setup
+using namespace setup;
+
+void build(World& world) {
+  world.add_wall({0, 1}, {0, 0});
+  world.add_wall({1, 0}, {0, 0});
+  world.add_wall({-1, 0}, {width, 0});
+  world.set_gravity({0, -9.81});
+}
+
+/// One more disk, from a random place above the box.
+void rain(World& world, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> radius(0.4 * size, 0.6 * size), place(size, width - size);
+  const moreau::ShapeId disk = world.add_shape(Disk(radius(random)));
+  moreau::Pose<World::S> pose;
+  pose.position = {place(random), width};
+  world.add_grain(disk, pose, 2500);
+}
+
+/// The mean height of the grains [m].
+double mean_height(const World& world) {
+  double sum = 0;
+  for (std::size_t k = 0; k < world.grain_count(); ++k)
+    sum += world.bodies().pose[world.grain(k).index()].position[1];
+  return sum / double(world.grain_count());
+}
+
+/// The run of a folder, from the beginning or from its last snapshot, up to a step.
+void run(const fs::path& folder, int end) {
+  fs::create_directories(folder);
+  const fs::path snapshot = folder / "run.snapshot";
+  World world(size, moreau::Materials<Law>(1, Law(0.4)));
+  std::mt19937_64 random(1);
+  int step = 0;
+  std::uintmax_t table_size = 0;
+  if (fs::exists(snapshot))
+    moreau::read_snapshot(snapshot, world, random, step, table_size);
+  else
+    build(world);
+
+  moreau::CsvWriter table(folder / "run.csv", {{"t", "s"}, "grains", {"height", "m"}}, 10,
+                          table_size);
+  // Functions are in no snapshot: made again, they take their time from the simulation.
+  const moreau::VelocityDrive shake(world.walls()[0], Vector::UnitY(),
+                                    [](double t) { return 0.02 * std::sin(60 * t); });
+  for (; step < end; ++step) {
+    if (step % snapshot_every == 0) {
+      table.flush();
+      moreau::write_snapshot(snapshot, world, random, step, table.size());
+    }
+    if (step % grain_every == 0) rain(world, random);
+    shake.apply(world, h);
+    world.step(h);
+    table.row(world.time(), world.grain_count(), mean_height(world));
+  }
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+int main() {
+  fs::remove_all("restart-output");
+  run("restart-output/whole", steps);
+  run("restart-output/stopped", 1700);   // as if killed: 200 steps after its last snapshot
+  run("restart-output/stopped", steps);  // goes on from step 1500
+  const bool same =
+      bytes_of("restart-output/whole/run.csv") == bytes_of("restart-output/stopped/run.csv");
+  std::cout << (same ? "the same bytes in both tables\n" : "the tables differ\n");
+  return same ? 0 : 1;
+}
