@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The cases of the validation, which the program and the tests share; what of them takes long to
-# compile is in worlds/.
+# compile is in worlds/. Those in float are a library of their own, for the program and the long tests.
 if(NOT TARGET validation_cases)
   set(cases ${PROJECT_SOURCE_DIR}/examples/validation)
   file(GLOB sources CONFIGURE_DEPENDS ${cases}/worlds/*.cpp ${cases}/*.cpp)
@@ -8,4 +8,11 @@ if(NOT TARGET validation_cases)
   add_library(validation_cases STATIC EXCLUDE_FROM_ALL ${sources})
   target_include_directories(validation_cases PUBLIC ${cases})
   target_link_libraries(validation_cases PUBLIC moreau_development)
+
+  file(GLOB sources CONFIGURE_DEPENDS ${cases}/in_float/*.cpp)
+  add_library(validation_cases_in_float STATIC EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(validation_cases_in_float PUBLIC validation_cases)
+  # The cases state their numbers in double, whatever the scalar.
+  target_compile_options(validation_cases_in_float PRIVATE -Wno-float-conversion
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-implicit-float-conversion>)
 endif()

@@ -25,7 +25,8 @@ struct Options {
 
 std::vector<Case> all_cases() {
   std::vector<Case> all;
-  for (const auto& group : {closed_forms(), structures(), invariants(), packings()})
+  for (const auto& group : {closed_forms(), structures(), invariants(), packings(),
+                            closed_forms_in_float(), structures_in_float(), invariants_in_float()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }
@@ -51,7 +52,7 @@ void print(const Result& result) {
   for (const Row& row : result.record.rows())
     if (!row.pass())
       std::printf("  FAILED %s (%s): expected %g, measured %g, error %g, tolerance %g\n",
-                  row.name.c_str(), row.dimension.c_str(), row.expected, row.measured, row.error,
+                  row.name.c_str(), row.space.c_str(), row.expected, row.measured, row.error,
                   row.tolerance);
   std::fflush(stdout);
 }

@@ -52,7 +52,7 @@ std::string markdown(std::span<const Result> results) {
     for (const Row& row : result.record.rows()) {
       ++rows;
       passed += row.pass();
-      table += "| " + row.name + " | " + row.dimension + " | " + number(row.expected) + " | " +
+      table += "| " + row.name + " | " + row.space + " | " + number(row.expected) + " | " +
                number(row.measured) + " | " + number(row.error) + " | " + number(row.tolerance) +
                " | " + (row.pass() ? "yes" : "**no**") + " |\n";
     }
@@ -61,10 +61,10 @@ std::string markdown(std::span<const Result> results) {
 }
 
 std::string csv(std::span<const Result> results) {
-  std::string table = "case,comparison,dimension,expected,measured,error,tolerance,pass\n";
+  std::string table = "case,comparison,space,expected,measured,error,tolerance,pass\n";
   for (const Result& result : results)
     for (const Row& row : result.record.rows())
-      table += result.name + ",\"" + row.name + "\"," + row.dimension + ',' + number(row.expected) +
+      table += result.name + ",\"" + row.name + "\"," + row.space + ',' + number(row.expected) +
                ',' + number(row.measured) + ',' + number(row.error) + ',' + number(row.tolerance) +
                ',' + (row.pass() ? '1' : '0') + '\n';
   return table;

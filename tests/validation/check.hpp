@@ -15,7 +15,7 @@ inline void check(const Case& one, Effort effort) {
   one.run(record, effort);
   CHECK_FALSE(record.rows().empty());
   for (const Row& row : record.rows()) {
-    INFO(one.name << ": " << row.name << " (" << row.dimension << ")");
+    INFO(one.name << ": " << row.name << " (" << row.space << ")");
     INFO("expected " << row.expected << ", measured " << row.measured << ", error " << row.error
                      << ", tolerance " << row.tolerance);
     CHECK(row.pass());
