@@ -23,11 +23,11 @@ void slip_to_roll_rigid(Record& record) {
       const double v0 = 1 + 0.007 * n, exact = k / (1 + k) * v0 / (mu * gravity);
       OnFloor<ShapeT> scene(ShapeT(0.05), 0.05, Coulomb<ShapeT>(mu));
       scene.world.set_velocity(scene.grain, S::Vector::UnitX() * v0);
-      double start = 0;
-      while (scene.world.time() < 0.2) {
+      double start = 0, time = 0;  // not the world's time, which is of its scalar
+      while (time < 0.2) {
         scene.world.step(h);
-        if (std::abs(scene.along() - 0.05 * scene.spin()) > resolved<S>(1e-9))
-          start = scene.world.time();
+        time += h;
+        if (std::abs(scene.along() - 0.05 * scene.spin()) > resolved<S>(1e-9)) start = time;
       }
       worst_share = std::max(worst_share, std::abs(scene.along() / v0 * (1 + k) - 1));
       latest = std::max(latest, std::abs(start - exact) / h);
