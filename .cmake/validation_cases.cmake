@@ -4,9 +4,9 @@
 # tests.
 if(NOT TARGET validation_cases)
   set(cases ${PROJECT_SOURCE_DIR}/examples/validation)
-  file(GLOB sources CONFIGURE_DEPENDS ${cases}/worlds/*.cpp ${cases}/*.cpp)
-  list(REMOVE_ITEM sources ${cases}/main.cpp ${cases}/report.cpp)
-  add_library(validation_cases STATIC EXCLUDE_FROM_ALL ${sources})
+  file(GLOB case_sources CONFIGURE_DEPENDS ${cases}/worlds/*.cpp ${cases}/*.cpp)
+  list(REMOVE_ITEM case_sources ${cases}/main.cpp ${cases}/report.cpp)
+  add_library(validation_cases STATIC EXCLUDE_FROM_ALL ${case_sources})
   target_include_directories(validation_cases PUBLIC ${cases})
   target_link_libraries(validation_cases PUBLIC moreau_development)
   set(fast $<$<CONFIG:Release>:-O1>)  # the cases themselves; the steps are as in a user's build
@@ -15,8 +15,8 @@ if(NOT TARGET validation_cases)
     set_source_files_properties(${cases}/${kind}.cpp PROPERTIES COMPILE_OPTIONS ${fast})
   endforeach()
 
-  file(GLOB sources CONFIGURE_DEPENDS ${cases}/in_float/*.cpp)
-  add_library(validation_cases_in_float STATIC EXCLUDE_FROM_ALL ${sources})
+  file(GLOB case_sources CONFIGURE_DEPENDS ${cases}/in_float/*.cpp)
+  add_library(validation_cases_in_float STATIC EXCLUDE_FROM_ALL ${case_sources})
   foreach(kind ${kinds})
     set_source_files_properties(${cases}/in_float/${kind}.cpp PROPERTIES COMPILE_OPTIONS ${fast})
   endforeach()
