@@ -1,11 +1,27 @@
 # SPDX-License-Identifier: MIT
 # The cases of the validation, which the program and the tests share; what of them takes long to
-# compile is in worlds/.
+# compile is in worlds/. Those in float are a library of their own, for the program and the long
+# tests.
 if(NOT TARGET validation_cases)
   set(cases ${PROJECT_SOURCE_DIR}/examples/validation)
-  file(GLOB sources CONFIGURE_DEPENDS ${cases}/worlds/*.cpp ${cases}/*.cpp)
-  list(REMOVE_ITEM sources ${cases}/main.cpp ${cases}/report.cpp)
-  add_library(validation_cases STATIC EXCLUDE_FROM_ALL ${sources})
+  file(GLOB case_sources CONFIGURE_DEPENDS ${cases}/worlds/*.cpp ${cases}/*.cpp)
+  list(REMOVE_ITEM case_sources ${cases}/main.cpp ${cases}/report.cpp)
+  add_library(validation_cases STATIC EXCLUDE_FROM_ALL ${case_sources})
   target_include_directories(validation_cases PUBLIC ${cases})
   target_link_libraries(validation_cases PUBLIC moreau_development)
+  set(fast $<$<CONFIG:Release>:-O1>)  # the cases themselves; the steps are as in a user's build
+  set(kinds closed_forms invariants structures)
+  foreach(kind ${kinds} packings)
+    set_source_files_properties(${cases}/${kind}.cpp PROPERTIES COMPILE_OPTIONS ${fast})
+  endforeach()
+
+  file(GLOB case_sources CONFIGURE_DEPENDS ${cases}/in_float/*.cpp)
+  add_library(validation_cases_in_float STATIC EXCLUDE_FROM_ALL ${case_sources})
+  foreach(kind ${kinds})
+    set_source_files_properties(${cases}/in_float/${kind}.cpp PROPERTIES COMPILE_OPTIONS ${fast})
+  endforeach()
+  target_link_libraries(validation_cases_in_float PUBLIC validation_cases)
+  # The cases state their numbers in double, whatever the scalar.
+  target_compile_options(validation_cases_in_float PRIVATE -Wno-float-conversion
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-implicit-float-conversion>)
 endif()

@@ -10,6 +10,7 @@
 
 #include "moreau/version.hpp"
 
+#include "misses.hpp"
 #include "report.hpp"
 #include "suite.hpp"
 
@@ -25,7 +26,8 @@ struct Options {
 
 std::vector<Case> all_cases() {
   std::vector<Case> all;
-  for (const auto& group : {closed_forms(), structures(), invariants(), packings()})
+  for (const auto& group : {closed_forms(), structures(), invariants(), packings(),
+                            closed_forms_in_float(), structures_in_float(), invariants_in_float()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }
@@ -50,13 +52,13 @@ void print(const Result& result) {
               result.record.rows().size(), result.seconds);
   for (const Row& row : result.record.rows())
     if (!row.pass())
-      std::printf("  FAILED %s (%s): expected %g, measured %g, error %g, tolerance %g\n",
-                  row.name.c_str(), row.dimension.c_str(), row.expected, row.measured, row.error,
-                  row.tolerance);
+      std::printf("  %s %s (%s): expected %g, measured %g, error %g, tolerance %g\n",
+                  known_miss(row) ? "MISSED" : "FAILED", row.name.c_str(), row.space.c_str(),
+                  row.expected, row.measured, row.error, row.tolerance);
   std::fflush(stdout);
 }
 
-/// @returns 0 if everything passed
+/// @returns 0 if everything passed that is not known to miss
 int run(const Options& options) {
   std::filesystem::create_directories(options.output);
   std::vector<Result> results;
@@ -65,7 +67,8 @@ int run(const Options& options) {
     if (!is_wanted(one, options)) continue;
     results.push_back(run(one, options.quick ? Effort::quick : Effort::full));
     print(results.back());
-    for (const Row& row : results.back().record.rows()) passed = passed && row.pass();
+    for (const Row& row : results.back().record.rows())
+      passed = passed && (row.pass() || known_miss(row));
     write(options.output, results);
   }
   plot(options.output);

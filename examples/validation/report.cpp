@@ -10,6 +10,8 @@
 #include "moreau/io/output_file.hpp"
 #include "moreau/version.hpp"
 
+#include "misses.hpp"
+
 namespace validation {
 
 namespace {
@@ -43,6 +45,12 @@ std::string build() {
   return text;
 }
 
+std::string verdict(const Row& row) {
+  if (row.pass()) return "yes";
+  const char* reason = known_miss(row);
+  return reason ? std::string("**no**: ") + reason : "**no**";
+}
+
 std::string markdown(std::span<const Result> results) {
   std::size_t rows = 0, passed = 0;
   std::string table =
@@ -52,19 +60,19 @@ std::string markdown(std::span<const Result> results) {
     for (const Row& row : result.record.rows()) {
       ++rows;
       passed += row.pass();
-      table += "| " + row.name + " | " + row.dimension + " | " + number(row.expected) + " | " +
+      table += "| " + row.name + " | " + row.space + " | " + number(row.expected) + " | " +
                number(row.measured) + " | " + number(row.error) + " | " + number(row.tolerance) +
-               " | " + (row.pass() ? "yes" : "**no**") + " |\n";
+               " | " + verdict(row) + " |\n";
     }
   return "# Validation\n\nmoreau " MOREAU_VERSION_STRING ", " + today() + ", " + build() + ". " +
          std::to_string(passed) + " of " + std::to_string(rows) + " comparisons pass.\n\n" + table;
 }
 
 std::string csv(std::span<const Result> results) {
-  std::string table = "case,comparison,dimension,expected,measured,error,tolerance,pass\n";
+  std::string table = "case,comparison,space,expected,measured,error,tolerance,pass\n";
   for (const Result& result : results)
     for (const Row& row : result.record.rows())
-      table += result.name + ",\"" + row.name + "\"," + row.dimension + ',' + number(row.expected) +
+      table += result.name + ",\"" + row.name + "\"," + row.space + ',' + number(row.expected) +
                ',' + number(row.measured) + ',' + number(row.error) + ',' + number(row.tolerance) +
                ',' + (row.pass() ? '1' : '0') + '\n';
   return table;

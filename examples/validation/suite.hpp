@@ -23,4 +23,9 @@ std::vector<Case> invariants();
 /// Many grains.
 std::vector<Case> packings();
 
+// The same in single precision, where they have an answer there; by the same names.
+std::vector<Case> closed_forms_in_float();
+std::vector<Case> structures_in_float();
+std::vector<Case> invariants_in_float();
+
 }  // namespace validation

@@ -39,7 +39,7 @@ template <class ShapeT>
 ArchRun stand_arch(int blocks, double thickness, double time) {
   using S = SpaceOf<ShapeT>;
   constexpr int up = S::dim - 1;
-  World<ShapeT> world = world_of<ShapeT, Coulomb>(thickness, Coulomb(0.7), tight(1e-6));
+  World<ShapeT> world = world_of<ShapeT>(thickness, Coulomb<ShapeT>(0.7), tight(1e-6));
   world.set_contact_points(moreau::ContactPoints::all);
   world.add_wall(S::Vector::Unit(up), S::Vector::Zero());
   world.set_gravity(tilted_gravity<S>(0));
@@ -66,9 +66,9 @@ ArchRun stand_arch(int blocks, double thickness, double time) {
 /// Mech. 85 (2015) 1233), for friction enough not to slip.
 template <class ShapeT>
 void arch(Record& record, int blocks, int bisections) {
-  constexpr int dim = SpaceOf<ShapeT>::dim;
+  using S = SpaceOf<ShapeT>;
   const double exact = 0.1075;
-  Curve& curve = record.curve("arch_" + std::to_string(dim) + "d", {"thickness", "fall"});
+  Curve& curve = record.curve("arch", S{}, {"thickness", "fall"});
   int unsolved = 0;
   const auto stands = [&](double thickness) {
     const auto run = detail::stand_arch<ShapeT>(blocks, thickness, 0.5);
@@ -79,13 +79,13 @@ void arch(Record& record, int blocks, int bisections) {
   const double found = threshold(0.9 * exact, 1.1 * exact, bisections, stands);
   std::sort(curve.rows.begin(), curve.rows.end());
   const std::string name = with_shape<ShapeT>("arch of " + std::to_string(blocks));
-  record.compare_relative(name + ": least thickness over radius", dim, exact, found, 0.02);
+  record.compare_relative(name + ": least thickness over radius", S{}, exact, found, 0.02);
 }
 
 inline void semicircular_arch(Record& record, Effort effort) {
   const bool quick = effort == Effort::quick;
-  arch<Polygon>(record, 31, quick ? 4 : 6);
-  if (!quick) arch<Polyhedron>(record, 31, 5);
+  arch<Polygon<>>(record, 31, quick ? 4 : 6);
+  if (!quick) arch<Polyhedron<>>(record, 31, 5);
 }
 
 }  // namespace validation

@@ -25,7 +25,7 @@ ShapeT block() {
 /// rest and turns like exp(t sqrt(3 g/4 R)), a factor of 1e4 and more.
 template <class ShapeT>
 bool tips(double tilt) {
-  OnFloor<ShapeT> scene(block<ShapeT>(), half_height, Coulomb(1), tilt);
+  OnFloor<ShapeT> scene(block<ShapeT>(), half_height, Coulomb<ShapeT>(1), tilt);
   scene.world.set_contact_points(moreau::ContactPoints::all);
   double turned = 0;
   while (scene.world.time() < 1 && turned < 0.02) {
@@ -44,7 +44,7 @@ double housner() {
   const auto velocity = in_plane<S>(half_height * spin, -half_base * spin);  // clockwise
   // Half a step later, where contacts are detected, it is flat on the floor.
   const Pose<S> pose{in_plane<S>(0, half_height) - h / 2 * velocity, S::exp(turn<S>(h / 2 * spin))};
-  OnFloor<ShapeT> scene(block<ShapeT>(), pose, Coulomb(10));
+  OnFloor<ShapeT> scene(block<ShapeT>(), pose, Coulomb<ShapeT>(10));
   scene.world.set_contact_points(moreau::ContactPoints::all);
   scene.world.set_gravity(S::Vector::Zero());
   scene.world.set_velocity(scene.grain, velocity);
@@ -61,8 +61,8 @@ void toppling(Record& record) {
   const double exact = std::atan(detail::half_base / detail::half_height),
                degree = std::numbers::pi / 180;
   const double found = threshold(exact - degree, exact + degree, 7, detail::tips<ShapeT>);
-  record.compare(with_shape<ShapeT>("toppling block") + ": tips from [degrees]",
-                 SpaceOf<ShapeT>::dim, exact / degree, found / degree, 0.05);
+  record.compare(with_shape<ShapeT>("toppling block") + ": tips from [degrees]", SpaceOf<ShapeT>{},
+                 exact / degree, found / degree, 0.05);
 }
 
 /// A block that rocks from one edge to the other without a bounce keeps 1 - 3/2 sin^2(alpha) of its
@@ -71,17 +71,19 @@ template <class ShapeT>
 void rocking(Record& record) {
   const double sine = std::sin(std::atan(detail::half_base / detail::half_height));
   record.compare(with_shape<ShapeT>("rocking block") + ": spin after over before",
-                 SpaceOf<ShapeT>::dim, 1 - 1.5 * sine * sine, detail::housner<ShapeT>(), 1e-6);
+                 SpaceOf<ShapeT>{}, 1 - 1.5 * sine * sine, detail::housner<ShapeT>(), 1e-6);
 }
 
-inline void toppling_block(Record& record, Effort) {
-  toppling<Polyhedron>(record);
-  toppling<Polygon>(record);
+template <class T>
+void toppling_block(Record& record, Effort) {
+  toppling<Polyhedron<T>>(record);
+  toppling<Polygon<T>>(record);
 }
 
-inline void rocking_block(Record& record, Effort) {
-  rocking<Polyhedron>(record);
-  rocking<Polygon>(record);
+template <class T>
+void rocking_block(Record& record, Effort) {
+  rocking<Polyhedron<T>>(record);
+  rocking<Polygon<T>>(record);
 }
 
 }  // namespace validation

@@ -154,29 +154,28 @@ class Compression {
 /// rattler.
 template <class ShapeT>
 void close_packing(Record& record, double expected, const std::vector<std::size_t>& counts) {
-  constexpr int dim = SpaceOf<ShapeT>::dim;
-  Curve& curve = record.curve("close_packing_" + std::to_string(dim) + "d",
-                              {"grains", "fraction", "coordination"});
+  using S = SpaceOf<ShapeT>;
+  Curve& curve = record.curve("close_packing", S{}, {"grains", "fraction", "coordination"});
   Packing packing{};
   for (const std::size_t count : counts) {
-    detail::Compression<ShapeT, Frictionless> sample(count, dim == 3 ? 1 : 1.4, count,
-                                                     Frictionless());
+    detail::Compression<ShapeT, Frictionless<ShapeT>> sample(count, S::dim == 3 ? 1 : 1.4, count,
+                                                             Frictionless<ShapeT>());
     packing = sample.press(0.02, 200);
     curve.rows.push_back({double(count), packing.fraction, packing.coordination});
   }
   const std::string name =
       with_shape<ShapeT>("random close packing of " + std::to_string(counts.back())) + ": ";
-  record.compare(name + "solid fraction", dim, expected, packing.fraction, 0.01);
-  record.compare(name + "coordination", dim, 2 * dim, packing.coordination, 0.1);
-  record.compare(name + "at rest", dim, 1, packing.settled, 0);
+  record.compare(name + "solid fraction", S{}, expected, packing.fraction, 0.01);
+  record.compare(name + "coordination", S{}, 2 * S::dim, packing.coordination, 0.1);
+  record.compare(name + "at rest", S{}, 1, packing.settled, 0);
 }
 
 inline void random_close_packing(Record& record, Effort effort) {
   const bool quick = effort == Effort::quick;
-  close_packing<Disk>(
+  close_packing<Disk<>>(
       record, 0.84,
       quick ? std::vector<std::size_t>{200} : std::vector<std::size_t>{200, 400, 800});
-  close_packing<Ball>(
+  close_packing<Ball<>>(
       record, 0.64,
       quick ? std::vector<std::size_t>{300} : std::vector<std::size_t>{300, 600, 1000});
 }
@@ -185,8 +184,8 @@ inline void random_close_packing(Record& record, Effort effort) {
 /// samples from the same places, for stiffnesses k over pressure x size.
 template <class ShapeT>
 void stiff_springs(Record& record, std::size_t count, int samples) {
-  constexpr int dim = SpaceOf<ShapeT>::dim;
-  const double ratio = dim == 3 ? 1 : 1.4;
+  using S = SpaceOf<ShapeT>;
+  const double ratio = S::dim == 3 ? 1 : 1.4;
   const auto mean_of = [&](const auto& law, double step) {
     using Law = std::decay_t<decltype(law)>;
     Packing mean{};
@@ -199,27 +198,29 @@ void stiff_springs(Record& record, std::size_t count, int samples) {
     }
     return mean;
   };
-  const Packing rigid = mean_of(Frictionless(), 0.02);
-  Curve& curve = record.curve("stiff_springs_" + std::to_string(dim) + "d",
+  const Packing rigid = mean_of(Frictionless<ShapeT>(), 0.02);
+  Curve& curve = record.curve("stiff_springs", S{},
                               {"stiffness", "fraction", "coordination", "overlap", "rigid"});
   Packing soft{};
   std::vector<double> stiffness, overlap;
   for (const double k : {1e2, 1e3, 1e4}) {
     // A twentieth of the time that a contact of two unit balls lasts, or less.
-    soft = mean_of(Springs(k, 0, 0, 0.2), 0.1 / std::sqrt(k));
+    soft = mean_of(Springs<ShapeT>(k, 0, 0, 0.2), 0.1 / std::sqrt(k));
     curve.rows.push_back({k, soft.fraction, soft.coordination, soft.overlap, rigid.fraction});
     stiffness.push_back(k);
     overlap.push_back(soft.overlap);
   }
   const std::string name = with_shape<ShapeT>("stiff springs") + ": ";
-  record.compare(name + "solid fraction", dim, rigid.fraction, soft.fraction, 0.01);
-  record.compare(name + "coordination", dim, rigid.coordination, soft.coordination, 0.1);
-  record.compare(name + "order of the overlap in stiffness", dim, -1, order_of(stiffness, overlap),
+  record.compare(name + "solid fraction", S{}, rigid.fraction, soft.fraction, 0.01);
+  record.compare(name + "coordination", S{}, rigid.coordination, soft.coordination, 0.1);
+  record.compare(name + "order of the overlap in stiffness", S{}, -1, order_of(stiffness, overlap),
                  0.1);
 }
 
 inline void stiff_springs_are_rigid(Record& record, Effort effort) {
-  stiff_springs<Disk>(record, effort == Effort::quick ? 100 : 300, effort == Effort::quick ? 1 : 3);
+  const bool quick = effort == Effort::quick;
+  stiff_springs<Disk<>>(record, quick ? 100 : 300, quick ? 1 : 3);
+  if (!quick) stiff_springs<Ball<>>(record, 600, 2);
 }
 
 }  // namespace validation

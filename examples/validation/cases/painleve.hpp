@@ -45,7 +45,7 @@ void painleve(Record& record) {
     for (const double fall : {0.0, 0.1}) {
       const double height = std::sin(angle) * length / 2 + std::cos(angle) * thickness / 2;
       OnFloor<ShapeT> scene(cuboid<ShapeT>(half), {in_plane<S>(0, height), S::exp(turn<S>(angle))},
-                            Coulomb(2));
+                            Coulomb<ShapeT>(2));
       scene.world.set_solver(moreau::ColouredGaussSeidel());
       scene.world.set_velocity(scene.grain, in_plane<S>(5 * direction, -fall));
       const double start = energy(scene.world), unit = mass(scene.world) * gravity * length;
@@ -59,16 +59,17 @@ void painleve(Record& record) {
       }
     }
   const std::string name = with_shape<ShapeT>("Painleve's rod") + ": ";
-  record.vanishes(name + "steps with numbers that are not finite", S::dim, insane, 0);
-  record.vanishes(name + "steps not solved", S::dim, unsolved, 0);
+  record.vanishes(name + "steps with numbers that are not finite", S{}, insane, 0);
+  record.vanishes(name + "steps not solved", S{}, unsolved, 0);
   // The gap of a rotating tip is linear in a step up to (w h)^2/2 of the lever, w at most some v/l:
   // an energy of m g l (v h/l)^2 per step, 2.5e-5 of m g l.
-  record.vanishes(name + "energy gained over m g l", S::dim, gained, 200 * 2.5e-5);
+  record.vanishes(name + "energy gained over m g l", S{}, gained, 200 * 2.5e-5);
 }
 
-inline void painleve_rod(Record& record, Effort) {
-  painleve<Polyhedron>(record);
-  painleve<Polygon>(record);
+template <class T>
+void painleve_rod(Record& record, Effort) {
+  painleve<Polyhedron<T>>(record);
+  painleve<Polygon<T>>(record);
 }
 
 }  // namespace validation

@@ -21,9 +21,10 @@ bool pyramid_stands(double between, double floor) {
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
   const double radius = 0.05;
-  Materials<Coulomb> materials(2, Coulomb(between));
-  materials.set(moreau::MaterialId(0), moreau::MaterialId(1), Coulomb(floor));
-  World<ShapeT> world(2 * radius, materials, moreau::ColouredGaussSeidel(tight(1e-9)));
+  using Law = Coulomb<ShapeT>;
+  Materials<Law> materials(2, Law(between));
+  materials.set(moreau::MaterialId(0), moreau::MaterialId(1), Law(floor));
+  World<ShapeT> world(2 * radius, materials, solver_of<ShapeT, Law>(tight(1e-9)));
   const auto ball = world.add_shape(ShapeT(radius));
   // Feet at the corners of a simplex of side 2 R; the height of the next corner over their plane.
   const double side = 2 * radius, spread = side * std::sqrt((S::dim - 1.0) / (2.0 * S::dim));
@@ -52,24 +53,26 @@ bool pyramid_stands(double between, double floor) {
 /// beta is asin(1/sqrt 3) in space, 30 degrees in the plane.
 template <class ShapeT>
 void pyramid(Record& record) {
-  constexpr int dim = SpaceOf<ShapeT>::dim;
-  const double beta = std::asin(dim == 3 ? 1 / std::sqrt(3.0) : 0.5), between = std::tan(beta / 2);
-  const double floor = between / (dim + 1);
-  const std::string name = with_shape<ShapeT>(dim == 3 ? "pyramid 3 + 1" : "pyramid 2 + 1");
+  using S = SpaceOf<ShapeT>;
+  const double beta = std::asin(S::dim == 3 ? 1 / std::sqrt(3.0) : 0.5),
+               between = std::tan(beta / 2);
+  const double floor = between / (S::dim + 1);
+  const std::string name = with_shape<ShapeT>(S::dim == 3 ? "pyramid 3 + 1" : "pyramid 2 + 1");
   const double ample = 1;
-  record.compare(name + ": least friction between balls", dim, between,
+  record.compare(name + ": least friction between balls", S{}, between,
                  threshold(between - 0.01, between + 0.01, 7,
                            [&](double mu) { return detail::pyramid_stands<ShapeT>(mu, ample); }),
                  1e-3);
-  record.compare(name + ": least friction on the floor", dim, floor,
+  record.compare(name + ": least friction on the floor", S{}, floor,
                  threshold(floor - 0.01, floor + 0.01, 7,
                            [&](double mu) { return detail::pyramid_stands<ShapeT>(ample, mu); }),
                  1e-3);
 }
 
-inline void pyramid_of_balls(Record& record, Effort) {
-  pyramid<Ball>(record);
-  pyramid<Disk>(record);
+template <class T>
+void pyramid_of_balls(Record& record, Effort) {
+  pyramid<Ball<T>>(record);
+  pyramid<Disk<T>>(record);
 }
 
 }  // namespace validation

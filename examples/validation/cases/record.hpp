@@ -2,10 +2,13 @@
 // What a validation case leaves behind: rows of a table and curves.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <deque>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,7 +19,7 @@ enum class Effort { quick, full };
 
 /// One comparison. It passes iff error <= tolerance, so never where something is not a number.
 struct Row {
-  std::string name, dimension;
+  std::string name, space;  ///< space: 3D, or 3D float
   double expected, measured, error, tolerance;
   bool pass() const { return error <= tolerance; }
 };
@@ -28,25 +31,39 @@ struct Curve {
   std::vector<std::vector<double>> rows;
 };
 
+/// No comparison asks for less than 1000 roundings (1.2e-4 in float), unless for none at all.
+template <class S>
+double tolerance_in(double tolerance) {
+  const double roundings = 1000 * double(std::numeric_limits<typename S::Scalar>::epsilon());
+  return tolerance == 0 ? 0 : std::max(tolerance, roundings);
+}
+
+/// Every comparison names the space, and with it the dimension and the scalar.
 class Record {
  public:
   /// |measured - expected| <= tolerance.
-  void compare(const std::string& name, int dimension, double expected, double measured,
-               double tolerance) {
-    add({name, text(dimension), expected, measured, std::abs(measured - expected), tolerance});
+  template <class S>
+  void compare(const std::string& name, S, double expected, double measured, double tolerance) {
+    add({name, text<S>(), expected, measured, std::abs(measured - expected),
+         tolerance_in<S>(tolerance)});
   }
   /// |measured - expected| <= tolerance |expected|.
-  void compare_relative(const std::string& name, int dimension, double expected, double measured,
+  template <class S>
+  void compare_relative(const std::string& name, S, double expected, double measured,
                         double tolerance) {
-    add({name, text(dimension), expected, measured, std::abs(measured / expected - 1), tolerance});
+    add({name, text<S>(), expected, measured, std::abs(measured / expected - 1),
+         tolerance_in<S>(tolerance)});
   }
   /// What should vanish: |measured| <= most.
-  void vanishes(const std::string& name, int dimension, double measured, double most) {
-    compare(name, dimension, 0, measured, most);
+  template <class S>
+  void vanishes(const std::string& name, S space, double measured, double most) {
+    compare(name, space, 0, measured, most);
   }
-  /// A curve to be filled; the reference stays valid.
-  Curve& curve(const std::string& name, std::initializer_list<const char*> columns) {
-    curves_.push_back({name, {columns.begin(), columns.end()}, {}});
+  /// A curve to be filled, name_2d or name_3d, in float name_2d_float; the reference stays valid.
+  template <class S>
+  Curve& curve(const std::string& name, S, std::initializer_list<const char*> columns) {
+    const std::string kind = std::to_string(S::dim) + (is_float<S> ? "d_float" : "d");
+    curves_.push_back({name + '_' + kind, {columns.begin(), columns.end()}, {}});
     return curves_.back();
   }
 
@@ -54,7 +71,12 @@ class Record {
   const std::deque<Curve>& curves() const { return curves_; }
 
  private:
-  static std::string text(int dimension) { return std::to_string(dimension) + "D"; }
+  template <class S>
+  static constexpr bool is_float = std::same_as<typename S::Scalar, float>;
+  template <class S>
+  static std::string text() {
+    return std::to_string(S::dim) + (is_float<S> ? "D float" : "D");
+  }
   void add(const Row& row) { rows_.push_back(row); }
 
   std::vector<Row> rows_;

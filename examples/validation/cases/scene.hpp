@@ -6,6 +6,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -32,25 +33,48 @@ inline moreau::ColouredOptions tight(double tolerance = 1e-12) {
   return options;
 }
 
+/// What is smaller than some roundings of the scalar is nothing: `fine`, or at least so many.
+template <class S>
+double resolved(double fine, double roundings = 100) {
+  return std::max(fine, roundings * double(std::numeric_limits<typename S::Scalar>::epsilon()));
+}
+
 /// The solver that goes with the law.
 template <class ShapeT, class Law>
 auto solver_of(const moreau::ColouredOptions& options) {
   using Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>;
   typename Solver::Options own;
-  own.tolerance = options.tolerance;
+  own.tolerance = resolved<SpaceOf<ShapeT>>(options.tolerance);
   own.max_sweeps = options.max_sweeps;
   return Solver(own);
 }
 
+/// Whether the law gives impulses of rigid contacts, so that theta and solver mean something.
+template <class ShapeT, class Law>
+constexpr bool is_rigid = moreau::SetValuedLaw<Law, SpaceOf<ShapeT>>;
+
+/// @param theta of the integrator of a law that gives impulses
 template <class ShapeT, class Law>
 World<ShapeT, Law> world_of(double size, const Law& law,
                             const moreau::ColouredOptions& options = tight(),
-                            const moreau::Tolerances& tolerances = {}) {
+                            const moreau::Tolerances& tolerances = {}, double theta = 0.5) {
   const Materials<Law> materials(1, law);
-  if constexpr (moreau::SetValuedLaw<Law, SpaceOf<ShapeT>>)
-    return World<ShapeT, Law>(size, materials, solver_of<ShapeT, Law>(options), tolerances);
+  if constexpr (is_rigid<ShapeT, Law>)
+    return World<ShapeT, Law>(size, materials, solver_of<ShapeT, Law>(options), tolerances, {},
+                              moreau::MoreauJean(theta));
   else
     return World<ShapeT, Law>(size, materials, tolerances);
+}
+
+/// Some ten sweeps of the correction of overlaps do not converge, depend on the order of the bodies
+/// and move them without regard to their velocities.
+template <class ShapeT, class Law>
+void without_correction(World<ShapeT, Law>& world) {
+  if constexpr (is_rigid<ShapeT, Law>) {
+    moreau::OverlapCorrectionOptions off;
+    off.enabled = false;
+    world.set_correction(off);
+  }
 }
 
 template <class ShapeT>
@@ -86,11 +110,16 @@ std::string with_shape(const std::string& name) {
   return name + (is_round<ShapeT> ? (plane ? ", disk" : ", sphere")
                                   : (plane ? ", polygon" : ", polyhedron"));
 }
+/// ", linear springs", after that.
 template <class Law>
 std::string with_law(const std::string& name) {
-  if (std::is_same_v<Law, Springs>) return name + ", linear springs";
-  if (std::is_same_v<Law, Hertz>) return name + ", Hertz-Mindlin";
+  if constexpr (requires(const Law& law) { law.stiffness(); }) return name + ", linear springs";
+  if constexpr (requires(const Law& law) { law.young(); }) return name + ", Hertz-Mindlin";
   return name;
+}
+/// ", theta = 1", where it is not 1/2.
+inline std::string with_theta(double theta, const std::string& name) {
+  return theta == 1 ? name + ", theta = 1" : name;
 }
 
 /// In the plane of the first axis and the last.
@@ -150,7 +179,7 @@ double mass(const World<ShapeT, Law>& world) {
 }
 
 /// One grain above a floor through the origin; gravity tilted by an angle towards +x.
-template <class ShapeT, class Law = Coulomb>
+template <class ShapeT, class Law = Coulomb<ShapeT>>
 struct OnFloor {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
@@ -158,14 +187,15 @@ struct OnFloor {
   World<ShapeT, Law> world;
   BodyId grain;
 
-  OnFloor(const ShapeT& shape, const Pose<S>& pose, const Law& law, double tilt = 0)
-      : world(world_of<ShapeT, Law>(0.1, law)) {
+  OnFloor(const ShapeT& shape, const Pose<S>& pose, const Law& law, double tilt = 0,
+          double theta = 0.5)
+      : world(world_of<ShapeT, Law>(0.1, law, tight(), {}, theta)) {
     grain = world.add_grain(world.add_shape(shape), pose, 1000);
     world.add_wall(Vector::Unit(up), Vector::Zero());
     world.set_gravity(tilted_gravity<S>(tilt));
   }
-  OnFloor(const ShapeT& shape, double height, const Law& law, double tilt = 0)
-      : OnFloor(shape, Pose<S>{in_plane<S>(0, height)}, law, tilt) {}
+  OnFloor(const ShapeT& shape, double height, const Law& law, double tilt = 0, double theta = 0.5)
+      : OnFloor(shape, Pose<S>{in_plane<S>(0, height)}, law, tilt, theta) {}
 
   const Pose<S>& pose() const { return world.bodies().pose[grain.index()]; }
   const typename S::Twist& twist() const { return world.bodies().velocity[grain.index()]; }

@@ -46,7 +46,7 @@ class ShearCell {
     const double height = spacing * layers;
     for (int k = 0; k < across * layers; ++k) {
       const double up = spacing * (k / across + 0.5);
-      const auto disk = world_.add_grain(world_.add_shape(Disk(radii[std::size_t(k)])),
+      const auto disk = world_.add_grain(world_.add_shape(Disk<>(radii[std::size_t(k)])),
                                          {Vector(length_ / across * (k % across), up)}, density);
       world_.set_velocity(disk, {rate_ * up, 0});
     }
@@ -75,9 +75,10 @@ class ShearCell {
   }
 
  private:
-  static Materials<Rolling> materials(double friction) {
-    Materials<Rolling> all(2, Rolling(friction));
-    all.set(moreau::MaterialId(0), moreau::MaterialId(1), Rolling(100, 100));
+  using Law = Rolling<Disk<>>;
+  static Materials<Law> materials(double friction) {
+    Materials<Law> all(2, Law(friction));
+    all.set(moreau::MaterialId(0), moreau::MaterialId(1), Law(100, 100));
     return all;
   }
   static moreau::NonlinearGaussSeidel solver() {
@@ -120,7 +121,7 @@ class ShearCell {
   }
 
   double length_, rate_, h_, area_ = 0;
-  World<Disk, Rolling> world_;
+  World<Disk<>, Law> world_;
   BodyId lid_{0};
 };
 
@@ -130,7 +131,8 @@ class ShearCell {
 /// 1.1 I for 0.02 <= I <= 0.2 and a friction of 0.4 (F. da Cruz, S. Emam, M. Prochnow, J.-N. Roux
 /// and F. Chevoir, Phys. Rev. E 72 (2005) 021309).
 inline void plane_shear(Record& record, Effort effort) {
-  Curve& curve = record.curve("shear_2d", {"number", "friction", "published", "bulk", "fraction"});
+  Curve& curve = record.curve("shear", moreau::Space<2>{},
+                              {"number", "friction", "published", "bulk", "fraction"});
   const bool quick = effort == Effort::quick;
   for (const double wanted : quick ? std::vector{0.1} : std::vector{0.02, 0.05, 0.1, 0.2}) {
     detail::ShearCell cell(20, 20, 0.4, wanted);
@@ -139,7 +141,7 @@ inline void plane_shear(Record& record, Effort effort) {
     curve.rows.push_back({flow.number, flow.friction, published, flow.bulk, flow.fraction});
     char name[64];
     std::snprintf(name, sizeof name, "plane shear of disks, I = %.3f: friction", flow.number);
-    record.compare(name, 2, published, flow.friction, 0.03);
+    record.compare(name, moreau::Space<2>{}, published, flow.friction, 0.03);
   }
 }
 

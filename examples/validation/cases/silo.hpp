@@ -47,9 +47,9 @@ struct Silo {
     world.set_gravity(tilted_gravity<S>(0));
   }
 
-  static Materials<Coulomb> materials() {
-    Materials<Coulomb> all(2, Coulomb(0.5));
-    all.set(moreau::MaterialId(0), moreau::MaterialId(1), Coulomb(0));
+  static Materials<Coulomb<ShapeT>> materials() {
+    Materials<Coulomb<ShapeT>> all(2, Coulomb<ShapeT>(0.5));
+    all.set(moreau::MaterialId(0), moreau::MaterialId(1), Coulomb<ShapeT>(0));
     return all;
   }
   static moreau::ColouredOptions options() {
@@ -104,7 +104,7 @@ struct Silo {
 /// of a diameter to one. A rough floor would shear the lowest two widths, which slices do not know.
 template <class ShapeT>
 void janssen(Record& record, int across, int layers, int packings) {
-  constexpr int dim = SpaceOf<ShapeT>::dim;
+  using S = SpaceOf<ShapeT>;
   using Silo = detail::Silo<ShapeT>;
   std::vector<double> weight(std::size_t(1.2 * layers)), friction(weight.size());
   int samples = 0;
@@ -141,20 +141,19 @@ void janssen(Record& record, int across, int layers, int packings) {
   double mean = 0, spread = 0;
   for (const double value : s) mean += value / double(s.size());
   for (const double value : s) spread += std::pow(value - mean, 2);
-  Curve& curve =
-      record.curve("janssen_" + std::to_string(dim) + "d", {"weight_above", "stress", "exact"});
+  Curve& curve = record.curve("janssen", S{}, {"weight_above", "stress", "exact"});
   for (std::size_t j = 0; j < w.size(); ++j)
     curve.rows.push_back({w[j] / lambda, s[j] / lambda, 1 - std::exp(-w[j] / lambda)});
-  record.compare(with_shape<ShapeT>("Janssen's silo") + ": R^2 of the profile", dim, 1,
+  record.compare(with_shape<ShapeT>("Janssen's silo") + ": R^2 of the profile", S{}, 1,
                  1 - misfit(lambda) / spread, 0.02);
-  record.vanishes(with_shape<ShapeT>("Janssen's silo") + ": lambda over the depth", dim,
+  record.vanishes(with_shape<ShapeT>("Janssen's silo") + ": lambda over the depth", S{},
                   lambda / w[0], 0.5);
 }
 
 inline void janssen_silo(Record& record, Effort effort) {
   const bool quick = effort == Effort::quick;
-  janssen<Disk>(record, 8, quick ? 40 : 100, quick ? 1 : 8);
-  if (!quick) janssen<Ball>(record, 5, 30, 4);
+  janssen<Disk<>>(record, 8, quick ? 40 : 100, quick ? 1 : 8);
+  if (!quick) janssen<Ball<>>(record, 5, 30, 4);
 }
 
 }  // namespace validation

@@ -12,27 +12,38 @@
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"
 
-// Compiled once, in worlds/.
+// Compiled once, in worlds/ and in_float/.
 extern template class moreau::Polyhedron<double>;
 extern template class moreau::Polygon<double>;
+extern template class moreau::Polyhedron<float>;
+extern template class moreau::Polygon<float>;
 
 namespace validation {
 
-using Polyhedron = moreau::Polyhedron<double>;
-using Polygon = moreau::Polygon<double>;
-using Ball = moreau::Sphere<moreau::Space<3>>;
-using Disk = moreau::Sphere<moreau::Space<2>>;
+using moreau::Ball;
+using moreau::Disk;
+using moreau::Polygon;
+using moreau::Polyhedron;
 
-using Coulomb = moreau::SignoriniCoulomb<double>;
-using Frictionless = moreau::Frictionless<double>;
-using Sticky = moreau::Cohesive<Coulomb>;
-using Rolling = moreau::RollingResistance<double>;
-using Springs = moreau::LinearSpringDashpot<double>;
-using Hertz = moreau::HertzMindlin<double>;
+// The laws of a shape's scalar.
+template <class ShapeT>
+using ScalarOf = typename moreau::SpaceOf<ShapeT>::Scalar;
+template <class ShapeT>
+using Coulomb = moreau::SignoriniCoulomb<ScalarOf<ShapeT>>;
+template <class ShapeT>
+using Frictionless = moreau::Frictionless<ScalarOf<ShapeT>>;
+template <class ShapeT>
+using Sticky = moreau::Cohesive<Coulomb<ShapeT>>;
+template <class ShapeT>
+using Rolling = moreau::RollingResistance<ScalarOf<ShapeT>>;
+template <class ShapeT>
+using Springs = moreau::LinearSpringDashpot<ScalarOf<ShapeT>>;
+template <class ShapeT>
+using Hertz = moreau::HertzMindlin<ScalarOf<ShapeT>>;
 
-/// A simulation whose step is compiled once for each shape and law, in worlds/, and not again in
-/// every case.
-template <class ShapeT, class Law = Coulomb>
+/// A simulation whose step is compiled once for each shape and law, in worlds/ and in_float/, and
+/// not again in every case.
+template <class ShapeT, class Law = Coulomb<ShapeT>>
 struct World : moreau::Simulation<ShapeT, Law> {
   using Base = moreau::Simulation<ShapeT, Law>;
   using Base::Base;

@@ -8,7 +8,7 @@ namespace validation {
 
 template <class ShapeT, class Law>
 moreau::StepReport World<ShapeT, Law>::step(double step) {
-  return Base::step(step);
+  return Base::step(static_cast<ScalarOf<ShapeT>>(step));
 }
 
 }  // namespace validation

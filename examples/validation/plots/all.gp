@@ -55,13 +55,13 @@ do for [d in "2d 3d"] {
     unset logscale x
   }
 }
-if (has("top")) {
-  set output folder."/top.png"
+if (has("top_3d")) {
+  set output folder."/top_3d.png"
   set key left top
   set logscale y
   set xlabel "t  [s]"
   set ylabel "spin about the first axis / Ω"
-  plot file("top") using 1:3 skip 1 with lines lc rgb red title "exact", \
+  plot file("top_3d") using 1:3 skip 1 with lines lc rgb red title "exact", \
        '' using 1:2 skip 1 with points pt 7 ps 0.6 lc rgb blue title "measured"
 }
 if (has("shear_2d")) {

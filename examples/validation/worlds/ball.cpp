@@ -2,5 +2,5 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Ball, Coulomb>::step(double);
+template moreau::StepReport World<Ball<>, Coulomb<Ball<>>>::step(double);
 }  // namespace validation

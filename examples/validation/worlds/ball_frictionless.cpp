@@ -2,5 +2,5 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Ball, Frictionless>::step(double);
+template moreau::StepReport World<Ball<>, Frictionless<Ball<>>>::step(double);
 }  // namespace validation

@@ -2,5 +2,5 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Disk, Coulomb>::step(double);
+template moreau::StepReport World<Disk<>, Coulomb<Disk<>>>::step(double);
 }  // namespace validation

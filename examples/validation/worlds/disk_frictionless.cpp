@@ -2,5 +2,5 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Disk, Frictionless>::step(double);
+template moreau::StepReport World<Disk<>, Frictionless<Disk<>>>::step(double);
 }  // namespace validation

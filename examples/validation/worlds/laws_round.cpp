@@ -2,8 +2,8 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Ball, Sticky>::step(double);
-template moreau::StepReport World<Disk, Sticky>::step(double);
-template moreau::StepReport World<Ball, Rolling>::step(double);
-template moreau::StepReport World<Disk, Rolling>::step(double);
+template moreau::StepReport World<Ball<>, Sticky<Ball<>>>::step(double);
+template moreau::StepReport World<Disk<>, Sticky<Disk<>>>::step(double);
+template moreau::StepReport World<Ball<>, Rolling<Ball<>>>::step(double);
+template moreau::StepReport World<Disk<>, Rolling<Disk<>>>::step(double);
 }  // namespace validation

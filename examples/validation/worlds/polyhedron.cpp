@@ -4,5 +4,5 @@
 template class moreau::Polyhedron<double>;
 
 namespace validation {
-template moreau::StepReport World<Polyhedron, Coulomb>::step(double);
+template moreau::StepReport World<Polyhedron<>, Coulomb<Polyhedron<>>>::step(double);
 }  // namespace validation

@@ -2,5 +2,5 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Polyhedron, Springs>::step(double);
+template moreau::StepReport World<Polyhedron<>, Springs<Polyhedron<>>>::step(double);
 }  // namespace validation

@@ -2,8 +2,8 @@
 #include "cases/world_impl.hpp"
 
 namespace validation {
-template moreau::StepReport World<Ball, Springs>::step(double);
-template moreau::StepReport World<Disk, Springs>::step(double);
-template moreau::StepReport World<Ball, Hertz>::step(double);
-template moreau::StepReport World<Disk, Hertz>::step(double);
+template moreau::StepReport World<Ball<>, Springs<Ball<>>>::step(double);
+template moreau::StepReport World<Disk<>, Springs<Disk<>>>::step(double);
+template moreau::StepReport World<Ball<>, Hertz<Ball<>>>::step(double);
+template moreau::StepReport World<Disk<>, Hertz<Disk<>>>::step(double);
 }  // namespace validation

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "misses.hpp"
+
+namespace validation {
+
+namespace {
+
+/// Comparisons in float whose names begin and end so.
+struct Miss {
+  const char *start, *end, *reason;
+};
+
+constexpr Miss misses[] = {
+    {"block on an incline", "linear springs: error of the acceleration [m/s^2]",
+     "a step of 2e-5 s adds some 1000 roundings to the velocity"},
+    {"slip to roll", ": order of the final speed in the overlap",
+     "2000 roundings of the velocity are a third of the error"},
+    {"asymmetric top: angular momentum", "", "40000 steps with a rounding each"},
+    {"asymmetric top", ": order of the energy's change", "its change is smaller than its rounding"},
+    {"sliding off a ball", "",
+     "gaps are known to 2e-7 R, in a step of 1e-3 gravity closes 1e-6 R: contacts open early"},
+    {"rolling off a ball", "", "as where it slides"},
+    {"stack of 3 boxes, 10 s, polygon: drift", "",
+     "2000 steps move it by 8e-8 m each, a rounding of the places"},
+    {"frame indifference", "", "rounding grows by 1000 and more in the collisions"},
+    {"prisms against polygons", "", "rounding grows in the collisions, and on springs more"},
+};
+
+}  // namespace
+
+const char* known_miss(const Row& row) {
+  if (row.pass() || !row.space.ends_with("float")) return nullptr;
+  for (const Miss& miss : misses)
+    if (row.name.starts_with(miss.start) && row.name.ends_with(miss.end)) return miss.reason;
+  return nullptr;
+}
+
+}  // namespace validation
