@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The usual worlds compiled once for several programs: what links the library takes them from there
-# without a line of its own.
+# The usual worlds compiled once for several programs: what links moreau_instances takes them from
+# there without a line of its own.
+include_guard(GLOBAL)
 function(moreau_add_instances name)
   set(folder ${PROJECT_SOURCE_DIR}/.cmake/instances)
   add_library(${name} STATIC EXCLUDE_FROM_ALL ${folder}/space.cpp ${folder}/plane.cpp)
@@ -8,3 +9,4 @@ function(moreau_add_instances name)
   target_compile_options(${name} INTERFACE "SHELL:-include moreau/instances/space.hpp"
                                            "SHELL:-include moreau/instances/plane.hpp")
 endfunction()
+moreau_add_instances(moreau_instances)

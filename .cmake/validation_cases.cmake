@@ -3,12 +3,13 @@
 # compile is in worlds/. Those in float are a library of their own, for the program and the long
 # tests.
 if(NOT TARGET validation_cases)
+  include(${CMAKE_CURRENT_LIST_DIR}/instances.cmake)
   set(cases ${PROJECT_SOURCE_DIR}/examples/validation)
   file(GLOB case_sources CONFIGURE_DEPENDS ${cases}/worlds/*.cpp ${cases}/*.cpp)
   list(REMOVE_ITEM case_sources ${cases}/main.cpp ${cases}/report.cpp)
   add_library(validation_cases STATIC EXCLUDE_FROM_ALL ${case_sources})
   target_include_directories(validation_cases PUBLIC ${cases})
-  target_link_libraries(validation_cases PUBLIC moreau_development)
+  target_link_libraries(validation_cases PUBLIC moreau_instances)
   set(fast $<$<CONFIG:Release>:-O1>)  # the cases themselves; the steps are as in a user's build
   set(kinds closed_forms invariants structures)
   foreach(kind ${kinds} packings)
