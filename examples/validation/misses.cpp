@@ -22,6 +22,10 @@ constexpr Miss misses[] = {
     {"rolling off a ball", "", "as where it slides"},
     {"stack of 3 boxes, 10 s, polygon: drift", "",
      "2000 steps move it by 8e-8 m each, a rounding of the places"},
+    {"stack of 3 boxes, 1 s", "linear springs: velocity [m/s]",
+     "a rounding of the places is a tenth of the overlaps"},
+    {"static friction", ": slips on a floor that speeds up by so many (1 + 1/k) g",
+     "a contact within the root of a rounding, 3.5e-4, of the static cone counts as sliding"},
     {"frame indifference", "", "rounding grows by 1000 and more in the collisions"},
     {"prisms against polygons", "", "rounding grows in the collisions, and on springs more"},
 };

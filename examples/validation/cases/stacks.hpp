@@ -91,15 +91,16 @@ template <class ShapeT>
 void columns_of(Record& record, int count) {
   column<ShapeT>(record, count, Coulomb<ShapeT>(0.4));
   column<ShapeT>(record, count, Coulomb<ShapeT>(0.4), 1);
+  // Round bodies on springs fall off each other within two seconds, which twelve take to rest.
   const double mass = regular<ShapeT>(0.05).mass_properties(1000).mass;
-  column<ShapeT>(record, count, Springs<ShapeT>(4e6 * mass, 1e6 * mass, 0.4, 0.2));
+  column<ShapeT>(record, 6, Springs<ShapeT>(4e6 * mass, 1e6 * mass, 0.4, 0.2));
   if constexpr (is_round<ShapeT>)
-    column<ShapeT>(record, count, Hertz<ShapeT>(4e9 * mass, 8e8 * mass, 0.4, 0.2));
+    column<ShapeT>(record, 6, Hertz<ShapeT>(4e9 * mass, 8e8 * mass, 0.4, 0.2));
 }
 
 template <class T>
 void column_of_bodies(Record& record, Effort effort) {
-  const int count = effort == Effort::quick ? 6 : 12;
+  const int count = effort == Effort::quick || std::is_same_v<T, float> ? 6 : 12;
   columns_of<Polyhedron<T>>(record, count);
   columns_of<Polygon<T>>(record, count);
   columns_of<Ball<T>>(record, count);
@@ -110,7 +111,7 @@ template <class ShapeT>
 void stacks_of(Record& record) {
   stack<ShapeT>(record, Coulomb<ShapeT>(0.4));
   const double mass = regular<ShapeT>(0.05).mass_properties(1000).mass;
-  stack<ShapeT>(record, Springs<ShapeT>(1e7 * mass, 3e6 * mass, 0.4, 0.2));
+  stack<ShapeT>(record, Springs<ShapeT>(2e7 * mass, 6e6 * mass, 0.4, 0.2));
 }
 
 template <class T>

@@ -62,7 +62,7 @@ void force_balance(Record& record, std::size_t count) {
 
 template <class T>
 void balance_of_forces(Record& record, Effort effort) {
-  const bool quick = effort == Effort::quick;
+  const bool quick = effort == Effort::quick || std::is_same_v<T, float>;
   force_balance<Polyhedron<T>>(record, quick ? 30 : 40);
   force_balance<Polygon<T>>(record, quick ? 12 : 40);
   force_balance<Ball<T>>(record, quick ? 20 : 60);

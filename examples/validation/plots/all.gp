@@ -59,6 +59,7 @@ if (has("top_3d")) {
   set output folder."/top_3d.png"
   set key left top
   set logscale y
+  set format y "10^{%L}"
   set xlabel "t  [s]"
   set ylabel "spin about the first axis / Ω"
   plot file("top_3d") using 1:3 skip 1 with lines lc rgb red title "exact", \
@@ -67,6 +68,7 @@ if (has("top_3d")) {
 if (has("shear_2d")) {
   set output folder."/shear_2d.png"
   unset logscale
+  set format y
   set key left top
   set xlabel "inertial number I"
   set ylabel "effective friction"
