@@ -18,6 +18,7 @@
 #endif
 
 namespace moreau {
+/// @cond instances
 
 MOREAU_INSTANCE class Polygon<double>;
 MOREAU_INSTANCE class ContactDetector<Polygon<double>, SweepAndPrune<Space<2>>>;
@@ -28,6 +29,7 @@ MOREAU_INSTANCE class detail::ImpulseDynamics<Space<2>, SignoriniCoulomb<double>
 MOREAU_INSTANCE StepReport Simulation<Polygon<double>, SignoriniCoulomb<double>>::step(double);
 MOREAU_INSTANCE StepReport Simulation<Sphere<Space<2>>, SignoriniCoulomb<double>>::step(double);
 
+/// @endcond
 }  // namespace moreau
 
 #undef MOREAU_INSTANCE

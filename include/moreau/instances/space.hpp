@@ -17,6 +17,7 @@
 #endif
 
 namespace moreau {
+/// @cond instances
 
 MOREAU_INSTANCE class Polyhedron<double>;
 MOREAU_INSTANCE class ContactDetector<Polyhedron<double>, SweepAndPrune<Space<3>>>;
@@ -27,6 +28,7 @@ MOREAU_INSTANCE class detail::ImpulseDynamics<Space<3>, SignoriniCoulomb<double>
 MOREAU_INSTANCE StepReport Simulation<Polyhedron<double>, SignoriniCoulomb<double>>::step(double);
 MOREAU_INSTANCE StepReport Simulation<Sphere<Space<3>>, SignoriniCoulomb<double>>::step(double);
 
+/// @endcond
 }  // namespace moreau
 
 #undef MOREAU_INSTANCE
