@@ -85,19 +85,6 @@ typename Space<2, T>::Vector middle_of_contact(const PolygonPair<T>& pair,
   return best.position - pair.a.center();
 }
 
-/// Whether a contact that starts from a vertex on an edge is one point.
-template <std::floating_point T>
-bool is_lone_point(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T slab) {
-  using Vector = typename Space<2, T>::Vector;
-  const T near = pair.size * DetectionTolerance<T>::coincident;
-  if (axis.kind == AxisKind::face_a)
-    return is_lone_vertex(pair.b, axis.b, axis.normal, pair.a, axis.a,
-                          Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
-  return axis.kind == AxisKind::face_b &&
-         is_lone_vertex(pair.a, axis.a, Vector(-axis.normal), pair.b, axis.b,
-                        Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
-}
-
 template <std::floating_point T>
 void fill(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T margin,
           Manifold<Space<2, T>>& out) {
@@ -105,7 +92,8 @@ void fill(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T margin,
   out.clear();
   out.normal = axis.normal;
   out.gap = axis.gap;
-  if (is_lone_point(pair, axis, margin - axis.gap + pair.rounding())) {
+  const T near = pair.size * DetectionTolerance<T>::coincident;
+  if (is_lone_vertex(pair, axis, margin - axis.gap + pair.rounding(), near)) {
     out.points.push_back(witness_point(pair, axis));
     out.contact_class = ContactClass::vertex_edge;
     return;

@@ -39,6 +39,20 @@ bool is_lone_vertex(const Placed<ShapeT>& shape, std::uint32_t vertex, const Vec
          has_foot_within(ground, face, foot, T(2) * (slab * slab * spread2 + near * near));
 }
 
+/// The same of the vertex and the face that make an axis; false for other axes.
+/// @param pair  of polygons or polyhedra
+template <class Pair, class S>
+bool is_lone_vertex(const Pair& pair, const Axis<S>& axis, typename S::Scalar slab,
+                    typename S::Scalar near) {
+  using Vector = typename S::Vector;
+  if (axis.kind == AxisKind::face_a)
+    return is_lone_vertex(pair.b, axis.b, axis.normal, pair.a, axis.a,
+                          Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
+  return axis.kind == AxisKind::face_b &&
+         is_lone_vertex(pair.a, axis.a, Vector(-axis.normal), pair.b, axis.b,
+                        Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
+}
+
 /// The same of a vertex's face and another face; catches more, once the faces are known.
 /// @param own  a face at the vertex
 template <std::floating_point T>

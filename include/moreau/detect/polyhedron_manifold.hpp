@@ -116,18 +116,6 @@ typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
   return middle;
 }
 
-/// Whether a vertex on a face is a contact of one point, whatever the faces at the vertex.
-template <std::floating_point T>
-bool is_lone_vertex(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, T slab, T near) {
-  using Vector = typename Space<3, T>::Vector;
-  if (axis.kind == AxisKind::face_a)
-    return is_lone_vertex(pair.b, axis.b, axis.normal, pair.a, axis.a,
-                          Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
-  return axis.kind == AxisKind::face_b &&
-         is_lone_vertex(pair.a, axis.a, Vector(-axis.normal), pair.b, axis.b,
-                        Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
-}
-
 /// Whether the overlap of the facing faces has one corner within the slab.
 template <std::floating_point T>
 bool is_lone_point(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis,
