@@ -1,20 +1,39 @@
-# contact_dynamics_vs_springs.csv -> contact_dynamics_vs_springs.png
+# contact_dynamics_vs_springs.csv, force_distribution.csv -> contact_dynamics_vs_springs.png
 set datafile separator ','
-set terminal pngcairo size 1100,420 font 'sans,11'
+set terminal pngcairo size 1100,840 font 'sans,11'
 set output 'contact_dynamics_vs_springs.png'
-set multiplot layout 1,2
-set logscale x
-set format x '10^{%T}'
-set key top left
-set xlabel 'stiffness [N/m]'
-set ylabel 'height of the lid [mm]'
-stats 'contact_dynamics_vs_springs.csv' using 3 every ::2::2 nooutput
-rigid = STATS_min * 1e3
-plot 'contact_dynamics_vs_springs.csv' using ($1 > 0 ? $1 : 1/0):($3 * 1e3) with linespoints pt 7 \
-       title 'springs', rigid dashtype 2 title 'contact dynamics'
-set logscale y
-set ylabel 'wall clock per simulated second [s]'
-stats 'contact_dynamics_vs_springs.csv' using 8 every ::2::2 nooutput
+runs = 'contact_dynamics_vs_springs.csv'
+forces = 'force_distribution.csv'
+set multiplot layout 2,2
+# The second line is contact dynamics with the finer step; the first tells how far the step matters.
+stats runs using 3 every ::1::1 nooutput
+rigid = STATS_min
+stats runs using 2 every ::0::1 nooutput
+coarse = STATS_max
+stats runs using 8 every ::0::0 nooutput
 cost = STATS_min
-plot 'contact_dynamics_vs_springs.csv' using ($1 > 0 ? $1 : 1/0):8 with linespoints pt 7 \
-       title 'springs', cost dashtype 2 title 'contact dynamics'
+set format x '10^{%T}'
+set logscale x
+set xlabel 'stiffness [N/m]'
+set key bottom right
+set ylabel 'height of the lid [mm]'
+plot runs using ($1 > 0 ? $1 : 1/0):($3 * 1e3) with linespoints pt 7 title 'springs', \
+     rigid * 1e3 dashtype 2 title 'contact dynamics'
+set logscale y
+set format y '10^{%T}'
+set key top right
+set ylabel 'time step [s]'
+plot runs using ($1 > 0 ? $1 : 1/0):2 with linespoints pt 7 title 'springs', \
+     coarse dashtype 2 title 'contact dynamics'
+set xlabel 'distance of the lid from that of contact dynamics [mm]'
+set ylabel 'wall clock per simulated second [s]'
+plot runs using ($1 > 0 ? abs($3 - rigid) * 1e3 : 1/0):8 with linespoints pt 7 title 'springs', \
+     cost dashtype 2 title sprintf('contact dynamics, h = %g s', coarse)
+unset logscale
+set format
+set yrange [0:*]
+set xlabel 'contact force over its mean'
+set ylabel 'probability density'
+plot forces using ($1 == 0 && $2 < coarse ? $3 : 1/0):4 with lines lw 3 title 'contact dynamics', \
+     for [k in '1e5 1e6 1e9'] forces using ($1 == k + 0 ? $3 : 1/0):4 with lines \
+       title sprintf('springs, %s N/m', k)

@@ -10,9 +10,8 @@ int main() {
   using Vector = moreau::SpaceOf<Shape>::Vector;
 
   moreau::Simulation<Shape, Law> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
-  const std::vector<Vector> corners{{0, 0, 0},       {0.02, 0, 0},      {0, 0.02, 0},
-                                    {0.02, 0.02, 0}, {0, 0, 0.02},      {0.02, 0, 0.02},
-                                    {0, 0.02, 0.02}, {0.02, 0.02, 0.02}};
+  std::vector<Vector> corners;
+  for (int k = 0; k < 8; ++k) corners.push_back(0.02 * Vector(k & 1, k >> 1 & 1, k >> 2));
   const moreau::ShapeId die = world.add_shape(Shape(corners));
   for (int k = 0; k < 10; ++k)
     world.add_grain(

@@ -121,6 +121,20 @@ TEST_CASE("bad drives and servos are named") {
   CHECK_THROWS_AS(VelocityDrive(scene.wall, V(0, 0), one), std::invalid_argument);
   const ForceDrive nobody(BodyId(9), V(1, 0), one);
   CHECK_THROWS_AS(nobody.apply(scene.simulation, 1e-3), std::invalid_argument);
+  const ForceDrive push(scene.wall, V(1, 0), one), aside(scene.wall, V(0, 1), one);
+  CHECK_THROWS_WITH_AS(push.apply(scene.simulation, 1e-3),
+                       "ForceDrive::apply: body = 0 must have a mass along the direction; "
+                       "set_wall_mass gives a wall one",
+                       std::invalid_argument);
+  scene.simulation.set_wall_mass(scene.wall, 1);
+  push.apply(scene.simulation, 1e-3);
+  CHECK_THROWS_AS(aside.apply(scene.simulation, 1e-3), std::invalid_argument);
+  const VelocityDrive pull(scene.wall, V(1, 0), one), along(scene.wall, V(0, 1), one);
+  CHECK_THROWS_WITH_AS(pull.apply(scene.simulation, 1e-3),
+                       "VelocityDrive::apply: body = 0 must have no mass along the direction, as a "
+                       "wall without set_wall_mass",
+                       std::invalid_argument);
+  along.apply(scene.simulation, 1e-3);
   const ForceDrive endless(scene.wall, V(1, 0), [](double) { return std::nan(""); });
   CHECK_THROWS_AS(endless.apply(scene.simulation, 1e-3), std::invalid_argument);
   double length = 1;

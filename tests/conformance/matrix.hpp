@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Grains of a shape, or of several, under every law of the library, each with the integrator that
-// goes with it.
+// Grains of a shape, or of several, under every law of the library, each with the integrators,
+// broad phases and solvers that go with it.
 #pragma once
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "moreau/detect/cell_grid.hpp"
+#include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 #include "conformance/world.hpp"
 
@@ -29,6 +32,11 @@ moreau::HertzMindlin<T> stiff_spheres(T mass) {
   return moreau::HertzMindlin<T>::of_material(T(4e10) * mass, T(0.3), T(0.4), T(0.5));
 }
 
+/// Moreau-Jean with theta = 1.
+struct Implicit : moreau::MoreauJean {
+  Implicit() : MoreauJean(1) {}
+};
+
 /// @param shapes of about a centimetre
 /// @param size   diameter of a ball around any of them [m]
 template <class ShapeT>
@@ -40,6 +48,13 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   SUBCASE("SignoriniCoulomb") {
     world(shapes, coulomb, size);
   }
+  SUBCASE("SignoriniCoulomb, theta = 1") {
+    world<With<Implicit>>(shapes, coulomb, size);
+  }
+  SUBCASE("SignoriniCoulomb, plain sweeps") {
+    using Space = moreau::SpaceOf<ShapeT>;
+    world<With<void, moreau::CellGrid<Space>, moreau::NonlinearGaussSeidel>>(shapes, coulomb, size);
+  }
   SUBCASE("SignoriniCoulomb with restitution and static friction") {
     world(shapes, moreau::SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)), size);
   }
@@ -48,6 +63,10 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   }
   SUBCASE("Cohesive") {
     world(shapes, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(coulomb, T(1e-3)), size);
+  }
+  SUBCASE("Cohesive with static friction") {
+    const moreau::SignoriniCoulomb<T> sticky(T(0.3), T(0), T(0.4));
+    world(shapes, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(sticky, T(1e-3), T(1e-4)), size);
   }
   SUBCASE("RollingResistance") {
     world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);

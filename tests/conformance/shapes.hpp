@@ -22,11 +22,15 @@ void check_all_shapes() {
   std::mt19937_64 random(7);
   const auto grain = samples::grain(S{}, random);
   using Grain = std::remove_const_t<decltype(grain)>;
-  check_shape(Sphere<S>(T(0.7)));
-  check_shape(grain);
-  check_shape(Capsule<S>(T(1), T(0.3)));
-  check_shape(Rounded<Grain>(grain, T(0.2)));
-  check_shape(OneOf<Sphere<S>, Grain>(grain));
+  const auto check = [](const auto& shape) {
+    check_shape(shape);
+    check_box_is_tight(shape);
+  };
+  check(Sphere<S>(T(0.7)));
+  check(grain);
+  check(Capsule<S>(T(1), T(0.3)));
+  check(Rounded<Grain>(grain, T(0.2)));
+  check(OneOf<Sphere<S>, Grain>(grain));
 }
 
 }  // namespace conformance

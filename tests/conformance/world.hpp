@@ -3,6 +3,11 @@
 // policy inherits the suite by one line:
 //
 //   TEST_CASE("mine") { conformance::world(MyShape(...), MyLaw(...), size); }
+//
+// and with policies that are not the default
+//
+//   using Mine = conformance::With<MyIntegrator, MyBroadPhase, MySolver>;
+//   TEST_CASE("mine") { conformance::world<Mine>(MyShape(...), MyLaw(...), size); }
 #pragma once
 
 #include <algorithm>
@@ -10,6 +15,7 @@
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/measure/energy.hpp"
@@ -17,12 +23,29 @@
 
 namespace conformance {
 
+/// The library's choice for shape and law.
+struct Defaults {
+  template <class ShapeT, class Law>
+  using Simulation = moreau::Simulation<ShapeT, Law>;
+};
+/// The same, but for these.
+template <class Integrator, class Broad = void, class Solver = void>
+struct With {
+  template <class Given, class Default>
+  using Or = std::conditional_t<std::is_void_v<Given>, Default, Given>;
+  template <class ShapeT, class Law, class S = moreau::SpaceOf<ShapeT>>
+  using Simulation =
+      moreau::Simulation<ShapeT, Law, Or<Integrator, moreau::DefaultIntegrator<Law, S>>,
+                         Or<Broad, moreau::SweepAndPrune<S>>,
+                         Or<Solver, moreau::DefaultSolver<Law, S>>>;
+};
+
 /// Grains of about one size, each of the shapes in turn, hung on a lattice wider than they are,
-/// turned at random.
-template <class ShapeT, class Law>
+/// turned at random, of two materials in turn that have one law.
+template <class Choice, class ShapeT, class Law>
 class Assembly {
  public:
-  using Simulation = moreau::Simulation<ShapeT, Law>;
+  using Simulation = typename Choice::template Simulation<ShapeT, Law>;
   using S = moreau::SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
@@ -31,7 +54,7 @@ class Assembly {
 
   /// @param size diameter of a ball around any of the shapes [m]
   Assembly(const std::vector<ShapeT>& shapes, const Law& law, T size)
-      : simulation(size, moreau::Materials<Law>(1, law)), size_(size), random_(11) {
+      : simulation(size, moreau::Materials<Law>(2, law)), size_(size), random_(11) {
     std::vector<moreau::ShapeId> ids;
     for (const ShapeT& shape : shapes) ids.push_back(simulation.add_shape(shape));
     for (int k = 0; k < 8; ++k) {
@@ -41,12 +64,13 @@ class Assembly {
       typename S::Angular turn;
       for (auto& x : turn) x = T(uniform_(random_));
       pose.rotation = S::exp(turn);
-      simulation.add_grain(ids[std::size_t(k) % ids.size()], pose, T(1000));
+      simulation.add_grain(ids[std::size_t(k) % ids.size()], pose, T(1000),
+                           moreau::MaterialId(std::size_t(k) % 2));
     }
   }
   void add_box() {
     for (int axis = 0; axis < S::dim; ++axis) {
-      simulation.add_wall(Vector::Unit(axis), Vector::Zero());
+      simulation.add_wall(Vector::Unit(axis), Vector::Zero(), moreau::MaterialId(1));
       if (axis < up) simulation.add_wall(-Vector::Unit(axis), T(2.2) * size_ * Vector::Unit(axis));
     }
     simulation.set_gravity(T(-10) * Vector::Unit(up));
@@ -116,10 +140,10 @@ class Assembly {
 /// A cloud in free flight collides with itself: momentum is kept and no energy comes in. (The
 /// correction of overlaps, off here, moves bodies without regard to their velocities and so does
 /// not keep the angular one.)
-template <class ShapeT, class Law>
+template <class Choice = Defaults, class ShapeT, class Law>
 void cloud(const std::vector<ShapeT>& shapes, const Law& law,
            typename moreau::SpaceOf<ShapeT>::Scalar size) {
-  using A = Assembly<ShapeT, Law>;
+  using A = Assembly<Choice, ShapeT, Law>;
   using T = typename A::T;
   const double rounding = double(std::numeric_limits<T>::epsilon());
   A grains(shapes, law, size);
@@ -150,10 +174,10 @@ void cloud(const std::vector<ShapeT>& shapes, const Law& law,
 
 /// Falling into a box: what the walls push and gravity pulls is what the momentum changes by, no
 /// energy comes in, nothing sinks into anything.
-template <class ShapeT, class Law>
+template <class Choice = Defaults, class ShapeT, class Law>
 void heap(const std::vector<ShapeT>& shapes, const Law& law,
           typename moreau::SpaceOf<ShapeT>::Scalar size) {
-  using A = Assembly<ShapeT, Law>;
+  using A = Assembly<Choice, ShapeT, Law>;
   using T = typename A::T;
   using Vector = typename A::Vector;
   const double rounding = double(std::numeric_limits<T>::epsilon());
@@ -170,11 +194,14 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
     const auto report = simulation.step(step);
     Vector push = Vector::Zero();
     for (const auto wall : simulation.walls()) push -= simulation.contact_impulse(wall);
-    // Verlet acts with the mean of the forces at both ends of the step.
-    const Vector act = A::springs ? Vector((push + loads) / 2) : push;
-    loads = push;
     const Vector pull = step * grains.mass() * simulation.gravity();
-    worst = std::max(worst, double((grains.momentum().linear - start - act - pull).norm()));
+    const Vector gain = grains.momentum().linear - start - pull;
+    // Forces act with those of the start of the step, of its end, or with a mean.
+    const Vector change = push - loads;
+    const T late = change.isZero(0) ? T(1) : (gain - loads).dot(change) / change.squaredNorm();
+    const T share = A::springs ? std::clamp(late, T(0), T(1)) : T(1);
+    worst = std::max(worst, double((gain - loads - share * change).norm()));
+    loads = push;
     scale = std::max(scale, double(push.norm() + pull.norm()));
     deepest = std::max(deepest, report.max_overlap);
     most = std::max(most, grains.kinetic_energy() + grains.potential_energy());
@@ -187,15 +214,15 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
 
 /// All of it.
 /// @param size diameter of a ball around any of the shapes [m]
-template <class ShapeT, class Law>
+template <class Choice = Defaults, class ShapeT, class Law>
 void world(const std::vector<ShapeT>& shapes, const Law& law,
            typename moreau::SpaceOf<ShapeT>::Scalar size) {
-  cloud(shapes, law, size);
-  heap(shapes, law, size);
+  cloud<Choice>(shapes, law, size);
+  heap<Choice>(shapes, law, size);
 }
-template <moreau::Shape ShapeT, class Law>
+template <class Choice = Defaults, moreau::Shape ShapeT, class Law>
 void world(const ShapeT& shape, const Law& law, typename moreau::SpaceOf<ShapeT>::Scalar size) {
-  world(std::vector<ShapeT>{shape}, law, size);
+  world<Choice>(std::vector<ShapeT>{shape}, law, size);
 }
 
 }  // namespace conformance

@@ -14,6 +14,9 @@ static_assert(moreau::BroadPhase<archetypes::MinimalBroadPhase<Space<2>>, Space<
 static_assert(moreau::RegularizedLaw<archetypes::MinimalSprings<Space<2>>, Space<2>>);
 static_assert(moreau::ForceIntegrator<archetypes::MinimalForceIntegrator<Space<2>>, Space<2>>);
 
+static_assert(moreau::ContactSolver<archetypes::MinimalSolver, archetypes::MinimalLaw, Space<3>>);
+static_assert(moreau::ContactSolver<moreau::ColouredGaussSeidel, archetypes::MinimalLaw, Space<3>>);
+
 template <class World>
 void run(World& world) {
   using S = typename World::S;
@@ -27,7 +30,8 @@ void run(World& world) {
 
 void compile_only() {
   Simulation<archetypes::MinimalConvex<Space<3>>, archetypes::MinimalLaw,
-             archetypes::MinimalIntegrator<Space<3>>, archetypes::MinimalBroadPhase<Space<3>>>
+             archetypes::MinimalIntegrator<Space<3>>, archetypes::MinimalBroadPhase<Space<3>>,
+             archetypes::MinimalSolver>
       impulses(0.01, moreau::Materials<archetypes::MinimalLaw>(1, {}));
   run(impulses);
   using Springs = archetypes::MinimalSprings<Space<2>>;

@@ -3,6 +3,7 @@
 // only: what is compiled with them is never run.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/solve/report.hpp"
 
 namespace archetypes {
 
@@ -69,6 +71,16 @@ struct MinimalForceIntegrator {
 template <class S>
 struct MinimalBroadPhase {
   void find_pairs(std::span<const moreau::Aabb<S>> boxes, std::vector<moreau::IndexPair>& pairs);
+};
+
+struct MinimalSolver {
+  template <class Operator, class Law>
+  struct Workspace {};
+  template <class Operator, class Law>
+  moreau::SolveReport solve(Operator& op, std::span<const Law> laws,
+                            std::span<const std::uint32_t> law_of,
+                            std::span<typename Operator::Vector> impulses,
+                            Workspace<Operator, Law>& workspace) const;
 };
 
 }  // namespace archetypes

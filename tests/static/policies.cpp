@@ -12,6 +12,10 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/concepts.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/world/force_dynamics.hpp"
 
 #include "static/archetypes.hpp"
 
@@ -50,6 +54,19 @@ static_assert(moreau::RegularizedLaw<moreau::LinearSpringDashpot<double>, Space<
 static_assert(moreau::RegularizedLaw<moreau::HertzMindlin<float>, Space<2, float>>);
 static_assert(!moreau::SetValuedLaw<moreau::HertzMindlin<double>, Space<3>>);
 static_assert(!moreau::RegularizedLaw<moreau::SignoriniCoulomb<double>, Space<3>>);
+
+using Rolling = moreau::RollingResistance<double>;
+static_assert(moreau::ContactSolver<moreau::NonlinearGaussSeidel, Rolling, Space<2>>);
+static_assert(moreau::ContactSolver<moreau::NonlinearGaussSeidel, moreau::Cohesive<>, Space<3>>);
+static_assert(moreau::ContactSolver<moreau::ColouredGaussSeidel, moreau::Cohesive<>, Space<3>>);
+static_assert(!moreau::ContactSolver<moreau::ColouredGaussSeidel, Rolling, Space<2>>);
+static_assert(!moreau::ContactSolver<moreau::NoSolver, moreau::Cohesive<>, Space<3>>);
+
+// Adhesion keeps what the law below knows.
+static_assert(moreau::StatefulLaw<moreau::Cohesive<>, Space<3>>);
+static_assert(!moreau::StatefulLaw<moreau::Cohesive<moreau::Frictionless<>>, Space<3>>);
+static_assert(moreau::RollingLaw<moreau::Cohesive<Rolling>, Space<3>>);
+static_assert(moreau::AttractiveLaw<moreau::Cohesive<archetypes::MinimalLaw>, Space<3>>);
 
 // A law for space alone is one for space alone.
 static_assert(SetValuedLaw<archetypes::MinimalLaw, Space<3>>);

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Some of the combinations that long/matrix_*.cpp have all of. Rolling resistance and adhesion are
 // among the quick cases of the validation.
+#include "moreau/detect/all_pairs.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/sphere.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 #include "conformance/matrix.hpp"
 #include "conformance/world.hpp"
+#include "world/assemblies.hpp"
 
 using namespace moreau;
+
+TEST_CASE("polyhedra and polygons under Coulomb's law") {
+  conformance::world(scenes::cuboid<Polyhedron<>>({0.003, 0.0025, 0.002}), SignoriniCoulomb<>(0.4),
+                     0.009);
+  conformance::world(scenes::cuboid<Polygon<>>({0.003, 0.0025}), SignoriniCoulomb<>(0.4), 0.009);
+}
+TEST_CASE(
+    "disks of float with an integrator, a broad phase and a solver that are not the default") {
+  using S = Space<2, float>;
+  using Choice = conformance::With<conformance::Implicit, AllPairs<S>, NonlinearGaussSeidel>;
+  conformance::world<Choice>(Sphere<S>(0.005f), SignoriniCoulomb<float>(0.4f), 0.01f);
+}
 
 TEST_CASE("frictionless disks") {
   conformance::world(Disk<double>(0.005), Frictionless<>(), 0.01);

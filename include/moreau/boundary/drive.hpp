@@ -70,6 +70,14 @@ class Drive {
             "must be unit");
   }
   BodyId body() const { return body_; }
+  /// Whether a force along the direction would move the body: not a wall without mass, nor one
+  /// that moves along another normal.
+  bool can_accelerate(const auto& simulation, const char* function) const {
+    const auto& bodies = simulation.bodies();
+    require(body_.index() < bodies.size(), function, "body", body_, "must be the id of a body");
+    const auto root = bodies.mobility_root(body_.index()).linear;
+    return (root * direction_).norm() > Scalar(1e-5) * root.norm();
+  }
   /// What the function gives in the middle of the step that begins at t.
   VectorT value(Scalar t, Scalar step) const {
     return static_cast<Scalar>(f_(t + step / 2)) * direction_;
@@ -95,8 +103,12 @@ class ForceDrive : public detail::Drive<VectorT, F> {
       : detail::Drive<VectorT, F>("ForceDrive", body, direction, std::move(f)) {}
 
   /// Sets the force for the next step of this length.
-  /// @throws std::invalid_argument for a body that is not the simulation's or a force not finite
+  /// @throws std::invalid_argument for a body that is not the simulation's, one that the force
+  ///         cannot move (a wall without set_wall_mass, or across its normal), a force not finite
   void apply(auto& simulation, typename VectorT::Scalar step) const {
+    constexpr const char* self = "ForceDrive::apply";
+    require(this->can_accelerate(simulation, self), self, "body", this->body(),
+            "must have a mass along the direction; set_wall_mass gives a wall one");
     simulation.set_force(this->body(), this->value(simulation.time(), step));
   }
 };
@@ -116,8 +128,12 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
       : detail::Drive<VectorT, F>("VelocityDrive", body, direction, std::move(f)) {}
 
   /// Sets the velocity for the next step of this length.
-  /// @throws std::invalid_argument for a body that is not the simulation's or a velocity not finite
+  /// @throws std::invalid_argument for a body that is not the simulation's, one that has a mass
+  ///         along the direction, a velocity not finite
   void apply(auto& simulation, typename VectorT::Scalar step) const {
+    constexpr const char* self = "VelocityDrive::apply";
+    require(!this->can_accelerate(simulation, self), self, "body", this->body(),
+            "must have no mass along the direction, as a wall without set_wall_mass");
     simulation.set_velocity(this->body(), this->value(simulation.time(), step));
   }
 };

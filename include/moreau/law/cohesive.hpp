@@ -11,6 +11,9 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <tuple>
 #include <utility>
 
 #include "moreau/core/error.hpp"
@@ -19,12 +22,14 @@
 
 namespace moreau {
 
-/// @tparam Law the set-valued law of the push
-template <class Law = SignoriniCoulomb<>>
+/// @tparam Law    the set-valued law of the push, with whatever else it knows (static friction,
+///                rolling, lanes)
+/// @tparam Scalar what it counts in
+template <class Law = SignoriniCoulomb<>,
+          std::floating_point Scalar =
+              decltype(std::declval<const Law&>().velocity_offset(0., 0., 0.))>
 class Cohesive : public Law {
  public:
-  using Scalar = decltype(std::declval<const Law&>().restitution());
-
   /// @param law      what holds without adhesion
   /// @param adhesion gamma >= 0, per contact point [N]
   /// @param range    gap up to which it acts, >= 0 [m]; beyond the alert distance there is no
@@ -42,6 +47,11 @@ class Cohesive : public Law {
   Scalar range() const { return range_; }        ///< up to which gap it acts [m]
   /// Force with which the bodies attract each other along the normal [N].
   Scalar attraction(Scalar gap) const { return gap <= range_ ? adhesion_ : Scalar(0); }
+  /// See StatefulLaw: the push obeys that variant of the law.
+  Cohesive variant(std::size_t k) const requires requires(const Law& law) {
+    { law.variant(k) } -> std::same_as<Law>;
+  }
+  { return Cohesive(Law::variant(k), adhesion_, range_); }
 
  private:
   friend struct StateAccess;

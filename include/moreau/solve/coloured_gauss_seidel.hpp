@@ -22,6 +22,7 @@
 #include <span>
 
 #include "moreau/core/state.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured_sweeps.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/report.hpp"
@@ -48,6 +49,7 @@ class TeamGaussSeidel {
   using Options = ColouredOptions;
   /// Buffers, kept from step to step.
   template <class Operator, class Law>
+  requires PointLaw<Law, typename Operator::Space>
   using Workspace = detail::ColouredSweeps<Operator, Law>;
 
   /// @throws std::invalid_argument for a tolerance out of range or a count below 1

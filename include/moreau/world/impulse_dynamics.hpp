@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "moreau/contact/delassus.hpp"
-#include "moreau/contact/rolling_delassus.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/state.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/solve/concepts.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -27,7 +27,7 @@ namespace moreau::detail {
 template <class S, class Law>
 class PointUnknowns {
  public:
-  using Operator = BodyDelassus<S>;
+  using Operator = OperatorOf<Law, S>;
 
   static const BodyDelassus<S>& points(const Operator& op) { return op; }
   std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts) {
@@ -41,7 +41,7 @@ class PointUnknowns {
 template <class S, class Law>
 class RollingUnknowns {
  public:
-  using Operator = RollingDelassus<S>;
+  using Operator = OperatorOf<Law, S>;
 
   static const BodyDelassus<S>& points(const Operator& op) { return op.points(); }
   std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts) {

@@ -21,15 +21,11 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/state.hpp"
-#include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/periodic_cell.hpp"
 #include "moreau/detect/reduce.hpp"
 #include "moreau/detect/sweep_and_prune.hpp"
 #include "moreau/integrate/bodies.hpp"
-#include "moreau/integrate/concepts.hpp"
-#include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
-#include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
@@ -38,6 +34,7 @@
 #include "moreau/world/force_dynamics.hpp"
 #include "moreau/world/impulse_dynamics.hpp"
 #include "moreau/world/overlap_correction.hpp"
+#include "moreau/world/policies.hpp"
 #include "moreau/world/step_report.hpp"
 #include "moreau/world/tolerances.hpp"
 
@@ -48,18 +45,14 @@ namespace moreau {
 /// @tparam Integrator time stepping: of impulses for a set-valued law, of forces for another
 /// @tparam Broad      broad phase
 /// @tparam Solver     of the contact problem; NoSolver for a regularized law
+///
+/// Policies that do not go together fail to compile; policies.hpp has the reasons.
 template <Shape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
-requires ContactLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>>
 class Simulation {
-  static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
-  static_assert(!set_valued || ImpulseIntegrator<Integrator, SpaceOf<ShapeT>>,
-                "Simulation: a set-valued law gives impulses, which an integrator of forces such "
-                "as VelocityVerlet cannot take; use MoreauJean or a regularized law");
-  static_assert(set_valued || ForceIntegrator<Integrator, SpaceOf<ShapeT>>,
-                "Simulation: a regularized law gives forces, which an integrator of impulses such "
-                "as MoreauJean cannot take; use VelocityVerlet or a set-valued law");
+  static constexpr bool set_valued =
+      detail::Policies<SpaceOf<ShapeT>, Law, Integrator, Broad, Solver>::set_valued;
 
  public:
   using S = SpaceOf<ShapeT>;
@@ -365,8 +358,7 @@ class Simulation {
 
 // Outside of the class, so that a program can instantiate it once and declare it extern elsewhere.
 template <Shape ShapeT, class Law, class Integrator, class Broad, class Solver>
-requires ContactLaw<Law, SpaceOf<ShapeT>> && TimeIntegrator<Integrator, SpaceOf<ShapeT>> StepReport
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
+StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");
   StepReport report;

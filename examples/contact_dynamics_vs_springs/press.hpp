@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Disks between three walls under a lid that is pressed down, by contact dynamics or on springs.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/measure/force_distribution.hpp"
+#include "moreau/moreau.hpp"
+
+namespace press {
+
+using S = moreau::Space<2>;
+using Disk = moreau::Sphere<S>;
+using Vector = S::Vector;
+using Springs = moreau::LinearSpringDashpot<double>;
+using Coulomb = moreau::SignoriniCoulomb<double>;
+
+constexpr double size = 0.01, width = 0.12, lid_mass = 20, lid_force = 2000, density = 2000,
+                 friction = 0.3;
+
+struct State {
+  std::vector<double> radii;
+  std::vector<moreau::Pose<S>> poses;
+  double lid = 0;  ///< height [m]
+};
+
+/// What came out of one method.
+struct Outcome {
+  double lid = 0;                            ///< height [m]
+  double solid = 0;                          ///< solid fraction
+  moreau::ForceDistribution<double> forces;  ///< of the contacts that push
+  double overlap = 0;                        ///< mean over diameter
+  double seconds = 0;                        ///< wall clock per simulated second
+  double contacts = 0;                       ///< per grain
+
+  /// Share of the contacts that push with more than twice the mean.
+  double strong() const {
+    double sum = forces.beyond;
+    for (std::size_t k = 0; k < forces.density.size(); ++k)
+      if (forces.ratio(k) > 2) sum += forces.width * forces.density[k];
+    return sum;
+  }
+};
+
+/// Disks between three walls under a lid that is pressed down.
+template <class Law>
+class Press {
+ public:
+  using Simulation = moreau::Simulation<Disk, Law>;
+
+  Press(const State& state, const Law& law) : simulation(size, moreau::Materials<Law>(1, law)) {
+    for (std::size_t k = 0; k < state.poses.size(); ++k)
+      simulation.add_grain(simulation.add_shape(Disk(state.radii[k])), state.poses[k], density);
+    simulation.add_wall({1, 0}, {0, 0});
+    simulation.add_wall({-1, 0}, {width, 0});
+    simulation.add_wall({0, 1}, {0, 0});
+    lid = simulation.add_wall({0, -1}, {0, state.lid});
+    simulation.set_wall_mass(lid, lid_mass);
+    simulation.set_force(lid, {0, -lid_force});
+    simulation.set_gravity({0, -9.81});
+  }
+  /// What is compared are states of rest: they are solved for to the last digit that counts.
+  void solve_to(double tolerance) {
+    moreau::ColouredOptions options;
+    options.tolerance = tolerance;
+    simulation.set_solver(moreau::ColouredGaussSeidel(options));
+  }
+  void run(double duration, double step) {
+    for (long k = std::lround(duration / step); k > 0; --k) last = simulation.step(step);
+  }
+  State state(const State& start) const {
+    State out = start;
+    for (std::size_t k = 0; k < out.poses.size(); ++k)
+      out.poses[k] = simulation.bodies().pose[simulation.grain(k).index()];
+    out.lid = height();
+    return out;
+  }
+  double height() const { return simulation.bodies().pose[lid.index()].position.y(); }
+
+  Simulation simulation;
+  moreau::BodyId lid;
+  moreau::StepReport last;
+};
+
+/// A loose lattice of disks of 8 to 12 mm.
+inline State loose(int count) {
+  State state;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> radius(0.004, 0.006), shift(-5e-4, 5e-4);
+  constexpr int per_row = 9;
+  for (int k = 0; k < count; ++k) {
+    moreau::Pose<S> pose;
+    pose.position = {0.0067 + 0.0133 * (k % per_row) + shift(random),
+                     0.0067 + 0.0133 * (k / per_row)};
+    state.radii.push_back(radius(random));
+    state.poses.push_back(pose);
+  }
+  state.lid = 0.0133 * (count / per_row + 1);
+  return state;
+}
+
+/// From the packing on, for half a second.
+template <class Law>
+Outcome settle(const State& packing, const Law& law, double step) {
+  Press<Law> press(packing, law);
+  if constexpr (std::is_same_v<Law, Coulomb>) press.solve_to(1e-7);
+  const double duration = 0.5;
+  const auto start = std::chrono::steady_clock::now();
+  press.run(duration, step);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  Outcome out;
+  out.seconds = wall.count() / duration;
+  out.lid = press.height();
+  double area = 0;
+  for (const double r : packing.radii) area += std::numbers::pi * r * r;
+  out.solid = area / (width * out.lid);
+  std::vector<double> pushes;
+  for (const Vector& r : press.simulation.contacts().impulses)
+    if (r[0] > 0) pushes.push_back(r[0] / step);
+  out.forces = moreau::force_distribution<double>(
+      pushes.size(), [&](std::size_t k) { return pushes[k]; }, 16, 4.0);
+  out.contacts = 2 * double(pushes.size()) / double(packing.radii.size());
+  out.overlap = press.last.mean_overlap / size;
+  return out;
+}
+
+/// The packing that contact dynamics makes of `count` disks.
+/// @param duration that it settles for [s]
+inline State packed(int count, double duration) {
+  const State start = loose(count);
+  Press<Coulomb> press(start, Coulomb(friction));
+  press.solve_to(1e-5);
+  press.run(duration, 2e-4);
+  return press.state(start);
+}
+
+/// Springs of this stiffness [N/m] with the step that they take, a twentieth of a contact.
+inline std::pair<Springs, double> springs_of(double stiffness) {
+  const Springs law(stiffness, 0.8 * stiffness, friction, 0.3);
+  const double lightest = density * std::numbers::pi * 0.004 * 0.004;
+  return {law, law.duration(lightest / 2) / 20};
+}
+
+}  // namespace press

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Which policies go together, and in one line why others do not.
+#pragma once
+
+#include <concepts>
+
+#include "moreau/detect/broad_phase.hpp"
+#include "moreau/integrate/concepts.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/regularized.hpp"
+#include "moreau/solve/concepts.hpp"
+#include "moreau/world/force_dynamics.hpp"
+
+namespace moreau::detail {
+
+/// Does not compile for policies of a Simulation that do not go together.
+template <class S, class Law, class Integrator, class Broad, class Solver>
+struct Policies {
+  static constexpr bool set_valued = SetValuedLaw<Law, S>;
+  static constexpr bool forces = RegularizedLaw<Law, S>;
+
+  static_assert(set_valued || forces,
+                "Simulation: Law is neither a SetValuedLaw nor a RegularizedLaw in the space of "
+                "the shape, whose dimension and scalar must be its own");
+  static_assert(TimeIntegrator<Integrator, S>,
+                "Simulation: Integrator is neither an ImpulseIntegrator nor a ForceIntegrator in "
+                "the space of the shape");
+  static_assert(!set_valued || ImpulseIntegrator<Integrator, S>,
+                "Simulation: a set-valued law gives impulses, which an integrator of forces such "
+                "as VelocityVerlet cannot take; use MoreauJean or a regularized law");
+  static_assert(!forces || ForceIntegrator<Integrator, S>,
+                "Simulation: a regularized law gives forces, which an integrator of impulses such "
+                "as MoreauJean cannot take; use VelocityVerlet or a set-valued law");
+  static_assert(BroadPhase<Broad, S>,
+                "Simulation: Broad is no BroadPhase in the space of the shape, whose dimension and "
+                "scalar must be its own");
+  static_assert(!set_valued || ContactSolver<Solver, Law, S>,
+                "Simulation: Solver cannot take this set-valued law: NonlinearGaussSeidel takes "
+                "all, ColouredGaussSeidel those without rolling, NoSolver none");
+  static_assert(!forces || std::same_as<Solver, NoSolver>,
+                "Simulation: a regularized law leaves nothing to solve; its Solver is NoSolver");
+};
+
+}  // namespace moreau::detail

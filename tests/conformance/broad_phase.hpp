@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// What every broad phase has to fulfil: find what all pairs find, on boxes of every kind, one call
+// after another. A new one inherits the suite by one line:
+//
+//   TEST_CASE("mine") { conformance::broad_phase<moreau::Space<3>>(MyBroadPhase()); }
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+#include <vector>
+
+#include "moreau/detect/all_pairs.hpp"
+#include "moreau/detect/broad_phase.hpp"
+
+namespace conformance {
+
+/// @param span    side of the region the boxes lie in
+/// @param ratio   largest to smallest size, drawn evenly by logarithm; the largest is 1
+template <class S>
+std::vector<moreau::Aabb<S>> random_boxes(std::size_t count, double span, double ratio,
+                                          double origin, std::mt19937_64& random) {
+  using T = typename S::Scalar;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<moreau::Aabb<S>> list(count);
+  for (auto& box : list) {
+    const double size = std::pow(ratio, -uniform(random));
+    for (Eigen::Index k = 0; k < S::dim; ++k) {
+      box.lower[k] = static_cast<T>(origin + span * uniform(random));
+      box.upper[k] = box.lower[k] + static_cast<T>(size * (0.5 + 0.5 * uniform(random)));
+    }
+  }
+  return list;
+}
+
+/// The pairs of these boxes: all, each once, in order, and nothing of what was there before.
+template <class S, class B>
+void check_pairs(B& tested, const std::vector<moreau::Aabb<S>>& list) {
+  std::vector<moreau::IndexPair> expected, found{{7, 9}};
+  moreau::AllPairs<S>().find_pairs(list, expected);
+  tested.find_pairs(list, found);
+  CHECK(found == expected);
+}
+
+/// Boxes that drift and breathe by a little from call to call, as those of grains do.
+template <class S, class B>
+void check_drifting_boxes(B& tested, std::mt19937_64& random) {
+  using T = typename S::Scalar;
+  std::uniform_real_distribution<double> shift(-0.05, 0.05);
+  auto list = random_boxes<S>(200, 6, 3, 0, random);
+  for (int call = 0; call < 30; ++call) {
+    check_pairs(tested, list);
+    for (auto& box : list)
+      for (Eigen::Index k = 0; k < S::dim; ++k) {
+        const T by = static_cast<T>(shift(random));
+        box.lower[k] += by;
+        box.upper[k] += by + static_cast<T>(std::abs(shift(random)) / 10);
+      }
+    if (call == 15) std::swap(list.front(), list.back());  // two that change places
+  }
+}
+
+template <class S, class B>
+void check_special_boxes(B& tested) {
+  using Vector = typename S::Vector;
+  std::vector<moreau::Aabb<S>> list;
+  for (int i = 0; i < 20; ++i) list.push_back({Vector::Constant(3), Vector::Constant(3)});
+  check_pairs(tested, list);  // points, all in one place
+  for (int i = 0; i < 20; ++i) {
+    const auto x = static_cast<typename S::Scalar>(i);
+    list.push_back({Vector::Constant(x), Vector::Constant(x + 1)});
+  }
+  check_pairs(tested, list);  // a row of boxes that touch, corner to corner
+  list.push_back({Vector::Constant(-100), Vector::Constant(100)});
+  check_pairs(tested, list);  // one around all
+  for (auto& box : list) box.upper[0] = box.lower[0];
+  check_pairs(tested, list);  // flat ones
+}
+
+template <class S, class B>
+requires moreau::BroadPhase<B, S>
+void broad_phase(B tested) {
+  std::mt19937_64 random(1);
+  for (const std::size_t count : {0u, 1u, 2u, 10u, 100u, 600u})
+    for (const double span : {1.0, 8.0, 100.0})
+      for (const double ratio : {1.0, 20.0, 1000.0})
+        for (const double origin : {0.0, -3.0, 1e3})
+          check_pairs(tested, random_boxes<S>(count, span, ratio, origin, random));
+  check_drifting_boxes<S>(tested, random);
+  check_special_boxes<S>(tested);
+}
+
+}  // namespace conformance

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Boxes of the plane for balls of space.
+// expect: Broad is no BroadPhase in the space of the shape
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/sphere.hpp"
+#include "moreau/world/simulation.hpp"
+
+#ifdef MOREAU_CORRECTED
+using Broad = moreau::SweepAndPrune<moreau::Space<3>>;
+#else
+using Broad = moreau::SweepAndPrune<moreau::Space<2>>;
+#endif
+
+using Law = moreau::SignoriniCoulomb<double>;
+moreau::Simulation<moreau::Ball<>, Law, moreau::MoreauJean, Broad> simulation(
+    0.01, moreau::Materials<Law>(1));

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// A law that counts in float for grains in double.
+// expect: neither a SetValuedLaw nor a RegularizedLaw in the space
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/sphere.hpp"
+#include "moreau/world/simulation.hpp"
+
+#ifdef MOREAU_CORRECTED
+using Law = moreau::SignoriniCoulomb<double>;
+#else
+using Law = moreau::SignoriniCoulomb<float>;
+#endif
+
+moreau::Simulation<moreau::Ball<double>, Law> simulation(0.01, moreau::Materials<Law>(1));
