@@ -16,8 +16,8 @@
 namespace conformance {
 
 /// It meets its tolerance on random assemblies, under a law that offers no more than the concept
-/// too; what it reports is what one measures; it leaves the velocities of its impulses; it goes on
-/// from a solution; nothing to solve is solved.
+/// too if it takes such; what it reports is what one measures; it leaves the velocities of its
+/// impulses; it goes on from a solution; nothing to solve is solved.
 /// @param tolerance that the solver was given, on the natural map
 template <class S, class V>
 requires moreau::ContactSolver<V, moreau::SignoriniCoulomb<typename S::Scalar>, S>
@@ -25,7 +25,6 @@ void solver(const V& solver, double tolerance) {
   using Vector = typename S::Vector;
   using Law = moreau::SignoriniCoulomb<typename S::Scalar>;
   using Plain = solve_test::PlainCoulomb<typename S::Scalar>;
-  static_assert(moreau::ContactSolver<V, Plain, S>);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     solve_test::Assembly<S> problem(seed);
     std::vector<Vector> impulses, velocities;
@@ -45,11 +44,13 @@ void solver(const V& solver, double tolerance) {
     CHECK(again.converged);
     CHECK(again.sweeps <= report.sweeps);
 
-    std::vector<Plain> plain;
-    for (const Law& law : problem.laws) plain.push_back({law});
-    impulses.clear();
-    CHECK(problem.solve(solver, plain, impulses).converged);
-    CHECK(problem.measure(impulses).residual <= tolerance);
+    if constexpr (moreau::ContactSolver<V, Plain, S>) {
+      std::vector<Plain> plain;
+      for (const Law& law : problem.laws) plain.push_back({law});
+      impulses.clear();
+      CHECK(problem.solve(solver, plain, impulses).converged);
+      CHECK(problem.measure(impulses).residual <= tolerance);
+    }
   }
 
   moreau::BodyDelassus<S> none;

@@ -20,20 +20,21 @@ using Point = std::array<double, 2>;  ///< across, up [m]
 
 constexpr double gravity = 9.81, density = 1000, tolerance = 1e-8;
 
-inline moreau::ColouredOptions tight() {
+inline moreau::ColouredOptions tight(int max_sweeps = 10000) {
   moreau::ColouredOptions options;
   options.tolerance = tolerance;
-  options.max_sweeps = 10000;
+  options.max_sweeps = max_sweeps;
   return options;
 }
 
-template <class ShapeT>
+/// @tparam Solver of the contacts
+template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 struct Structure {
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
 
-  scenes::World<ShapeT> simulation;
+  moreau::Simulation<ShapeT, Law, moreau::MoreauJean, moreau::SweepAndPrune<S>, Solver> simulation;
   double depth;            ///< of the prisms [m]
   double joint = 1e9;      ///< least width of a joint [m]
   double diameter = 0;     ///< of the structure [m]
@@ -43,8 +44,7 @@ struct Structure {
   /// @param prism_depth out of the plane [m]
   /// @param tilt of the floor under gravity [rad]
   Structure(double size, double friction, double prism_depth, double tilt = 0)
-      : simulation(size, moreau::Materials<Law>(1, Law(friction)),
-                   moreau::ColouredGaussSeidel(tight())),
+      : simulation(size, moreau::Materials<Law>(1, Law(friction)), Solver(tight())),
         depth(prism_depth) {
     // Three points of a rectangle leave the load on the edge of their triangle: it would rock.
     simulation.set_contact_points(moreau::ContactPoints::all);
@@ -120,13 +120,13 @@ struct Structure {
 /// by sum u (1 + 2 D/w) <= e sqrt(n) (1 + 2 D/w). Steps do not add up velocities, so the
 /// displacement is the sum of h times that, and the kinetic energy below m/2 of its square.
 /// Position moves by the correction of overlaps besides, as far as it reports.
-template <class ShapeT>
-void check_stands(Structure<ShapeT>& structure, double step, int settle, int count) {
+template <class ShapeT, class Solver>
+void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle, int count) {
   const double lever =
       std::sqrt(double(structure.joints)) * (1 + 2 * structure.diameter / structure.joint);
   int failed = 0, sweeps = 0, first = 0;
   double residual = 0, allowed = 0, velocity = 0, corrected = 0;
-  std::vector<typename Structure<ShapeT>::Vector> start;
+  std::vector<typename Structure<ShapeT, Solver>::Vector> start;
   for (int k = 0; k < settle + count; ++k) {
     if (k == settle) start = structure.vertices();
     const moreau::StepReport report = structure.simulation.step(step);
@@ -152,9 +152,9 @@ void check_stands(Structure<ShapeT>& structure, double step, int settle, int cou
 
 /// Boxes on each other, the floor tilted by 0.01: the resultant leaves the base when the tilt is
 /// 1/count.
-template <class ShapeT>
-Structure<ShapeT> column(int count) {
-  Structure<ShapeT> structure(0.1, 0.5, 0.1, std::min(0.01, 0.4 / count));
+template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
+Structure<ShapeT, Solver> column(int count) {
+  Structure<ShapeT, Solver> structure(0.1, 0.5, 0.1, std::min(0.01, 0.4 / count));
   for (int k = 0; k < count; ++k) structure.add_box(-0.05, 0.1 * k, 0.1, 0.1);
   structure.joint = 0.1;
   structure.joints = std::size_t(count);
@@ -164,10 +164,10 @@ Structure<ShapeT> column(int count) {
 
 /// Courses of bricks, every other one shifted by half a brick and closed by two halves; joints are
 /// dry on all sides. The floor is tilted along the wall, below the friction angle.
-template <class ShapeT>
-Structure<ShapeT> wall(int courses, int bricks) {
+template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
+Structure<ShapeT, Solver> wall(int courses, int bricks) {
   constexpr double length = 0.2, height = 0.06;
-  Structure<ShapeT> structure(height, 0.5, 0.1, 0.1);
+  Structure<ShapeT, Solver> structure(height, 0.5, 0.1, 0.1);
   for (int course = 0; course < courses; ++course) {
     const double bottom = height * course;
     const bool shifted = course % 2 == 1;

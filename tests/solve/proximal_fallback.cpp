@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/solve/proximal_fallback.hpp"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <vector>
+
+#include "conformance/solver.hpp"
+
+using namespace solve_test;
+
+namespace {
+
+ColouredOptions few_sweeps(double tolerance) {
+  ColouredOptions options;
+  options.tolerance = tolerance;
+  options.max_sweeps = 100;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("where sweeps do not suffice, the proximal point method does", S, Space<2>,
+                   Space<3>) {
+  conformance::solver<S>(ProximalFallback<>(few_sweeps(1e-9)), 1e-9);
+  static_assert(!ContactSolver<ProximalFallback<>, PlainCoulomb<double>, S>);
+}
+
+TEST_CASE("a solution that repels sweeps is found") {
+  Assembly<Space<2>> problem(9, true, 0.1);
+  std::vector<Space<2>::Vector> impulses;
+  const SolveReport report =
+      problem.solve(ProximalFallback<>(fast<Space<2>>(1e-8)), problem.laws, impulses);
+  CHECK(report.converged);
+  CHECK(problem.measure(impulses).residual <= 1e-8);
+}
+
+TEST_CASE("what it cannot solve in time it leaves as swept, and says so") {
+  Assembly<Space<3>> problem(3);
+  std::vector<Space<3>::Vector> impulses, swept;
+  const SolveReport report =
+      problem.solve(ProximalFallback<>(few_sweeps(1e-15), 1e-9), problem.laws, impulses);
+  const SolveReport first =
+      problem.solve(ColouredGaussSeidel(few_sweeps(1e-15)), problem.laws, swept);
+  CHECK_FALSE(report.converged);
+  CHECK(report.capped);
+  CHECK(report.residual <= first.residual);
+  CHECK_THROWS_AS(ProximalFallback<>(few_sweeps(1e-8), 0), std::invalid_argument);
+  CHECK_THROWS_AS(ProximalFallback<>(few_sweeps(-1)), std::invalid_argument);
+}
