@@ -89,6 +89,11 @@ void set_valued_law(const Law& law, int problems = 5000) {
     if constexpr (!requires { law.natural_map(u, r, T(8)); }) {
       const Vector twice = law.solve(p.block, Vector(2 * p.velocity), p.guess);
       scaled = std::max(scaled, double((twice - 2 * r).norm()) / size);
+      // So small that squares underflow.
+      const T small = std::pow(std::numeric_limits<T>::min(), T(0.7));
+      const Vector faint = law.solve(p.block, Vector(small * p.velocity), Vector(small * p.guess));
+      CHECK(faint.allFinite());
+      scaled = std::max(scaled, double((faint / small - r).norm()) / size);
     }
     constexpr int aside = Problem::rows - 1;
     driven = std::max(

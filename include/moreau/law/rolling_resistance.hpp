@@ -31,19 +31,24 @@ namespace detail {
 /// The m with |m| <= limit and Q m + c = -beta m, beta = 0 inside the limit.
 template <class Matrix, class Vector, class T>
 Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
-  if (!(limit > 0)) return Vector::Zero();
+  constexpr T epsilon = std::numeric_limits<T>::epsilon();
+  if (!(limit > 0) || c.isZero(0)) return Vector::Zero();
+  // In units of the limit, so that products of small couples do not underflow.
+  const Vector load = c / limit;
+  // So far outside that beta hides Q, and squares may overflow.
+  if (!(epsilon * load.stableNorm() < q.trace())) return -limit * c.stableNormalized();
   T beta = 0;
   Vector m = Vector::Zero();
   for (int iteration = 0; iteration < 50; ++iteration) {
     const Matrix inverse = (q + beta * Matrix::Identity()).inverse();
-    m = -(inverse * c);
-    const T length = m.norm(), excess = length - limit;
-    if (excess <= (beta > 0 ? 4 * std::numeric_limits<T>::epsilon() * limit : T(0))) break;
-    // Newton on 1/|m| - 1/limit, which is concave in beta: monotone from below.
-    beta += length * length / (m.dot(inverse * m)) * excess / limit;
+    m = -(inverse * load);
+    const T length = m.norm(), excess = length - 1;
+    if (excess <= (beta > 0 ? 4 * epsilon : T(0))) break;
+    // Newton on 1/|m| - 1, which is concave in beta: monotone from below.
+    beta += length * length / (m.dot(inverse * m)) * excess;
   }
   const T length = m.norm();
-  return length > limit ? Vector(m * (limit / length)) : m;
+  return length > 1 ? Vector(m * (limit / length)) : Vector(limit * m);
 }
 
 }  // namespace detail
@@ -80,26 +85,10 @@ class RollingResistance {
                                          const typename RollingBlock<S>::Vector& guess) const {
     using Vector = typename RollingBlock<S>::Vector;
     if (b[0] >= T(0)) return Vector::Zero();
-    const Vector firm = sticking<S>(block, b);
-    if ((firm - project(firm)).isZero(0)) return firm;
-    Vector r = guess;
-    for (int iteration = 0; iteration < 1000; ++iteration) {
-      const Vector before = r;
-      const typename S::Vector b_point =
-          b.template head<S::dim>() + block.coupling * r.template tail<S::angular_dim>();
-      r.template head<S::dim>() =
-          point_.template solve<S>(block.point, b_point, r.template head<S::dim>());
-      const typename S::Angular c = b.template tail<S::angular_dim>() +
-                                    block.coupling.transpose() * r.template head<S::dim>();
-      const typename S::Angular couple =
-          detail::solve_disc<typename S::Inertia, typename S::Angular, T>(block.spin, c,
-                                                                          rolling_ * r[0]);
-      // A couple that opens the contact, which without it closes, would go on for ever.
-      const T share = iteration < 30 ? T(1) : T(0.5);
-      r.template tail<S::angular_dim>() += share * (couple - r.template tail<S::angular_dim>());
-      if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) break;
-    }
-    return r;
+    // In units of the velocity, so that squares of small ones do not underflow.
+    const T unit = b.cwiseAbs().maxCoeff();
+    const Vector start = guess / unit;
+    return unit * solve_unit<S>(block, b / unit, start.allFinite() ? start : Vector::Zero());
   }
 
   /// r - P_K(r - (u + (mu |u_t| + eta |w|) n)).
@@ -143,6 +132,34 @@ class RollingResistance {
   /// D of a vector of D + A rows: 3 = 2 + 1, 6 = 3 + 3.
   template <class Vector>
   static constexpr int point_rows = (Vector::RowsAtCompileTime + 1) / 2;
+
+  /// The same where the largest entry of b is 1.
+  template <class S>
+  typename RollingBlock<S>::Vector solve_unit(const RollingBlock<S>& block,
+                                              const typename RollingBlock<S>::Vector& b,
+                                              const typename RollingBlock<S>::Vector& guess) const {
+    using Vector = typename RollingBlock<S>::Vector;
+    const Vector firm = sticking<S>(block, b);
+    if ((firm - project(firm)).isZero(0)) return firm;
+    Vector r = guess;
+    for (int iteration = 0; iteration < 1000; ++iteration) {
+      const Vector before = r;
+      const typename S::Vector b_point =
+          b.template head<S::dim>() + block.coupling * r.template tail<S::angular_dim>();
+      r.template head<S::dim>() =
+          point_.template solve<S>(block.point, b_point, r.template head<S::dim>());
+      const typename S::Angular c = b.template tail<S::angular_dim>() +
+                                    block.coupling.transpose() * r.template head<S::dim>();
+      const typename S::Angular couple =
+          detail::solve_disc<typename S::Inertia, typename S::Angular, T>(block.spin, c,
+                                                                          rolling_ * r[0]);
+      // A couple that opens the contact, which without it closes, would go on for ever.
+      const T share = iteration < 30 ? T(1) : T(0.5);
+      r.template tail<S::angular_dim>() += share * (couple - r.template tail<S::angular_dim>());
+      if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) break;
+    }
+    return r;
+  }
 
   /// u = 0 in all rows.
   template <class S>

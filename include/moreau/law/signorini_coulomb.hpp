@@ -147,8 +147,10 @@ class SignoriniCoulomb {
     const auto c = b.template tail<tangents>() - b[0] * block.coupling;
     r.template tail<tangents>() = -c.cwiseQuotient(block.slip);
     r[0] = free - block.coupling.dot(r.template tail<tangents>());
-    const T limit = friction_ * r[0];
-    if (limit >= T(0) && r.template tail<tangents>().squaredNorm() <= limit * limit) return r;
+    // In units of the impulse without friction, so that squares of small impulses do not underflow.
+    const T unit = T(1) / free, limit = unit * friction_ * r[0];
+    if (limit >= T(0) && (unit * r.template tail<tangents>()).squaredNorm() <= limit * limit)
+      return r;
     return detail::solve_slip<T>(block, b, friction_, guess);
   }
 
