@@ -13,6 +13,8 @@ Json to_json(const Period& period) {
           {"t_peak", period.peak},
           {"delay", period.delay()},
           {"dx_max", period.dx_max},
+          {"creep", period.creep},
+          {"dx_active", period.dx_active},
           {"v_max_active", period.v_max_active},
           {"v_max_passive", period.v_max_passive},
           {"f_g_active", period.f_g_active}};
@@ -85,15 +87,17 @@ Json results(const Parameters& p, double mass, double wall_mass, double length,
   json["rho_box_initial"] = packing.front().rho_box;
   json["rho_box_final"] = packing.back().rho_box;
   if (periods.empty()) return json;
-  double dx = 0, v = 0, delay = 0, active = 0;
+  double dx = 0, v = 0, delay = 0, active = 0, moved = 0;
   for (const Period& period : periods) {
     dx += period.dx_max;
     v += period.v_max_passive;
     delay += period.delay();
+    if (!std::isfinite(period.f_g_active)) continue;
     active += period.f_g_active;
+    ++moved;
   }
   const double n = double(periods.size());
-  dx /= n, v /= n, delay /= n, active /= n;
+  dx /= n, v /= n, delay /= n, active /= moved;
   const double weight = mass * p.gravity;
   json["periods"] = periods.size();
   json["dx_max"] = dx;

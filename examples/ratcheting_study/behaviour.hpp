@@ -2,11 +2,12 @@
 // What happens within a period: loops, stresses, roll, solid fraction (rows 7 to 12 and 14).
 #pragma once
 
-#include <filesystem>
+#include <cmath>
 #include <vector>
 
+#include "../ratcheting/periods.hpp"
 #include "power_law.hpp"
-#include "result.hpp"
+#include "table.hpp"
 
 namespace study {
 
@@ -31,10 +32,17 @@ struct Behaviour {
   double box_extension = std::nan("");    ///< whole box, change [-]
 };
 
-Behaviour read_behaviour(const std::filesystem::path& output, const Result& r);
+/// The tables of a run: wall.csv, state.csv, packing.csv.
+struct Tables {
+  Table wall, state, packing;
+};
+
+/// @param periods those that are settled
+Behaviour behaviour_of(const Tables& run, const std::vector<ratcheting::Period>& periods,
+                       double frequency);
 
 /// The mean period in the phase plane, (x - x_j, v), at equal steps of the phase from jam to jam.
-/// @returns nothing without a settled period
-std::vector<Point> mean_loop(const std::filesystem::path& output, const Result& r);
+/// @returns nothing without a period
+std::vector<Point> mean_loop(const Table& wall, const std::vector<ratcheting::Period>& periods);
 
 }  // namespace study
