@@ -17,8 +17,10 @@ struct ActivePhase {
   double dx = 0;      ///< largest x after it - x there
   double thrust = 0;  ///< mean f_g where the wall moves out at more than a fifth of its best speed;
                       ///< nan if it does not move out
-  double onset = 0;   ///< start of the motion that goes on to the largest x without a halt
-  double v_max = 0;   ///< largest outward speed
+  double onset = 0;   ///< time when the motion starts that goes on to the largest x without a halt
+  double peak = 0;    ///< time of the largest x
+  double v_out = 0;   ///< largest outward speed on the way there
+  double v_in = 0;    ///< largest inward speed after it
 };
 
 /// How long before its minimum f is at the weight [s]; at most half a period, 0 if f is never
@@ -44,13 +46,15 @@ inline ActivePhase active_phase(const std::vector<double>& t, const std::vector<
   ActivePhase phase;
   phase.creep = x[first] - x[jam];
   phase.dx = x[peak] - x[first];
-  for (std::size_t k = first; k <= peak; ++k) phase.v_max = std::max(phase.v_max, v[k]);
+  phase.peak = t[peak];
+  for (std::size_t k = first; k <= peak; ++k) phase.v_out = std::max(phase.v_out, v[k]);
+  for (std::size_t k = peak; k <= last; ++k) phase.v_in = std::max(phase.v_in, -v[k]);
   const double halfway = (x[first] + x[peak]) / 2;
   std::size_t onset = peak, moving = 0;
-  while (onset > first && (x[onset - 1] > halfway || v[onset - 1] > 0.05 * phase.v_max)) --onset;
+  while (onset > first && (x[onset - 1] > halfway || v[onset - 1] > 0.05 * phase.v_out)) --onset;
   phase.onset = t[onset];
   for (std::size_t k = first; k <= peak; ++k) {
-    if (!(v[k] > 0.2 * phase.v_max)) continue;
+    if (!(v[k] > 0.2 * phase.v_out)) continue;
     phase.thrust += f_g[k];
     ++moving;
   }

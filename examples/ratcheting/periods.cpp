@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "periods.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -12,23 +13,6 @@ namespace {
 std::size_t index_at(const std::vector<WallSample>& wall, double t, double step) {
   const double k = std::round(t / step) - 1;
   return static_cast<std::size_t>(std::clamp(k, 0.0, double(wall.size() - 1)));
-}
-
-/// All but the active phase.
-Period measure(const std::vector<WallSample>& wall, std::size_t first, std::size_t last) {
-  Period period;
-  period.start = wall[first].t;
-  period.finish = wall[last].t;
-  period.jam_before = wall[first].x;
-  period.jam_after = wall[last].x;
-  std::size_t peak = first;
-  for (std::size_t k = first; k <= last; ++k)
-    if (wall[k].x > wall[peak].x) peak = k;
-  period.peak = wall[peak].t;
-  period.dx_max = wall[peak].x - period.jam_before;
-  for (std::size_t k = peak; k <= last; ++k)
-    period.v_max_passive = std::max(period.v_max_passive, -wall[k].v);
-  return period;
 }
 
 std::vector<double> column(const std::vector<WallSample>& wall, double WallSample::*field) {
@@ -49,10 +33,17 @@ std::vector<Period> find_periods(const std::vector<WallSample>& wall, const Para
     const std::size_t first = index_at(wall, (k - 0.25) / p.frequency, p.step);
     const std::size_t last = index_at(wall, (k + 0.75) / p.frequency, p.step);
     if (last <= first || last >= wall.size()) break;
-    Period period = measure(wall, first, last);
+    Period period;
+    period.start = t[first];
+    period.finish = t[last];
     period.force_minimum = (k + 0.25) / p.frequency;
-    period.take(
-        active_phase(t, x, v, f_g, period.start, period.force_minimum - before, period.finish));
+    period.jam_before = x[first];
+    period.jam_after = x[last];
+    period.dx_max =
+        *std::max_element(x.begin() + std::ptrdiff_t(first), x.begin() + std::ptrdiff_t(last) + 1) -
+        x[first];
+    period.active =
+        active_phase(t, x, v, f_g, period.start, period.force_minimum - before, period.finish);
     periods.push_back(period);
   }
   return periods;

@@ -28,11 +28,11 @@ class Mean {
 
 /// When x has fallen back by a share of the way from the peak to x_j'.
 double falls_back(const Table& wall, const Period& period, double share) {
-  const double top = period.jam_before + period.dx_max;
+  const double top = period.x_peak();
   const double wanted = top - share * (top - period.jam_after);
   for (std::size_t k = 0; k < wall.rows(); ++k) {
     const double t = wall["t"][k];
-    if (t >= period.peak && (wall["x"][k] <= wanted || t >= period.finish)) return t;
+    if (t >= period.active.peak && (wall["x"][k] <= wanted || t >= period.finish)) return t;
   }
   return period.finish;
 }
@@ -66,16 +66,15 @@ Line force_over_x(const Table& wall, double from, double to) {
 }
 
 void read_wall(const Table& wall, const Periods& periods, double frequency, Behaviour& b) {
-  Mean lead, active, passive, active_slope, passive_slope, work;
+  Mean lead, passive, active_slope, passive_slope, work;
   for (const Period& period : periods) {
-    lead.add((period.force_minimum - period.onset) * frequency);
+    lead.add((period.force_minimum - period.active.onset) * frequency);
     // The transients of unjamming and jamming are left out.
-    const double out = period.onset + 0.2 * (period.peak - period.onset);
+    const double out = period.active.onset + 0.2 * (period.active.peak - period.active.onset);
     const double back = falls_back(wall, period, 0.9);
-    active.add(mean_between(wall, "f_g", out, period.peak));
-    passive.add(mean_between(wall, "f_g", period.peak, back));
-    active_slope.add(force_over_x(wall, out, period.peak).slope);
-    passive_slope.add(force_over_x(wall, period.peak, back).slope);
+    passive.add(mean_between(wall, "f_g", period.active.peak, back));
+    active_slope.add(force_over_x(wall, out, period.active.peak).slope);
+    passive_slope.add(force_over_x(wall, period.active.peak, back).slope);
     double sum = 0;
     const Rows rows = rows_between(wall, period.start, period.finish);
     for (std::size_t k = rows.begin + 1; k < rows.end; ++k)
@@ -83,7 +82,6 @@ void read_wall(const Table& wall, const Periods& periods, double frequency, Beha
     work.add(sum);
   }
   b.onset_lead = lead.value();
-  b.active_force = active.value();
   b.passive_force = passive.value();
   b.active_slope = active_slope.value();
   b.passive_slope = passive_slope.value();
@@ -98,11 +96,11 @@ void read_state(const Tables& run, const Periods& periods, double frequency, Beh
   for (const Period& period : periods) {
     jammed_xx.add(mean_between(state, "stress_xx", period.start - about, period.start + about));
     jammed_zz.add(mean_between(state, "stress_zz", period.start - about, period.start + about));
-    active_xx.add(mean_between(state, "stress_xx", period.onset, period.peak));
-    active_zz.add(mean_between(state, "stress_zz", period.onset, period.peak));
+    active_xx.add(mean_between(state, "stress_xx", period.active.onset, period.active.peak));
+    active_zz.add(mean_between(state, "stress_zz", period.active.onset, period.active.peak));
     const double back = falls_back(run.wall, period, 0.9);
-    roll.add(mean_between(state, "roll", period.peak, back));
-    strength.add(mean_between(state, "roll_strength", period.peak, back));
+    roll.add(mean_between(state, "roll", period.active.peak, back));
+    strength.add(mean_between(state, "roll_strength", period.active.peak, back));
   }
   b.jammed_xx = jammed_xx.value();
   b.jammed_zz = jammed_zz.value();
@@ -118,9 +116,9 @@ void read_packing(const Tables& run, const Periods& periods, Behaviour& b) {
     const auto change = [&](const char* column, double from, double to) {
       return value_at(run.packing, column, to) - value_at(run.packing, column, from);
     };
-    extension.add(change("rho_inner", period.onset, period.peak));
-    contraction.add(change("rho_inner", period.peak, falls_back(run.wall, period, 0.9)));
-    box.add(change("rho_box", period.onset, period.peak));
+    extension.add(change("rho_inner", period.active.onset, period.active.peak));
+    contraction.add(change("rho_inner", period.active.peak, falls_back(run.wall, period, 0.9)));
+    box.add(change("rho_box", period.active.onset, period.active.peak));
   }
   b.rho_extension = extension.value();
   b.rho_contraction = contraction.value();

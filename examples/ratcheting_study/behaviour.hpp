@@ -16,11 +16,10 @@ struct Behaviour {
   double early_share = std::nan("");  ///< x at 0.1 s over x at the first force maximum
   double onset_lead = std::nan("");   ///< from onset to minimum of f, as a share of the period
 
-  double active_force = std::nan("");   ///< f_g while x grows [N]
   double passive_force = std::nan("");  ///< f_g while x falls by 90 % of its way [N]
-  double active_slope = std::nan("");   ///< of f_g over x there [N/m]
-  double passive_slope = std::nan("");
-  double loop_work = std::nan("");  ///< of the grains on the wall, from x_j to x_j' [J]
+  double active_slope = std::nan("");   ///< of f_g over x while x grows [N/m]
+  double passive_slope = std::nan("");  ///< of f_g over x while x falls so far [N/m]
+  double loop_work = std::nan("");      ///< of the grains on the wall, from x_j to x_j' [J]
 
   double jammed_xx = std::nan(""),
          jammed_zz = std::nan("");  ///< stresses at the force maximum [Pa]

@@ -75,8 +75,9 @@ void write_events(const fs::path& folder, const Result& r) {
                           "x_peak", "t_after", "x_after"});
   for (const ratcheting::Period& period : r.periods)
     file.row(std::lround(period.force_minimum * p.frequency - 0.25), six(period.start),
-             six(period.jam_before), six(period.onset), six(period.force_minimum), six(period.peak),
-             six(period.jam_before + period.dx_max), six(period.finish), six(period.jam_after));
+             six(period.jam_before), six(period.active.onset), six(period.force_minimum),
+             six(period.active.peak), six(period.x_peak()), six(period.finish),
+             six(period.jam_after));
   file.close();
 }
 

@@ -21,9 +21,7 @@ ratcheting::Period read_period(const nlohmann::json& json, double frequency) {
   period.finish = period.force_minimum + 0.5 / frequency;
   period.jam_before = json.at("x_j");
   period.jam_after = json.at("x_j_after");
-  period.peak = json.at("t_peak");
   period.dx_max = json.at("dx_max");
-  period.v_max_passive = json.at("v_max_passive");
   return period;
 }
 
@@ -71,8 +69,8 @@ void find_active(const Table& wall, Result& r) {
   const Parameters& p = r.c.parameters;
   const double before = time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
   for (ratcheting::Period& period : r.periods)
-    period.take(active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
-                             period.force_minimum - before, period.finish));
+    period.active = active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
+                                 period.force_minimum - before, period.finish);
 }
 
 /// Mean of a field over the periods that have it; nan without one.
@@ -93,12 +91,12 @@ void summarize_wall(Result& r) {
   r.dx_max = mean(periods, [](const Period& p) { return p.dx_max; });
   r.dx_spread = std::sqrt(mean(
       periods, [&](const Period& p) { return (p.dx_max - r.dx_max) * (p.dx_max - r.dx_max); }));
-  r.v_max = mean(periods, [](const Period& p) { return p.v_max_passive; });
+  r.v_max = mean(periods, [](const Period& p) { return p.active.v_in; });
   r.delay = mean(periods, [](const Period& p) { return p.delay(); });
   r.net_contraction = mean(periods, [](const Period& p) { return p.jam_before - p.jam_after; });
-  r.dx_active = mean(periods, [](const Period& p) { return p.dx_active; });
-  r.creep = mean(periods, [](const Period& p) { return p.creep; });
-  r.thrust = mean(periods, [](const Period& p) { return p.f_g_active; });
+  r.dx_active = mean(periods, [](const Period& p) { return p.active.dx; });
+  r.creep = mean(periods, [](const Period& p) { return p.active.creep; });
+  r.thrust = mean(periods, [](const Period& p) { return p.active.thrust; });
   r.contracting = 0;
   for (const Period& p : periods) r.contracting += p.jam_after < p.jam_before;
   r.constant = r.dx_max / r.scaled_load();

@@ -24,15 +24,15 @@ void describe(Some<ratcheting::Period> auto& p, const auto& field) {
   field("t_finish", p.finish);
   field("x_j", p.jam_before);
   field("x_j_after", p.jam_after);
-  field("t_onset", p.onset);
   field("t_force_minimum", p.force_minimum);
-  field("t_peak", p.peak);
   field("dx_max", p.dx_max);
-  field("creep", p.creep);
-  field("dx_active", p.dx_active);
-  field("v_max_active", p.v_max_active);
-  field("v_max_passive", p.v_max_passive);
-  field("f_g_active", p.f_g_active);
+  field("creep", p.active.creep);
+  field("dx_active", p.active.dx);
+  field("t_onset", p.active.onset);
+  field("t_peak", p.active.peak);
+  field("v_max_active", p.active.v_out);
+  field("v_max_passive", p.active.v_in);
+  field("f_g_active", p.active.thrust);
 }
 
 void describe(Some<Point> auto& p, const auto& field) {
@@ -66,7 +66,6 @@ void describe(Some<WallClock> auto& c, const auto& field) {
 void describe(Some<Behaviour> auto& b, const auto& field) {
   field("early_share", b.early_share);
   field("onset_lead", b.onset_lead);
-  field("active_force", b.active_force);
   field("passive_force", b.passive_force);
   field("active_slope", b.active_slope);
   field("passive_slope", b.passive_slope);
