@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "active_phase.hpp"
 #include "parameters.hpp"
 
 namespace ratcheting {
@@ -17,21 +18,20 @@ struct WallSample {
 /// and largest at (k + 3/4)/nu.
 struct Period {
   double start = 0, finish = 0;  ///< times of the force maxima before and after [s]
+  double force_minimum = 0;      ///< time of the minimum of f [s]
   double jam_before = 0;         ///< x_j: position at the force maximum before [m]
   double jam_after = 0;          ///< x_j': position at the force maximum after [m]
-  double onset = 0;              ///< a: start of the motion that ends in the peak [s]
-  double force_minimum = 0;      ///< time of the minimum of f [s]
-  double peak = 0;               ///< b: time of the largest x [s]
   double dx_max = 0;             ///< largest x - jam_before [m]
-  double v_max_active = 0;       ///< largest outward speed [m/s]
-  double v_max_passive = 0;      ///< largest inward speed after the peak [m/s]
-  double f_g_active = 0;  ///< mean force of the grains on the wall while it moves outward [N]
+  ActivePhase active;            ///< from a, its onset, to b, its peak
 
-  double delay() const { return peak - force_minimum; }  ///< delta t_r [s]
+  double delay() const { return active.peak - force_minimum; }             ///< delta t_r [s]
+  double x_peak() const { return jam_before + active.creep + active.dx; }  ///< of b [m]
 };
 
 /// Whole periods from the first force maximum on; the first extension is part of the filling
 /// transient and is left out.
-std::vector<Period> find_periods(const std::vector<WallSample>& wall, const Parameters& p);
+/// @param weight of the grains, m g [N]
+std::vector<Period> find_periods(const std::vector<WallSample>& wall, const Parameters& p,
+                                 double weight);
 
 }  // namespace ratcheting

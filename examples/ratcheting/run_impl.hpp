@@ -193,7 +193,7 @@ int run_method(const Parameters& asked) {
   json.stage("vibrate", watch.lap());
   recorder.flush();
   recorder.passive_field().write(p.output);
-  write_events(p.output, find_periods(recorder.samples(), p));
+  write_events(p.output, find_periods(recorder.samples(), p, experiment.mass() * p.gravity));
   json.write(p, experiment, recorder, done < total);
   if (p.plots) plot(p.output);
   conclude(p, experiment, recorder.totals(), json.results());

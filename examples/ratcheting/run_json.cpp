@@ -8,14 +8,16 @@ namespace ratcheting {
 Json to_json(const Period& period) {
   return {{"x_j", period.jam_before},
           {"x_j_after", period.jam_after},
-          {"t_onset", period.onset},
+          {"t_onset", period.active.onset},
           {"t_force_minimum", period.force_minimum},
-          {"t_peak", period.peak},
+          {"t_peak", period.active.peak},
           {"delay", period.delay()},
           {"dx_max", period.dx_max},
-          {"v_max_active", period.v_max_active},
-          {"v_max_passive", period.v_max_passive},
-          {"f_g_active", period.f_g_active}};
+          {"creep", period.active.creep},
+          {"dx_active", period.active.dx},
+          {"v_max_active", period.active.v_out},
+          {"v_max_passive", period.active.v_in},
+          {"f_g_active", period.active.thrust}};
 }
 
 Json to_json(const SolverTotals& t, double size) {
@@ -85,15 +87,17 @@ Json results(const Parameters& p, double mass, double wall_mass, double length,
   json["rho_box_initial"] = packing.front().rho_box;
   json["rho_box_final"] = packing.back().rho_box;
   if (periods.empty()) return json;
-  double dx = 0, v = 0, delay = 0, active = 0;
+  double dx = 0, v = 0, delay = 0, active = 0, moved = 0;
   for (const Period& period : periods) {
     dx += period.dx_max;
-    v += period.v_max_passive;
+    v += period.active.v_in;
     delay += period.delay();
-    active += period.f_g_active;
+    if (!std::isfinite(period.active.thrust)) continue;
+    active += period.active.thrust;
+    ++moved;
   }
   const double n = double(periods.size());
-  dx /= n, v /= n, delay /= n, active /= n;
+  dx /= n, v /= n, delay /= n, active /= moved;
   const double weight = mass * p.gravity;
   json["periods"] = periods.size();
   json["dx_max"] = dx;
@@ -130,8 +134,8 @@ void write_events(const std::filesystem::path& folder, const std::vector<Period>
                           "x_peak", "t_after", "x_after"});
   int number = 0;
   for (const Period& period : periods)
-    file.row(++number, period.start, period.jam_before, period.onset, period.force_minimum,
-             period.peak, period.jam_before + period.dx_max, period.finish, period.jam_after);
+    file.row(++number, period.start, period.jam_before, period.active.onset, period.force_minimum,
+             period.active.peak, period.x_peak(), period.finish, period.jam_after);
   file.close();
 }
 

@@ -66,7 +66,7 @@ class RunJson {
     json_["box"] = {{"length", experiment.length()},
                     {"height", experiment.height()},
                     {"height_over_length", experiment.height() / experiment.length()}};
-    const auto periods = find_periods(recorder.samples(), p);
+    const auto periods = find_periods(recorder.samples(), p, experiment.mass() * p.gravity);
     json_["results"] =
         ratcheting::results(p, experiment.mass(), experiment.wall_mass(), experiment.length(),
                             periods, recorder.packing_samples());

@@ -1,54 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The wall's way out, apart from what it creeps while the force holds it.
+// The wall's way out is measured alike in a run and in the study.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <vector>
+#include "../ratcheting/active_phase.hpp"
 
 namespace study {
 
-/// The way out within a period, from where the falling force is the weight of the grains: above the
-/// active thrust, and so low that what moves before is no active motion. SI units.
-struct ActivePhase {
-  double creep = 0;   ///< x there - x_j
-  double dx = 0;      ///< largest x after it - x there
-  double thrust = 0;  ///< mean f_g where the wall moves out at more than a fifth of its best speed
-};
-
-/// How long before its minimum f is at the weight [s]; at most half a period, 0 if f is never
-/// below.
-inline double time_before_minimum(double weight, double fmin, double fmax, double frequency) {
-  const double share = std::clamp((weight - fmin) / (fmax - fmin), 0.0, 1.0);
-  return std::acos(1 - 2 * share) / (2 * std::numbers::pi * frequency);
-}
-
-/// @param t,x,v,f_g        of the run, by rising t
-/// @param start,from,finish force maximum before, where the phase begins, force maximum after [s]
-inline ActivePhase active_phase(const std::vector<double>& t, const std::vector<double>& x,
-                                const std::vector<double>& v, const std::vector<double>& f_g,
-                                double start, double from, double finish) {
-  const auto index = [&](double time) {
-    const auto at = std::lower_bound(t.begin(), t.end() - 1, time - 1e-9);
-    return std::size_t(at - t.begin());
-  };
-  const std::size_t jam = index(start), first = index(from), last = index(finish);
-  std::size_t peak = first;
-  for (std::size_t k = first; k <= last; ++k)
-    if (x[k] > x[peak]) peak = k;
-  ActivePhase phase{x[first] - x[jam], x[peak] - x[first], 0};
-  const double fastest =
-      *std::max_element(v.begin() + std::ptrdiff_t(first), v.begin() + std::ptrdiff_t(peak) + 1);
-  std::size_t moving = 0;
-  for (std::size_t k = first; k <= peak; ++k) {
-    if (!(v[k] > 0.2 * fastest) || fastest <= 0) continue;
-    phase.thrust += f_g[k];
-    ++moving;
-  }
-  phase.thrust = moving > 0 ? phase.thrust / double(moving) : std::nan("");
-  return phase;
-}
+using ratcheting::active_phase;
+using ratcheting::ActivePhase;
+using ratcheting::time_before_minimum;
 
 }  // namespace study

@@ -2,11 +2,12 @@
 // What happens within a period: loops, stresses, roll, solid fraction (rows 7 to 12 and 14).
 #pragma once
 
-#include <filesystem>
+#include <cmath>
 #include <vector>
 
+#include "../ratcheting/periods.hpp"
 #include "power_law.hpp"
-#include "result.hpp"
+#include "table.hpp"
 
 namespace study {
 
@@ -15,11 +16,10 @@ struct Behaviour {
   double early_share = std::nan("");  ///< x at 0.1 s over x at the first force maximum
   double onset_lead = std::nan("");   ///< from onset to minimum of f, as a share of the period
 
-  double active_force = std::nan("");   ///< f_g while x grows [N]
   double passive_force = std::nan("");  ///< f_g while x falls by 90 % of its way [N]
-  double active_slope = std::nan("");   ///< of f_g over x there [N/m]
-  double passive_slope = std::nan("");
-  double loop_work = std::nan("");  ///< of the grains on the wall, from x_j to x_j' [J]
+  double active_slope = std::nan("");   ///< of f_g over x while x grows [N/m]
+  double passive_slope = std::nan("");  ///< of f_g over x while x falls so far [N/m]
+  double loop_work = std::nan("");      ///< of the grains on the wall, from x_j to x_j' [J]
 
   double jammed_xx = std::nan(""),
          jammed_zz = std::nan("");  ///< stresses at the force maximum [Pa]
@@ -31,10 +31,17 @@ struct Behaviour {
   double box_extension = std::nan("");    ///< whole box, change [-]
 };
 
-Behaviour read_behaviour(const std::filesystem::path& output, const Result& r);
+/// The tables of a run: wall.csv, state.csv, packing.csv.
+struct Tables {
+  Table wall, state, packing;
+};
+
+/// @param periods those that are settled
+Behaviour behaviour_of(const Tables& run, const std::vector<ratcheting::Period>& periods,
+                       double frequency);
 
 /// The mean period in the phase plane, (x - x_j, v), at equal steps of the phase from jam to jam.
-/// @returns nothing without a settled period
-std::vector<Point> mean_loop(const std::filesystem::path& output, const Result& r);
+/// @returns nothing without a period
+std::vector<Point> mean_loop(const Table& wall, const std::vector<ratcheting::Period>& periods);
 
 }  // namespace study

@@ -13,7 +13,6 @@
 #include "moreau/io/csv.hpp"
 #include "moreau/io/output_file.hpp"
 
-#include "runner.hpp"
 #include "table.hpp"
 
 namespace study {
@@ -51,18 +50,14 @@ void copy_columns(const fs::path& from, const fs::path& to, const std::vector<st
   moreau::write_atomically(to, text);
 }
 
-/// What is seen of one run: the trajectory, packing and pictures of the baseline.
-void write_baseline(const fs::path& output, const fs::path& folder, const Result& base) {
-  const fs::path run = folder_of(output, base.c);
+/// What is seen of one run, from its own files: trajectory, packing and pictures of the baseline.
+void write_baseline(const fs::path& run, const fs::path& folder, const Result& base) {
   const std::string& shape = base.c.parameters.shape;
   const auto file = [&](const char* name) { return data_file(folder, name, shape); };
   copy_columns(run / "wall.csv", file("wall"), {"t", "f", "x", "v", "f_g"}, 2);
   copy_columns(run / "packing.csv", file("packing"), {"t", "rho_inner", "rho_box"});
   copy_columns(run / "state.csv", file("state"),
                {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"});
-  copy_columns(run / "events.csv", file("events"),
-               {"period", "t_before", "x_before", "t_onset", "t_force_min", "t_peak", "x_peak",
-                "t_after", "x_after"});
   if (fs::exists(run / "velocity_field.csv"))
     copy_columns(run / "velocity_field.csv", file("velocity_field"),
                  {"x", "z", "v_x", "v_z", "grains"});
@@ -72,12 +67,26 @@ void write_baseline(const fs::path& output, const fs::path& folder, const Result
                    {"x_from", "z_from", "x_to", "z_to", "normal_force"});
 }
 
-void write_loop(const fs::path& output, const fs::path& folder, const Result& r) {
+/// When and where the wall jams, starts and turns.
+void write_events(const fs::path& folder, const Result& r) {
+  const Parameters& p = r.c.parameters;
+  moreau::CsvWriter file(data_file(folder, "events", p.shape),
+                         {"period", "t_before", "x_before", "t_onset", "t_force_min", "t_peak",
+                          "x_peak", "t_after", "x_after"});
+  for (const ratcheting::Period& period : r.periods)
+    file.row(std::lround(period.force_minimum * p.frequency - 0.25), six(period.start),
+             six(period.jam_before), six(period.active.onset), six(period.force_minimum),
+             six(period.active.peak), six(period.x_peak()), six(period.finish),
+             six(period.jam_after));
+  file.close();
+}
+
+void write_loop(const fs::path& folder, const Result& r) {
   const Parameters& p = r.c.parameters;
   const int nu = static_cast<int>(std::lround(p.frequency));
   moreau::CsvWriter file(data_file(folder, "loop" + std::to_string(nu), p.shape),
                          {"x", "v", "x_scaled", "v_scaled"});
-  for (const Point& point : mean_loop(output, r))
+  for (const Point& point : r.loop)
     file.row(six(point.x), six(point.y), six(point.x * p.frequency * p.frequency),
              six(point.y * p.frequency));
   file.close();
@@ -152,9 +161,9 @@ void write_relaxation(const fs::path& folder, const std::vector<Result>& results
 }
 
 /// The solid fraction at the force maxima, each a twentieth of the periods so far after the last.
-void write_long(const fs::path& output, const fs::path& folder, const Result& r) {
+void write_long(const fs::path& run, const fs::path& folder, const Result& r) {
   const Parameters& p = r.c.parameters;
-  const Table packing(folder_of(output, r.c) / "packing.csv");
+  const Table packing(run / "packing.csv");
   const int nu = static_cast<int>(std::lround(p.frequency));
   moreau::CsvWriter file(data_file(folder, "long" + std::to_string(nu), p.shape),
                          {"t", "periods", "rho_inner", "rho_box"});
@@ -224,14 +233,17 @@ void add_values(const ShapeSummary& s, Values& values) {
   }
 }
 
-void write_shape(const fs::path& output, const fs::path& folder, const std::vector<Result>& results,
+void write_shape(const Places& places, const std::vector<Result>& results,
                  const ShapeSummary& shape) {
+  const fs::path& folder = places.results;
   for (const double frequency : {5.0, 10.0}) {
     const Result* r =
         find(results, "frequencies", shape.shape, 1, &Parameters::frequency, frequency);
     if (r == nullptr) continue;
-    if (frequency == 5) write_baseline(output, folder, *r);
-    write_loop(output, folder, *r);
+    write_loop(folder, *r);
+    if (frequency != 5) continue;
+    write_events(folder, *r);
+    if (has_folder(places, r->c)) write_baseline(folder_of(places, r->c), folder, *r);
   }
   write_series(folder, results, shape, "frequencies", &Parameters::frequency);
   write_series(folder, results, shape, "fmax", &Parameters::fmax);
@@ -240,8 +252,8 @@ void write_shape(const fs::path& output, const fs::path& folder, const std::vect
   write_master(folder, results, shape);
   write_relaxation(folder, results, shape);
   for (const Result& r : results)
-    if (r.c.sets.contains("long") && r.c.parameters.shape == shape.shape)
-      write_long(output, folder, r);
+    if (r.c.sets.contains("long") && r.c.parameters.shape == shape.shape && has_folder(places, r.c))
+      write_long(folder_of(places, r.c), folder, r);
 }
 
 }  // namespace
@@ -288,16 +300,15 @@ const std::vector<Figure>& figures() {
   return all;
 }
 
-void write_figure_data(const fs::path& output, const fs::path& folder,
-                       const std::vector<Result>& results,
+void write_figure_data(const Places& places, const std::vector<Result>& results,
                        const std::vector<ShapeSummary>& shapes) {
-  fs::create_directories(folder / "data");
+  fs::create_directories(places.results / "data");
   Values values;
   for (const ShapeSummary& shape : shapes) {
-    write_shape(output, folder, results, shape);
+    write_shape(places, results, shape);
     add_values(shape, values);
   }
-  values.write(folder / "data" / "values.csv");
+  values.write(places.results / "data" / "values.csv");
 }
 
 std::vector<std::string> draw_figures(const fs::path& folder,

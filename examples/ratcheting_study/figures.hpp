@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "result.hpp"
+#include "store.hpp"
 #include "summary.hpp"
 
 namespace study {
@@ -19,9 +20,10 @@ struct Figure {
 };
 const std::vector<Figure>& figures();
 
-/// Writes data/*.csv below the folder: what every figure draws.
-void write_figure_data(const std::filesystem::path& output, const std::filesystem::path& folder,
-                       const std::vector<Result>& results, const std::vector<ShapeSummary>& shapes);
+/// Writes data/*.csv below the folder of the results: what every figure draws. What shows a run's
+/// own files stays as it is where its folder is gone.
+void write_figure_data(const Places& places, const std::vector<Result>& results,
+                       const std::vector<ShapeSummary>& shapes);
 
 /// Draws figures/NAME.png and .svg below the folder.
 /// @param names nothing: all

@@ -13,6 +13,7 @@
 #include "plan.hpp"
 #include "report.hpp"
 #include "runner.hpp"
+#include "store.hpp"
 
 namespace {
 
@@ -25,11 +26,13 @@ struct Options {
   bool list = false, report_only = false, no_report = false;
   std::size_t jobs = std::max(1u, std::thread::hardware_concurrency());
   std::string output = "ratcheting-study", results, program;
+
+  study::Places places() const { return {output, results}; }
 };
 
-void list_cases(const std::vector<study::Case>& cases, const fs::path& output) {
+void list_cases(const std::vector<study::Case>& cases, const study::Places& places) {
   for (const study::Case& c : cases) {
-    std::printf("%4zu %s %-44s", c.number, study::is_done(output, c) ? "done" : "    ",
+    std::printf("%4zu %s %-44s", c.number, study::is_done(places, c) ? "done" : "    ",
                 c.name.c_str());
     for (const std::string& set : c.sets) std::printf(" %s", set.c_str());
     std::printf("\n");
@@ -46,11 +49,11 @@ void add_sets_of_figures(Options& o) {
 void report(const Options& o, const std::vector<study::Case>& plan) {
   const fs::path folder = o.results;
   fs::create_directories(folder);
-  const std::vector<study::Result> results = study::read_results(o.output, plan);
+  const std::vector<study::Result> results = study::read_results(o.places(), plan);
   std::vector<study::ShapeSummary> shapes;
   for (const char* shape : {"polyhedron", "polygon", "sphere", "disk"})
-    shapes.push_back(study::summarize(o.output, results, shape));
-  study::write_figure_data(o.output, folder, results, shapes);
+    shapes.push_back(study::summarize(results, shape));
+  study::write_figure_data(o.places(), results, shapes);
   const auto missing = study::draw_figures(folder, o.figures);
   for (const std::string& figure : missing) std::printf("not drawn: %s\n", figure.c_str());
   study::write_cases(folder, results);
@@ -65,13 +68,13 @@ int run(Options& o) {
   add_sets_of_figures(o);
   const std::vector<study::Case> cases = study::select(plan, o.selection);
   if (o.list) {
-    list_cases(cases, o.output);
+    list_cases(cases, o.places());
     return 0;
   }
   study::RunSummary summary;
   if (!o.report_only) {
     if (!fs::exists(o.program)) throw std::invalid_argument("--program: there is no " + o.program);
-    summary = study::run_cases(cases, {o.program, o.output, o.jobs});
+    summary = study::run_cases(cases, {o.program, o.places(), o.jobs});
     std::printf("%zu ran, %zu were done before, %zu run elsewhere, %zu failed\n", summary.ran,
                 summary.skipped, summary.busy, summary.failed.size());
     for (const std::string& failure : summary.failed) std::printf("  %s\n", failure.c_str());
@@ -99,7 +102,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_flag("--no-report", o.no_report, "only run");
   app.add_option("--jobs", o.jobs, "cases at once")->check(CLI::Range(1, 1024));
   app.add_option("--output", o.output, "folder of the runs, made if missing");
-  app.add_option("--results", o.results, "folder of tables, figures and report; OUTPUT/results");
+  app.add_option(
+      "--results", o.results,
+      "folder of tables, figures and report, and of what is kept of every run: with it the study "
+      "goes on without OUTPUT; OUTPUT/results");
   app.add_option("--program", o.program,
                  "the program that runs a case; `ratcheting` beside this one");
 }

@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "active_phase.hpp"
-#include "runner.hpp"
-#include "table.hpp"
 
 namespace study {
 
@@ -23,12 +21,7 @@ ratcheting::Period read_period(const nlohmann::json& json, double frequency) {
   period.finish = period.force_minimum + 0.5 / frequency;
   period.jam_before = json.at("x_j");
   period.jam_after = json.at("x_j_after");
-  period.onset = json.at("t_onset");
-  period.peak = json.at("t_peak");
   period.dx_max = json.at("dx_max");
-  period.v_max_active = json.at("v_max_active");
-  period.v_max_passive = json.at("v_max_passive");
-  period.f_g_active = json.at("f_g_active");
   return period;
 }
 
@@ -56,9 +49,6 @@ Facts read_facts(const nlohmann::json& json) {
   f.worst_residual = solver.at("worst_residual");
   f.mean_overlap = solver.at("mean_overlap_over_d");
   f.max_overlap = solver.at("max_overlap_over_d");
-  f.median_ms = solver.at("median_ms_total");
-  f.prepare_seconds = json.at("wall_clock_seconds").value("prepare", 0.0);
-  f.vibrate_seconds = json.at("wall_clock_seconds").value("vibrate", 0.0);
   if (json.contains("passive_field")) {
     const auto& field = json["passive_field"];
     f.roll = field.at("roll");
@@ -68,12 +58,31 @@ Facts read_facts(const nlohmann::json& json) {
   return f;
 }
 
-/// Mean of a field over the periods.
+WallClock read_clock(const nlohmann::json& json) {
+  const auto& seconds = json.at("wall_clock_seconds");
+  return {seconds.value("prepare", 0.0), seconds.value("vibrate", 0.0),
+          json.at("solver").at("median_ms_total")};
+}
+
+/// The active phase of every period.
+void find_active(const Table& wall, Result& r) {
+  const Parameters& p = r.c.parameters;
+  const double before = time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
+  for (ratcheting::Period& period : r.periods)
+    period.active = active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
+                                 period.force_minimum - before, period.finish);
+}
+
+/// Mean of a field over the periods that have it; nan without one.
 double mean(const std::vector<ratcheting::Period>& periods, const auto& field) {
-  if (periods.empty()) return none;
-  double sum = 0;
-  for (const ratcheting::Period& period : periods) sum += field(period);
-  return sum / double(periods.size());
+  double sum = 0, count = 0;
+  for (const ratcheting::Period& period : periods) {
+    const double value = field(period);
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return count > 0 ? sum / count : none;
 }
 
 void summarize_wall(Result& r) {
@@ -82,32 +91,15 @@ void summarize_wall(Result& r) {
   r.dx_max = mean(periods, [](const Period& p) { return p.dx_max; });
   r.dx_spread = std::sqrt(mean(
       periods, [&](const Period& p) { return (p.dx_max - r.dx_max) * (p.dx_max - r.dx_max); }));
-  r.v_max = mean(periods, [](const Period& p) { return p.v_max_passive; });
+  r.v_max = mean(periods, [](const Period& p) { return p.active.v_in; });
   r.delay = mean(periods, [](const Period& p) { return p.delay(); });
   r.net_contraction = mean(periods, [](const Period& p) { return p.jam_before - p.jam_after; });
+  r.dx_active = mean(periods, [](const Period& p) { return p.active.dx; });
+  r.creep = mean(periods, [](const Period& p) { return p.active.creep; });
+  r.thrust = mean(periods, [](const Period& p) { return p.active.thrust; });
   r.contracting = 0;
   for (const Period& p : periods) r.contracting += p.jam_after < p.jam_before;
   r.constant = r.dx_max / r.scaled_load();
-}
-
-void summarize_active(const Table& wall, Result& r) {
-  const Parameters& p = r.c.parameters;
-  const double before = time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
-  const double n = double(r.periods.size());
-  double dx = 0, creep = 0, thrust = 0, moved = 0;
-  for (const ratcheting::Period& period : r.periods) {
-    const ActivePhase phase =
-        active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
-                     period.force_minimum - before, period.finish);
-    dx += phase.dx / n;
-    creep += phase.creep / n;
-    if (!std::isfinite(phase.thrust)) continue;
-    thrust += phase.thrust;
-    ++moved;
-  }
-  r.dx_active = n > 0 ? dx : none;
-  r.creep = n > 0 ? creep : none;
-  r.thrust = moved > 0 ? thrust / moved : none;
 }
 
 void summarize_packing(const Table& packing, Result& r) {
@@ -125,6 +117,12 @@ void summarize_packing(const Table& packing, Result& r) {
   r.compaction_per_period = r.rate / p.frequency;
 }
 
+/// Phase portraits are of 5 and 10 Hz.
+bool is_in_portrait(const Case& c) {
+  return c.sets.contains("frequencies") &&
+         (c.parameters.frequency == 5 || c.parameters.frequency == 10);
+}
+
 }  // namespace
 
 Push Result::push() const {
@@ -137,35 +135,31 @@ double Result::scaled_load() const {
   return weight * weight / ((mass + wall_mass) * p.fmax * p.frequency * p.frequency);
 }
 
-std::optional<Result> read_result(const std::filesystem::path& output, const Case& c) {
-  if (!is_done(output, c)) return std::nullopt;
-  const std::filesystem::path folder = folder_of(output, c);
+Result measure(const std::filesystem::path& folder, const Case& c) {
   Result r{};
   r.c = c;
+  const double frequency = c.parameters.frequency;
   std::ifstream file(folder / "run.json");
   const auto json = nlohmann::json::parse(file);
+  const Tables run{Table(folder / "wall.csv"), Table(folder / "state.csv"),
+                   Table(folder / "packing.csv")};
   r.facts = read_facts(json);
+  r.clock = read_clock(json);
   r.mass = json.at("sample").at("mass");
   r.wall_mass = json.at("sample").at("wall_mass");
   r.length = json.at("box").at("length");
   r.height = json.at("box").at("height");
   r.weight = r.mass * c.parameters.gravity;
   for (const auto& entry : json.at("periods")) {
-    const ratcheting::Period period = read_period(entry, c.parameters.frequency);
+    const ratcheting::Period period = read_period(entry, frequency);
     if (period.start >= filling_time - 1e-9) r.periods.push_back(period);
   }
+  find_active(run.wall, r);
   summarize_wall(r);
-  summarize_active(Table(folder / "wall.csv"), r);
-  summarize_packing(Table(folder / "packing.csv"), r);
+  summarize_packing(run.packing, r);
+  r.behaviour = behaviour_of(run, r.periods, frequency);
+  if (is_in_portrait(c)) r.loop = mean_loop(run.wall, r.periods);
   return r;
-}
-
-std::vector<Result> read_results(const std::filesystem::path& output,
-                                 const std::vector<Case>& plan) {
-  std::vector<Result> results;
-  for (const Case& c : plan)
-    if (auto result = read_result(output, c)) results.push_back(std::move(*result));
-  return results;
 }
 
 }  // namespace study

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What one run says, read from its folder.
+// What one run says.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "../ratcheting/periods.hpp"
+#include "behaviour.hpp"
 #include "closed_form.hpp"
 #include "facts.hpp"
 #include "plan.hpp"
@@ -21,6 +21,7 @@ constexpr double filling_time = 0.15;
 struct Result {
   Case c;
   Facts facts;
+  WallClock clock;
   double mass, wall_mass, length, height;
   double weight;  ///< m g [N]
 
@@ -36,17 +37,15 @@ struct Result {
   double rate;                              ///< d rho / (rho_0 dt) from jam to jam [1/s]
   double compaction_per_period;             ///< the same per period [-]
   double constant;                          ///< C of row 17, with m + m_w
+  Behaviour behaviour;
+  std::vector<Point> loop;  ///< see mean_loop(); only where a phase portrait shows it
 
   Push push() const;
   double scaled_load() const;  ///< (m g)^2 / ((m + m_w) fmax nu^2) [m]
 };
 
-/// @returns nothing if the case is not done
-/// @throws std::runtime_error if a file of a complete run cannot be read
-std::optional<Result> read_result(const std::filesystem::path& output, const Case& c);
-
-/// All that is done, in the order of the plan.
-std::vector<Result> read_results(const std::filesystem::path& output,
-                                 const std::vector<Case>& plan);
+/// Measures a complete run.
+/// @throws std::runtime_error if a file of the run cannot be read
+Result measure(const std::filesystem::path& folder, const Case& c);
 
 }  // namespace study

@@ -5,15 +5,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <unistd.h>
 #include <utility>
 
-#include "moreau/io/output_file.hpp"
-
-#include "../ratcheting/parameters_json.hpp"
 #include "process.hpp"
 
 namespace study {
@@ -47,8 +43,8 @@ struct Running {
   Clock::time_point begin;
 };
 
-fs::path partial(const fs::path& output, const Case& c) {
-  return output / "cases" / (c.name + ".partial");
+fs::path partial(const Places& places, const Case& c) {
+  return folder_of(places, c).string() + ".partial";
 }
 
 /// One study at work.
@@ -57,7 +53,7 @@ class Runner {
   Runner(const std::vector<Case>& cases, const RunOptions& options)
       : cases_(cases), options_(options), begin_(Clock::now()), told_(begin_) {
     for (const Case& c : cases)
-      if (!is_done(options.output, c)) cost_left_ += cost_of(c);
+      if (!is_done(options.places, c)) cost_left_ += cost_of(c);
     cost_of_all_ = cost_left_;
   }
 
@@ -75,11 +71,11 @@ class Runner {
 
  private:
   void begin(const Case& c) {
-    if (is_done(options_.output, c)) {
+    if (is_done(options_.places, c)) {
       ++summary_.skipped;
       return;
     }
-    const fs::path locks = options_.output / "locks";
+    const fs::path locks = options_.places.output / "locks";
     fs::create_directories(locks);
     auto lock = FileLock::attempt(locks / c.name);
     if (!lock) {
@@ -88,12 +84,12 @@ class Runner {
       std::printf("case %zu %s: another study runs it\n", c.number, c.name.c_str());
       return;
     }
-    if (is_done(options_.output, c)) {  // by another study, since the first look
+    if (is_done(options_.places, c)) {  // by another study, since the first look
       ++summary_.skipped;
       cost_left_ -= cost_of(c);
       return;
     }
-    const fs::path folder = partial(options_.output, c);
+    const fs::path folder = partial(options_.places, c);
     fs::remove_all(folder);
     fs::create_directories(folder);
     std::vector<std::string> list = arguments(c.parameters);
@@ -109,13 +105,16 @@ class Runner {
     if (place == running_.end()) return;
     const Case& c = *place->c;
     const double seconds = seconds_since(place->begin);
-    const fs::path from = partial(options_.output, c), to = folder_of(options_.output, c);
+    const fs::path from = partial(options_.places, c), to = folder_of(options_.places, c);
     cost_left_ -= cost_of(c);
     std::string problem = ending.well ? "" : ending.what;
     if (ending.well) {
       fs::remove_all(to);
       fs::rename(from, to);
-      if (!is_done(options_.output, c)) problem = "its run.json tells of another case";
+      if (has_folder(options_.places, c))
+        keep(options_.places, c);
+      else
+        problem = "its run.json tells of another case";
     }
     if (problem.empty()) {
       ++summary_.ran;
@@ -173,28 +172,10 @@ class Runner {
 
 }  // namespace
 
-fs::path folder_of(const fs::path& output, const Case& c) {
-  return output / "cases" / c.name;
-}
-
-bool is_done(const fs::path& output, const Case& c) {
-  std::ifstream file(folder_of(output, c) / "run.json");
-  if (!file) return false;
-  const auto json = ratcheting::Json::parse(file, nullptr, false);
-  if (json.is_discarded() || json.value("interrupted", true) || !json.contains("parameters"))
-    return false;
-  // A parameter that the run does not know is one that came later: it had its default.
-  const auto usual = ratcheting::to_json(Parameters{}), wanted = ratcheting::to_json(c.parameters);
-  const auto& had = json["parameters"];
-  for (const auto& [key, value] : wanted.items())
-    if (value != (had.contains(key) ? had[key] : usual[key])) return false;
-  return true;
-}
-
 RunSummary run_cases(const std::vector<Case>& cases, const RunOptions& options) {
   std::signal(SIGINT, [](int) { stop = 1; });
   std::signal(SIGTERM, [](int) { stop = 1; });
-  fs::create_directories(options.output / "cases");
+  fs::create_directories(options.places.output / "cases");
   return Runner(cases, options).run();
 }
 

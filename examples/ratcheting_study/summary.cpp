@@ -52,11 +52,10 @@ MovingShare best_master(const Series& series) {
   return best;
 }
 
-double scaled_loop_distance(const std::filesystem::path& output, const Result& slow,
-                            const Result& fast) {
+double scaled_loop_distance(const Result& slow, const Result& fast) {
   const auto scaled = [&](const Result& r) {
     const double nu = r.c.parameters.frequency;
-    std::vector<Point> loop = mean_loop(output, r);
+    std::vector<Point> loop = r.loop;
     for (Point& p : loop) p = {p.x * nu * nu, p.y * nu};
     return loop;
   };
@@ -72,17 +71,16 @@ void fit_compaction_rates(const Series& frequencies, SampleSummary& sample) {
   sample.slopes = slopes_about(rates, sample.branches.nu_c);
 }
 
-SampleSummary summarize_sample(const std::filesystem::path& output,
-                               const std::vector<Result>& results, const std::string& shape,
+SampleSummary summarize_sample(const std::vector<Result>& results, const std::string& shape,
                                std::size_t seed) {
   SampleSummary sample;
   sample.seed = seed;
   const Series frequencies = series_of(results, "frequencies", shape, seed);
   sample.base = find(results, "frequencies", shape, seed, &Parameters::frequency, 5);
   const Result* ten = find(results, "frequencies", shape, seed, &Parameters::frequency, 10);
-  if (sample.base != nullptr) sample.behaviour = read_behaviour(output, *sample.base);
+  if (sample.base != nullptr) sample.behaviour = sample.base->behaviour;
   if (sample.base != nullptr && ten != nullptr)
-    sample.loop_distance = scaled_loop_distance(output, *sample.base, *ten);
+    sample.loop_distance = scaled_loop_distance(*sample.base, *ten);
   for (const Result* r : frequencies) {
     const double nu = r->c.parameters.frequency, share = r->creep / r->dx_max;
     if (nu == 5) sample.creep_5 = share;
@@ -152,15 +150,14 @@ const Result* find(const std::vector<Result>& results, const std::string& set,
   return nullptr;
 }
 
-ShapeSummary summarize(const std::filesystem::path& output, const std::vector<Result>& results,
-                       const std::string& shape) {
+ShapeSummary summarize(const std::vector<Result>& results, const std::string& shape) {
   std::set<std::size_t> seeds;
   for (const Result& r : results)
     if (r.c.parameters.shape == shape) seeds.insert(r.c.parameters.seed);
   ShapeSummary summary;
   summary.shape = shape;
   for (const std::size_t seed : seeds)
-    summary.samples.push_back(summarize_sample(output, results, shape, seed));
+    summary.samples.push_back(summarize_sample(results, shape, seed));
   return summary;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,8 +50,7 @@ struct ShapeSummary {
   std::vector<SampleSummary> samples;
 };
 
-ShapeSummary summarize(const std::filesystem::path& output, const std::vector<Result>& results,
-                       const std::string& shape);
+ShapeSummary summarize(const std::vector<Result>& results, const std::string& shape);
 
 /// A value over the samples of a shape.
 Estimate over_samples(const ShapeSummary& shape, const auto& value_of) {

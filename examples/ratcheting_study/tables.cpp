@@ -78,14 +78,13 @@ void write_wall_clock(const std::filesystem::path& folder, const std::vector<Res
   std::map<std::pair<std::string, std::string>, std::pair<double, std::size_t>> of_series;
   double all = 0, steps = 0;
   for (const Result& r : results) {
-    const Facts& f = r.facts;
     CsvLine line;
-    line << double(r.c.number) << r.c.name << f.prepare_seconds << f.vibrate_seconds
-         << double(f.steps) << f.median_ms;
+    line << double(r.c.number) << r.c.name << r.clock.prepare << r.clock.vibrate
+         << double(r.facts.steps) << r.clock.median_ms;
     csv += std::move(line).end();
-    const double seconds = f.prepare_seconds + f.vibrate_seconds;
+    const double seconds = r.clock.prepare + r.clock.vibrate;
     all += seconds;
-    steps += double(f.steps);
+    steps += double(r.facts.steps);
     for (const std::string& set : r.c.sets) {
       auto& [sum, runs] =
           of_series[{set, r.c.parameters.shape + ", seed " + std::to_string(r.c.parameters.seed)}];

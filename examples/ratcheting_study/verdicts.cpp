@@ -136,8 +136,9 @@ Cell loop_cell(const ShapeSummary& s) {
   const auto value = [&](double Behaviour::*field) {
     return over_samples(s, [field](const Sample& x) { return x.behaviour.*field; });
   };
-  const Estimate active = value(&Behaviour::active_force),
-                 passive = value(&Behaviour::passive_force);
+  const Estimate active =
+      over_samples(s, [](const Sample& x) { return of_base(x, &Result::thrust); });
+  const Estimate passive = value(&Behaviour::passive_force);
   const Estimate rise = value(&Behaviour::active_slope), fall = value(&Behaviour::passive_slope);
   if (active.samples == 0) return {};
   return {"f_g " + text_of(active.mean) + " N out, " + text_of(passive.mean) + " N in; slopes " +

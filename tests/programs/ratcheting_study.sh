@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # The study as a program, with few grains: a killed case is told and run again, what is done is
-# skipped, and after kill -9 and a new start all tables are the same bytes. Argument: the executable.
+# skipped, and after kill -9 and a new start all tables are the same bytes; they are the same without the
+# folders of the runs, too. Argument: the executable.
 set -u
 program=$1
 source "$(dirname "$0")/failures.sh"
@@ -59,9 +60,10 @@ for task in $(seq "$cases"); do
 done
 [ -e "$folder/b/results/wall_clock.csv" ] || fail "no wall clock"
 study --output "$folder/b" --report-only >/dev/null || fail "report"
-diff -r --brief --exclude 'wall_clock.*' --exclude '*.svg' --exclude '*.png' "$folder/a/results" \
-  "$folder/b/results" || fail "tables differ after kill -9"
-for table in cases.csv report.md data/values.csv; do
+diff -r --brief --exclude 'wall_clock.*' --exclude '*.svg' --exclude '*.png' \
+  --ignore-matching-lines '"wall_clock"' "$folder/a/results" "$folder/b/results" ||
+  fail "tables differ after kill -9"
+for table in cases.csv report.md data/values.csv runs/polygon-s1-5Hz.json; do
   [ -s "$folder/a/results/$table" ] || fail "no $table"
 done
 if command -v gnuplot >/dev/null; then
@@ -70,5 +72,44 @@ if command -v gnuplot >/dev/null; then
     [ "$name" = style ] || [ -s "$folder/a/results/figures/$name.png" ] || fail "no figure $name"
   done
 fi
+
+# What is kept of the runs is enough: without their folders nothing runs, and all is the same bytes.
+cp -r "$folder/a/results" "$folder/kept"
+rm -r "$folder/a/cases"
+study --output "$folder/a" --report-only >/dev/null || fail "report without folders"
+diff -r --brief "$folder/kept" "$folder/a/results" || fail "another report without folders"
+study --output "$folder/a" >"$folder/third.log" 2>&1 || fail "start without folders"
+grep -q "^0 ran, $cases were done before" "$folder/third.log" || fail "a case that is kept ran again"
+diff -r --brief "$folder/kept" "$folder/a/results" || fail "another report after a start without folders"
+
+# A file of a run with other parameters does not count; what is no such file is named.
+kept=$folder/a/results/runs/disk-s1-20Hz.json
+sed -i 's/"friction":0.4/"friction":0.3/' "$kept"
+study --list --output "$folder/a" | grep -q "done disk-s1-20Hz " && fail "other parameters count as done"
+for spoilt in 's/"C": .*/"C": 1x,/' 's/"thrust"/"trust"/' 's/"dx_max": /"dx_max": "x" \/\/ /' \
+  's/"t_peak":\[[^,]*,/"t_peak":[/' 's/.*//' '1s/.*/[/;$s/.*/]/'; do
+  sed "$spoilt" "$folder/kept/runs/disk-s1-20Hz.json" >"$kept"
+  study --output "$folder/a" --report-only >"$folder/spoilt.log" 2>&1
+  [ $? = 1 ] || fail "$spoilt was read"
+  grep -qF "$kept" "$folder/spoilt.log" || fail "$spoilt: $(cat "$folder/spoilt.log")"
+done
+sed 's/"thrust": [^,]*/"thrust": null/' "$folder/kept/runs/disk-s1-20Hz.json" >"$kept"
+study --figure x_t --output "$folder/a" --report-only >/dev/null || fail "a result that is not a number was refused"
+grep -q "^6,disk-s1-20Hz,.*,nan," "$folder/a/results/cases.csv" || fail "nan was lost"
+
+# Stopped by a signal: what was done is kept, and in the report on demand.
+for signal in TERM INT; do
+  "$program" --plan small --jobs 2 --output "$folder/$signal" >"$folder/$signal.log" 2>&1 &
+  pid=$!
+  wait_for 60 grep -q "done in" "$folder/$signal.log" || fail "nothing was done"
+  kill "-$signal" "$pid"
+  wait "$pid"
+  [ $? = 130 ] || fail "SIG$signal did not end with status 130"
+  study --figure x_t --output "$folder/$signal" --report-only >"$folder/$signal.report" ||
+    fail "report after SIG$signal"
+  ended=$(grep -c "done in" "$folder/$signal.log")
+  grep -q "^$ended of $cases cases are done" "$folder/$signal.report" || fail "report after SIG$signal"
+  [ "$(find "$folder/$signal/results/runs" -name '*.json' | wc -l)" = "$ended" ] || fail "kept after SIG$signal"
+done
 [ "$failures" = 0 ] && echo "all passed"
 exit "$failures"

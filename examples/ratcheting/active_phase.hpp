@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The wall's way out, apart from what it creeps while the force holds it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace ratcheting {
+
+/// The way out within a period, from where the falling force is the weight of the grains: above the
+/// active thrust, and so low that what moves before is no active motion. SI units.
+struct ActivePhase {
+  double creep = 0;   ///< x there - x_j
+  double dx = 0;      ///< largest x after it - x there
+  double thrust = 0;  ///< mean f_g where the wall moves out at more than a fifth of its best speed;
+                      ///< nan if it does not move out
+  double onset = 0;   ///< time when the motion starts that goes on to the largest x without a halt
+  double peak = 0;    ///< time of the largest x
+  double v_out = 0;   ///< largest outward speed on the way there
+  double v_in = 0;    ///< largest inward speed after it
+};
+
+/// How long before its minimum f is at the weight [s]; at most half a period, 0 if f is never
+/// below.
+inline double time_before_minimum(double weight, double fmin, double fmax, double frequency) {
+  const double share = std::clamp((weight - fmin) / (fmax - fmin), 0.0, 1.0);
+  return std::acos(1 - 2 * share) / (2 * std::numbers::pi * frequency);
+}
+
+/// @param t,x,v,f_g        of the run, by rising t
+/// @param start,from,finish force maximum before, where the phase begins, force maximum after [s]
+inline ActivePhase active_phase(const std::vector<double>& t, const std::vector<double>& x,
+                                const std::vector<double>& v, const std::vector<double>& f_g,
+                                double start, double from, double finish) {
+  const auto index = [&](double time) {
+    const auto at = std::lower_bound(t.begin(), t.end() - 1, time - 1e-9);
+    return std::size_t(at - t.begin());
+  };
+  const std::size_t jam = index(start), first = index(from), last = index(finish);
+  std::size_t peak = first;
+  for (std::size_t k = first; k <= last; ++k)
+    if (x[k] > x[peak]) peak = k;
+  ActivePhase phase;
+  phase.creep = x[first] - x[jam];
+  phase.dx = x[peak] - x[first];
+  phase.peak = t[peak];
+  for (std::size_t k = first; k <= peak; ++k) phase.v_out = std::max(phase.v_out, v[k]);
+  for (std::size_t k = peak; k <= last; ++k) phase.v_in = std::max(phase.v_in, -v[k]);
+  const double halfway = (x[first] + x[peak]) / 2;
+  std::size_t onset = peak, moving = 0;
+  while (onset > first && (x[onset - 1] > halfway || v[onset - 1] > 0.05 * phase.v_out)) --onset;
+  phase.onset = t[onset];
+  for (std::size_t k = first; k <= peak; ++k) {
+    if (!(v[k] > 0.2 * phase.v_out)) continue;
+    phase.thrust += f_g[k];
+    ++moving;
+  }
+  phase.thrust = moving > 0 ? phase.thrust / double(moving) : std::nan("");
+  return phase;
+}
+
+}  // namespace ratcheting

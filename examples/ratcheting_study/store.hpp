@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Where the runs of a study are, and what is kept of them.
+//
+// A run's folder has all its files and may be lost. What the tables need of it is kept in a file of
+// a few kilobytes, runs/NAME.json below the folder of the results; without the folder the case is
+// done by this file, and the report is the same.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "plan.hpp"
+#include "result.hpp"
+
+namespace study {
+
+struct Places {
+  std::filesystem::path output;   ///< a run's folder is output/cases/NAME
+  std::filesystem::path results;  ///< what is kept of it: results/runs/NAME.json
+};
+
+/// Where the files of a case are.
+std::filesystem::path folder_of(const Places& places, const Case& c);
+
+/// Whether there is a folder of a complete run with the case's parameters.
+bool has_folder(const Places& places, const Case& c);
+
+/// Whether there is such a folder, or a file with the case's parameters.
+/// @throws std::runtime_error naming the file if it is none of a run
+bool is_done(const Places& places, const Case& c);
+
+/// Measures the run in a case's folder and keeps the result.
+/// @throws std::runtime_error if a file of the run cannot be read, std::system_error if the result
+///         cannot be written
+void keep(const Places& places, const Case& c);
+
+/// All that is done, in the order of the plan, from the files; what has a folder is measured anew.
+/// @throws std::runtime_error, std::system_error as is_done() and keep()
+std::vector<Result> read_results(const Places& places, const std::vector<Case>& plan);
+
+}  // namespace study
