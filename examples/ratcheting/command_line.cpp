@@ -112,6 +112,12 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_flag("--no-correction", no_correction, "leave overlaps as they are");
   app.add_option("--threads", p.threads, "threads of the solver; they do not change the results")
       ->check(CLI::Range(1, 1024));
+  app.add_flag("--cold-start", p.cold_start,
+               "solve every step from zero: how unique are the solutions?");
+  app.add_option("--order", p.order,
+                 "not 0: seed of another order of grains and contacts after the preparation, for "
+                 "the same question")
+      ->check(whole);
   app.add_option("--seed", p.seed, "of the sample")->check(whole);
   app.add_option("--snapshots", p.snapshots, "ParaView files over the run; 0: none")
       ->check(CLI::Range(0, 100000));

@@ -9,8 +9,11 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy.hpp"
@@ -100,11 +103,10 @@ class Experiment {
       settled_ = k >= 20 && kinetic_energy() <= still;
     }
     if constexpr (Method::solves) {
-      simulation_.set_solver(Solver(solver_options(parameters_), parameters_.threads));
-      moreau::OverlapCorrectionOptions correction;
-      correction.enabled = parameters_.correction;
-      simulation_.set_correction(correction);
+      simulation_.set_solver(study_solver(parameters_));
+      set_correction();
     }
+    if (parameters_.order != 0) reorder();
     fix_lid();
   }
 
@@ -194,12 +196,17 @@ class Experiment {
  private:
   static constexpr double slowest_step = 2e-4;  ///< whose speed the closing lid keeps below it [s]
 
-  static moreau::ColouredOptions solver_options(const Parameters& p) {
+  static Solver study_solver(const Parameters& p) requires solves {
     moreau::ColouredOptions options;
     options.tolerance = p.tolerance;
     options.stop_test = p.stop_test;
     options.max_sweeps = p.max_sweeps;
-    return options;
+    return Solver(options, p.threads, p.cold_start);
+  }
+  void set_correction() requires solves {
+    moreau::OverlapCorrectionOptions correction;
+    correction.enabled = parameters_.correction;
+    simulation_.set_correction(correction);
   }
   static Simulation make_simulation(const Parameters& p) {
     // Materials: 0 grains, 1 horizontal walls, 2 vertical walls.
@@ -209,7 +216,7 @@ class Experiment {
     tolerances.margin = p.margin;
     const double size = p.size_scale * moreau::SizeDistribution::azema2008().smallest();
     if constexpr (Method::solves)
-      return Simulation(size, laws, Solver(solver_options(p), p.threads), tolerances);
+      return Simulation(size, laws, study_solver(p), tolerances);
     else
       return Simulation(size, laws, tolerances);
   }
@@ -219,6 +226,27 @@ class Experiment {
   double length_from_volume() const {
     constexpr double packed[] = {0.80, 0.53};
     return std::pow(volume_ / (packed[S::dim - 2] * parameters_.box_ratio), 1.0 / S::dim);
+  }
+
+  /// The same packing as a new simulation, its grains in another order; walls at rest.
+  void reorder() {
+    const Simulation old = std::move(simulation_);
+    simulation_ = make_simulation(parameters_);
+    std::vector<std::size_t> order(old.grain_count());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::mt19937_64 random(parameters_.order);
+    std::shuffle(order.begin(), order.end(), random);
+    const auto& bodies = old.bodies();
+    for (const std::size_t k : order) {
+      const std::size_t i = old.grain(k).index();
+      const auto shape = simulation_.add_shape(old.shape_of_grain(k));
+      const auto grain =
+          simulation_.add_grain(shape, bodies.pose[i], parameters_.density * thickness_);
+      simulation_.set_velocity(grain, bodies.velocity[i].template head<S::dim>());
+      simulation_.set_spin(grain, bodies.velocity[i].template tail<S::angular_dim>());
+    }
+    add_walls(bodies.pose[lid_.index()].position[up]);
+    if constexpr (Method::solves) set_correction();
   }
 
   void add_walls(double top) {

@@ -3,6 +3,10 @@
 // dynamics with springs over the same shapes, walls, drive and measures.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
@@ -14,11 +18,31 @@
 
 namespace ratcheting {
 
+/// The library's solver on threads. To see how unique its solutions are it can be told to begin
+/// every step without the impulses of the last.
+class StudySolver : public moreau::ParallelGaussSeidel {
+ public:
+  explicit StudySolver(const Options& options = {}, int threads = 1, bool cold = false)
+      : ParallelGaussSeidel(options, threads), cold_(cold) {}
+
+  template <class Operator, class Law>
+  moreau::SolveReport solve(Operator& op, std::span<const Law> laws,
+                            std::span<const std::uint32_t> law_of,
+                            std::span<typename Operator::Vector> impulses,
+                            Workspace<Operator, Law>& workspace) const {
+    if (cold_) std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
+    return ParallelGaussSeidel::solve(op, laws, law_of, impulses, workspace);
+  }
+
+ private:
+  bool cold_;
+};
+
 struct ContactDynamics {
   static constexpr bool solves = true;
   using Law = moreau::SignoriniCoulomb<double>;
   using Integrator = moreau::MoreauJean;
-  using Solver = moreau::ParallelGaussSeidel;
+  using Solver = StudySolver;
 
   static Law law(const Parameters&, double friction) { return Law(friction); }
   static Parameters settled(const Parameters& p, double) { return p; }

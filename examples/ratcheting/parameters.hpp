@@ -49,6 +49,10 @@ struct Parameters {
   double margin = 0.02;    ///< alert distance, relative to the smallest size
   bool correction = true;  ///< overlap correction outside the velocity problem
   int threads = 1;
+  bool cold_start = false;  ///< of every solution, without the impulses of the step before
+  /// Not 0: after the preparation the grains, and so the contacts, are put into another order, by
+  /// this seed.
+  std::uint64_t order = 0;
   std::uint64_t seed = 1;
   int snapshots = 20;    ///< ParaView files over the duration; 0: none
   bool pictures = true;  ///< PNG of the packing and of its force chains

@@ -35,6 +35,8 @@ Json to_json(const Parameters& p) {
           {"margin", p.margin},
           {"overlap_correction", p.correction},
           {"threads", p.threads},
+          {"cold_start", p.cold_start},
+          {"order", p.order},
           {"seed", p.seed}};
 }
 

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "misses.hpp"
 
+#include <span>
+
 namespace validation {
 
 namespace {
 
-/// Comparisons in float whose names begin and end so.
+/// Comparisons whose names begin and end so.
 struct Miss {
   const char *start, *end, *reason;
 };
 
-constexpr Miss misses[] = {
+constexpr Miss misses_in_double[] = {
+    {"plane shear of disks, I = 0.08", ": friction",
+     "the friction rises faster than the published line below I = 0.1: 0.384, with another sample "
+     "0.377 at I = 0.090, with half the step 0.377 at I = 0.091"},
+};
+
+constexpr Miss misses_in_float[] = {
     {"block on an incline", "linear springs: error of the acceleration [m/s^2]",
      "a step of 2e-5 s adds some 1000 roundings to the velocity"},
     {"slip to roll", ": order of the final speed in the overlap",
@@ -24,8 +32,11 @@ constexpr Miss misses[] = {
      "2000 steps move it by 8e-8 m each, a rounding of the places"},
     {"stack of 3 boxes, 1 s", "linear springs: velocity [m/s]",
      "a rounding of the places is a tenth of the overlaps"},
-    {"static friction", ": slips on a floor that speeds up by so many (1 + 1/k) g",
+    {"static friction", ": slips on a floor that speeds up by so many (1 + 1/k) N/m",
      "a contact within the root of a rounding, 3.5e-4, of the static cone counts as sliding"},
+    {"column of", "relative error of the impulses",
+     "a rounding of the places over the step is 1e-3 of the velocity that gravity gives"},
+    {"packing at rest", "imbalance of forces over weight", "as in the column"},
     {"frame indifference", "", "rounding grows by 1000 and more in the collisions"},
     {"prisms against polygons", "", "rounding grows in the collisions, and on springs more"},
 };
@@ -33,8 +44,9 @@ constexpr Miss misses[] = {
 }  // namespace
 
 const char* known_miss(const Row& row) {
-  if (row.pass() || !row.space.ends_with("float")) return nullptr;
-  for (const Miss& miss : misses)
+  if (row.pass()) return nullptr;
+  const bool is_float = row.space.ends_with("float");
+  for (const Miss& miss : is_float ? std::span<const Miss>(misses_in_float) : misses_in_double)
     if (row.name.starts_with(miss.start) && row.name.ends_with(miss.end)) return miss.reason;
   return nullptr;
 }

@@ -6,8 +6,8 @@
 
 namespace validation {
 
-/// Why a comparison in float does not pass, where it is known not to: float has seven digits. Null
-/// for all others.
+/// Why a comparison does not pass, where it is known not to: mostly that float has seven digits.
+/// Null for all others.
 const char* known_miss(const Row& row);
 
 }  // namespace validation

@@ -50,8 +50,12 @@ do for [d in "2d 3d"] {
     set logscale x
     set xlabel "grains"
     set ylabel "solid fraction"
+    published = d eq "3d" ? 0.64 : 0.84
+    set xrange [100:2000]
+    set yrange [published - 0.02 : published + 0.01]
     plot file("close_packing_".d) using 1:2 skip 1 with linespoints pt 7 lc rgb blue title "measured", \
-         (d eq "3d" ? 0.64 : 0.84) with lines lc rgb red title "published"
+         published with lines lc rgb red title "published"
+    set autoscale
     unset logscale x
   }
 }
