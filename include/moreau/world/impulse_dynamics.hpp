@@ -108,8 +108,8 @@ class ImpulseDynamics {
 
   /// What the attraction does to the bodies, as if it were an external force. It is that of the
   /// gaps as detected, although the correction of overlaps changes them afterwards.
-  void attract(const Materials<Law>& materials, const Contacts<S>& contacts,
-               Scalar step) requires AttractiveLaw<Law, S> {
+  template <class L>  // not for laws without: clang would instantiate it with the class
+  void attract(const Materials<L>& materials, const Contacts<S>& contacts, Scalar step) {
     pulls_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
