@@ -123,8 +123,8 @@ class Recorder {
                roll.angular_velocity, roll.strength);
   }
 
-  void flush() {
-    for (moreau::CsvWriter* file : {&wall_, &packing_, &state_, &solver_}) file->flush();
+  void sync() {
+    for (moreau::CsvWriter* file : {&wall_, &packing_, &state_, &solver_}) file->sync();
   }
 
   double solid_fraction(const moreau::Aabb<S>& volume) {

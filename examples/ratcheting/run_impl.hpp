@@ -191,7 +191,7 @@ int run_method(const Parameters& asked) {
   if (p.pictures) views.picture("");
   progress.finish();
   json.stage("vibrate", watch.lap());
-  recorder.flush();
+  recorder.sync();
   recorder.passive_field().write(p.output);
   write_events(p.output, find_periods(recorder.samples(), p, experiment.mass() * p.gravity));
   json.write(p, experiment, recorder, done < total);

@@ -72,7 +72,7 @@ void run(const fs::path& folder, int end) {
                                     [](double t) { return 0.02 * std::sin(60 * t); });
   for (; step < end; ++step) {
     if (step % snapshot_every == 0) {
-      table.flush();
+      table.sync();
       moreau::write_snapshot(snapshot, world, random, step, table.size());
     }
     if (step % grain_every == 0) rain(world, random);

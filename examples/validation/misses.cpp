@@ -7,38 +7,50 @@ namespace validation {
 
 namespace {
 
-/// Comparisons whose names begin and end so.
+/// Comparisons whose names begin and end so, and whose error is no more than that: some twice what
+/// was seen when they were listed.
 struct Miss {
-  const char *start, *end, *reason;
+  const char *start, *end;
+  double most;
+  const char* reason;
 };
 
 constexpr Miss misses_in_double[] = {
-    {"plane shear of disks, I = 0.08", ": friction",
-     "the friction rises faster than the published line below I = 0.1: 0.384, with another sample "
-     "0.377 at I = 0.090, with half the step 0.377 at I = 0.091"},
+    {"plane shear of disks, I = 0.0", ": friction", 0.06,
+     "the friction rises faster than the published line below I = 0.1: 0.384 at I = 0.085, with "
+     "another sample 0.377 at I = 0.090, with half the step 0.377 at I = 0.091"},
 };
 
 constexpr Miss misses_in_float[] = {
-    {"block on an incline", "linear springs: error of the acceleration [m/s^2]",
+    {"block on an incline", "linear springs: error of the acceleration [m/s^2]", 2e-3,
      "a step of 2e-5 s adds some 1000 roundings to the velocity"},
-    {"slip to roll", ": order of the final speed in the overlap",
+    {"slip to roll", ": order of the final speed in the overlap", 0.3,
      "2000 roundings of the velocity are a third of the error"},
-    {"asymmetric top: angular momentum", "", "40000 steps with a rounding each"},
-    {"asymmetric top", ": order of the energy's change", "its change is smaller than its rounding"},
-    {"sliding off a ball", "",
+    {"asymmetric top: angular momentum", "", 2e-3, "40000 steps with a rounding each"},
+    {"asymmetric top", ": order of the energy's change", 6,
+     "its change is smaller than its rounding"},
+    {"sliding off a ball", "error of the cosine where it leaves, over h", 400,
      "gaps are known to 2e-7 R, in a step of 1e-3 gravity closes 1e-6 R: contacts open early"},
-    {"rolling off a ball", "", "as where it slides"},
-    {"stack of 3 boxes, 10 s, polygon: drift", "",
+    {"sliding off a ball", "order of the cosine where it leaves", 5, "as its error"},
+    {"sliding off a ball", "linear springs: cosine where it leaves", 1e-2, "as without springs"},
+    {"rolling off a ball", "error of the cosine where it leaves, over h", 400,
+     "as where it slides"},
+    {"rolling off a ball", "order of the cosine where it leaves", 5, "as its error"},
+    {"rolling off a ball", "linear springs: cosine where it leaves", 3e-3, "as without springs"},
+    {"stack of 3 boxes, 10 s, polygon: drift", "", 4e-3,
      "2000 steps move it by 8e-8 m each, a rounding of the places"},
-    {"stack of 3 boxes, 1 s", "linear springs: velocity [m/s]",
+    {"stack of 3 boxes, 1 s", "linear springs: velocity [m/s]", 2e-3,
      "a rounding of the places is a tenth of the overlaps"},
-    {"static friction", ": slips on a floor that speeds up by so many (1 + 1/k) N/m",
+    {"static friction", ": slips on a floor that speeds up by so many (1 + 1/k) N/m", 3e-4,
      "a contact within the root of a rounding, 3.5e-4, of the static cone counts as sliding"},
-    {"column of", "relative error of the impulses",
+    {"column of", "relative error of the impulses", 1e-3,
      "a rounding of the places over the step is 1e-3 of the velocity that gravity gives"},
-    {"packing at rest", "imbalance of forces over weight", "as in the column"},
-    {"frame indifference", "", "rounding grows by 1000 and more in the collisions"},
-    {"prisms against polygons", "", "rounding grows in the collisions, and on springs more"},
+    {"packing at rest", "imbalance of forces over weight", 2e-3, "as in the column"},
+    {"frame indifference", "distance over size", 5e-3,
+     "rounding grows by 1000 and more in the collisions"},
+    {"prisms against polygons", "distance over size", 2e-2,
+     "rounding grows in the collisions, and on springs more"},
+    {"prisms against polygons", "tilt out of the plane", 5e-3, "as the distance"},
 };
 
 }  // namespace
@@ -47,7 +59,8 @@ const char* known_miss(const Row& row) {
   if (row.pass()) return nullptr;
   const bool is_float = row.space.ends_with("float");
   for (const Miss& miss : is_float ? std::span<const Miss>(misses_in_float) : misses_in_double)
-    if (row.name.starts_with(miss.start) && row.name.ends_with(miss.end)) return miss.reason;
+    if (row.name.starts_with(miss.start) && row.name.ends_with(miss.end) && row.error <= miss.most)
+      return miss.reason;
   return nullptr;
 }
 

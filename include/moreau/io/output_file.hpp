@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 #if __has_include(<unistd.h>)
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -88,8 +89,23 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Replaces a file as a whole: a reader, or a run that is killed, finds the old one or the new one,
-/// never a part. On the way the new one is beside it, under its name with ".part".
+namespace detail {
+
+/// Waits until the names in a folder are on the disk, where the system can say so.
+inline void sync_folder([[maybe_unused]] const std::filesystem::path& folder) {
+#if __has_include(<unistd.h>)
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY);
+  if (file < 0) return;
+  ::fsync(file);  // not every file system can
+  ::close(file);
+#endif
+}
+
+}  // namespace detail
+
+/// Replaces a file as a whole: a reader, a run that is killed or a machine that loses its power
+/// finds the old one or the new one, never a part. On the way the new one is beside it, under its
+/// name with ".part".
 /// @throws std::system_error naming the path
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path partial = path;
@@ -101,6 +117,7 @@ inline void write_atomically(const std::filesystem::path& path, std::string_view
     file.sync();
     file.close();
     std::filesystem::rename(partial, path);
+    detail::sync_folder(path.parent_path());
   } catch (...) {
     std::filesystem::remove(partial, ignored);
     throw;

@@ -47,6 +47,10 @@ namespace moreau {
 /// @tparam Solver     of the contact problem; NoSolver for a regularized law
 ///
 /// Policies that do not go together fail to compile; policies.hpp has the reasons.
+///
+/// Functions that are given a body, a material, a vector or a number throw std::invalid_argument,
+/// which names function, argument and value, for an id that is none of this simulation, what is not
+/// finite, and what their comments rule out; nothing has then changed.
 template <Shape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
