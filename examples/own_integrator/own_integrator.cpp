@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An integrator of one's own: symplectic Euler, for laws that give forces. A ball bounces on an
-// undamped spring. Positions follow the same recursion as velocity Verlet's (its velocities are
+// A ball bounces on an undamped spring, under symplectic Euler (symplectic_euler.hpp, an integrator
+// of one's own). Positions follow the same recursion as velocity Verlet's (its velocities are
 // those half a step earlier), so that the heights of the bounces err alike, with the square of the
 // step. Prints how far, which plot.gp draws:
 //
@@ -8,35 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
 
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/moreau.hpp"
 
-/// v += h M^-1 F, then q += h v. Turns spheres only: their inertia is the same about every axis.
-struct SymplecticEuler {
-  template <class S>
-  void predict_configuration(moreau::Bodies<S>& bodies, std::span<const typename S::Twist> loads,
-                             const typename S::Vector& gravity, typename S::Scalar step) const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      typename S::Twist& v = bodies.velocity[i];
-      const typename S::Twist load = loads[i] + bodies.force[i];
-      const typename S::Vector force = load.template head<S::dim>() + bodies.weight[i] * gravity;
-      v.template head<S::dim>() += step * bodies.inverse_mass[i].cwiseProduct(force);
-      if (bodies.rotates(i))
-        v.template tail<S::angular_dim>() +=
-            step / bodies.inertia_body[i](0, 0) * load.template tail<S::angular_dim>();
-      bodies.pose[i].position += step * v.template head<S::dim>();
-      bodies.pose[i].rotation =
-          S::exp(step * v.template tail<S::angular_dim>()) * bodies.pose[i].rotation;
-    }
-  }
-  template <class S>
-  void advance_configuration(moreau::Bodies<S>&, std::span<const typename S::Twist>,
-                             const typename S::Vector&, typename S::Scalar) const {}
-};
-
-static_assert(moreau::ForceIntegrator<SymplecticEuler, moreau::Space<3>>);  // says what is missing
+#include "symplectic_euler.hpp"
 
 /// Error of the height of the fifth bounce, which should be that of the drop [m].
 template <class Integrator>

@@ -59,8 +59,62 @@ typename S::Inertia uneven_inertia() {
   return inertia;
 }
 
+/// Forces and torques of a second on a body: what they add to linear and angular momentum, each
+/// component for its own; along one oblique axis alone where that is all the mobility there is; as
+/// loads of contacts as well where the integrator takes such.
+template <class S, class Integrator>
+void check_forces(const Integrator& integrator, int steps, double rounding) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  const T h = T(1) / T(steps);
+  typename S::Twist force;
+  for (int k = 0; k < S::dofs; ++k) force[k] = T(0.5) + T(0.25) * T(k);
+  const auto torque = force.template tail<S::angular_dim>().eval();
+  const auto push = force.template head<S::dim>().eval();
+  constexpr bool has_loads = moreau::ForceIntegrator<Integrator, S>;
+  for (const bool as_load : {false, has_loads}) {
+    FreeBody<S> body(2, uneven_inertia<S>());
+    (as_load ? body.loads[0] : body.bodies.force[0]) = force;
+    for (int k = 0; k < steps; ++k) body.step(integrator, Vector::Zero(), h);
+    const Vector v = body.bodies.velocity[0].template head<S::dim>();
+    CHECK(double((2 * v - push).norm()) < steps * rounding * double(push.norm()));
+    CHECK(double((body.angular_momentum() - torque).norm()) <
+          steps * rounding * double(torque.norm()));
+    CHECK(double((body.bodies.pose[0].position - push / 4).norm()) < double(h * push.norm()));
+  }
+
+  // A wall that moves along its normal.
+  FreeBody<S> wall(1, uneven_inertia<S>());
+  wall.bodies.inertia_body[0].setZero();
+  wall.bodies.inverse_inertia_root_body[0].setZero();
+  wall.bodies.weight[0] = 0;
+  wall.bodies.inverse_mass[0] = Vector::UnitX() / 2;
+  const Vector normal = (Vector::Unit(0) + 2 * Vector::Unit(1)).normalized();
+  wall.bodies.pose[0].rotation = S::normalized(typename S::Rotation(S::contact_frame(normal)));
+  wall.bodies.force[0] = force;
+  for (int k = 0; k < steps; ++k) wall.step(integrator, Vector::Unit(S::dim - 1), h);
+  const Vector along = normal * normal.dot(push) / 2;
+  CHECK(double((wall.bodies.velocity[0].template head<S::dim>() - along).norm()) <
+        steps * rounding * double(push.norm()));
+  CHECK(wall.spin().isZero(0));
+
+  // One that turns as it is told.
+  FreeBody<S> drum(1, uneven_inertia<S>());
+  drum.bodies.inertia_body[0].setZero();
+  drum.bodies.inverse_inertia_root_body[0].setZero();
+  drum.spin() = torque;
+  drum.bodies.force[0].template tail<S::angular_dim>() = torque;
+  for (int k = 0; k < steps; ++k) drum.step(integrator, Vector::Zero(), h);
+  CHECK(drum.spin() == torque);
+  const typename S::Rotation turned = S::exp(torque);
+  CHECK(
+      double((drum.bodies.pose[0].rotation.toRotationMatrix() - turned.toRotationMatrix()).norm()) <
+      steps * rounding);
+}
+
 /// Velocity under gravity exact and the path to the order h at least, angular momentum of a torque-
-/// free top and its energy kept, an axis without mobility left alone.
+/// free top and its energy kept, forces and torques as they should act, an axis without mobility
+/// left alone.
 template <class S, class Integrator>
 requires moreau::TimeIntegrator<Integrator, S>
 void integrator(const Integrator& integrator) {
@@ -84,6 +138,8 @@ void integrator(const Integrator& integrator) {
   CHECK(double((top.angular_momentum() - momentum).norm()) <
         steps * rounding * double(momentum.norm()));
   CHECK(std::abs(top.rotation_energy() - energy) < 0.01 * energy);
+
+  check_forces<S>(integrator, steps, rounding);
 
   FreeBody<S> driven(1, uneven_inertia<S>());
   driven.bodies.inverse_mass[0].setZero();

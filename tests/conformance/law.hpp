@@ -62,18 +62,23 @@ struct LocalProblem {
   }
 };
 
-/// The solution obeys the law, whatever the guess and the unit; it scales with the velocity, unless
-/// the law has constants of a unit; what is tangential never drives; offsets keep what is open
-/// open.
+/// What is common to set-valued laws; one that yields to a push (u_n < 0 with r_n > 0) is none of
+/// Signorini's.
+enum class Normal { signorini, other };
+
+/// The solution obeys the law, whatever the guess and the unit, and what is not the solution does
+/// not; the normal part is Signorini's, whatever natural_map says; it scales with the velocity,
+/// unless the law has constants of a unit; what is tangential never drives; offsets keep what is
+/// open open.
 template <class S, class Law>
 requires moreau::SetValuedLaw<Law, S>
-void set_valued_law(const Law& law, int problems = 5000) {
+void set_valued_law(const Law& law, int problems = 5000, Normal normal = Normal::signorini) {
   using T = typename S::Scalar;
   using Problem = LocalProblem<S, Law>;
   using Vector = typename Problem::Vector;
   constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
   std::mt19937_64 random(7);
-  double map = 0, guessed = 0, scaled = 0, driven = 0;
+  double map = 0, guessed = 0, scaled = 0, driven = 0, pressed = 0, beside = 1;
   int open = 0;
   for (int i = 0; i < problems; ++i) {
     const Problem p(random);
@@ -84,6 +89,12 @@ void set_valued_law(const Law& law, int problems = 5000) {
     const Vector eightfold = T(8) * r;
     const Vector map_of_eight = moreau::detail::natural_map(law, u, eightfold, T(8));
     map = std::max(map, double(map_of_eight.norm()) / (8 * size));
+    pressed =
+        std::max({pressed, double(-u[0]) / size, double(std::abs(u[0] * r[0])) / size / size});
+    // Next to a solution there is none: the map sees a hundredth of it.
+    const Vector off = r + T(1e-2 * size) * p.guess.normalized();
+    const Vector u_off = p.block * off + p.velocity;
+    beside = std::min(beside, double(law.natural_map(u_off, off).norm()) / size);
     const Vector again = law.solve(p.block, p.velocity, Vector(Vector::Zero()));
     guessed = std::max(guessed, double((again - r).norm()) / size);
     if constexpr (!requires { law.natural_map(u, r, T(8)); }) {
@@ -102,6 +113,8 @@ void set_valued_law(const Law& law, int problems = 5000) {
     open += r.isZero(0);
   }
   CHECK(map < 1e4 * epsilon);
+  CHECK(beside > 1e-6);
+  if (normal == Normal::signorini) CHECK(pressed < 1e4 * epsilon);
   CHECK(guessed < 1e5 * epsilon);
   CHECK(scaled < 1e5 * epsilon);
   CHECK(driven < 1e4 * epsilon);

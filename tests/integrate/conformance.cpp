@@ -3,6 +3,7 @@
 #include "moreau/integrate/velocity_verlet.hpp"
 
 #include "conformance/integrator.hpp"
+#include "own_integrator/symplectic_euler.hpp"
 
 using moreau::Space;
 
@@ -10,6 +11,7 @@ TEST_CASE_TEMPLATE("integrators", S, Space<2>, Space<3>) {
   conformance::integrator<S>(moreau::MoreauJean());
   conformance::integrator<S>(moreau::MoreauJean(1));
   conformance::integrator<S>(moreau::VelocityVerlet());
+  conformance::integrator<S>(SymplecticEuler());
 }
 
 TEST_CASE("Verlet errs with the square of the step") {

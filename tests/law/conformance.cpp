@@ -8,6 +8,7 @@
 
 #include "conformance/law.hpp"
 #include "conformance/regularized_law.hpp"
+#include "own_law/greased.hpp"
 
 using namespace moreau;
 using conformance::lane_law, conformance::regularized_law, conformance::set_valued_law;
@@ -20,7 +21,9 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   set_valued_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
   set_valued_law<S>(RollingResistance<T>(T(0.4), T(0.2)));
   lane_law<S>(coulomb);
+  set_valued_law<S>(Greased{0.3});
   lane_law<S>(Frictionless<T>());
+  lane_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
 }
 
 TEST_CASE_TEMPLATE("regularized laws", S, Space<2>, Space<3>) {

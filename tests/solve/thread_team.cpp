@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 #include <vector>
 
-#include "solve/assembly.hpp"
+#include "conformance/solver.hpp"
 
 using namespace solve_test;
 
@@ -41,6 +41,10 @@ TEST_CASE_TEMPLATE("one, two and three threads give the same bits", S, Space<2>,
     CHECK(parallel.residual == report.residual);
     for (std::size_t c = 0; c < alone.size(); ++c) CHECK(impulses[c] == alone[c]);
   }
+}
+
+TEST_CASE("a team of two is a solver") {
+  conformance::solver<Space<3>>(ParallelGaussSeidel(fast<Space<3>>(1e-9), 2), 1e-9);
 }
 
 TEST_CASE("a team without members is refused") {

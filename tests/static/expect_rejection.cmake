@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Compiles SOURCE twice. With MOREAU_CORRECTED defined it has to compile, so that nothing but the
 # mistake it is about can be what fails; without, it has to fail, and every pattern on its lines
-# "// expect: <regular expression>" has to occur in what the compiler says.
+# "// expect: <regular expression>" has to occur in what the compiler says; with a line "// and no other
+# error" that has to be all.
 set(compile ${COMPILER} -std=c++20 -fsyntax-only -I${INCLUDE} -isystem ${EIGEN})
 
 execute_process(COMMAND ${compile} -DMOREAU_CORRECTED ${SOURCE}
@@ -25,3 +26,10 @@ foreach(line IN LISTS lines)
     message(FATAL_ERROR "is rejected, but without '${pattern}':\n${output}")
   endif()
 endforeach()
+
+file(STRINGS ${SOURCE} alone REGEX "^// and no other error$")
+string(REGEX MATCHALL "[^a-z]error: " errors "${output}")
+list(LENGTH errors count)
+if(alone AND NOT count EQUAL 1)
+  message(FATAL_ERROR "is rejected with ${count} errors:\n${output}")
+endif()

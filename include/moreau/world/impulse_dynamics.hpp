@@ -66,6 +66,19 @@ class RollingUnknowns {
   std::vector<typename Operator::Vector> unknowns_;
 };
 
+/// The solver's, or nothing for one that cannot take the law; see policies.hpp.
+template <class Solver, class Operator, class Law>
+struct WorkspaceOf {
+  struct type {};
+};
+template <class Solver, class Operator, class Law>
+requires requires {
+  typename Solver::template Workspace<Operator, Law>;
+}
+struct WorkspaceOf<Solver, Operator, Law> {
+  using type = typename Solver::template Workspace<Operator, Law>;
+};
+
 template <class S, class Law, class Integrator, class Solver>
 class ImpulseDynamics {
  public:
@@ -221,7 +234,7 @@ class ImpulseDynamics {
   Integrator integrator_;
   Operator operator_;
   Unknowns unknowns_;
-  typename Solver::template Workspace<Operator, Law> workspace_;
+  typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
 
   std::vector<typename S::Angular> momentum_;
   std::vector<Twist> free_, after_;

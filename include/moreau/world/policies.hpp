@@ -18,17 +18,20 @@ template <class S, class Law, class Integrator, class Broad, class Solver>
 struct Policies {
   static constexpr bool set_valued = SetValuedLaw<Law, S>;
   static constexpr bool forces = RegularizedLaw<Law, S>;
+  static constexpr bool integrates = TimeIntegrator<Integrator, S>;
 
   static_assert(set_valued || forces,
-                "Simulation: Law is neither a SetValuedLaw nor a RegularizedLaw in the space of "
-                "the shape, whose dimension and scalar must be its own");
-  static_assert(TimeIntegrator<Integrator, S>,
-                "Simulation: Integrator is neither an ImpulseIntegrator nor a ForceIntegrator in "
-                "the space of the shape");
-  static_assert(!set_valued || ImpulseIntegrator<Integrator, S>,
+                "Simulation: Law offers neither velocity_offset, solve and natural_map "
+                "(SetValuedLaw) nor force (RegularizedLaw) with just the types of the shape's "
+                "space, its dimension and its scalar; assert the concept to see what is missing");
+  static_assert(integrates,
+                "Simulation: Integrator offers the functions neither of an ImpulseIntegrator nor "
+                "of a ForceIntegrator with the types of the shape's space; assert the concept to "
+                "see what is missing");
+  static_assert(!set_valued || !integrates || ImpulseIntegrator<Integrator, S>,
                 "Simulation: a set-valued law gives impulses, which an integrator of forces such "
                 "as VelocityVerlet cannot take; use MoreauJean or a regularized law");
-  static_assert(!forces || ForceIntegrator<Integrator, S>,
+  static_assert(!forces || !integrates || ForceIntegrator<Integrator, S>,
                 "Simulation: a regularized law gives forces, which an integrator of impulses such "
                 "as MoreauJean cannot take; use VelocityVerlet or a set-valued law");
   static_assert(BroadPhase<Broad, S>,

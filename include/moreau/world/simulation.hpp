@@ -55,8 +55,7 @@ template <Shape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, Spa
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
 class Simulation {
-  static constexpr bool set_valued =
-      detail::Policies<SpaceOf<ShapeT>, Law, Integrator, Broad, Solver>::set_valued;
+  static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
  public:
   using S = SpaceOf<ShapeT>;
@@ -265,6 +264,8 @@ class Simulation {
         tolerances_(tolerances),
         materials_(materials),
         dynamics_(std::move(dynamics)) {
+    // Not in the class, where further errors would hide the reason.
+    static_assert(sizeof(detail::Policies<S, Law, Integrator, Broad, Solver>) > 0);
     require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
             "must be finite and > 0");
     tolerances.check("Simulation");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Boxes of the plane for balls of space.
 // expect: Broad is no BroadPhase in the space of the shape
+// and no other error
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A set-valued law with nothing that solves it.
 // expect: Solver cannot take this set-valued law
+// and no other error
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"

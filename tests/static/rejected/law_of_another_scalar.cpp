@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A law that counts in float for grains in double.
-// expect: neither a SetValuedLaw nor a RegularizedLaw in the space
+// expect: Law offers neither velocity_offset, solve and natural_map
+// and no other error
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A solver of points under a law with couples.
 // expect: Solver cannot take this set-valued law
+// and no other error
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Forces leave nothing to solve.
 // expect: a regularized law leaves nothing to solve
+// and no other error
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"
