@@ -36,12 +36,8 @@ std::string build() {
 #else
   std::string text = "g++ " __VERSION__;
 #endif
-#ifdef __OPTIMIZE__
-  text += ", optimized";
-#endif
-#ifndef NDEBUG
-  text += ", with assertions";
-#endif
+  text += " " VALIDATION_FLAGS;
+  if (*VALIDATION_COMMIT != '\0') text += ", commit " VALIDATION_COMMIT;
   return text;
 }
 

@@ -182,7 +182,7 @@ inline void random_close_packing(Record& record, Effort effort) {
 
 /// The stiffer the springs, the nearer their packings come to those of contact dynamics: mean over
 /// samples from the same places, for stiffnesses k over pressure x size. The coordination exceeds
-/// that of rigid grains by the root of the compression (C. S. O'Hern et al., Phys. Rev. E 68 (2003)
+/// the isostatic 2 D by the root of the compression (C. S. O'Hern et al., Phys. Rev. E 68 (2003)
 /// 011306: exponent 0.49).
 template <class ShapeT>
 void stiff_springs(Record& record, std::size_t count, int samples) {
@@ -212,7 +212,7 @@ void stiff_springs(Record& record, std::size_t count, int samples) {
     curve.rows.push_back({k, soft.fraction, soft.coordination, soft.overlap, rigid.fraction});
     stiffness.push_back(k);
     overlap.push_back(soft.overlap);
-    excess.push_back(soft.coordination - rigid.coordination);
+    excess.push_back(soft.coordination - 2 * S::dim);
   }
   // Neighbours that springs bring into touch grow with the root of the overlap.
   const double share = std::sqrt(soft.overlap / softer.overlap);
@@ -221,7 +221,7 @@ void stiff_springs(Record& record, std::size_t count, int samples) {
   record.compare(name + "solid fraction", S{}, rigid.fraction, soft.fraction, 0.01);
   record.compare(name + "coordination, on to no overlap", S{}, rigid.coordination, stiffest, 0.1);
   if (samples > 1)
-    record.compare(name + "order of the excess of coordination in overlap", S{}, 0.5,
+    record.compare(name + "order of the coordination above isostatic in overlap", S{}, 0.5,
                    order_of(overlap, excess), 0.1);
   record.compare(name + "order of the overlap in stiffness", S{}, -1, order_of(stiffness, overlap),
                  0.1);
