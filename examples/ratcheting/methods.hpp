@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
+#include "moreau/core/state.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
@@ -35,6 +37,9 @@ class StudySolver : public moreau::ParallelGaussSeidel {
   }
 
  private:
+  friend struct moreau::StateAccess;
+  auto state() { return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_); }
+
   bool cold_;
 };
 
