@@ -4,6 +4,7 @@
 #   tests/run.sh                 all but the long tests
 #   tests/run.sh -R detect       those whose name contains detect
 #   PRESET=asan tests/run.sh     another preset of CMakePresets.json than release
+# CMAKE_OPTIONS go to the configuration.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${PRESET:-release}
@@ -12,6 +13,7 @@ jobs=$(nproc)
 .ci/require cmake g++ ninja-build pkg-config libeigen3-dev doctest-dev libcli11-dev \
   nlohmann-json3-dev libbenchmark-dev libhdf5-dev
 case $preset in clang | asan) .ci/require clang libclang-rt-14-dev ;; esac
-cmake --preset "$preset"
+# shellcheck disable=SC2086  # options, none of which holds a space
+cmake --preset "$preset" ${CMAKE_OPTIONS:-}
 cmake --build --preset "$preset" --target moreau_tests --parallel "$jobs"
 ctest --preset "$preset" --parallel "$jobs" "$@"
