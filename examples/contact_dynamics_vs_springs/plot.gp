@@ -6,11 +6,11 @@ runs = 'contact_dynamics_vs_springs.csv'
 forces = 'force_distribution.csv'
 set multiplot layout 2,2
 # The second line is contact dynamics with the finer step; the first tells how far the step matters.
-stats runs using 3 every ::1::1 nooutput
+stats runs using 3 every ::2::2 nooutput
 rigid = STATS_min
-stats runs using 2 every ::0::1 nooutput
+stats runs using 2 every ::1::1 nooutput
 coarse = STATS_max
-stats runs using 8 every ::0::0 nooutput
+stats runs using 8 every ::1::1 nooutput
 cost = STATS_min
 set format x '10^{%T}'
 set logscale x
@@ -35,5 +35,5 @@ set yrange [0:*]
 set xlabel 'contact force over its mean'
 set ylabel 'probability density'
 plot forces using ($1 == 0 && $2 < coarse ? $3 : 1/0):4 with lines lw 3 title 'contact dynamics', \
-     for [k in '1e5 1e6 1e9'] forces using ($1 == k + 0 ? $3 : 1/0):4 with lines \
-       title sprintf('springs, %s N/m', k)
+     for [n in '5 6 9'] forces using ($1 == 10**n ? $3 : 1/0):4 with lines \
+       title sprintf('springs, 1e%s N/m', n)
