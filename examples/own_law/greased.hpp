@@ -10,7 +10,7 @@
 
 struct Greased {
   double drag = 1;  ///< impulse per speed and contact point [N s / (m/s)]: viscosity x time step
-  double friction = 1;  ///< of the faces
+  double friction = 1;  ///< of the faces [-]
 
   /// A contact may close its gap within the step.
   double velocity_offset(double gap, double, double step) const {

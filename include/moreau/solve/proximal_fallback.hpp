@@ -12,11 +12,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "moreau/core/error.hpp"
 #include "moreau/core/state.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/friction_problem.hpp"
 #include "moreau/solve/gather_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_solver.hpp"
@@ -70,6 +73,7 @@ class ProximalFallback {
     SolveReport polished = report;
     polish(op, laws, law_of, impulses, polished);
     if (polished.residual < report.residual) return polished;
+    report.sweeps = polished.sweeps;
     std::copy(workspace.swept.begin(), workspace.swept.end(), impulses.begin());
     detail::apply_alone<Operator>(op, impulses);
     return report;
@@ -102,11 +106,11 @@ class ProximalFallback {
     measure_residual(op, laws, law_of, std::span<const typename Operator::Vector>(impulses),
                      report);
     report.converged =
-        report.residual <= options_tolerance() && report.left_over <= SolveReport::most_left_over;
+        report.residual <= tolerance() && report.left_over <= SolveReport::most_left_over;
     report.capped = !report.converged;
   }
 
-  double options_tolerance() const { return first_.options().tolerance; }
+  double tolerance() const { return first_.options().tolerance; }
   /// The residual of a step is relative to |r| alone, that of a problem to max(|b|, |r|, |u|).
   template <class S>
   double tolerance_for(const FrictionProblem<S>& problem, const Eigen::VectorXd& r) const {
@@ -114,7 +118,7 @@ class ProximalFallback {
     const double largest = std::max({problem.free_velocity.norm(), scaled,
                                      (problem.delassus * r + problem.free_velocity).norm()});
     const double share = scaled > 0 ? scaled / largest : 1;
-    return 0.5 * share * options_tolerance();
+    return 0.5 * share * tolerance();
   }
 
   First first_;
