@@ -131,6 +131,10 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_flag("--resume", p.resume,
                "go on from the checkpoint in the output folder, if there is one: same parameters, "
                "same results");
+  app.add_option(
+      "--packing", p.packing,
+      "file of the packing that the lid makes: read if it is there, else written, so that "
+      "runs which differ in what comes after prepare once");
   app.add_option("--output", p.output, "folder, made if missing; its files are overwritten");
 
   try {

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -63,12 +64,12 @@ class Experiment {
     add_walls(top);
   }
 
-  /// The paper's preparation: compression by the lid without gravity, until the kinetic energy per
-  /// grain is below 1e-6 of lid force times grain size; then gravity on, the lid raised and fixed.
+  /// The paper's preparation, first half: compression by the lid without gravity, until the kinetic
+  /// energy per grain is below 1e-6 of lid force times grain size.
   /// The lid first closes in at a speed that the alert distance can follow, then its force takes
   /// over, for preparation_time at most.
   /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
-  void prepare(const Progress& progress) {
+  void compress(const Progress& progress) {
     const double step = parameters_.preparation_step;
     if constexpr (Method::solves) {
       moreau::ColouredOptions options;
@@ -102,6 +103,10 @@ class Experiment {
       progress("compressing", simulation_.step(step));
       settled_ = k >= 20 && kinetic_energy() <= still;
     }
+  }
+
+  /// Second half: the study's solver; gravity on, the lid raised and fixed, the wall free.
+  void release() {
     if constexpr (Method::solves) {
       simulation_.set_solver(study_solver(parameters_));
       set_correction();
@@ -132,12 +137,22 @@ class Experiment {
     return simulation_.step(parameters_.step);
   }
 
+  /// Writes down what compress() made.
+  void write_packing(const std::filesystem::path& path, const std::string& made_by) const {
+    moreau::write_snapshot(path, simulation_, made_by, settled_);
+  }
+  /// In place of compress(), by an experiment of the same preparation.
+  /// @throws std::runtime_error naming the path for a file that is none of those
+  void read_packing(const std::filesystem::path& path, std::string& made_by) {
+    moreau::read_snapshot(path, simulation_, made_by, settled_);
+  }
+
   /// Writes down the state, with what else belongs to the run.
   template <class... More>
   void write_checkpoint(const std::filesystem::path& path, const More&... more) const {
     moreau::write_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
   }
-  /// In place of prepare(), by an experiment of the same parameters.
+  /// In place of compress() and release(), by an experiment of the same parameters.
   /// @throws std::runtime_error naming the path for a file that is none of those
   template <class... More>
   void read_checkpoint(const std::filesystem::path& path, More&... more) {

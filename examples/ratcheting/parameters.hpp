@@ -59,6 +59,9 @@ struct Parameters {
   bool plots = true;
   int checkpoint_every = 0;  ///< steps of the vibration from one checkpoint to the next; 0: none
   bool resume = false;       ///< from the checkpoint in the folder, if there is one
+  /// Where the packing under the lid is kept, for runs that differ in what comes after; empty:
+  /// nowhere.
+  std::string packing;
   std::string output = "ratcheting-output";
 
   /// f(t), compressive force on the moving wall [N] (paper, eq. 1).

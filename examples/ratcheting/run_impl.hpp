@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 
 #include "experiment.hpp"
 #include "methods.hpp"
@@ -101,16 +102,58 @@ double lightest_grain(const Parameters& p, double thickness) {
   return p.density * thickness * volume;
 }
 
+/// All that decides the results of a run.
+inline std::string identity(const Parameters& p) {
+  Json json = to_json(p);
+  json.erase("threads");
+  return json.dump();
+}
+
+/// All that decides the packing: not what the force, the wall and the study's solver do to it.
+inline std::string packing_identity(const Parameters& p) {
+  Json json = to_json(p);
+  for (const char* later : {"frequency", "fmax", "fmin", "gravity", "wall_mass_ratio", "duration",
+                            "step", "lid_raise", "tolerance", "stop_test", "max_sweeps",
+                            "overlap_correction", "threads", "cold_start", "order"})
+    json.erase(later);
+  return json.dump();
+}
+
+/// @throws std::invalid_argument if the file's packing was made by other parameters
+template <class ExperimentT>
+void read_packing(const Parameters& p, ExperimentT& experiment) {
+  std::string made_by;
+  experiment.read_packing(p.packing, made_by);
+  if (made_by != packing_identity(p))
+    throw std::invalid_argument("--packing: " + p.packing +
+                                " was made with other parameters: " + made_by);
+}
+
+/// Several runs may do so at once: they write the same, each to a file of its own first.
+template <class ExperimentT>
+void write_packing(const Parameters& p, const ExperimentT& experiment) {
+  const std::string own = p.packing + "." + std::to_string(::getpid());
+  experiment.write_packing(own, packing_identity(p));
+  std::filesystem::rename(own, p.packing);
+}
+
 /// The packing before the force starts, and the first line of packing.csv.
 /// @returns whether it came about: not if it was interrupted
 template <class ExperimentT>
 bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>& recorder,
              RunJson& json, Progress& progress, Stopwatch& watch) {
   try {
-    experiment.prepare([&](const char* stage, const moreau::StepReport& report) {
-      progress.preparing(stage, report, experiment.simulation().time());
-      if (interrupted()) throw Interrupted{};
-    });
+    if (!p.packing.empty() && std::filesystem::exists(p.packing)) {
+      read_packing(p, experiment);
+      std::printf("packing of %s\n", p.packing.c_str());
+    } else {
+      experiment.compress([&](const char* stage, const moreau::StepReport& report) {
+        progress.preparing(stage, report, experiment.simulation().time());
+        if (interrupted()) throw Interrupted{};
+      });
+      if (!p.packing.empty()) write_packing(p, experiment);
+    }
+    experiment.release();
   } catch (const Interrupted&) {
     progress.finish();
     json.stage("prepare", watch.lap());
@@ -122,13 +165,6 @@ bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>
   recorder.set_control_volume();
   recorder.record_packing();
   return true;
-}
-
-/// All that decides the results of a run.
-inline std::string identity(const Parameters& p) {
-  Json json = to_json(p);
-  json.erase("threads");
-  return json.dump();
 }
 
 template <class ShapeT, class Method>

@@ -24,6 +24,7 @@ std::string text(double value) {
 struct Option {
   std::string_view flag, mark, unit;
   std::function<double(const Parameters&)> value;
+  bool prepares = false;  ///< the packing depends on it
 };
 
 const std::vector<Option>& options() {
@@ -33,14 +34,14 @@ const std::vector<Option>& options() {
       {"--fmin", "fmin", "N", [](const Parameters& p) { return p.fmin; }},
       {"--gravity", "g", "", [](const Parameters& p) { return p.gravity; }},
       {"--wall-mass-ratio", "mw", "m", [](const Parameters& p) { return p.wall_mass_ratio; }},
-      {"--box-ratio", "H", "L", [](const Parameters& p) { return p.box_ratio; }},
-      {"--size-scale", "size", "x", [](const Parameters& p) { return p.size_scale; }},
-      {"--lid-force", "lid", "mg", [](const Parameters& p) { return p.lid_force; }},
+      {"--box-ratio", "H", "L", [](const Parameters& p) { return p.box_ratio; }, true},
+      {"--size-scale", "size", "x", [](const Parameters& p) { return p.size_scale; }, true},
+      {"--lid-force", "lid", "mg", [](const Parameters& p) { return p.lid_force; }, true},
       {"--lid-raise", "raise", "m", [](const Parameters& p) { return p.lid_raise; }},
       {"--step", "h", "s", [](const Parameters& p) { return p.step; }},
       {"--tolerance", "tol", "", [](const Parameters& p) { return p.tolerance; }},
       {"--duration", "T", "s", [](const Parameters& p) { return p.duration; }},
-      {"--grains", "N", "", [](const Parameters& p) { return double(p.grains); }}};
+      {"--grains", "N", "", [](const Parameters& p) { return double(p.grains); }, true}};
   return all;
 }
 
@@ -257,6 +258,16 @@ std::vector<Case> select(const std::vector<Case>& plan, const Selection& s) {
       selected.push_back(c);
   }
   return selected;
+}
+
+std::string packing_name(const Parameters& p) {
+  const Parameters usual;
+  std::string name = p.shape + "-s" + std::to_string(p.seed);
+  for (const Option& option : options())
+    if (option.prepares && option.value(p) != option.value(usual))
+      name += "-" + std::string(option.mark) + text(option.value(p)) + std::string(option.unit);
+  if (p.size_reading != usual.size_reading) name += "-circumradius";
+  return name;
 }
 
 std::vector<std::string> arguments(const Parameters& p) {

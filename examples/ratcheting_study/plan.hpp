@@ -41,6 +41,10 @@ std::vector<Case> select(const std::vector<Case>& plan, const Selection& selecti
 /// Command line of `ratcheting`, without program and --output: all that differs from its defaults.
 std::vector<std::string> arguments(const Parameters& p);
 
+/// The name of what the preparation makes of these parameters: cases that share it start from one
+/// packing.
+std::string packing_name(const Parameters& p);
+
 /// What the paper says of the baseline: 5 Hz, 6 kN, m_w = m/2, H/L = 1, 9.81 m/s^2.
 Parameters baseline(const std::string& plan, const std::string& shape, std::size_t seed = 1);
 

@@ -26,14 +26,14 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Rough cost of a case relative to the others; only the time left depends on it.
+/// Rough cost of a case relative to the others, its preparation shared.
 double cost_of(const Case& c) {
   const Parameters& p = c.parameters;
   const double shape = p.shape == "polyhedron" ? 8
                        : p.shape == "sphere"   ? 2.5
                        : p.shape == "polygon"  ? 1.2
                                                : 0.6;
-  return shape * double(p.grains) * (0.2 + p.duration / p.step / 5000);
+  return shape * double(p.grains) * (0.05 + p.duration / p.step / 5000);
 }
 
 struct Running {
@@ -51,16 +51,20 @@ fs::path partial(const Places& places, const Case& c) {
 class Runner {
  public:
   Runner(const std::vector<Case>& cases, const RunOptions& options)
-      : cases_(cases), options_(options), begin_(Clock::now()), told_(begin_) {
+      : options_(options), begin_(Clock::now()), told_(begin_) {
     for (const Case& c : cases)
-      if (!is_done(options.places, c)) cost_left_ += cost_of(c);
+      if (is_done(options.places, c)) {
+        ++summary_.skipped;
+      } else {
+        waiting_.push_back(&c);
+        cost_left_ += cost_of(c);
+      }
     cost_of_all_ = cost_left_;
   }
 
   RunSummary run() {
-    while (stop == 0 && (next_ < cases_.size() || !running_.empty())) {
-      while (stop == 0 && next_ < cases_.size() && running_.size() < options_.jobs)
-        begin(cases_[next_++]);
+    while (stop == 0 && (!waiting_.empty() || !running_.empty())) {
+      while (stop == 0 && !waiting_.empty() && running_.size() < options_.jobs) begin(take_next());
       while (const auto ending = ended_child()) finish(*ending);
       tell();
       if (!running_.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -70,11 +74,22 @@ class Runner {
   }
 
  private:
+  /// The next in the order of the plan; but one that would outlast all others, if they were spread
+  /// over the processes, must not be left to the end.
+  const Case& take_next() {
+    double cost = 0;
+    for (const Case* c : waiting_) cost += cost_of(*c);
+    const auto longest =
+        std::max_element(waiting_.begin(), waiting_.end(),
+                         [](const Case* a, const Case* b) { return cost_of(*a) < cost_of(*b); });
+    const bool outlasts = cost_of(**longest) * double(options_.jobs) > cost;
+    const auto next = outlasts ? longest : waiting_.begin();
+    const Case& c = **next;
+    waiting_.erase(next);
+    return c;
+  }
+
   void begin(const Case& c) {
-    if (is_done(options_.places, c)) {
-      ++summary_.skipped;
-      return;
-    }
     const fs::path locks = options_.places.output / "locks";
     fs::create_directories(locks);
     auto lock = FileLock::attempt(locks / c.name);
@@ -92,9 +107,11 @@ class Runner {
     const fs::path folder = partial(options_.places, c);
     fs::remove_all(folder);
     fs::create_directories(folder);
+    const fs::path packing =
+        options_.places.output / "packings" / (packing_name(c.parameters) + ".snapshot");
     std::vector<std::string> list = arguments(c.parameters);
-    list.insert(list.end(),
-                {"--snapshots", "0", "--no-pictures", "--no-plots", "--output", folder.string()});
+    list.insert(list.end(), {"--snapshots", "0", "--no-pictures", "--no-plots", "--packing",
+                             packing.string(), "--output", folder.string()});
     const pid_t process = start(options_.program, list, folder / "log.txt");
     running_.push_back({process, &c, std::move(*lock), Clock::now()});
   }
@@ -161,9 +178,8 @@ class Runner {
     summary_.interrupted = true;
   }
 
-  const std::vector<Case>& cases_;
   const RunOptions& options_;
-  std::size_t next_ = 0;
+  std::vector<const Case*> waiting_;  // in the order of the plan
   std::vector<Running> running_;
   RunSummary summary_;
   double cost_of_all_ = 0, cost_left_ = 0;
@@ -176,6 +192,7 @@ RunSummary run_cases(const std::vector<Case>& cases, const RunOptions& options) 
   std::signal(SIGINT, [](int) { stop = 1; });
   std::signal(SIGTERM, [](int) { stop = 1; });
   fs::create_directories(options.places.output / "cases");
+  fs::create_directories(options.places.output / "packings");
   return Runner(cases, options).run();
 }
 

@@ -72,6 +72,24 @@ said=$("$program" "${small[@]}" --duration 0.02 --seed 2 --resume --output "$fol
 [ $? = 2 ] || fail "a checkpoint of other parameters was taken up"
 grep -qF "other parameters" <<<"$said" || fail "a checkpoint of other parameters: $said"
 
+# A packing that is kept: the run that writes it and the runs that take it up say what one says
+# that does not know of it, and a run that would have prepared another refuses it.
+for name in writes reads; do
+  "$program" "${small[@]}" --duration 0.02 --packing "$folder/packing.snapshot" \
+    --output "$folder/$name" >"$folder/$name.log" 2>&1 || fail "$name: $(tail -3 "$folder/$name.log")"
+  for table in wall packing state; do
+    cmp "$folder/one/$table.csv" "$folder/$name/$table.csv" || fail "$table.csv of a run that $name"
+  done
+done
+grep -q "packing of" "$folder/writes.log" && fail "the run that writes a packing did not prepare"
+grep -q "packing of" "$folder/reads.log" || fail "the run that reads a packing prepared"
+"$program" "${small[@]}" --duration 0.001 --frequency 20 --gravity 5 --packing "$folder/packing.snapshot" \
+  --output "$folder/other" >"$folder/other.log" 2>&1 || fail "another force on a kept packing"
+said=$("$program" "${small[@]}" --duration 0.02 --lid-force 20 --packing "$folder/packing.snapshot" \
+  --no-plots --output "$folder/other" 2>&1)
+[ $? = 2 ] || fail "a packing of other parameters was taken up"
+grep -qF "other parameters" <<<"$said" || fail "a packing of other parameters: $said"
+
 "$program" "${small[@]}" --duration 100 --output "$folder/stopped" >"$folder/stopped.log" 2>&1 &
 pid=$!
 for _ in $(seq 300); do
