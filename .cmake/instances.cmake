@@ -10,3 +10,8 @@ function(moreau_add_instances name)
                                            "SHELL:-include moreau/instances/plane.hpp")
 endfunction()
 moreau_add_instances(moreau_instances)
+
+# The same for problems given by matrices; the units that solve them include the header.
+add_library(moreau_problem_instances STATIC EXCLUDE_FROM_ALL
+            ${PROJECT_SOURCE_DIR}/.cmake/instances/friction_problems.cpp)
+target_link_libraries(moreau_problem_instances PUBLIC moreau_development)

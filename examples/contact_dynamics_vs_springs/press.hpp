@@ -13,6 +13,7 @@
 
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/measure/force_distribution.hpp"
+#include "moreau/measure/solid_fraction.hpp"
 #include "moreau/moreau.hpp"
 
 namespace press {
@@ -35,7 +36,7 @@ struct State {
 /// What came out of one method.
 struct Outcome {
   double lid = 0;                            ///< height [m]
-  double solid = 0;                          ///< solid fraction
+  double solid = 0;                          ///< solid fraction away from the walls
   moreau::ForceDistribution<double> forces;  ///< of the contacts that push
   double overlap = 0;                        ///< mean over diameter
   double seconds = 0;                        ///< wall clock per simulated second
@@ -119,9 +120,17 @@ Outcome settle(const State& packing, const Law& law, double step) {
   Outcome out;
   out.seconds = wall.count() / duration;
   out.lid = press.height();
-  double area = 0;
-  for (const double r : packing.radii) area += std::numbers::pi * r * r;
-  out.solid = area / (width * out.lid);
+  moreau::Aabb<S> inside;  // two diameters from the walls, the floor and the lid
+  inside.lower = {2 * size, 2 * size};
+  inside.upper = {width - 2 * size, out.lid - 2 * size};
+  moreau::ClipWorkspace<S> workspace;
+  out.solid = moreau::solid_fraction<S>(
+      inside, press.simulation.grain_count(),
+      [&](std::size_t k) { return press.simulation.shape_of_grain(k); },
+      [&](std::size_t k) {
+        return press.simulation.bodies().pose[press.simulation.grain(k).index()];
+      },
+      workspace);
   std::vector<double> pushes;
   for (const Vector& r : press.simulation.contacts().impulses)
     if (r[0] > 0) pushes.push_back(r[0] / step);

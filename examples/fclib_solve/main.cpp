@@ -7,10 +7,10 @@
 #include <string>
 #include <variant>
 
+#include "moreau/instances/friction_problems.hpp"
 #include "moreau/io/fclib.hpp"
 #include "moreau/io/output_file.hpp"
 #include "moreau/io/siconos_text.hpp"
-#include "moreau/solve/proximal_solver.hpp"
 #include "moreau/version.hpp"
 
 namespace {

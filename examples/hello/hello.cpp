@@ -21,7 +21,7 @@ int main() {
 
   for (int step = 0; step < 2000; ++step) {
     const moreau::StepReport report = world.step(5e-4);
-    if (step % 500 == 499)
+    if (step % 50 == 49)
       std::cout << report.points << " points, " << report.solve.sweeps << " sweeps, residual "
                 << report.solve.residual << '\n';
   }

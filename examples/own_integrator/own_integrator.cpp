@@ -48,7 +48,13 @@ double mean_error(double step) {
 
 int main() {
   std::printf("# step [s], error with velocity Verlet, with symplectic Euler [m]\n");
-  for (const double step : {8e-4, 4e-4, 2e-4, 1e-4})
-    std::printf("%.1e %.3e %.3e\n", step, mean_error<moreau::VelocityVerlet>(step),
-                mean_error<SymplecticEuler>(step));
+  double first = 0, last = 0;
+  for (const double step : {8e-4, 4e-4, 2e-4, 1e-4}) {
+    last = mean_error<SymplecticEuler>(step);
+    if (first == 0) first = last;
+    std::printf("%.1e %.3e %.3e\n", step, mean_error<moreau::VelocityVerlet>(step), last);
+  }
+  const double order = std::log2(first / last) / 3;
+  std::printf("# order of symplectic Euler: %.2f\n", order);
+  return !(order > 1.5);
 }

@@ -4,6 +4,8 @@
 //   TEST_CASE("my law") { conformance::regularized_law<moreau::Space<3>>(MyLaw(...)); }
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <doctest/doctest.h>
 #include <random>
@@ -47,7 +49,14 @@ void regularized_law(const Law& law, double step, double pull = 0) {
   const Vector apart = law.force(motion, memory);
   CHECK(double(apart.norm()) <= pull);
   if (pull == 0) CHECK(memory.isZero(0));
-  Vector mirrored_memory = memory;
+  Vector mirrored_memory = memory, turned_memory = memory;
+  Eigen::Matrix<T, tangents, tangents> turn;  // of the tangents, in space by half a radian
+  turn.setIdentity();
+  if constexpr (tangents > 1) turn = Eigen::Rotation2D<T>(T(0.5)).toRotationMatrix();
+  const auto turned = [&](Vector v) {
+    v.template tail<tangents>() = (turn * v.template tail<tangents>()).eval();
+    return v;
+  };
   for (int i = 0; i < 2000; ++i) {
     motion.gap = T(-1e-5 * std::abs(normal(random)));
     for (auto& x : motion.velocity) x = T(0.1 * normal(random));
@@ -61,6 +70,10 @@ void regularized_law(const Law& law, double step, double pull = 0) {
     Vector other = law.force(mirrored, mirrored_memory);
     other.template tail<tangents>() *= T(-1);
     CHECK(double((other - force).norm()) <= 1e-5 * double(force.norm()));
+    moreau::ContactMotion<S> aside = motion;
+    aside.velocity = turned(motion.velocity);
+    const Vector aside_force = law.force(aside, turned_memory);
+    CHECK(double((aside_force - turned(force)).norm()) <= 1e-5 * double(force.norm()));
   }
   const double speed = rebound<S>(law, 1, step);
   CHECK(speed >= 0);

@@ -123,6 +123,16 @@ class Assembly {
     }
     return sum;
   }
+  /// No point of a grain is faster. [m/s]
+  double fastest() const {
+    double most = 0;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const auto v = motion(k).velocity;
+      most = std::max(most, double(v.template head<S::dim>().norm() +
+                                   v.template tail<S::angular_dim>().norm() * size_ / 2));
+    }
+    return most;
+  }
   T mass() const {
     T sum = 0;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) sum += motion(k).mass;
@@ -136,6 +146,13 @@ class Assembly {
   std::mt19937_64 random_;
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
+
+/// Springs give way. Rigid grains do not, but for what a step may close of a gap that was beyond
+/// the alert distance, or that a law with restitution does not look ahead at. [m]
+template <class A>
+double deepest_allowed(const A& grains, typename A::T step, typename A::T size) {
+  return A::springs ? 0.05 * double(size) : 2 * grains.fastest() * double(step);
+}
 
 /// A cloud in free flight collides with itself: momentum is kept and no energy comes in. (The
 /// correction of overlaps, off here, moves bodies without regard to their velocities and so does
@@ -159,18 +176,60 @@ void cloud(const std::vector<ShapeT>& shapes, const Law& law,
   const double rise =
       A::springs ? 0.02 * energy : 1e4 * rounding * energy + grains.energy_error(step);
   std::size_t points = 0;
-  double most = 0;
-  for (int k = 0; k < int(0.05 / double(step)); ++k) {
-    points += grains.simulation.step(step).points;
+  double most = 0, deepest = 0, allowed = deepest_allowed(grains, step, size);
+  int unsolved = 0;
+  const int steps = int(0.05 / double(step));
+  for (int k = 0; k < steps; ++k) {
+    const auto report = grains.simulation.step(step);
+    points += report.points;
+    unsolved += !report.solve.converged;
+    deepest = std::max(deepest, report.max_overlap);
+    allowed = std::max(allowed, deepest_allowed(grains, step, size));
     most = std::max(most, grains.kinetic_energy());
   }
   const auto after = grains.momentum();
   CHECK(points > 0);
+  CHECK(unsolved <= steps / 100);  // grains that lock for a moment
+  CHECK(deepest < allowed);
   CHECK(std::isfinite(grains.kinetic_energy()));
   CHECK(double((after.linear - before.linear).norm()) < 1e5 * rounding * mass);
   CHECK(double((after.angular - before.angular).norm()) < 1e5 * rounding * mass * double(size));
   CHECK(most - energy <= rise);
 }
+
+/// Momentum that a step adds against what the walls push: with the impulses of this step, of the
+/// step before, or a mean of both that is the integrator's and the same in every step.
+template <class Vector>
+class MomentumBalance {
+ public:
+  void step(const Vector& gain, const Vector& push) {
+    gains_.push_back(gain - last_);
+    changes_.push_back(push - last_);
+    last_ = push;
+  }
+  /// The share of this step's impulses that fits best.
+  double share() const {
+    double with = 0, squares = 0;
+    for (std::size_t k = 0; k < gains_.size(); ++k) {
+      with += double(gains_[k].dot(changes_[k]));
+      squares += double(changes_[k].squaredNorm());
+    }
+    return squares > 0 ? with / squares : 1;
+  }
+  /// The largest difference in a step. [N s]
+  double worst(double share) const {
+    double most = 0;
+    for (std::size_t k = 0; k < gains_.size(); ++k)
+      most = std::max(
+          most,
+          (gains_[k].template cast<double>() - share * changes_[k].template cast<double>()).norm());
+    return most;
+  }
+
+ private:
+  std::vector<Vector> gains_, changes_;
+  Vector last_ = Vector::Zero();
+};
 
 /// Falling into a box: what the walls push and gravity pulls is what the momentum changes by, no
 /// energy comes in, nothing sinks into anything.
@@ -187,28 +246,30 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   const double energy = grains.kinetic_energy() + grains.potential_energy();
   const double drop = double(grains.mass()) * 10 * double(size);
   const T step = A::springs ? T(1e-5) : T(2e-4);
-  double deepest = 0, most = energy, worst = 0, scale = 0;
-  Vector loads = Vector::Zero();  // of the walls on the grains, before
-  for (int k = 0; k < int(0.15 / double(step)); ++k) {
+  double deepest = 0, most = energy, scale = 0, allowed = deepest_allowed(grains, step, size);
+  int unsolved = 0;
+  MomentumBalance<Vector> balance;
+  const int steps = int(0.15 / double(step));
+  for (int k = 0; k < steps; ++k) {
     const Vector start = grains.momentum().linear;
     const auto report = simulation.step(step);
     Vector push = Vector::Zero();
     for (const auto wall : simulation.walls()) push -= simulation.contact_impulse(wall);
     const Vector pull = step * grains.mass() * simulation.gravity();
-    const Vector gain = grains.momentum().linear - start - pull;
-    // Forces act with those of the start of the step, of its end, or with a mean.
-    const Vector change = push - loads;
-    const T late = change.isZero(0) ? T(1) : (gain - loads).dot(change) / change.squaredNorm();
-    const T share = A::springs ? std::clamp(late, T(0), T(1)) : T(1);
-    worst = std::max(worst, double((gain - loads - share * change).norm()));
-    loads = push;
+    balance.step(grains.momentum().linear - start - pull, push);
+    unsolved += !report.solve.converged;
     scale = std::max(scale, double(push.norm() + pull.norm()));
     deepest = std::max(deepest, report.max_overlap);
+    allowed = std::max(allowed, deepest_allowed(grains, step, size));
     most = std::max(most, grains.kinetic_energy() + grains.potential_energy());
   }
   CHECK(std::isfinite(grains.kinetic_energy() + grains.potential_energy()));
-  CHECK(worst < 1e4 * rounding * scale + 1e4 * rounding * double(grains.mass()));
-  CHECK(deepest < (A::springs ? 0.05 : 0.01) * double(size));
+  const double share = A::springs ? std::round(2 * balance.share()) / 2 : 1;
+  CHECK(share >= 0);
+  CHECK(share <= 1);
+  CHECK(balance.worst(share) < 1e4 * rounding * scale + 1e4 * rounding * double(grains.mass()));
+  CHECK(unsolved <= steps / 100);  // grains that lock for a moment
+  CHECK(deepest < allowed);
   CHECK(most - energy <= (A::springs ? 0.02 : 1e-3) * drop);
 }
 

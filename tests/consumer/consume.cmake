@@ -65,6 +65,11 @@ if(WAY STREQUAL "plain")
   run_compiled("-I ${LIBRARY}/include -isystem ${EIGEN}")
 elseif(WAY STREQUAL "pkg_config")
   run_with_pkg_config(${WORK}/prefix/share)
+  # The suites are installed, too.
+  file(COPY_FILE ${LIBRARY}/tests/consumer/suites.cpp ${WORK}/suites.cpp)
+  run(sh -c "${COMPILER} -std=c++20 -I prefix/include -isystem ${EIGEN} -isystem prefix/share/moreau/tests \
+             suites.cpp -o suites")
+  run(./suites)
 elseif(WAY STREQUAL "debian_package")
   # Packed, looked at, unpacked beside the system, used.
   get_filename_component(bin ${CMAKE_COMMAND} DIRECTORY)

@@ -83,12 +83,15 @@ void try_shape(Bytes& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
-  switch (bytes.between(0, 2)) {
+  switch (bytes.between(0, 3)) {
     case 0:
       try_shape<Polyhedron<double>>(bytes);
       break;
     case 1:
       try_shape<Polygon<double>>(bytes);
+      break;
+    case 2:
+      try_shape<Polyhedron<float>>(bytes);
       break;
     default:
       try_shape<Polygon<float>>(bytes);

@@ -31,6 +31,8 @@ World small_world() {
   world.add_wall({0, 1, 0}, {0, 0, 0});
   world.add_cylinder({0, 0, 0}, {0, 0, 1}, 5);
   world.set_periodic(2, 0, 10);
+  world.set_gravity({0, -9.81, 0});
+  for (int k = 0; k < 3; ++k) world.step(1e-3);  // with contacts, impulses and remembered pairs
   return world;
 }
 

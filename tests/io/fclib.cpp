@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "moreau/instances/friction_problems.hpp"
 #include "moreau/io/siconos_text.hpp"
-#include "moreau/solve/proximal_solver.hpp"
 
 #include "temporary_folder.hpp"
 
@@ -139,7 +139,8 @@ TEST_CASE("bad files are refused") {
   const TemporaryFolder temporary("fclib");
   const auto path = temporary / "w.hdf5";
   CHECK_FALSE(is_hdf5(folder + "Rover1039.dat"));
-  CHECK_THROWS_AS(read_fclib(temporary / "missing"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(read_fclib(temporary / "missing"), doctest::Contains("missing: HDF5"),
+                       std::runtime_error);
   CHECK_THROWS_AS(read_fclib(folder + "Rover1039.dat"), std::runtime_error);
   write_storage(path, -2, {0, 1, 4}, {0, 0, 1}, {1, 0.5, 2.5});
   CHECK_THROWS_WITH_AS(read_fclib(path),

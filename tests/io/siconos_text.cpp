@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "moreau/solve/proximal_solver.hpp"
+#include "moreau/instances/friction_problems.hpp"
 
 #include "temporary_folder.hpp"
 

@@ -88,6 +88,10 @@ TEST_CASE("what is out of range is named") {
   CHECK_THROWS_WITH(LinearSpringDashpot<>(1, -1), Contains("tangential_stiffness = -1"));
   CHECK_THROWS_WITH(LinearSpringDashpot<>(1, 1, -1), Contains("friction = -1"));
   CHECK_THROWS_WITH(LinearSpringDashpot<>(1, 1, 1, 2), Contains("restitution = 2"));
+  CHECK_THROWS_WITH(LinearSpringDashpot<>(1, 0, 0.4), Contains("tangential_stiffness = 0"));
+  CHECK_THROWS_WITH(HertzMindlin<>(1, 0, 0.4), Contains("shear = 0"));
+  CHECK_THROWS_WITH(HertzMindlin<>::of_material(-1, 0.3, 0, 1),
+                    Contains("HertzMindlin::of_material: young = -1"));
   CHECK_THROWS_WITH(HertzMindlin<>(-1), Contains("HertzMindlin: young = -1"));
   CHECK_THROWS_WITH(HertzMindlin<>(1, -1), Contains("shear = -1"));
   CHECK_THROWS_WITH(HertzMindlin<>::of_material(1, 0.7, 0, 0), Contains("poisson = 0.7"));

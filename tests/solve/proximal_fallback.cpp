@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 #include <vector>
 
+#include "moreau/instances/friction_problems.hpp"
+
 #include "conformance/solver.hpp"
 
 using namespace solve_test;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "moreau/contact/delassus.hpp"
+#include "moreau/instances/friction_problems.hpp"
 #include "moreau/solve/gather_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 

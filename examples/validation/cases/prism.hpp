@@ -61,7 +61,7 @@ template <class T, class Law2, class Law3>
 void prisms_against_polygons(Record& record, const Law2& flat_law, const Law3& deep_law) {
   using Vector = Eigen::Matrix<T, 3, 1>;
   constexpr bool rigid = is_rigid<Polygon<T>, Law2>;
-  double apart = 0, tilted = 0;
+  double apart = 0, turned = 0, tilted = 0;
   int unsolved = 0;
   const double h = rigid ? 1e-3 : 5e-5;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -75,6 +75,12 @@ void prisms_against_polygons(Record& record, const Law2& flat_law, const Law3& d
         const auto& flat = polygons.bodies().pose[i].position;
         const auto& deep = prisms.bodies().pose[i];
         const Vector y = Vector::UnitY();
+        // The first axis of either, in the plane.
+        const Vector across = deep.rotation * Vector::UnitX();
+        const auto flat_across =
+            (polygons.bodies().pose[i].rotation * Eigen::Matrix<T, 2, 1>::UnitX()).eval();
+        turned =
+            std::max(turned, double((across - Vector(flat_across.x(), 0, flat_across.y())).norm()));
         apart = std::max(apart, double((deep.position - Vector(flat.x(), 0, flat.y())).norm()));
         tilted = std::max(tilted, double((deep.rotation * y - y).norm()));
       }
@@ -83,6 +89,7 @@ void prisms_against_polygons(Record& record, const Law2& flat_law, const Law3& d
   const std::string name = with_law<Law2>("prisms against polygons, 0.1 s") + ": ";
   const moreau::Space<3, T> space;
   record.vanishes(name + "distance over size", space, apart / 0.02, 1e-9);
+  record.vanishes(name + "difference of the angles", space, turned, 1e-9);
   record.vanishes(name + "tilt out of the plane", space, tilted, 1e-9);
   if (rigid) record.vanishes(name + "steps not solved", space, unsolved, 0);
 }

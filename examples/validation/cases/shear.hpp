@@ -139,9 +139,12 @@ inline void plane_shear(Record& record, Effort effort) {
     const ShearFlow flow = cell.run(3, quick ? 10 : 25);
     const double published = 0.25 + 1.1 * flow.number;
     curve.rows.push_back({flow.number, flow.friction, published, flow.bulk, flow.fraction});
-    char name[64];
+    char name[80];
     std::snprintf(name, sizeof name, "plane shear of disks, I = %.3f: friction", flow.number);
     record.compare(name, moreau::Space<2>{}, published, flow.friction, 0.03);
+    std::snprintf(name, sizeof name, "plane shear of disks, I = %.3f: steps not solved",
+                  flow.number);
+    record.vanishes(name, moreau::Space<2>{}, flow.unsolved, 0);
   }
 }
 

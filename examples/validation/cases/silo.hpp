@@ -17,6 +17,7 @@ struct Silo {
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
   static constexpr double h = 5e-4, size = 0.02;  ///< step [s], mean diameter [m]
+  static constexpr double mu = 0.5;               ///< of grains on each other and on the walls
 
   double width;  ///< [m]
   World<ShapeT> world;
@@ -48,7 +49,7 @@ struct Silo {
   }
 
   static Materials<Coulomb<ShapeT>> materials() {
-    Materials<Coulomb<ShapeT>> all(2, Coulomb<ShapeT>(0.5));
+    Materials<Coulomb<ShapeT>> all(2, Coulomb<ShapeT>(mu));
     all.set(moreau::MaterialId(0), moreau::MaterialId(1), Coulomb<ShapeT>(0));
     return all;
   }
@@ -64,18 +65,21 @@ struct Silo {
     return t;
   }
 
+  int unsolved = 0;  ///< steps
+
   void run(double time) {
-    for (const double end = world.time() + time; world.time() < end;) world.step(h);
+    for (const double end = world.time() + time; world.time() < end;)
+      unsolved += !world.step(h).solve.converged;
   }
   /// Walls sliding upwards hang the grains on their friction, all of it.
   void lift_walls(double speed) {
     for (const BodyId wall : sides) world.set_velocity(wall, speed * Vector::Unit(up));
   }
 
-  /// Adds to weight[j] and friction[j] what stands, and what the walls carry, above the height
-  /// j x `spacing` [N].
-  void add_forces(double spacing, std::vector<double>& weight,
-                  std::vector<double>& friction) const {
+  /// Adds to weight[j], friction[j] and push[j] what stands, what the walls carry and what they
+  /// push inwards above the height j x `spacing` [N].
+  void add_forces(double spacing, std::vector<double>& weight, std::vector<double>& friction,
+                  std::vector<double>& push) const {
     const auto& bodies = world.bodies();
     const auto add = [&](std::vector<double>& sum, double height, double force) {
       for (std::size_t j = 0; j < sum.size() && double(j) * spacing < height; ++j) sum[j] += force;
@@ -89,7 +93,9 @@ struct Silo {
       const auto& contact = contacts.points[c];
       if (world.is_grain(contact.b) || std::abs(contact.frame(up, 0)) > 0.5) continue;
       const Vector force = contact.frame * contacts.impulses[c] / -h;
-      add(friction, bodies.pose[contact.a].position[up] + contact.lever_a[up], force[up]);
+      const double height = bodies.pose[contact.a].position[up] + contact.lever_a[up];
+      add(friction, height, force[up]);
+      add(push, height, contacts.impulses[c][0] / h);
     }
   }
 };
@@ -102,12 +108,19 @@ struct Silo {
 /// above and the walls leave. It speaks of a mean: in one packing, eight grains wide, the stress
 /// wanders by a tenth about the profile, so several are taken, while the walls slide from a quarter
 /// of a diameter to one. A rough floor would shear the lowest two widths, which slices do not know.
+///
+/// And lambda is what the walls say: a slice loses mu K s P/A per height to them, P/A the perimeter
+/// over the area, if all their friction is mobilised and they push with K s. With s over the weight
+/// w above, in forces, lambda = s dw / (mu dN), dN the push of the walls per slice: here over all
+/// slices at once, sum(s dw) / (mu N). K would have to be the same at all depths; it is so to a
+/// tenth.
 template <class ShapeT>
 void janssen(Record& record, int across, int layers, int packings) {
   using S = SpaceOf<ShapeT>;
   using Silo = detail::Silo<ShapeT>;
-  std::vector<double> weight(std::size_t(1.2 * layers)), friction(weight.size());
-  int samples = 0;
+  std::vector<double> weight(std::size_t(1.2 * layers)), friction(weight.size()),
+      push(weight.size());
+  int samples = 0, unsolved = 0;
   for (int seed = 1; seed <= packings; ++seed) {
     Silo silo(across, layers, std::uint64_t(seed));
     const double speed = Silo::size;  // [m/s]
@@ -116,8 +129,9 @@ void janssen(Record& record, int across, int layers, int packings) {
     silo.run(0.25);
     for (int k = 0; k < 150; ++k, ++samples) {
       silo.run(10 * Silo::h);
-      silo.add_forces(Silo::size, weight, friction);
+      silo.add_forces(Silo::size, weight, friction, push);
     }
+    unsolved += silo.unsolved;
   }
   // In weights of grains over the whole area: depth w, stress s.
   std::vector<double> w, s;
@@ -144,10 +158,17 @@ void janssen(Record& record, int across, int layers, int packings) {
   Curve& curve = record.curve("janssen", S{}, {"weight_above", "stress", "exact"});
   for (std::size_t j = 0; j < w.size(); ++j)
     curve.rows.push_back({w[j] / lambda, s[j] / lambda, 1 - std::exp(-w[j] / lambda)});
-  record.compare(with_shape<ShapeT>("Janssen's silo") + ": R^2 of the profile", S{}, 1,
-                 1 - misfit(lambda) / spread, 0.02);
-  record.vanishes(with_shape<ShapeT>("Janssen's silo") + ": lambda over the depth", S{},
-                  lambda / w[0], 0.5);
+  const std::string name = with_shape<ShapeT>("Janssen's silo");
+  record.compare(name + ": R^2 of the profile", S{}, 1, 1 - misfit(lambda) / spread, 0.02);
+  record.vanishes(name + ": lambda over the depth", S{}, lambda / w[0], 0.5);
+  double slices = 0;  // of s dw
+  for (std::size_t j = 0; j + 1 < w.size(); ++j)
+    slices += (s[j] + s[j + 1]) / 2 * (w[j] - w[j + 1]);
+  record.compare(name + ": friction of the walls over mu times their push", S{}, 1,
+                 friction[0] / (Silo::mu * push[0]), 0.05);
+  record.compare_relative(name + ": lambda, from the push of the walls", S{},
+                          slices * samples / (Silo::mu * push[0]), lambda, 0.1);
+  record.vanishes(name + ": steps not solved", S{}, unsolved, 0);
 }
 
 inline void janssen_silo(Record& record, Effort effort) {

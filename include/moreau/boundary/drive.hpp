@@ -52,7 +52,7 @@ class HarmonicForce {
   double mean_, amplitude_, rate_ = 0, start_;
 };
 
-/// A vector that is none of Eigen's expressions.
+/// A vector of Eigen's, such as Space<3>::Vector, that is none of its expressions.
 template <class V>
 concept PlainVector = std::same_as<V, typename V::PlainObject>;
 
@@ -96,13 +96,14 @@ class Drive {
 template <PlainVector VectorT, FunctionOfTime<typename VectorT::Scalar> F>
 class ForceDrive : public detail::Drive<VectorT, F> {
  public:
-  /// @param direction unit, world axes
-  /// @param f         called with the simulation's time [s]
-  /// @throws std::invalid_argument for a direction that is not unit
+  /// @param body      a grain, or a wall with a mass; looked at by apply()
+  /// @param direction D, unit, world axes; the body is pushed along it where f > 0
+  /// @param f         called with the time in the middle of the step [s], returns [N]
+  /// @throws std::invalid_argument for a direction that is not unit within 1e-5
   ForceDrive(BodyId body, const VectorT& direction, F f)
       : detail::Drive<VectorT, F>("ForceDrive", body, direction, std::move(f)) {}
 
-  /// Sets the force for the next step of this length.
+  /// Sets the force for the next step, of this length [s].
   /// @throws std::invalid_argument for a body that is not the simulation's, one that the force
   ///         cannot move (a wall without set_wall_mass, or across its normal), a force not finite
   void apply(auto& simulation, typename VectorT::Scalar step) const {
@@ -113,21 +114,24 @@ class ForceDrive : public detail::Drive<VectorT, F> {
   }
 };
 
+/// A direction may be an expression, e.g. -Vector::UnitX().
 template <class Expression, class F>
 ForceDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> ForceDrive<typename Expression::PlainObject, F>;
 
-/// A velocity f(t) [m/s] along a fixed direction of a body that has no mass, such as a wall.
+/// A velocity f(t) [m/s] along a fixed direction of a body that has no mass, such as a wall. It
+/// takes the place of what set_velocity() gave the body.
 template <PlainVector VectorT, FunctionOfTime<typename VectorT::Scalar> F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
  public:
-  /// @param direction unit, world axes
-  /// @param f         called with the simulation's time [s]
-  /// @throws std::invalid_argument for a direction that is not unit
+  /// @param body      without mass along the direction; looked at by apply()
+  /// @param direction D, unit, world axes; the body moves along it where f > 0
+  /// @param f         called with the time in the middle of the step [s], returns [m/s]
+  /// @throws std::invalid_argument for a direction that is not unit within 1e-5
   VelocityDrive(BodyId body, const VectorT& direction, F f)
       : detail::Drive<VectorT, F>("VelocityDrive", body, direction, std::move(f)) {}
 
-  /// Sets the velocity for the next step of this length.
+  /// Sets the velocity for the next step, of this length [s].
   /// @throws std::invalid_argument for a body that is not the simulation's, one that has a mass
   ///         along the direction, a velocity not finite
   void apply(auto& simulation, typename VectorT::Scalar step) const {
@@ -138,6 +142,7 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   }
 };
 
+/// A direction may be an expression, e.g. -Vector::UnitX().
 template <class Expression, class F>
 VelocityDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> VelocityDrive<typename Expression::PlainObject, F>;

@@ -32,11 +32,13 @@ concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
 };
 
-/// Pressure of the contacts on a wall (a half-space) over the last step [Pa], in the plane [N/m];
-/// > 0 if the grains push.
+/// Pressure of the contacts on a wall over the last step [Pa], in the plane [N/m]; > 0 if the
+/// grains push.
+/// @param wall a half-space; whether it is one is not checked
 /// @param step its length [s], > 0
-/// @param area [m^2], > 0
-/// @throws std::invalid_argument unless step and area are positive, or for a body that is none
+/// @param area [m^2], in the plane the length [m], > 0
+/// @throws std::invalid_argument for a step that is not positive, an area that is not finite or not
+///         positive, or a body that is not of the simulation
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
@@ -67,8 +69,9 @@ class PressureLoad {
   /// @param wall     a half-space of the simulation
   /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, on the grains
   /// @param mass     of the wall [kg], > 0; that of the grains is a good choice
-  /// @param area     called before every step
-  /// @throws std::invalid_argument for a body that is no wall or numbers out of range
+  /// @param area     called before every step, > 0 [m^2], in the plane [m]
+  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces, a
+  ///         pressure that is not finite, or a mass that is not finite or not positive
   template <class Simulation>
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
       : wall_(wall), pressure_(pressure), area_(std::move(area)) {
@@ -80,7 +83,8 @@ class PressureLoad {
     simulation.set_velocity(wall, Simulation::Vector::Zero());
   }
 
-  /// Sets the force for the next step. The step is not needed; drives have it.
+  /// Sets the force pressure x area for the next step. The step is not needed; drives have it.
+  /// @throws std::invalid_argument for an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar = 0) const {
     using Scalar = typename Simulation::Scalar;
@@ -95,17 +99,18 @@ class PressureLoad {
   Area area_;
 };
 
-/// A pressure kept by the velocity of a wall without mass.
+/// A pressure kept by the velocity of a wall without mass, for grains that yield.
 template <AreaFunction Area>
 class PressureServo {
  public:
-  /// @param wall     a half-space without mass
-  /// @param pressure to keep [Pa], in the plane [N/m]
-  /// @param gain     velocity per missing pressure [m/(s Pa)], > 0
+  /// @param wall     a half-space without mass; not checked, as there is no simulation yet
+  /// @param pressure to keep [Pa], in the plane [N/m]; > 0 pushes on the grains
+  /// @param gain     velocity per missing pressure [m/(s Pa)], in the plane [m^2/(s N)], > 0
   /// @param limit    the largest speed [m/s], > 0; margin x grain size / step at most, or the wall
   ///                 runs into grains before they are seen
-  /// @param area     called before every step
-  /// @throws std::invalid_argument for numbers out of range
+  /// @param area     called before every step, > 0 [m^2], in the plane [m]
+  /// @throws std::invalid_argument for a pressure that is not finite, or a gain or limit that is
+  ///         not finite or not positive
   PressureServo(BodyId wall, double pressure, double gain, double limit, Area area)
       : wall_(wall), pressure_(pressure), gain_(gain), limit_(limit), area_(std::move(area)) {
     constexpr const char* self = "PressureServo";
@@ -116,6 +121,8 @@ class PressureServo {
 
   /// Sets the velocity for the next step by the pressure of the last one.
   /// @param step length of the last step [s], > 0
+  /// @throws std::invalid_argument for a body that is not of the simulation, a step that is not
+  ///         positive, or an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;

@@ -19,11 +19,11 @@ namespace moreau {
 /// of the image which touches.
 template <class S>
 struct Contact {
-  std::uint32_t a;             ///< the one body
+  std::uint32_t a;             ///< the one body, BodyId::index()
   std::uint32_t b;             ///< the other
-  std::uint32_t law;           ///< index into the table of laws
-  typename S::Scalar gap;      ///< [m], < 0 is penetration
-  typename S::Matrix frame;    ///< columns n, t[, s]; world axes
+  std::uint32_t law;           ///< index into the table of laws, Materials::laws()
+  typename S::Scalar gap;      ///< along the normal [m], < 0 is penetration
+  typename S::Matrix frame;    ///< columns n (unit, from a to b), t[, s]; right-handed, world axes
   typename S::Vector lever_a;  ///< from the centre of a to the contact point, world axes [m]
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
 };
@@ -39,11 +39,13 @@ struct ContactKey {
 /// The contacts of one step, arrays in one order, sorted by (a, b, feature).
 template <class S>
 struct Contacts {
-  std::vector<Contact<S>> points;            ///< with their geometry
-  std::vector<ContactKey> keys;              ///< one per point
-  std::vector<ContactClass> classes;         ///< of the pair, one per point
-  std::vector<typename S::Vector> impulses;  ///< in the contact frame, normal first [N s]
-  /// Of rolling and twisting resistance, on b, in the contact frame [N m s]; empty without.
+  std::vector<Contact<S>> points;     ///< with their geometry
+  std::vector<ContactKey> keys;       ///< one per point
+  std::vector<ContactClass> classes;  ///< of the pair, one per point
+  /// What b receives, in the contact frame, normal first, > 0 pushes [N s]; one per point.
+  std::vector<typename S::Vector> impulses;
+  /// Of rolling and twisting resistance, on b, in the contact frame [N m s]; one per point, or
+  /// empty without.
   std::vector<typename S::Angular> couples;
 
   std::size_t size() const { return points.size(); }  ///< number of points

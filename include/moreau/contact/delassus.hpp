@@ -22,11 +22,11 @@
 
 namespace moreau {
 
-/// M^-1/2 of one body in world axes.
+/// M^-1/2 of one body in world axes: symmetric, zero where its motion is prescribed.
 template <class S>
 struct MobilityRoot {
-  typename S::Matrix linear;    ///< [kg^-1/2]
-  typename S::Inertia angular;  ///< [kg^-1/2 m^-1]
+  typename S::Matrix linear;    ///< D x D [kg^-1/2]
+  typename S::Inertia angular;  ///< A x A [kg^-1/2 m^-1]
 };
 
 /// The operator for bodies that touch at points; model of what NonlinearGaussSeidel sweeps over.
@@ -41,10 +41,11 @@ class BodyDelassus {
   using Wide = Eigen::Matrix<Scalar, width, 1>;
   using WideRows = Eigen::Matrix<Scalar, width, S::dim>;
 
-  /// Builds the rows and blocks, and the free relative velocities.
+  /// Builds the rows and blocks, and the free relative velocities; no impulse acts yet.
   /// @param contacts in: the points, frames, levers; out: the tangents turned, see LocalBlock
   /// @param roots    M^-1/2 of every body
   /// @param free     velocity every body would have without contacts, (v, w) in world axes
+  ///                 [m/s, rad/s]; as many as roots
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
                 std::span<const typename S::Twist> free) {
     constexpr int tangents = S::dim - 1;
@@ -69,45 +70,47 @@ class BodyDelassus {
   std::size_t size() const { return rows_.size(); }          ///< contacts
   std::size_t body_count() const { return scaled_.size(); }  ///< bodies, walls included
 
-  /// W_cc in the contact's frame.
+  /// W_cc in the contact's frame [1/kg].
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return {rows_[c].a, rows_[c].b}; }
-  /// Scaled rows J M^-1/2 of a contact at its two bodies.
+  /// Scaled rows of a contact at its body a, (J M^-1/2)^T, width x D: a column for each axis of the
+  /// frame [kg^-1/2]. What an impulse does to a is minus these times it.
   const WideRows& rows_a(std::size_t c) const { return rows_[c].ja; }
-  /// The same of body b.
+  /// The same of body b, to which the impulse does these times it.
   const WideRows& rows_b(std::size_t c) const { return rows_[c].jb; }
-  /// Relative velocity without any impulse, with the law's offset [m/s].
+  /// Relative velocity without any impulse, with the law's offset, in the contact's frame [m/s].
   const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
-  /// Adds to the free normal velocity of a contact [m/s].
+  /// Adds to the free normal velocity of a contact, > 0 separates [m/s].
   void offset_normal(std::size_t c, Scalar offset) { rows_[c].free[0] += offset; }
 
-  /// Relative velocity u of a contact under all impulses applied so far [m/s].
+  /// Relative velocity u of a contact under all impulses applied so far, in its frame; u_n > 0
+  /// separates [m/s].
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
     return row.free + row.jb.transpose() * scaled_[row.b] - row.ja.transpose() * scaled_[row.a];
   }
-  /// The normal component of velocity(c) alone.
+  /// The normal component of velocity(c) alone [m/s].
   Scalar normal_velocity(std::size_t c) const {
     const Row& row = rows_[c];
     return row.free[0] + row.jb.col(0).dot(scaled_[row.b]) - row.ja.col(0).dot(scaled_[row.a]);
   }
-  /// Applies an impulse, in the contact's frame, to its two bodies [N s].
+  /// Applies an impulse, in the contact's frame, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     scaled_[row.b].noalias() += row.jb * impulse;
     scaled_[row.a].noalias() -= row.ja * impulse;
   }
-  /// Adds to the scaled angular velocity of a body: what a couple does.
+  /// Adds to the scaled angular velocity of a body: what a couple does [kg^1/2 m/s].
   void add_scaled_spin(std::size_t body, const typename S::Angular& change) {
     scaled_[body].template segment<S::angular_dim>(S::dim) += change;
   }
   /// Undoes all impulses: every body back at its free velocity.
   void clear() { scaled_.assign(scaled_.size(), Wide::Zero()); }
-  /// M^1/2 (V - V_free) of a body.
+  /// M^1/2 (V - V_free) of a body, D + A numbers, world axes [kg^1/2 m/s].
   auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
 
-  /// u of a contact between bodies of velocities (v, w) [m/s].
+  /// u of a contact between bodies of velocities (v, w) [m/s, rad/s], in the contact's frame [m/s].
   static Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
                                   const typename S::Twist& b) {
     return contact.frame.transpose() *

@@ -5,9 +5,10 @@
 
 namespace moreau {
 
-/// 1 / (1/R_a + 1/R_b) of a contact [m], with the distances of the point from the centres of mass:
-/// exact for spheres and disks, a stand-in elsewhere. 0 between two flat bodies.
+/// R = 1 / (1/R_a + 1/R_b) of a contact [m], with the distances of the point from the centres of
+/// mass: exact for spheres and disks, a stand-in elsewhere. 0 between two flat bodies.
 /// @param a_is_round false for a wall, which has no curvature
+/// @param b_is_round the same of b
 template <class S>
 typename S::Scalar effective_radius(const Contact<S>& contact, bool a_is_round, bool b_is_round) {
   using T = typename S::Scalar;

@@ -20,13 +20,13 @@ struct LaneBlock {
   using Vector = std::array<Values, dim>;
   using Tangent = std::array<Values, tangents>;
 
-  Values normal;          ///< as in LocalBlock
-  Values inverse_normal;  ///< 1 / normal
-  Tangent coupling;       ///< as in LocalBlock
-  Tangent slip;           ///< as in LocalBlock
-  Tangent inverse_slip;   ///< 1 / slip
+  Values normal;          ///< as in LocalBlock [1/kg]
+  Values inverse_normal;  ///< 1 / normal [kg]
+  Tangent coupling;       ///< as in LocalBlock [-]
+  Tangent slip;           ///< as in LocalBlock [1/kg]
+  Tangent inverse_slip;   ///< 1 / slip [kg]
 
-  /// An unloaded contact's: W = 1.
+  /// An unloaded contact's in every lane: W = 1.
   static LaneBlock unit() {
     LaneBlock block{};
     block.normal = block.inverse_normal = W::broadcast(1);
@@ -34,7 +34,7 @@ struct LaneBlock {
       block.slip[t] = block.inverse_slip[t] = W::broadcast(1);
     return block;
   }
-  /// Puts a block into a lane.
+  /// Puts a block into a lane, lane < W::lanes.
   void set(std::size_t lane, const LocalBlock<S>& block) {
     normal[lane] = block.normal;
     inverse_normal[lane] = 1 / block.normal;
@@ -44,7 +44,7 @@ struct LaneBlock {
       inverse_slip[t][lane] = 1 / block.slip[Eigen::Index(t)];
     }
   }
-  /// The block in a lane.
+  /// The block in a lane, lane < W::lanes.
   LocalBlock<S> operator[](std::size_t lane) const {
     LocalBlock<S> block;
     block.normal = normal[lane];
@@ -54,7 +54,7 @@ struct LaneBlock {
     }
     return block;
   }
-  /// W r.
+  /// W r [m/s] in every lane, of impulses r [N s], normal first.
   Vector operator*(const Vector& r) const {
     Values sum = r[0];
     for (std::size_t t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];

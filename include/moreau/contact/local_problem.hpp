@@ -26,11 +26,11 @@ struct LocalBlock {
   static constexpr int tangents = S::dim - 1;  ///< D - 1
   using Tangent = Eigen::Matrix<Scalar, tangents, 1>;
 
-  Scalar normal;     ///< w_nn
+  Scalar normal;     ///< w_nn [1/kg]
   Tangent coupling;  ///< q = w_tn / w_nn [-]
-  Tangent slip;      ///< eigenvalues of the Schur complement
+  Tangent slip;      ///< eigenvalues of the Schur complement [1/kg]
 
-  /// W r.
+  /// W r [m/s] of an impulse r [N s], both in the frame, normal first.
   Vector operator*(const Vector& r) const {
     Scalar sum = r[0];
     for (int t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];
@@ -41,7 +41,7 @@ struct LocalBlock {
   }
   /// Of W [1/kg].
   Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
-  /// W [1/kg], normal first.
+  /// W, D x D, normal first [1/kg].
   typename S::Matrix matrix() const {
     typename S::Matrix w;
     for (int k = 0; k < S::dim; ++k) w.col(k) = *this * Vector(Vector::Unit(k));
@@ -74,8 +74,9 @@ Eigen::Matrix<T, 2, 2> eigenvectors(const Eigen::Matrix<T, 2, 2>& a) {
 }  // namespace detail
 
 /// Turns the tangents (columns 1.. of a frame) so that W becomes a LocalBlock.
-/// @param w     W in the frame as it comes, symmetric positive definite
-/// @param turn  out: D - 1 x D - 1; new tangents = old tangents * turn
+/// @param w     W in the frame as it comes, D x D, normal first, symmetric positive definite [1/kg]
+/// @param turn  out: D - 1 x D - 1, a rotation; new tangents = old tangents * turn
+/// @returns W in the turned frame
 template <class S>
 LocalBlock<S> align_tangents(const typename S::Matrix& w,
                              Eigen::Matrix<typename S::Scalar, S::dim - 1, S::dim - 1>& turn) {

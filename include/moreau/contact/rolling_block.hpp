@@ -10,8 +10,8 @@
 
 namespace moreau {
 
-/// W of one contact with couples, in its own frame: u = W r with u = (velocity, R spin) and
-/// r = (impulse, couple / R).
+/// W of one contact with couples, in its own frame [1/kg]: u = W r with u = (velocity, R spin)
+/// [m/s] and r = (impulse, couple / R) [N s].
 template <class S>
 struct RollingBlock {
   using Scalar = typename S::Scalar;
@@ -19,11 +19,11 @@ struct RollingBlock {
   using Vector = Eigen::Matrix<Scalar, rows, 1>;
   using Coupling = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
 
-  LocalBlock<S> point;       ///< P
-  Coupling coupling;         ///< C
-  typename S::Inertia spin;  ///< Q, positive definite
+  LocalBlock<S> point;       ///< P [1/kg]
+  Coupling coupling;         ///< C, D x A [1/kg]
+  typename S::Inertia spin;  ///< Q, A x A, positive definite [1/kg]
 
-  /// W r.
+  /// W r [m/s], D + A numbers, of r [N s].
   Vector operator*(const Vector& r) const {
     const typename S::Vector push = r.template head<S::dim>();
     const typename S::Angular couple = r.template tail<S::angular_dim>();

@@ -17,7 +17,8 @@
 
 namespace moreau {
 
-/// Model of what NonlinearGaussSeidel sweeps over.
+/// The operator for bodies that touch at points and resist rolling; model of what
+/// NonlinearGaussSeidel sweeps over.
 template <class S>
 class RollingDelassus {
  public:
@@ -55,16 +56,18 @@ class RollingDelassus {
   /// What a couple / R is to be multiplied by [m].
   Scalar radius(std::size_t c) const { return rows_[c].radius; }
 
-  const RollingBlock<S>& block(std::size_t c) const { return rows_[c].block; }  ///< W of contact c
-  /// A and b.
+  /// W of contact c in its frame [1/kg].
+  const RollingBlock<S>& block(std::size_t c) const { return rows_[c].block; }
+  /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return points_.bodies(c); }
-  /// Relative velocity of contact c without impulses, in its frame [m/s].
+  /// (Velocity, R spin) of b against a at contact c without impulses, with the law's offset, in the
+  /// frame [m/s].
   Vector free_velocity(std::size_t c) const {
     return joined(points_.free_velocity(c), rows_[c].free);
   }
   /// As BodyDelassus::offset_normal.
   void offset_normal(std::size_t c, Scalar offset) { points_.offset_normal(c, offset); }
-  /// Relative velocity of contact c under the impulses applied, in its frame [m/s].
+  /// (Velocity, R spin) of b against a at contact c under the impulses applied, in the frame [m/s].
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);
@@ -73,7 +76,7 @@ class RollingDelassus {
   }
   /// The first component of velocity(c) [m/s].
   Scalar normal_velocity(std::size_t c) const { return points_.normal_velocity(c); }
-  /// Adds an impulse on b (and its opposite on a), in the frame [N s].
+  /// Adds (impulse, couple / R) on b and its opposite on a, in the frame [N s].
   void apply(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);

@@ -34,8 +34,9 @@ std::size_t for_same_contacts(const Contacts<S>& before, const Contacts<S>& now,
 
 /// Carries vectors of the contact frames, in world axes, from the contacts of the same keys and
 /// projects them on the new frames; contacts without a predecessor get zero.
-/// @param old in: one per contact of `before`
-/// @param out one per contact of `now`
+/// @param before,now each sorted by its keys
+/// @param old        in: one per contact of `before`
+/// @param out        one per contact of `now`
 /// @returns how many contacts found their predecessor
 template <class S>
 std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
@@ -47,14 +48,15 @@ std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
   });
 }
 
-/// The impulses of the step before as the first guess of this one.
+/// The impulses of the step before [N s] as the first guess of this one.
+/// @param before,now each sorted by its keys
 /// @returns how many contacts found their predecessor
 template <class S>
 std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
   return carry(before, now, before.impulses, now.impulses);
 }
 
-/// The same for couples, vectors of the angular frame.
+/// The same for couples [N m s], vectors of the angular frame; A numbers each.
 template <class S>
 void carry_couples(const Contacts<S>& before, const Contacts<S>& now,
                    const std::vector<typename S::Angular>& old,

@@ -8,7 +8,7 @@
 
 namespace moreau {
 
-/// The set lower <= x <= upper [m]; empty (and neutral under merge) as constructed.
+/// The set lower <= x <= upper [m], world axes; empty (and neutral under merge) as constructed.
 template <class S>
 struct Aabb {
   using Scalar = typename S::Scalar;
@@ -34,7 +34,7 @@ struct Aabb {
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);
   }
-  /// Grown by the margin [m] on every side.
+  /// Grown by the margin [m] on every side; shrunk by a negative one.
   Aabb inflated(Scalar margin) const {
     Aabb box = *this;
     box.lower.array() -= margin;

@@ -13,6 +13,8 @@
 #include <string>
 #include <string_view>
 
+/// Checks of the kernels, in builds without NDEBUG; a definition of one's own ahead of all headers
+/// takes its place.
 #ifndef MOREAU_ASSERT
 #define MOREAU_ASSERT(condition) assert(condition)
 #endif
@@ -35,7 +37,9 @@ void print(std::ostream& out, const Eigen::MatrixBase<Derived>& value) {
 
 }  // namespace detail
 
-/// Throws std::invalid_argument "function: argument = value must ...".
+/// Refuses an argument of a public function. Matrices are printed as one row of their numbers.
+/// @param expectation what it must be, e.g. "must be finite"
+/// @throws std::invalid_argument "function: argument = value must ...", always
 template <class Value>
 [[noreturn]] void throw_invalid(std::string_view function, std::string_view argument,
                                 const Value& value, std::string_view expectation) {

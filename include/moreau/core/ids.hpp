@@ -15,7 +15,7 @@ template <class Tag>
 struct Id {
   std::uint32_t value = 0;  ///< counted from 0
 
-  constexpr Id() = default;
+  constexpr Id() = default;  ///< the first one's
   /// The id of what stands at this position.
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
 
@@ -26,8 +26,8 @@ struct Id {
   friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
 };
 
-using BodyId = Id<struct BodyTag>;
-using ShapeId = Id<struct ShapeTag>;
-using MaterialId = Id<struct MaterialTag>;
+using BodyId = Id<struct BodyTag>;          ///< of grains and walls, in the order they were added
+using ShapeId = Id<struct ShapeTag>;        ///< of shapes that grains share
+using MaterialId = Id<struct MaterialTag>;  ///< of materials, as Materials counts them
 
 }  // namespace moreau

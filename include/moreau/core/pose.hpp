@@ -14,9 +14,9 @@ struct Pose {
   Vector position = Vector::Zero();               ///< of the centre of mass, world axes [m]
   typename S::Rotation rotation = S::identity();  ///< from body to world axes
 
-  /// World coordinates of a point given in body coordinates.
+  /// World coordinates [m] of a point given in body coordinates [m].
   Vector operator()(const Vector& x_body) const { return position + rotation * x_body; }
-  /// Body coordinates of a point given in world coordinates.
+  /// Body coordinates [m] of a point given in world coordinates [m].
   Vector to_body(const Vector& x) const { return rotation.inverse() * (x - position); }
   /// Whether no number in it is infinite or none.
   bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }

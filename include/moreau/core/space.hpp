@@ -49,11 +49,12 @@ struct Space<2, T> {
   static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }
   /// Whether q is a rotation at all: in space, a quaternion of unit length.
   static bool is_rotation(const Rotation& q) { return is_finite(q); }
-  /// Angular quantities from body to world axes: the identity in the plane.
+  /// A x A, takes angular quantities from body to world axes: the identity in the plane.
   static Inertia adjoint(const Rotation&) { return Inertia::Ones(); }
-  /// A contact frame for angular quantities, which the plane has one axis for.
+  /// A x A, a contact frame for angular quantities, which the plane has one axis for.
   static Inertia angular_frame(const Matrix&) { return Inertia::Ones(); }
-  /// D x A with lever(r) w = the velocity at r of a rotation w about the origin.
+  /// D x A [m] with lever(r) w = the velocity [m/s] at r [m] of a rotation w [rad/s] about the
+  /// origin.
   static Lever lever(const Vector& r) { return Lever(-r.y(), r.x()); }
   /// lever(r) w without forming the matrix [m/s].
   static Vector spin(const Angular& w, const Vector& r) { return {-w[0] * r.y(), w[0] * r.x()}; }
@@ -61,11 +62,11 @@ struct Space<2, T> {
   static Angular moment(const Vector& r, const Vector& f) {
     return Angular(r.x() * f.y() - r.y() * f.x());
   }
-  /// w x I w [N m]: none in the plane.
+  /// w x I w [N m] of an inertia I [kg m^2], w [rad/s]: none in the plane.
   static Angular gyroscopic(const Inertia&, const Angular&) { return Angular::Zero(); }
-  /// Derivative, along a rotation dw, of I(q) w at fixed w: none in the plane.
+  /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]: none in the plane.
   static Inertia gyroscopic_jacobian(const Inertia&, const Angular&) { return Inertia::Zero(); }
-  /// Orthonormal, right-handed; columns: normal n, tangent t. n must be unit.
+  /// D x D, orthonormal, right-handed; columns: normal n, tangent t. n must be unit.
   static Matrix contact_frame(const Vector& n) {
     Matrix frame;
     frame << n.x(), -n.y(), n.y(), n.x();
@@ -108,11 +109,11 @@ struct Space<3, T> {
   static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
   /// Whether q is a rotation at all: of unit length.
   static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
-  /// Angular quantities from body to world axes.
+  /// A x A, takes angular quantities from body to world axes.
   static Inertia adjoint(const Rotation& q) { return q.toRotationMatrix(); }
-  /// A contact frame for angular quantities: n, t, s.
+  /// A x A, a contact frame for angular quantities: n, t, s.
   static Inertia angular_frame(const Matrix& frame) { return frame; }
-  /// D x A with lever(r) w = w x r.
+  /// D x A [m] with lever(r) w = w x r.
   static Lever lever(const Vector& r) {
     Lever l;
     l << T(0), r.z(), -r.y(), -r.z(), T(0), r.x(), r.y(), -r.x(), T(0);
@@ -122,13 +123,14 @@ struct Space<3, T> {
   static Vector spin(const Angular& w, const Vector& r) { return w.cross(r); }
   /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
   static Angular moment(const Vector& r, const Vector& f) { return r.cross(f); }
-  /// w x I w [N m].
+  /// w x I w [N m] of an inertia I [kg m^2], w [rad/s], both in the same axes.
   static Angular gyroscopic(const Inertia& I, const Angular& w) { return w.cross(I * w); }
-  /// d(I(q) w) = (I lever'(w) - [I w]x) dw, where [a]x b = a x b = -lever(a) b.
+  /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]:
+  /// d(I(q) w) = (lever(I w) - I lever(w)) dw, where lever(a) b = b x a.
   static Inertia gyroscopic_jacobian(const Inertia& I, const Angular& w) {
     return lever(I * w) - I * lever(w);
   }
-  /// Orthonormal, right-handed; columns: normal n, tangents t and s. n must be unit.
+  /// D x D, orthonormal, right-handed; columns: normal n, tangents t and s. n must be unit.
   /// Source: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).
   static Matrix contact_frame(const Vector& n) {
     const T sign = std::copysign(T(1), n.z());

@@ -10,7 +10,7 @@ namespace moreau {
 template <class S>
 class AllPairs {
  public:
-  /// Fills `pairs` with those whose boxes overlap, sorted.
+  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     const auto count = static_cast<std::uint32_t>(boxes.size());

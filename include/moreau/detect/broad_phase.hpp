@@ -20,8 +20,8 @@ struct IndexPair {
 };
 
 /// find_pairs replaces the contents of `pairs` by all pairs of overlapping boxes (boxes that touch
-/// overlap), sorted, each once. Boxes must be finite. Memory is kept: no allocation once it has
-/// grown.
+/// overlap), sorted, each once. Boxes are in world axes [m] and must be finite, which is not
+/// checked. Memory is kept: no allocation once it has grown.
 template <class B, class S>
 concept BroadPhase = requires(B broad_phase, std::span<const Aabb<S>> boxes,
                               std::vector<IndexPair>& pairs) {

@@ -23,7 +23,7 @@ class CellGrid {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Fills `pairs` with those whose boxes overlap, sorted.
+  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     if (boxes.empty()) return;

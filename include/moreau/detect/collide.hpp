@@ -38,10 +38,14 @@ inline constexpr int collide_rank<Segment<S>> = 1;
 template <class S>
 inline constexpr int collide_rank<HalfSpace<S>> = 3;
 
+/// A pair of elementary shapes whose functions exist for the other order.
 template <class A, class B>
 concept ReversedPair = Elementary<A> && Elementary<B> &&(collide_rank<A> > collide_rank<B>);
 
-/// The other order.
+/// That of (b, a), seen from the other side.
+/// @param margin pairs up to this gap are in contact [m], >= 0
+/// @param out    filled if the pair is in contact, left alone otherwise
+/// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires ReversedPair<A, B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
@@ -53,7 +57,7 @@ bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar
   return touch;
 }
 
-/// The other order.
+/// That of (b, a), seen from the other side.
 template <class A, class B>
 requires ReversedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                 const Placed<B>& b) {
@@ -63,7 +67,10 @@ requires ReversedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>&
   return found;
 }
 
-/// Without a memory of the pair.
+/// Contact points, without a memory of the pair.
+/// @param margin pairs up to this gap are in contact [m], >= 0
+/// @param out    filled if the pair is in contact, left alone otherwise
+/// @returns whether the signed gap is at most the margin
 template <class A, class B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
              Manifold<SpaceOf<A>>& out) {
@@ -71,18 +78,19 @@ bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar
   return collide(a, b, margin, out, none);
 }
 
-/// Whether the shapes have a point in common.
+/// Whether the shapes have a point in common: distance(a, b).gap <= 0.
 template <class A, class B>
 bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return distance(a, b).gap <= 0;
 }
 
-/// Of pairs that have nothing to remember.
+/// Signed distance of pairs that have nothing to remember.
 template <class A, class B>
 SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
                                     PairCache<SpaceOf<A>>&) {
   return distance(a, b);
 }
+/// Whether pairs that have nothing to remember have a point in common.
 template <class A, class B>
 bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>&) {
   return overlap(a, b);

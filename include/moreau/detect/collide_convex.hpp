@@ -178,13 +178,15 @@ class ConvexPair {
 
 }  // namespace detail
 
-/// Exact to rounding for flat faces; for curved ones to what the digits of the support allow.
+/// Signed distance of shapes known by their support: exact to rounding for flat faces; for curved
+/// ones to what the digits of the support allow. The header has the algorithm.
 template <class A, class B>
 requires GeneralPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b) {
   return detail::ConvexPair<A, B>(a, b).distance();
 }
 
+/// One contact point, midway between the nearest or deepest points.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin

@@ -29,20 +29,23 @@ class Placed<CylinderWall<S>> {
   using Vector = typename S::Vector;
   using Angular = typename S::Angular;
 
+  /// At the origin, not turned.
   explicit Placed(const CylinderWall<S>& shape) { update(shape, Pose<S>{}); }
+  /// At the pose.
   Placed(const CylinderWall<S>& shape, const Pose<S>& pose) { update(shape, pose); }
 
+  /// To the pose, world axes [m].
   void update(const CylinderWall<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     axis_ = S::adjoint(pose.rotation) * shape.axis();
     radius_ = shape.radius();
   }
-  const Vector& center() const { return center_; }  ///< a point of the axis
+  const Vector& center() const { return center_; }  ///< a point of the axis, world axes [m]
   const Angular& axis() const { return axis_; }     ///< unit, world axes
   Scalar radius() const { return radius_; }         ///< [m]
-  /// The part of a vector that is perpendicular to the axis: -axis x (axis x r).
+  /// The part of a vector, world axes, that is perpendicular to the axis: -axis x (axis x r).
   Vector radial(const Vector& r) const { return -S::spin(axis_, S::spin(axis_, r)); }
-  /// Whether a box may come within the margin [m] of the wall.
+  /// Whether a box, world axes [m], may come within the margin [m] of the wall.
   bool reaches(const Aabb<S>& box, Scalar margin) const {
     const Vector middle = (box.lower + box.upper) / 2 - center_;
     return radial(middle).norm() + (box.upper - box.lower).norm() / 2 >= radius_ - margin;
@@ -141,7 +144,8 @@ void for_each_outermost(const Placed<OneOf<Shapes...>>& a,
 
 }  // namespace detail
 
-/// Points with normals of their own: each in a manifold of one point.
+/// Contact points with normals of their own: each in a manifold of one point. The header says
+/// which.
 /// @param margin points up to this gap are in contact [m], >= 0
 /// @param out    filled anew for each point
 /// @param use    called without arguments whenever it is, in the order of the keys

@@ -32,7 +32,7 @@ ContactClass class_at_plane(Space<3, T>, std::size_t vertices) {
 
 }  // namespace detail
 
-/// Of any convex shape: its farthest point into the wall.
+/// Signed distance of any convex shape from a wall: that of its farthest point into the wall.
 template <class ShapeT>
 requires Elementary<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
     const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b) {
@@ -66,7 +66,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   return true;
 }
 
-/// Every vertex within the margin is a point.
+/// Every vertex within the margin is a point; arguments as above.
 template <class ShapeT>
 requires Elementary<ShapeT> && Polytope<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,
@@ -94,7 +94,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   return true;
 }
 
-/// The ends within the margin are points.
+/// The ends within the margin are points; arguments as above.
 template <class S>
 bool collide(const Placed<Segment<S>>& a, const Placed<HalfSpace<S>>& b, typename S::Scalar margin,
              Manifold<S>& out, PairCache<S>&) {
@@ -161,7 +161,7 @@ class FlatSpot {
 }  // namespace detail
 
 /// A shape known by its support: the deepest point (vertex 0) and, where the surface is flat, the
-/// corners of the flat spot (vertices 1 to 6), so that what is flat can stand.
+/// corners of the flat spot (vertices 1 to 6), so that what is flat can stand. Arguments as above.
 template <class ShapeT>
 requires Elementary<ShapeT> && SupportOnly<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,

@@ -26,22 +26,26 @@ decltype(auto) visit_pair(const Placed<A>& a, const Placed<B>& b, Use&& use) {
 
 }  // namespace detail
 
+/// Signed distance of what the two are.
 template <class A, class B>
 requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                              const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return distance(x, y); });
 }
+/// The same with what is remembered of the pair.
 template <class A, class B>
 requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
                                                              PairCache<SpaceOf<A>>& cache) {
   return detail::visit_pair(a, b,
                             [&](const auto& x, const auto& y) { return distance(x, y, cache); });
 }
+/// Whether what the two are has a point in common.
 template <class A, class B>
 requires MixedPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return overlap(x, y); });
 }
+/// The same with what is remembered of the pair.
 template <class A, class B>
 requires MixedPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cache) {
@@ -49,6 +53,7 @@ bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cach
                             [&](const auto& x, const auto& y) { return overlap(x, y, cache); });
 }
 
+/// Contact points of what the two are.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin

@@ -137,6 +137,7 @@ bool find_axis(const PolygonPair<T>& pair, T margin, PairCache<Space<2, T>>& cac
 
 }  // namespace detail
 
+/// All points of the contact of two polygons; reduce() keeps a few of them.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
@@ -153,6 +154,7 @@ bool collide(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
   return true;
 }
 
+/// Signed distance of two polygons, exact to rounding, with what is remembered of the pair.
 template <std::floating_point T>
 SignedDistance<Space<2, T>> distance(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
                                      PairCache<Space<2, T>>& cache) {
@@ -165,12 +167,14 @@ SignedDistance<Space<2, T>> distance(const Placed<Polygon<T>>& a, const Placed<P
   return {axis.gap, axis.normal, a.center() + (witness - half), a.center() + (witness + half)};
 }
 
+/// The same without a memory of the pair.
 template <std::floating_point T>
 SignedDistance<Space<2, T>> distance(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b) {
   PairCache<Space<2, T>> none;
   return distance(a, b, none);
 }
 
+/// Whether two polygons have a point in common.
 template <std::floating_point T>
 bool overlap(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
              PairCache<Space<2, T>>& cache) {
@@ -179,6 +183,7 @@ bool overlap(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
   return !pair.is_apart_at_once(T(0), cache) && detail::find_axis(pair, T(0), cache, axis);
 }
 
+/// The same without a memory of the pair.
 template <std::floating_point T>
 bool overlap(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b) {
   return detail::PolygonPair<T>(a, b).edge_axis(T(0)).axis.gap <= T(0);

@@ -48,6 +48,7 @@ class FoundAxis {
 
 }  // namespace detail
 
+/// All points of the contact of two polyhedra; reduce() keeps a few of them.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
@@ -64,6 +65,7 @@ bool collide(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
   return true;
 }
 
+/// Signed distance of two polyhedra, exact to rounding, with what is remembered of the pair.
 template <std::floating_point T>
 SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
                                      PairCache<Space<3, T>>& cache) {
@@ -76,6 +78,7 @@ SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a, const Place
   return {axis.gap, axis.normal, a.center() + (middle - half), a.center() + (middle + half)};
 }
 
+/// The same without a memory of the pair.
 template <std::floating_point T>
 SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a,
                                      const Placed<Polyhedron<T>>& b) {
@@ -83,7 +86,8 @@ SignedDistance<Space<3, T>> distance(const Placed<Polyhedron<T>>& a,
   return distance(a, b, none);
 }
 
-/// With a cache, the features are found along with the answer, so that they can be remembered.
+/// Whether two polyhedra have a point in common. With a cache, the features are found along with
+/// the answer, so that they can be remembered.
 template <std::floating_point T>
 bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
              PairCache<Space<3, T>>& cache) {
@@ -92,6 +96,7 @@ bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
   return !detail::FoundAxis<T>(pair, T(0), cache).is_beyond();
 }
 
+/// The same without a memory of the pair.
 template <std::floating_point T>
 bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b) {
   const detail::PolyhedronPair<T> pair(a, b);

@@ -43,12 +43,14 @@ SignedDistance<S> rounded(const SignedDistance<S>& cores, typename S::Scalar rad
 
 }  // namespace detail
 
+/// Signed distance of the cores less the radii.
 template <class A, class B>
 requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b) {
   return detail::rounded(distance(detail::core_of(a), detail::core_of(b)),
                          detail::radius_about_core(a), detail::radius_about_core(b));
 }
+/// The same with what is remembered of the cores.
 template <class A, class B>
 requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b,
@@ -57,6 +59,7 @@ requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& 
                          detail::radius_about_core(a), detail::radius_about_core(b));
 }
 
+/// The contact points of the cores, moved to midway between the surfaces.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin

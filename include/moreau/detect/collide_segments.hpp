@@ -12,7 +12,7 @@
 
 namespace moreau {
 
-/// A centre on the segment is given a normal across it.
+/// Signed distance of a ball from a segment. A centre on the segment is given a normal across it.
 template <class S>
 SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b) {
   using T = typename S::Scalar;
@@ -27,6 +27,7 @@ SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>&
   return {between - a.radius(), normal, witness, witness + (between - a.radius()) * normal};
 }
 
+/// One contact point.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
@@ -49,6 +50,8 @@ bool collide(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b, typename S
   return true;
 }
 
+/// Signed distance of two segments; < 0 where they cross in the plane, 0 where they meet in
+/// space.
 template <class S>
 SignedDistance<S> distance(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b) {
   using Vector = typename S::Vector;
@@ -109,6 +112,9 @@ FeatureKey feature_of(const SegmentAxis<S>& axis) {
 
 /// The ends of each beside the other that are within the margin, so two points where one lies along
 /// the other; and the nearest points, if those are not among them.
+/// @param margin  pairs up to this gap are in contact [m], >= 0
+/// @param out     filled if the pair is in contact, left alone otherwise
+/// @returns whether the signed gap is at most the margin
 template <class S>
 bool collide(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,
              Manifold<S>& out, PairCache<S>&) {

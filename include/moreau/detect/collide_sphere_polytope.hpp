@@ -106,6 +106,7 @@ PointDistance<SpaceOf<ShapeT>> point_distance(const Placed<ShapeT>& shape,
 
 }  // namespace detail
 
+/// Signed distance of a ball from a polytope: that of its centre less the radius.
 template <class ShapeT>
 requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
     const Placed<Sphere<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b) {
@@ -114,6 +115,7 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
           a.center() - found.distance * found.outward};
 }
 
+/// One contact point.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin

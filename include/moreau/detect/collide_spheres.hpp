@@ -8,7 +8,7 @@
 
 namespace moreau {
 
-/// Concentric ones are given the x axis for a normal.
+/// Signed distance of two balls. Concentric ones are given the x axis for a normal.
 template <class S>
 SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& b) {
   using Vector = typename S::Vector;
@@ -19,6 +19,7 @@ SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& 
           b.center() - b.radius() * normal};
 }
 
+/// One contact point.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin

@@ -15,7 +15,8 @@
 
 namespace moreau {
 
-/// Keeps its memory: no allocation once it has grown.
+/// Finds pairs of boxes through the images of a cell. Keeps its memory: no allocation once it has
+/// grown.
 template <class S>
 class ImagePairs {
  public:
@@ -24,8 +25,11 @@ class ImagePairs {
   /// Replaces the contents of `pairs` by all pairs of boxes that overlap through some image,
   /// sorted, each once. Boxes may lie anywhere; no two of them may be longer together than the cell
   /// (PeriodicCell::require_room), so that a pair overlaps through one image at most.
-  /// @param shifts one per pair: what brings the second box as it lies next to the first [m], whole
-  ///               cells
+  /// @param boxes       world axes [m]
+  /// @param broad_phase a BroadPhase of this space
+  /// @param pairs       of places in boxes
+  /// @param shifts      one per pair: what brings the second box as it lies next to the first,
+  ///                    whole cells, world axes [m]
   template <class Broad>
   void find_pairs(const PeriodicCell<S>& cell, std::span<const Aabb<S>> boxes, Broad& broad_phase,
                   std::vector<IndexPair>& pairs, std::vector<Vector>& shifts) {

@@ -26,6 +26,7 @@ enum class ContactClass : std::uint8_t {
   face_face,      ///< triple: three points
 };
 
+/// The name of a class, as its enumerator is written.
 constexpr const char* name(ContactClass c) {
   constexpr const char* names[] = {"vertex_vertex", "vertex_edge", "vertex_face",
                                    "edge_edge",     "edge_face",   "face_face"};
@@ -38,17 +39,18 @@ constexpr const char* name(ContactClass c) {
 struct FeatureKey {
   /// Of the feature of a, then of b.
   enum class Kind : std::uint8_t {
-    vertex_face = 0,
-    face_vertex = 1,
-    edge_edge = 2,
-    vertex_vertex = 3,
-    vertex_edge = 4,
-    edge_vertex = 5
+    vertex_face = 0,    ///< a vertex of a, a face of b
+    face_vertex = 1,    ///< a face of a, a vertex of b
+    edge_edge = 2,      ///< an edge of each
+    vertex_vertex = 3,  ///< a vertex of each
+    vertex_edge = 4,    ///< a vertex of a, an edge of b
+    edge_vertex = 5     ///< an edge of a, a vertex of b
   };
   std::uint64_t value = 0;  ///< kind, a and b in one number, ordered so
 
-  constexpr FeatureKey() = default;
-  /// @param a,b indices of the feature of a and of b, each below 2^28
+  constexpr FeatureKey() = default;  ///< the least of all: vertex 0, face 0
+  /// @param kind of the two features
+  /// @param a,b  indices of the feature of a and of b, each below 2^28, which is not checked
   constexpr FeatureKey(Kind kind, std::size_t a, std::size_t b)
       : value(static_cast<std::uint64_t>(kind) << 56 | static_cast<std::uint64_t>(a) << 28 |
               static_cast<std::uint64_t>(b)) {}
@@ -69,7 +71,7 @@ struct FeatureKey {
 /// One point of a contact.
 template <class S>
 struct ManifoldPoint {
-  typename S::Vector position;  ///< world, midway between the two surfaces [m]
+  typename S::Vector position;  ///< world axes, midway between the two surfaces [m]
   typename S::Scalar gap;       ///< along the manifold's normal [m], < 0 is penetration
   FeatureKey feature;           ///< what makes it the same point in the next step
 };
@@ -79,7 +81,7 @@ struct ManifoldPoint {
 template <class S>
 struct Manifold {
   typename S::Vector normal = S::Vector::Zero();             ///< unit, from a to b, world axes
-  typename S::Scalar gap = 0;                                ///< the pair's signed distance [m]
+  typename S::Scalar gap = 0;                                ///< signed distance [m], < 0 overlaps
   ContactClass contact_class = ContactClass::vertex_vertex;  ///< of the features that touch
   std::vector<ManifoldPoint<S>> points;     ///< gap at most the margin; sorted by feature
   std::vector<typename S::Scalar> scratch;  ///< working memory of whoever fills the points
@@ -104,8 +106,8 @@ template <class S>
 struct SignedDistance {
   typename S::Scalar gap;        ///< [m], < 0: the depth of penetration
   typename S::Vector normal;     ///< unit, from a to b, world axes
-  typename S::Vector witness_a;  ///< a point of a's surface, world [m]
-  typename S::Vector witness_b;  ///< a point of b's surface: witness_a + gap normal [m]
+  typename S::Vector witness_a;  ///< a point of a's surface, world axes [m]
+  typename S::Vector witness_b;  ///< of b's surface: witness_a + gap normal, world axes [m]
 };
 
 }  // namespace moreau

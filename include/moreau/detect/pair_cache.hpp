@@ -11,7 +11,7 @@ namespace moreau {
 /// because what it holds is only a guess that is proved anew each time (local_proof.hpp).
 template <class S>
 struct PairCache {
-  /// The axis, from a to b, that separated the pair last time; zero if none did.
+  /// The axis, unit, from a to b, world axes, that separated the pair last time; zero if none did.
   typename S::Vector axis = S::Vector::Zero();
   /// The features that made the axis last time.
   detail::AxisKind kind = detail::AxisKind::none;

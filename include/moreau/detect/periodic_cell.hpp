@@ -39,14 +39,15 @@ class PeriodicCell {
   }
 
   bool is_open() const { return length_.isZero(0); }              ///< along all axes
-  bool is_periodic(int axis) const { return length_[axis] > 0; }  ///< 0 for x, 1 for y
+  bool is_periodic(int axis) const { return length_[axis] > 0; }  ///< 0 for x, 1 for y, ..
   /// Along every axis [m]; zero where it is open.
   const Vector& length() const { return length_; }
   const Vector& lower() const { return lower_; }  ///< zero where it is open [m]
 
-  /// The image of x in the cell.
+  /// The image of x in the cell, world axes [m].
   Vector wrap(const Vector& x) const { return image_from(lower_, x); }
   /// The image y of x with from <= y < from + length() on the periodic axes; on the others, x.
+  /// World axes [m].
   Vector image_from(const Vector& from, const Vector& x) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
@@ -55,7 +56,8 @@ class PeriodicCell {
                                                                             length_[axis]));
     return y;
   }
-  /// The image of x nearest to a point, at most half a cell away along every periodic axis.
+  /// The image of x nearest to a point, at most half a cell away along every periodic axis, world
+  /// axes [m].
   Vector nearest(const Vector& x, const Vector& to) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
@@ -66,21 +68,27 @@ class PeriodicCell {
 
   /// Two grains meet through one image only, and none meets itself, in a cell longer than two of
   /// the widest.
-  /// @param width of a grain and all that is kept around it [m]
+  /// @param width    of a grain and all that is kept around it [m]
+  /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the cell is too short
   void require_room(Scalar width, const char* function) const {
     for (int axis = 0; axis < S::dim; ++axis)
       require(!is_periodic(axis) || length_[axis] > 2 * width, function, "length of the cell",
               length_[axis], "must be more than two of the widest grain with margin and skin");
   }
-  /// @param normal of a wall, unit
+  /// Checks that a wall leaves the periodic axes open.
+  /// @param normal   of a wall, unit, world axes
+  /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the wall bounds a periodic axis
   void require_along(const Vector& normal, const char* function) const {
     for (int axis = 0; axis < S::dim; ++axis)
       require(!is_periodic(axis) || std::abs(normal[axis]) <= Scalar(1e-5), function, "normal",
               normal, "must be perpendicular to the periodic axes");
   }
-  /// @param axis of a cylinder, unit, as that of a rotation: in the plane it bounds all axes
+  /// Checks that a cylinder leaves the periodic axes open.
+  /// @param axis     of a cylinder, unit, world axes, as that of a rotation: in the plane it bounds
+  ///                 all axes
+  /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if it bounds a periodic axis
   void require_around(const Angular& axis, const char* function) const {
     for (int k = 0; k < S::dim; ++k)

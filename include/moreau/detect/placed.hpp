@@ -32,19 +32,20 @@ class Placed {
   /// At the pose.
   Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
 
-  /// The shape must outlive this object's use.
+  /// To the pose, world axes [m]. The shape must outlive this object's use.
   void update(const ShapeT& shape, const Pose<Space>& pose) {
     shape_ = &shape;
     pose_ = pose;
   }
-  /// The same orientation elsewhere.
+  /// The same orientation elsewhere, world axes [m].
   void move_to(const Vector& center) { pose_.position = center; }
 
   const ShapeT& shape() const { return *shape_; }          ///< what was placed
   const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
   /// Radius of the ball about the centre that holds the shape [m].
   Scalar radius() const requires HasCircumradius<ShapeT> { return shape_->circumradius(); }
-  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  /// The farthest point in the direction (any length but zero), relative to the centre, world
+  /// axes [m].
   Vector support(const Vector& direction) const {
     return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);
   }
@@ -69,8 +70,8 @@ class Placed<ShapeT> {
   /// At the pose.
   Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
 
-  /// Allocates only if the shape has more vertices or faces than any before. The shape must outlive
-  /// this object's use.
+  /// To the pose, world axes [m]. Allocates only if the shape has more vertices or faces than any
+  /// before. The shape must outlive this object's use.
   void update(const ShapeT& shape, const Pose<Space>& pose) {
     const typename Space::Matrix rotation = pose.rotation.toRotationMatrix();
     shape_ = &shape;
@@ -83,22 +84,23 @@ class Placed<ShapeT> {
     offsets_.tail(offsets_.size() - count).setConstant(offsets_[0]);
   }
 
-  /// The same orientation elsewhere; costs nothing, unlike update().
+  /// The same orientation elsewhere, world axes [m]; costs nothing, unlike update().
   void move_to(const Vector& center) { center_ = center; }
 
   const ShapeT& shape() const { return *shape_; }   ///< what was placed
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
-  /// Relative to the centre, world axes [m].
+  /// N of them, relative to the centre, world axes [m].
   const detail::Rows<Space>& vertices() const { return vertices_; }
-  /// Unit, outward, world axes; one for each face.
+  /// F of them, unit, outward, world axes.
   const detail::Rows<Space>& normals() const { return normals_; }
   /// Distance of face f's plane from the centre [m].
   Scalar offset(std::size_t f) const { return offsets_[static_cast<Eigen::Index>(f)]; }
-  /// As long as normals().padded_size().
+  /// Those of all faces [m], as many as normals().padded_size().
   const Scalar* offsets() const { return offsets_.data(); }
   /// Radius of the ball about the centre that holds the shape [m].
   Scalar radius() const { return shape_->circumradius(); }
-  /// The farthest vertex in the direction (any length but zero), relative to the centre [m].
+  /// The farthest vertex in the direction (any length but zero), relative to the centre, world
+  /// axes [m].
   Vector support(const Vector& direction) const {
     return vertices_[vertices_.farthest(direction).index];
   }
@@ -125,18 +127,24 @@ class Placed<Sphere<S>> {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const Sphere<S>& shape) { update(shape, Pose<S>{}); }
+  /// At the pose.
   Placed(const Sphere<S>& shape, const Pose<S>& pose) { update(shape, pose); }
 
+  /// To the pose, world axes [m].
   void update(const Sphere<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     radius_ = shape.radius();
   }
+  /// Elsewhere, world axes [m].
   void move_to(const Vector& center) { center_ = center; }
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
-  Scalar radius() const { return radius_; }
-  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  Scalar radius() const { return radius_; }         ///< [m]
+  /// The farthest point in the direction (any length but zero), relative to the centre, world
+  /// axes [m].
   Vector support(const Vector& direction) const { return radius_ * direction.normalized(); }
+  /// World axes [m].
   Aabb<S> bounding_box() const { return {center_.array() - radius_, center_.array() + radius_}; }
 
  private:
@@ -152,14 +160,17 @@ class Placed<HalfSpace<S>> {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const HalfSpace<S>& shape) { update(shape, Pose<S>{}); }
+  /// At the pose.
   Placed(const HalfSpace<S>& shape, const Pose<S>& pose) { update(shape, pose); }
 
+  /// To the pose, world axes [m].
   void update(const HalfSpace<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     normal_ = pose.rotation * shape.normal();
   }
-  const Vector& center() const { return center_; }        ///< a point of the plane
+  const Vector& center() const { return center_; }        ///< a point of the plane, world axes [m]
   const Vector& normal() const { return normal_; }        ///< unit, out of the solid, world axes
   Scalar offset() const { return normal_.dot(center_); }  ///< normal . x = offset on the plane [m]
 
@@ -176,9 +187,12 @@ class Placed<Segment<S>> {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const Segment<S>& shape) { update(shape, Pose<S>{}); }
+  /// At the pose.
   Placed(const Segment<S>& shape, const Pose<S>& pose) { update(shape, pose); }
 
+  /// To the pose, world axes [m].
   void update(const Segment<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     radius_ = shape.half_length();
@@ -187,10 +201,12 @@ class Placed<Segment<S>> {
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
   Scalar radius() const { return radius_; }         ///< of the ball about the centre around it [m]
   const Vector& half() const { return half_; }      ///< from the centre to vertex 1, world axes [m]
-  /// Vertex 0 or 1, relative to the centre [m].
+  /// Vertex 0 or 1, relative to the centre, world axes [m].
   Vector vertex(std::size_t v) const { return v == 0 ? Vector(-half_) : half_; }
-  /// The farthest end in the direction (any length but zero), relative to the centre [m].
+  /// The farthest end in the direction (any length but zero), relative to the centre, world
+  /// axes [m].
   Vector support(const Vector& direction) const { return vertex(direction.dot(half_) < 0 ? 0 : 1); }
+  /// World axes [m].
   Aabb<S> bounding_box() const { return {center_ - half_.cwiseAbs(), center_ + half_.cwiseAbs()}; }
 
  private:
@@ -206,22 +222,26 @@ class Placed<Rounded<Core>> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const Rounded<Core>& shape) : Placed(shape, Pose<Space>{}) {}
+  /// At the pose.
   Placed(const Rounded<Core>& shape, const Pose<Space>& pose)
       : core_(shape.core(), shape.core_pose(pose)),
         center_(pose.position),
         radius_(shape.radius()) {}
 
-  /// The shape must outlive this object's use.
+  /// To the pose, world axes [m]. The shape must outlive this object's use.
   void update(const Rounded<Core>& shape, const Pose<Space>& pose) {
     core_.update(shape.core(), shape.core_pose(pose));
     center_ = pose.position;
     radius_ = shape.radius();
   }
+  /// Where it stands.
   const Placed<Core>& core() const { return core_; }
   const Vector& center() const { return center_; }    ///< the body's origin, world axes [m]
   Scalar rounding_radius() const { return radius_; }  ///< of the ball [m]
-  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  /// The farthest point in the direction (any length but zero), relative to the centre, world
+  /// axes [m].
   Vector support(const Vector& direction) const {
     return (core_.center() - center_) + core_.support(direction) + radius_ * direction.normalized();
   }
@@ -242,14 +262,16 @@ class Placed<OneOf<Shapes...>> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
+  /// At the origin, not turned.
   explicit Placed(const OneOf<Shapes...>& shape) : Placed(shape, Pose<Space>{}) {}
+  /// At the pose.
   Placed(const OneOf<Shapes...>& shape, const Pose<Space>& pose)
       : held_(shape.visit([&](const auto& kind) -> Held {
           return Placed<KindOf<decltype(kind)>>(kind, pose);
         })) {}
 
-  /// Keeps its memory while the shape is of the same kind as before. The shape must outlive this
-  /// object's use.
+  /// To the pose, world axes [m]. Keeps its memory while the shape is of the same kind as before.
+  /// The shape must outlive this object's use.
   void update(const OneOf<Shapes...>& shape, const Pose<Space>& pose) {
     shape.visit([&](const auto& kind) {
       using Kind = Placed<KindOf<decltype(kind)>>;
@@ -264,10 +286,12 @@ class Placed<OneOf<Shapes...>> {
   decltype(auto) visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), held_);
   }
+  /// The body's origin, world axes [m].
   Vector center() const {
     return visit([](const auto& kind) -> Vector { return kind.center(); });
   }
-  /// The farthest point in the direction (any length but zero), relative to the centre [m].
+  /// The farthest point in the direction (any length but zero), relative to the centre, world
+  /// axes [m].
   Vector support(const Vector& direction) const {
     return visit([&](const auto& kind) -> Vector { return kind.support(direction); });
   }

@@ -20,15 +20,15 @@
 
 namespace moreau {
 
-/// How reduce() chooses.
+/// How reduce() chooses. Shares are of the size of the contact [-], lengths in [m].
 struct Reduction {
-  /// Points within this fraction of the contact's extent of the deepest one are as deep; the first
-  /// of them by key stays, so that the choice does not follow the rounding.
+  /// Points within this fraction of the contact's extent of the deepest one [-] are as deep; the
+  /// first of them by key stays, so that the choice does not follow the rounding.
   double as_deep = 1e-6;
-  /// The points of the step before are kept while they span this fraction of the best area.
+  /// The points of the step before are kept while they span this fraction of the best area [-].
   double keep = 0.8;
-  /// Three points whose triangle is flatter than this fraction of extent squared say no more than
-  /// two.
+  /// Three points whose triangle is flatter than this fraction of extent squared [-] say no more
+  /// than two.
   double flat = 1e-6;
   /// Points closer together than this, and a triangle lower than this, say no more than one point,
   /// or two [m]. Two points at nearly one place make the contact problem nearly singular.
@@ -198,9 +198,12 @@ void keep_points(Manifold<S>& manifold, std::span<std::size_t> chosen) {
 /// two that span with it the lowest triangle under the previous pressure, or without one the
 /// widest. The same points and the same memory give the same choice; the class stays that of the
 /// full contact.
-/// @param previous  what was kept at the step before. That triangle stays while it has one of the
-///                  deepest points and all of it pushes, or has most of the best area; pass none
-///                  for a choice without memory
+/// @param manifold   in: all points, sorted by feature; out: those that are kept, in that order
+/// @param max_points 1, 2 or 3
+/// @param previous   what was kept at the step before. That triangle stays while it has one of the
+///                   deepest points and all of it pushes, or has most of the best area; pass none
+///                   for a choice without memory
+/// @param reduction  how to choose
 template <class S>
 void reduce(Manifold<S>& manifold, std::size_t max_points, std::span<const KeptPoint> previous = {},
             const Reduction& reduction = {}) {

@@ -10,21 +10,25 @@
 
 namespace moreau {
 
+/// Whether a shape is a Sphere.
 template <class ShapeT>
 inline constexpr bool is_sphere = false;
 template <class S>
 inline constexpr bool is_sphere<Sphere<S>> = true;
 
+/// Whether a shape is a Segment.
 template <class ShapeT>
 inline constexpr bool is_segment = false;
 template <class S>
 inline constexpr bool is_segment<Segment<S>> = true;
 
+/// Whether a shape is a Rounded one.
 template <class ShapeT>
 inline constexpr bool is_rounded = false;
 template <class Core>
 inline constexpr bool is_rounded<Rounded<Core>> = true;
 
+/// Whether a shape is a OneOf.
 template <class ShapeT>
 inline constexpr bool is_one_of = false;
 template <class... Shapes>

@@ -16,7 +16,7 @@ class SweepAndPrune {
  public:
   using Scalar = typename S::Scalar;
 
-  /// Fills `pairs` with those whose boxes overlap, sorted.
+  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     if (boxes.empty()) return;

@@ -7,7 +7,8 @@
 
 namespace moreau {
 
-/// The lengths that the narrow phase takes for zero, relative to the sum of the two radii.
+/// The lengths that the narrow phase takes for zero, relative to the sum of the two radii [-], and
+/// a few angles.
 template <std::floating_point T>
 struct DetectionTolerance {
   /// Differences of separations that rounding alone can make.
@@ -15,8 +16,8 @@ struct DetectionTolerance {
   /// Two corners of a contact polygon this near are one, and a corner this near an edge lies on
   /// it: so that shapes stacked flush keep their features while they tremble. About 1.5e-8.
   static constexpr T coincident = std::same_as<T, float> ? T(3.5e-4) : T(1.5e-8);
-  /// Sine of the angle within which the direction of two nearest points is taken for the normal of
-  /// a face, if that face is as far away.
+  /// Sine [-] of the angle within which the direction of two nearest points is taken for the normal
+  /// of a face, if that face is as far away.
   static constexpr T aligned = std::same_as<T, float> ? T(1e-3) : T(1e-5);
   /// Angle [rad] between two axes above which one can be proved the better (local_proof.hpp).
   static constexpr T distinct = std::same_as<T, float> ? T(1e-2) : T(1e-7);

@@ -17,30 +17,32 @@
 
 namespace moreau {
 
-/// I^-1/2 of a symmetric positive definite inertia.
+/// I^-1/2, A x A [kg^-1/2 m^-1], of a symmetric positive definite inertia [kg m^2]; in its axes.
 template <class S>
 typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
   return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
 }
 
-/// All bodies of a simulation; entry i of every array is of body i.
+/// All bodies of a simulation; entry i of every array is of body i, BodyId::index(). Indices are
+/// not checked.
 template <class S>
 struct Bodies {
   using Vector = typename S::Vector;
   using Inertia = typename S::Inertia;
   using Twist = typename S::Twist;
 
-  std::vector<Pose<S>> pose;          ///< of the centre of mass [m]
+  std::vector<Pose<S>> pose;          ///< of the centre of mass and the body's axes [m]
   std::vector<Twist> velocity;        ///< (v, w) in world axes [m/s, rad/s]
   std::vector<Twist> force;           ///< external (force, torque) in world axes [N, N m]
   std::vector<Vector> inverse_mass;   ///< along the body's axes; zero: prescribed [1/kg]
   std::vector<Inertia> inertia_body;  ///< about the centre, body axes [kg m^2]; zero: prescribed
-  std::vector<Inertia> inverse_inertia_root_body;  ///< I^-1/2, body axes; zero: prescribed
-  std::vector<typename S::Scalar> weight;          ///< mass that gravity acts on; 0 for walls [kg]
-  std::vector<MaterialId> material;                ///< of the surface
+  /// I^-1/2, body axes [kg^-1/2 m^-1]; zero: prescribed.
+  std::vector<Inertia> inverse_inertia_root_body;
+  std::vector<typename S::Scalar> weight;  ///< mass that gravity acts on; 0 for walls [kg]
+  std::vector<MaterialId> material;        ///< of the surface
 
   std::size_t size() const { return pose.size(); }  ///< grains and walls
-  /// Adds a body at rest that no force moves.
+  /// Adds a body at rest that no force moves: a wall, until set_mass() makes it a grain.
   void push_back(const Pose<S>& at, MaterialId of) {
     pose.push_back(at);
     velocity.push_back(Twist::Zero());
@@ -51,7 +53,7 @@ struct Bodies {
     weight.push_back(0);
     material.push_back(of);
   }
-  /// Makes body i a free one.
+  /// Makes body i a free one. Its arguments are not checked.
   /// @param mass    [kg], > 0
   /// @param inertia about the centre, body axes [kg m^2], positive definite
   void set_mass(std::size_t i, typename S::Scalar mass, const Inertia& inertia) {
@@ -72,14 +74,14 @@ struct Bodies {
   /// Whether forces can turn it; a body without inertia keeps the spin it is given.
   bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
 
-  /// The body's axes as columns, world axes.
+  /// D x D, the body's axes as columns, unit, world axes.
   typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
-  /// Inertia in world axes at a rotation [kg m^2].
+  /// A x A, inertia about the centre in world axes at the rotation q from body to world [kg m^2].
   Inertia inertia(std::size_t i, const typename S::Rotation& q) const {
     const Inertia a = S::adjoint(q), turned = a * inertia_body[i];
     return turned * a.transpose();
   }
-  /// M^-1/2 in world axes.
+  /// M^-1/2 in world axes, as the body stands.
   MobilityRoot<S> mobility_root(std::size_t i) const {
     typename S::Matrix r = axes(i), linear;
     const Inertia a = S::adjoint(pose[i].rotation), turned = a * inverse_inertia_root_body[i];

@@ -11,9 +11,12 @@ namespace moreau {
 /// Moves the bodies through one step in three parts, around the solution of the contacts.
 ///
 /// - predict_configuration(bodies, momentum, h): to where contacts are detected; fills the angular
-///   momentum of every body at the start of the step.
+///   momentum of every body at the start of the step [kg m^2/s].
 /// - free_velocity(bodies, gravity, momentum, free, h): velocities at the end without contacts.
 /// - advance_configuration(bodies, after, h): to the end of the step with the velocities `after`.
+///
+/// h is the step [s], gravity an acceleration [m/s^2]; momentum, free and after have one entry per
+/// body, velocities are (v, w) [m/s, rad/s]. All in world axes.
 template <class I, class S>
 concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
                                      std::span<typename S::Angular> momentum,
@@ -31,7 +34,8 @@ concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
 ///   evaluated, under the loads of the step before.
 /// - advance_configuration(bodies, loads, gravity, h): to the end of the step under the new loads.
 ///
-/// A load is (force [N], torque about the centre [N m]) of the contacts on a body, world axes.
+/// A load is (force [N], torque about the centre [N m]) of the contacts on a body, world axes;
+/// one per body. h is the step [s], gravity an acceleration [m/s^2].
 template <class I, class S>
 concept ForceIntegrator = requires(const I integrator, Bodies<S> bodies,
                                    std::span<const typename S::Twist> loads,

@@ -24,17 +24,21 @@
 
 namespace moreau {
 
-/// Model of TimeIntegrator for set-valued laws.
+/// Moreau's and Jean's theta scheme; the header has its equations. Model of ImpulseIntegrator, for
+/// set-valued laws. Source: M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235, but for the
+/// rotations.
 class MoreauJean {
  public:
-  /// @param theta in [1/2, 1]: 1/2 is second order and keeps energy, 1 is fully implicit
-  /// @throws std::invalid_argument outside
+  /// @param theta in [1/2, 1] [-]: 1/2 is second order and keeps energy, 1 is fully implicit
+  /// @throws std::invalid_argument for a theta outside [1/2, 1]
   explicit MoreauJean(double theta = 0.5) : theta_(theta) {
     require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
   }
-  double theta() const { return theta_; }  ///< in [1/2, 1]
+  double theta() const { return theta_; }  ///< in [1/2, 1] [-]
 
-  /// Angular momentum of every body [kg m^2/s], then the move to the detection configuration.
+  /// Angular momentum of every body, then the move to the detection configuration.
+  /// @param momentum out: L_i about the centre, one per body, world axes [kg m^2/s]
+  /// @param step     [s]
   template <class S>
   void predict_configuration(Bodies<S>& bodies, std::span<typename S::Angular> momentum,
                              typename S::Scalar step) const {
@@ -46,7 +50,11 @@ class MoreauJean {
     }
   }
 
-  /// Velocities at the end of the step if nothing touched. momentum becomes L_i + h tau.
+  /// Velocities at the end of the step if nothing touched.
+  /// @param gravity  world axes [m/s^2]
+  /// @param momentum in: L_i, out: L_i + h tau, one per body, world axes [kg m^2/s]
+  /// @param free     out: (v, w), one per body, world axes [m/s, rad/s]
+  /// @param step     h [s]
   template <class S>
   void free_velocity(const Bodies<S>& bodies, const typename S::Vector& gravity,
                      std::span<typename S::Angular> momentum, std::span<typename S::Twist> free,
@@ -63,7 +71,9 @@ class MoreauJean {
   }
 
   /// From the velocities that the contacts leave to the end of the step.
-  /// @param after velocities after the contact impulses, at the detection configuration
+  /// @param after (v, w) after the contact impulses, at the detection configuration, one per body,
+  ///              world axes [m/s, rad/s]
+  /// @param step  [s]
   template <class S>
   void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> after,
                              typename S::Scalar step) const {

@@ -19,11 +19,14 @@
 
 namespace moreau {
 
-/// Model of ForceIntegrator, for regularized laws.
+/// Velocity Verlet; the header has its equations and their source. Model of ForceIntegrator, for
+/// regularized laws.
 class VelocityVerlet {
  public:
   /// Half a kick by the forces at hand, then the move to the end of the step.
-  /// @param loads contact force [N] and torque about the centre [N m] of every body, world axes
+  /// @param loads   contact force [N] and torque about the centre [N m] of every body, world axes
+  /// @param gravity world axes [m/s^2]
+  /// @param step    [s]
   template <class S>
   void predict_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> loads,
                              const typename S::Vector& gravity, typename S::Scalar step) const {
@@ -50,6 +53,9 @@ class VelocityVerlet {
   }
 
   /// The other half of the kick, by the forces of the new configuration.
+  /// @param loads   those there, as in predict_configuration()
+  /// @param gravity world axes [m/s^2]
+  /// @param step    [s]
   template <class S>
   void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> loads,
                              const typename S::Vector& gravity, typename S::Scalar step) const {

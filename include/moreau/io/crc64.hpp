@@ -27,6 +27,7 @@ inline constexpr std::array<std::uint64_t, 256> crc64_table = make_crc64_table()
 /// CRC-64/XZ of bytes: "123456789" has 0x995dc9bbdf1939fa. No error within 64 bits in a row stays
 /// unseen, in particular none of a single byte.
 /// @param before the checksum of what the bytes follow
+/// @returns the checksum of all
 constexpr std::uint64_t crc64(std::string_view bytes, std::uint64_t before = 0) {
   std::uint64_t rest = ~before;
   for (const char byte : bytes)

@@ -31,13 +31,12 @@ struct CsvColumn {
 /// a valid one. No allocation per row once the longest has been written.
 class CsvWriter {
  public:
-  /// Creates the file and writes the header line.
+  /// Creates the file and writes the header line, or goes on with a table that is there.
   /// @param columns     names and units, e.g. {{"t", "s"}, {"x", "m"}, "contacts"}: the header is
   ///                    "t [s],x [m],contacts"
   /// @param flush_every rows that may be held back, > 0; 1 writes every row at once
   /// @param keep        > 0: goes on with a table that is there behind so many bytes, as size()
-  /// gave
-  ///                    them, and cuts off what follows them
+  ///                    gave them, and cuts off what follows them
   /// @throws std::system_error naming the path if the file cannot be created or written
   /// @throws std::invalid_argument without columns, for a name that is empty, a name or unit that
   ///         holds a comma, a quote or a line break, or for flush_every = 0
@@ -68,7 +67,7 @@ class CsvWriter {
   }
 
   const std::filesystem::path& path() const { return file_.path(); }  ///< of the file
-  std::size_t rows() const { return rows_; }                          ///< given so far
+  std::size_t rows() const { return rows_; }                          ///< given to this object
   /// Bytes of the table so far, with those that are held back.
   std::uintmax_t size() const { return written_ + lines_.size(); }
 
@@ -86,6 +85,7 @@ class CsvWriter {
   }
 
   /// Hands all rows so far to the operating system.
+  /// @throws std::system_error naming the path if the file cannot be written
   void flush() {
     if (lines_.empty()) return;
     file_.write(lines_);
@@ -94,11 +94,13 @@ class CsvWriter {
   }
   /// flush(), then waits until all of it is on the disk: before a snapshot that says how long the
   /// table is, so that it is no shorter even where the power fails.
+  /// @throws std::system_error naming the path if the file cannot be written
   void sync() {
     flush();
     file_.sync();
   }
   /// flush(), then closes the file. No row() after it.
+  /// @throws std::system_error naming the path if the file cannot be written
   void close() {
     flush();
     file_.close();

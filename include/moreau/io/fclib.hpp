@@ -195,51 +195,85 @@ void write_fclib_matrix(hid_t group, const FrictionProblem<S>& problem) {
   write_hdf5(group, "x", std::span<const double>(w.valuePtr(), entries));
 }
 
+inline AnyFrictionProblem read_fclib_problem(const std::filesystem::path& path) {
+  constexpr const char* self = "read_fclib";
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose, "open it");
+  const bool is_local = H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0;
+  require(is_local || H5Lexists(file, "fclib_global", H5P_DEFAULT) > 0, self, "path", path.string(),
+          "must hold a group fclib_local or fclib_global");
+  const auto group = open_hdf5_group(file, is_local ? "fclib_local" : "fclib_global");
+  for (const char* bilateral : {"V", "R", "G"})
+    require(H5Lexists(group, bilateral, H5P_DEFAULT) <= 0, self, "group", bilateral,
+            "must not be there: bilateral constraints are not solved");
+  RawFrictionProblem raw;
+  raw.rows_per_contact = read_hdf5_integer(group, "spacedim");
+  const auto vectors = open_hdf5_group(group, "vectors");
+  raw.friction = read_hdf5<double>(vectors, "mu");
+  if (is_local) {
+    raw.free_velocity = read_hdf5<double>(vectors, "q");
+    const std::size_t size = raw.free_velocity.size();
+    raw.delassus = read_fclib_matrix(group, "W", size, size);
+  } else {
+    const auto f = read_hdf5<double>(vectors, "f");
+    const auto w = read_hdf5<double>(vectors, "w");
+    condense(read_fclib_matrix(group, "M", f.size(), f.size()),
+             read_fclib_matrix(group, "H", f.size(), w.size()), f, w, raw);
+  }
+  return checked_problem(raw, self);
+}
+
+template <class S>
+void write_fclib_problem(const std::filesystem::path& path, const FrictionProblem<S>& problem,
+                         const Eigen::VectorXd& impulses) {
+  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), &H5Fclose,
+                        "create it");
+  const auto local = create_hdf5_group(file, "fclib_local");
+  write_hdf5(local, "spacedim", int(S::dim));
+  write_fclib_matrix(create_hdf5_group(local, "W"), problem);
+  const auto vectors = create_hdf5_group(local, "vectors");
+  write_hdf5(vectors, "q", problem.free_velocity);
+  write_hdf5(vectors, "mu", problem.friction);
+  if (impulses.size() > 0) {
+    const auto solution = create_hdf5_group(file, "solution");
+    const Eigen::VectorXd u = problem.delassus * impulses + problem.free_velocity;
+    write_hdf5(solution, "u", u);
+    write_hdf5(solution, "r", impulses);
+  }
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error("HDF5: cannot write it");
+}
+
+/// Calls f(); its errors of HDF5 name the file.
+template <class F>
+auto naming(const std::filesystem::path& path, F&& f) {
+  const QuietHdf5 quiet;
+  try {
+    return f();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
 }  // namespace detail
 
-/// Whether a file is HDF5 at all.
+/// Whether a file is HDF5 at all; false for one that cannot be read.
 inline bool is_hdf5(const std::filesystem::path& path) {
   const detail::QuietHdf5 quiet;
   return H5Fis_hdf5(path.c_str()) > 0;
 }
 
-/// Reads the problem of an FCLIB file. A global one is brought to its local form first.
-/// @throws std::runtime_error if the file cannot be opened or lacks a part
+/// Reads the problem of an FCLIB file, in the units it has. A global one is brought to its local
+/// form first: W = H^T M^-1 H, b = H^T M^-1 f + w.
+/// @throws std::runtime_error naming the path if the file cannot be opened or lacks a part
 /// @throws std::invalid_argument naming what is wrong if it is no valid problem, or if it has
 ///         bilateral constraints or rolling friction, which this library does not solve
 inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
-  constexpr const char* self = "read_fclib";
-  const detail::QuietHdf5 quiet;
-  const detail::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose,
-                                "open " + path.string());
-  const bool is_local = H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0;
-  require(is_local || H5Lexists(file, "fclib_global", H5P_DEFAULT) > 0, self, "path", path.string(),
-          "must hold a group fclib_local or fclib_global");
-  const auto group = detail::open_hdf5_group(file, is_local ? "fclib_local" : "fclib_global");
-  for (const char* bilateral : {"V", "R", "G"})
-    require(H5Lexists(group, bilateral, H5P_DEFAULT) <= 0, self, "group", bilateral,
-            "must not be there: bilateral constraints are not solved");
-  detail::RawFrictionProblem raw;
-  raw.rows_per_contact = detail::read_hdf5_integer(group, "spacedim");
-  const auto vectors = detail::open_hdf5_group(group, "vectors");
-  raw.friction = detail::read_hdf5<double>(vectors, "mu");
-  if (is_local) {
-    raw.free_velocity = detail::read_hdf5<double>(vectors, "q");
-    const std::size_t size = raw.free_velocity.size();
-    raw.delassus = detail::read_fclib_matrix(group, "W", size, size);
-  } else {
-    const auto f = detail::read_hdf5<double>(vectors, "f");
-    const auto w = detail::read_hdf5<double>(vectors, "w");
-    detail::condense(detail::read_fclib_matrix(group, "M", f.size(), f.size()),
-                     detail::read_fclib_matrix(group, "H", f.size(), w.size()), f, w, raw);
-  }
-  return detail::checked_problem(raw, self);
+  return detail::naming(path, [&] { return detail::read_fclib_problem(path); });
 }
 
 /// Writes a problem as an FCLIB file, W by compressed rows; an existing file is replaced.
-/// @param impulses r in the units of the problem, D n, or empty: with it goes a solution group with
-///                 r and u = W r + b
-/// @throws std::runtime_error if the file cannot be written
+/// @param impulses r in the units of the problem, D n [N s], or empty: with it goes a solution
+///                 group with r and u = W r + b
+/// @throws std::runtime_error naming the path if the file cannot be written
 /// @throws std::invalid_argument for a problem that is not valid or impulses of another size
 template <class S>
 void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& problem,
@@ -247,23 +281,7 @@ void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& pr
   require_valid(problem, "write_fclib");
   require(impulses.size() == 0 || impulses.size() == problem.free_velocity.size(), "write_fclib",
           "impulses.size()", impulses.size(), "must be 0 or D times the contacts");
-  const detail::QuietHdf5 quiet;
-  const detail::Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                                &H5Fclose, "create " + path.string());
-  const auto local = detail::create_hdf5_group(file, "fclib_local");
-  detail::write_hdf5(local, "spacedim", int(S::dim));
-  detail::write_fclib_matrix(detail::create_hdf5_group(local, "W"), problem);
-  const auto vectors = detail::create_hdf5_group(local, "vectors");
-  detail::write_hdf5(vectors, "q", problem.free_velocity);
-  detail::write_hdf5(vectors, "mu", problem.friction);
-  if (impulses.size() > 0) {
-    const auto solution = detail::create_hdf5_group(file, "solution");
-    const Eigen::VectorXd u = problem.delassus * impulses + problem.free_velocity;
-    detail::write_hdf5(solution, "u", u);
-    detail::write_hdf5(solution, "r", impulses);
-  }
-  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0)
-    throw std::runtime_error("HDF5: cannot write " + path.string());
+  detail::naming(path, [&] { detail::write_fclib_problem(path, problem, impulses); });
 }
 
 }  // namespace moreau

@@ -24,6 +24,7 @@ class OutputFile {
   /// Empties the file or creates it; its folder must exist.
   /// @param keep goes on behind so many bytes of a file that is there, and cuts off what follows
   ///             them; a file that has less is an error
+  /// @throws std::system_error if the file cannot be opened, created or gone on with
   explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0)
       : path_(path), written_(keep) {
     errno = 0;
@@ -40,6 +41,7 @@ class OutputFile {
   const std::filesystem::path& path() const { return path_; }  ///< of the file
 
   /// Appends the bytes. If not all of them find room, a file on a disk has none of them.
+  /// @throws std::system_error if they cannot be written, or after close()
   void write(std::string_view bytes) {
     errno = 0;
     if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
@@ -51,6 +53,7 @@ class OutputFile {
     written_ += bytes.size();
   }
   /// Waits until what was written is on the disk, where the system can say so.
+  /// @throws std::system_error if the system says that it cannot
   void sync() {
 #if __has_include(<unistd.h>)
     errno = 0;
@@ -60,6 +63,7 @@ class OutputFile {
 #endif
   }
   /// Closes the file and checks that all of it could be written. No write() after it.
+  /// @throws std::system_error if it could not
   void close() {
     if (!file_) return;
     errno = 0;
@@ -106,7 +110,7 @@ inline void sync_folder([[maybe_unused]] const std::filesystem::path& folder) {
 /// Replaces a file as a whole: a reader, a run that is killed or a machine that loses its power
 /// finds the old one or the new one, never a part. On the way the new one is beside it, under its
 /// name with ".part".
-/// @throws std::system_error naming the path
+/// @throws std::system_error naming the path; the old file is then as it was
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path partial = path;
   partial += ".part";

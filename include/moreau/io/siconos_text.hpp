@@ -199,7 +199,7 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
 
 }  // namespace detail
 
-/// Reads a problem from the text of a dump.
+/// Reads a problem from the text of a dump, in the units it has.
 /// @throws std::invalid_argument naming what is wrong if the text is no valid problem
 inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   constexpr std::string_view self = "parse_siconos_text";
@@ -232,8 +232,8 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   return detail::checked_problem(raw, self);
 }
 
-/// Reads a problem from a file.
-/// @throws std::system_error naming the path if the file cannot be read
+/// Reads a problem from a file; see parse_siconos_text().
+/// @throws std::system_error naming the path if the file cannot be read or is empty
 /// @throws std::invalid_argument naming what is wrong if it is no valid problem
 inline AnyFrictionProblem read_siconos_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

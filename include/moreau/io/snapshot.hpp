@@ -2,8 +2,7 @@
 // The whole state of a simulation in one file: a run that is stopped and taken up again goes on
 // with the same bits as one that was not.
 //
-//   write_snapshot("run.snapshot", world, steps, random);   // with whatever else belongs to the
-//   run
+//   write_snapshot("run.snapshot", world, steps, random);   // with what else belongs to the run
 //
 //   moreau::Simulation<..> world(..);                       // an empty one of the same type
 //   if (resume) read_snapshot("run.snapshot", world, steps, random);
@@ -178,6 +177,9 @@ std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& w
 
 /// Gives a simulation, and what else there is, the state that snapshot() took. Everything the
 /// simulation had is replaced but its solver's threads.
+/// @param bytes as snapshot() gave them
+/// @param world of the same type as then; it need not have bodies
+/// @param more  of the same types and in the same order as then
 /// @throws std::runtime_error saying why if the bytes are no snapshot, truncated, corrupted, of
 ///         another format or of other types; nothing is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
@@ -188,6 +190,7 @@ void restore_snapshot(std::string_view bytes,
 
 /// Writes a snapshot. A file that is there is replaced as a whole: a reader, or a run that is
 /// killed at any time, finds the old one or the new one.
+/// @param more as for snapshot()
 /// @throws std::system_error naming the path if the file cannot be written; one that was there is
 ///         as it was
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>

@@ -29,24 +29,26 @@ namespace moreau {
 
 /// How grains are drawn.
 struct VtkOptions {
-  int fineness = 2;  ///< of curved surfaces, as SurfaceMesher takes it: 320 triangles a ball
+  int fineness = 2;  ///< 0 to 6, of curved surfaces, as SurfaceMesher's: 320 triangles a ball
   bool spheres_as_points = true;  ///< of assemblies of nothing but spheres
 };
 
 /// Writes .vtp files, each whole or not at all; keeps its buffers from snapshot to snapshot.
-/// All methods throw std::system_error naming the path if the file cannot be written.
+/// Coordinates in world axes [m], as single-precision numbers; in the plane z = 0.
 template <class S>
 class VtkWriter {
  public:
   using Vector = typename S::Vector;
 
-  /// @throws std::invalid_argument for a fineness out of range
+  /// @throws std::invalid_argument for a fineness outside 0 to 6
   explicit VtkWriter(const VtkOptions& options = {})
       : options_(options), mesher_(options.fineness) {}
 
   /// The grains, with `id` (the number k), `size` (circumdiameter [m]), `velocity` of the centre
   /// [m/s], `speed` and `spin` (magnitude of the angular velocity [rad/s]).
-  /// @param shape_of,pose_of,velocity_of k -> shape, pose, twist (v, w) of grain k, world axes
+  /// @param shape_of,pose_of,velocity_of k -> shape, pose [m], twist (v, w) [m/s, rad/s] of grain
+  ///                                     k, world axes
+  /// @throws std::system_error naming the path if the file cannot be written
   template <class ShapeOf, class PoseOf, class VelocityOf>
   void write_grains(const std::filesystem::path& path, std::size_t grain_count,
                     const ShapeOf& shape_of, const PoseOf& pose_of, const VelocityOf& velocity_of) {
@@ -83,6 +85,8 @@ class VtkWriter {
   /// Contact points as lines between the centres of their bodies, with `normal_force` and
   /// `friction_force` [N], `gap` [m], `class` (the number of the ContactClass) and `point`, where
   /// it is [m].
+  /// @param contacts of force_chains() or contact_segments()
+  /// @throws std::system_error naming the path if the file cannot be written
   void write_contacts(const std::filesystem::path& path,
                       std::span<const ContactSegment<S>> contacts) {
     clear();
@@ -106,6 +110,7 @@ class VtkWriter {
 
   /// The cells of a grid that hold grains, as points at their centres, with `value`, the mean in
   /// the field's unit, and `grains`, how many there were.
+  /// @throws std::system_error naming the path if the file cannot be written
   void write_field(const std::filesystem::path& path, const GridField<S>& field) {
     clear();
     for (std::size_t k = 0; k < field.size(); ++k) {
@@ -120,7 +125,8 @@ class VtkWriter {
     data_.write(path);
   }
 
-  /// The edges of a box.
+  /// The edges of a box, world axes [m].
+  /// @throws std::system_error naming the path if the file cannot be written
   void write_box(const std::filesystem::path& path, const Aabb<S>& box) {
     clear();
     for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {

@@ -25,10 +25,12 @@
 
 namespace moreau {
 
+/// The numbers that arrays can have.
 template <class T>
 concept VtkNumber = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, std::int32_t> || std::same_as<T, std::uint32_t>;
 
+/// What VTK's XML calls them.
 template <VtkNumber T>
 constexpr std::string_view vtk_type_name() {
   if constexpr (std::same_as<T, float>) return "Float32";
@@ -54,14 +56,15 @@ class VtkPolyData {
     appended_.clear();
   }
 
-  /// @param x in metres; a plane vector gets z = 0
+  /// Adds a point.
+  /// @param x world axes [m]; a plane vector gets z = 0
   /// @returns its index
   template <class Vector>
   std::int32_t add_point(const Vector& x) {
     for (int k = 0; k < 3; ++k) points_.push_back(k < x.size() ? static_cast<float>(x[k]) : 0.0f);
     return static_cast<std::int32_t>(point_count() - 1);
   }
-  /// A cell of the points with these indices.
+  /// A cell of the points with these indices, which add_point() gave; they are not checked.
   void add_cell(Cells kind, std::span<const std::int32_t> points) {
     CellList& cells = cells_[static_cast<std::size_t>(kind)];
     cells.points.insert(cells.points.end(), points.begin(), points.end());
@@ -76,7 +79,7 @@ class VtkPolyData {
     return count;
   }
 
-  /// Values on all points or cells added so far, `components` in a row for each.
+  /// Values on all points or cells added so far, `components` in a row for each, in any unit.
   /// @throws std::invalid_argument for a number of values that does not fit, or a name that XML
   ///         would not take
   template <VtkNumber T>
@@ -91,7 +94,7 @@ class VtkPolyData {
   }
 
   /// Writes the .vtp file, whole or not at all.
-  /// @throws std::system_error naming the path
+  /// @throws std::system_error naming the path if the file cannot be written
   void write(const std::filesystem::path& path) {
     const std::size_t kept = appended_.size();
     std::string xml = header();
@@ -166,8 +169,12 @@ class PvdSeries {
 
   /// Lists a file (relative to the .pvd file) at a time [s] and rewrites the series, so that it is
   /// whole at any moment. Files of the same time are shown together as parts 0, 1, ...
-  /// @throws std::system_error naming the path
+  /// @throws std::invalid_argument for a name with one of " < &, or a time that is not finite
+  /// @throws std::system_error naming the path if the series cannot be written
   void add(double time, std::string_view file, int part = 0) {
+    require(std::isfinite(time), "PvdSeries::add", "time", time, "must be finite");
+    require(file.find_first_of("\"<&") == std::string_view::npos, "PvdSeries::add", "file",
+            std::string(file), "must have none of \" < &");
     std::ostringstream line;
     line.imbue(std::locale::classic());
     line.precision(17);

@@ -22,6 +22,8 @@
 
 namespace moreau {
 
+/// A law with a constant attraction within a range of the gap; the header has its equations.
+/// Model of AttractiveLaw.
 /// @tparam Law    the set-valued law of the push, with whatever else it knows (static friction,
 ///                rolling, lanes)
 /// @tparam Scalar what it counts in
@@ -45,9 +47,9 @@ class Cohesive : public Law {
 
   Scalar adhesion() const { return adhesion_; }  ///< gamma [N]
   Scalar range() const { return range_; }        ///< up to which gap it acts [m]
-  /// Force with which the bodies attract each other along the normal [N].
+  /// Force with which the bodies attract each other along the normal at this gap [m], >= 0 [N].
   Scalar attraction(Scalar gap) const { return gap <= range_ ? adhesion_ : Scalar(0); }
-  /// See StatefulLaw: the push obeys that variant of the law.
+  /// See StatefulLaw: the push obeys that variant of the law, k < variants.
   Cohesive variant(std::size_t k) const requires requires(const Law& law) {
     { law.variant(k) } -> std::same_as<Law>;
   }

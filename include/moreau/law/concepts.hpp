@@ -13,12 +13,13 @@
 
 namespace moreau {
 
+/// A law that says of itself that it carries couples: `static constexpr bool rolls = true`.
 template <class L>
 concept Rolls = requires {
   requires L::rolls;
 };
 
-/// W of one contact as a law sees it.
+/// W of one contact as a law sees it, in the contact's frame [1/kg].
 template <class L, class S>
 using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 
@@ -61,8 +62,10 @@ Vector natural_map(const L& law, const Vector& u, const Vector& r, typename Vect
 
 }  // namespace detail
 
+/// A set-valued law of forces alone: D rows per contact.
 template <class L, class S>
 concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;
+/// A set-valued law of forces and couples: D + A rows per contact.
 template <class L, class S>
 concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
@@ -87,7 +90,8 @@ concept StatefulLaw = SetValuedLaw<L, S> &&
 
 /// A law that also solves one contact per lane.
 ///
-/// - lane_parameters(): an array of all that the law differs in from others of its type
+/// - lane_parameters(): an array of all that the law differs in from others of its type, in the
+///   law's own units
 /// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or a step
 ///   towards it that stands still nowhere else. memory is the law's own: one number per contact, 0
 ///   at first, kept from visit to visit. Where polish is set the impulse lies in the cone to the

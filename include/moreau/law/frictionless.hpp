@@ -14,12 +14,12 @@
 
 namespace moreau {
 
-/// Signorini's condition with Newton's restitution for one pair of materials.
+/// Signorini's condition with Newton's restitution for one pair of materials. Model of LaneLaw.
 template <std::floating_point T = double>
 class Frictionless {
  public:
   /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
-  /// @throws std::invalid_argument outside
+  /// @throws std::invalid_argument for a restitution outside [0, 1]
   explicit Frictionless(T restitution = T(0)) : restitution_(restitution) {
     require(restitution >= T(0) && restitution <= T(1), "Frictionless", "restitution", restitution,
             "must lie in [0, 1]");
@@ -27,14 +27,16 @@ class Frictionless {
 
   T restitution() const { return restitution_; }  ///< e [-]
 
-  /// As SignoriniCoulomb's: see there.
+  /// As SignoriniCoulomb::velocity_offset, from gap [m], velocity before [m/s] and step [s] [m/s].
   T velocity_offset(T gap, T before, T step) const {
     if (restitution_ == T(0)) return std::max(T(0), gap) / step;
     if (gap > T(0)) return std::numeric_limits<T>::infinity();
     return restitution_ * std::min(T(0), before);
   }
 
-  /// The exact impulse of the local problem [N s].
+  /// The exact impulse of the local problem on b, in the contact's frame [N s].
+  /// @param block W of the contact [1/kg]
+  /// @param b     D, relative velocity at zero impulse, with the offset [m/s]
   template <class S>
   typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
                            const typename S::Vector&) const {
@@ -45,7 +47,7 @@ class Frictionless {
 
   /// Nothing that solving depends on tells two laws of this type apart.
   std::array<T, 0> lane_parameters() const { return {}; }
-  /// See LaneLaw.
+  /// See LaneLaw: solve() itself in every lane.
   template <class S>
   static typename LaneBlock<S>::Vector solve_lanes(
       const LaneBlock<S>& block, const typename LaneBlock<S>::Vector& b,
@@ -58,12 +60,13 @@ class Frictionless {
     return r;
   }
 
-  /// r - P_K(r - u) with K the half-line r_n >= 0, r_t = 0.
+  /// r - P_K(r - u) with K the half-line r_n >= 0, r_t = 0; u and r in one unit, which is that of
+  /// the result.
   template <class Vector>
   Vector natural_map(const Vector& u, const Vector& r) const {
     return r - project(Vector(r - u));
   }
-  /// The nearest impulse that the law allows.
+  /// The point of that half-line nearest to x, in the unit of x.
   template <class Vector>
   Vector project(const Vector& x) const {
     return Vector::Unit(0) * std::max(T(0), x[0]);

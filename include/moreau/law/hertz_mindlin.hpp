@@ -22,12 +22,14 @@
 
 namespace moreau {
 
-/// Model of RegularizedLaw.
+/// Hertz's and Mindlin's elastic contact with Coulomb's limit; the header has its equations and
+/// their source. Model of RegularizedLaw.
 template <std::floating_point T = double>
 class HertzMindlin {
  public:
   /// @param young       effective modulus E, 1/E = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b, > 0 [Pa]
-  /// @param shear       effective modulus G, 1/G = (2 - nu_a)/G_a + (2 - nu_b)/G_b, >= 0 [Pa]
+  /// @param shear       effective modulus G, 1/G = (2 - nu_a)/G_a + (2 - nu_b)/G_b, >= 0 [Pa];
+  ///                    > 0 where there is friction
   /// @param friction    mu >= 0 [-]
   /// @param restitution e in [0, 1] [-]; 0.135 is the least it gives
   /// @throws std::invalid_argument outside these ranges
@@ -41,12 +43,20 @@ class HertzMindlin {
     require(std::isfinite(shear) && shear >= 0, self, "shear", shear, "must be finite and >= 0");
     require(std::isfinite(friction) && friction >= 0, self, "friction", friction,
             "must be finite and >= 0");
+    require(friction == 0 || shear > 0, self, "shear", shear, "must be > 0 for friction to act");
   }
 
   /// The law between two pieces of one isotropic material.
-  /// @param young   Young's modulus of the material [Pa]
-  /// @param poisson Poisson's ratio, in (-1, 1/2]
+  /// @param young       Young's modulus of the material, > 0 [Pa]
+  /// @param poisson     Poisson's ratio, in (-1, 1/2] [-]
+  /// @param friction    mu >= 0 [-]
+  /// @param restitution e in [0, 1] of a central impact [-]; 0.135 is the least it gives
+  /// @returns the law with E = young / (2 (1 - poisson^2)) and G = shear / (2 (2 - poisson)), where
+  ///          shear = young / (2 (1 + poisson)) [Pa]
+  /// @throws std::invalid_argument outside these ranges, or for a number that is not finite
   static HertzMindlin of_material(T young, T poisson, T friction, T restitution) {
+    require(std::isfinite(young) && young > 0, "HertzMindlin::of_material", "young", young,
+            "must be finite and > 0");
     require(poisson > T(-1) && poisson <= T(0.5), "HertzMindlin::of_material", "poisson", poisson,
             "must lie in (-1, 0.5]");
     const T shear = young / (2 * (1 + poisson));
@@ -54,12 +64,13 @@ class HertzMindlin {
                         friction, restitution);
   }
 
-  T young() const { return young_; }        ///< E* [Pa]
-  T shear() const { return shear_; }        ///< G* [Pa]
+  T young() const { return young_; }        ///< E, effective [Pa]
+  T shear() const { return shear_; }        ///< G, effective [Pa]
   T friction() const { return friction_; }  ///< mu [-]
 
-  /// Force on b in the contact's frame [N].
-  /// @param memory in and out: xi in the frame [m]
+  /// Force on b in the contact's frame, normal first, f_n >= 0 [N]; none where the gap is open.
+  /// @param motion of the contact; its effective mass and radius are m and R
+  /// @param memory in and out: xi in the frame [m], zero where the gap is open
   template <class S>
   typename S::Vector force(const ContactMotion<S>& motion, typename S::Vector& memory) const {
     if (motion.gap >= 0) {

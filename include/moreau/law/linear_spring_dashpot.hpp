@@ -20,12 +20,13 @@
 
 namespace moreau {
 
-/// Model of RegularizedLaw. One spring per contact point: a contact between faces has several.
+/// Cundall's and Strack's springs and dashpots; the header has their equations and source. One
+/// spring per contact point: a contact between faces has several. Model of RegularizedLaw.
 template <std::floating_point T = double>
 class LinearSpringDashpot {
  public:
   /// @param stiffness            k_n > 0 [N/m]
-  /// @param tangential_stiffness k_t >= 0 [N/m]
+  /// @param tangential_stiffness k_t >= 0 [N/m]; > 0 where there is friction
   /// @param friction             mu >= 0 [-]
   /// @param restitution          e in [0, 1] of a central impact [-]; 0.135 is the least it gives
   /// @throws std::invalid_argument outside these ranges
@@ -42,18 +43,21 @@ class LinearSpringDashpot {
             "tangential_stiffness", tangential_stiffness, "must be finite and >= 0");
     require(std::isfinite(friction) && friction >= 0, self, "friction", friction,
             "must be finite and >= 0");
+    require(friction == 0 || tangential_stiffness > 0, self, "tangential_stiffness",
+            tangential_stiffness, "must be > 0 for friction to act");
   }
 
   T stiffness() const { return stiffness_; }  ///< k_n [N/m]
   T friction() const { return friction_; }    ///< mu [-]
   /// How long a free impact lasts [s]; a twentieth of it is a good step.
-  /// @param effective_mass 1 / (1/m_a + 1/m_b) [kg]
+  /// @param effective_mass 1 / (1/m_a + 1/m_b) [kg], > 0; not checked
   T duration(T effective_mass) const {
     return detail::contact_time(damping_) * std::sqrt(effective_mass / stiffness_);
   }
 
-  /// Force on b in the contact's frame [N].
-  /// @param memory in and out: xi in the frame [m]
+  /// Force on b in the contact's frame, normal first, f_n >= 0 [N]; none where the gap is open.
+  /// @param motion of the contact
+  /// @param memory in and out: xi in the frame [m], zero where the gap is open
   template <class S>
   typename S::Vector force(const ContactMotion<S>& motion, typename S::Vector& memory) const {
     if (motion.gap >= 0) {

@@ -19,7 +19,8 @@ class MaterialPairs {
 
   /// Number of materials.
   std::size_t count() const { return count_; }
-  /// Position of the pair's law in Materials::laws().
+  /// Position of the pair's law in Materials::laws(); both materials must exist, which is not
+  /// checked.
   std::size_t law_index(MaterialId a, MaterialId b) const { return a.index() * count_ + b.index(); }
 
  protected:
@@ -48,9 +49,9 @@ class Materials : public MaterialPairs {
     laws_[law_index(b, a)] = law;
   }
 
-  /// The law between two materials.
+  /// The law between two materials; both must exist, which is not checked.
   const Law& operator()(MaterialId a, MaterialId b) const { return laws_[law_index(a, b)]; }
-  const std::vector<Law>& laws() const { return laws_; }  ///< of all pairs, see law_index()
+  const std::vector<Law>& laws() const { return laws_; }  ///< count()^2, see law_index()
 
  private:
   friend struct StateAccess;

@@ -20,13 +20,14 @@ struct ContactMotion {
   typename S::Scalar effective_mass;    ///< 1 / (1/m_a + 1/m_b); a wall weighs nothing in it [kg]
   typename S::Scalar effective_radius;  ///< 1 / (1/R_a + 1/R_b) with R from the centre of mass to
                                         ///< the point; a wall has no curvature [m]
-  typename S::Scalar step;              ///< since the last call [s]
+  typename S::Scalar step;              ///< since the last call [s]; 0 at a first look
 };
 
 /// Forces that are a function of gap and velocity, and of a memory that the law keeps.
 ///
-/// - force(motion, memory): the force on b [N] in the contact's frame. memory is a vector of the
-///   frame, 0 when the contact is new; it is carried from step to step in world axes.
+/// - force(motion, memory): the force on b [N] in the contact's frame, D numbers, normal first;
+///   f_n > 0 pushes. memory is a vector of the frame in the law's own unit, 0 when the contact is
+///   new; it is carried from step to step in world axes.
 template <class L, class S>
 concept RegularizedLaw = std::copyable<L> &&
     requires(const L law, const ContactMotion<S> motion, typename S::Vector memory) {

@@ -53,7 +53,8 @@ Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
 
 }  // namespace detail
 
-/// Signorini's condition with friction and rolling resistance for one pair of materials.
+/// Signorini's condition with friction and rolling resistance for one pair of materials; the header
+/// has its equations and their source. Model of RollingLaw.
 template <std::floating_point T = double>
 class RollingResistance {
  public:
@@ -61,7 +62,7 @@ class RollingResistance {
 
   /// @param friction    mu >= 0 [-]
   /// @param rolling     eta >= 0 [-]: largest couple over (effective radius x normal impulse)
-  /// @param restitution e in [0, 1] [-]
+  /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
   /// @throws std::invalid_argument outside these ranges
   explicit RollingResistance(T friction = T(0), T rolling = T(0), T restitution = T(0))
       : point_(friction, restitution), rolling_(rolling) {
@@ -73,12 +74,16 @@ class RollingResistance {
   T rolling() const { return rolling_; }                  ///< eta [-]
   T restitution() const { return point_.restitution(); }  ///< e [-]
 
-  /// As SignoriniCoulomb::velocity_offset.
+  /// As SignoriniCoulomb::velocity_offset, from gap [m], velocity before [m/s] and step [s] [m/s].
   T velocity_offset(T gap, T before, T step) const {
     return point_.velocity_offset(gap, before, step);
   }
 
-  /// The impulse of the local problem, to rounding.
+  /// The impulse of the local problem on b, (r_n, r_t, couple / R) in the contact's frame, to
+  /// rounding [N s].
+  /// @param block W of the contact [1/kg]
+  /// @param b     D + A, (velocity, R spin) at zero impulse, with the offset [m/s]
+  /// @param guess any impulse nearby, or zero [N s]
   template <class S>
   typename RollingBlock<S>::Vector solve(const RollingBlock<S>& block,
                                          const typename RollingBlock<S>::Vector& b,
@@ -91,7 +96,9 @@ class RollingResistance {
     return unit * solve_unit<S>(block, b / unit, start.allFinite() ? start : Vector::Zero());
   }
 
-  /// r - P_K(r - (u + (mu |u_t| + eta |w|) n)).
+  /// r - P_K(r - (u + (mu |u_t| + eta |w|) n)), K the cone of project(). Zero iff (u, r) satisfies
+  /// the law.
+  /// @param u,r D + A, in one unit, which is that of the result
   template <class Vector>
   Vector natural_map(const Vector& u, const Vector& r) const {
     constexpr int d = point_rows<Vector>;
@@ -101,7 +108,8 @@ class RollingResistance {
     return r - project(x);
   }
 
-  /// The point of the cone |x_t| <= mu x_n, |m| <= eta x_n nearest to x.
+  /// The point of the cone |x_t| <= mu x_n, |m| <= eta x_n nearest to x = (x_n, x_t, m), in its
+  /// unit.
   template <class Vector>
   Vector project(const Vector& x) const {
     constexpr int d = point_rows<Vector>, spins = Vector::RowsAtCompileTime - d;

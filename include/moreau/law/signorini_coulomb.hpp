@@ -96,6 +96,7 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
 }  // namespace detail
 
 /// Signorini's condition with Coulomb friction and Newton's restitution for one pair of materials.
+/// Model of LaneLaw and StatefulLaw.
 template <std::floating_point T = double>
 class SignoriniCoulomb {
  public:
@@ -104,8 +105,11 @@ class SignoriniCoulomb {
   /// @throws std::invalid_argument outside these ranges
   explicit SignoriniCoulomb(T friction = T(0), T restitution = T(0))
       : SignoriniCoulomb(friction, restitution, friction) {}
-  /// @param static_friction >= friction [-]; holds in a step where the contact is new or stuck in
-  ///                        the step before, `friction` where it slid
+  /// With more friction at rest than in slip.
+  /// @param friction        mu >= 0 where it slid in the step before [-]
+  /// @param restitution     e in [0, 1] [-]
+  /// @param static_friction mu >= friction where the contact is new or stuck in the step before [-]
+  /// @throws std::invalid_argument outside these ranges
   SignoriniCoulomb(T friction, T restitution, T static_friction)
       : friction_(friction), restitution_(restitution), static_(static_friction) {
     require(std::isfinite(friction) && friction >= T(0), "SignoriniCoulomb", "friction", friction,
@@ -120,19 +124,24 @@ class SignoriniCoulomb {
   T static_friction() const { return static_; }   ///< mu until it slips [-]
   T restitution() const { return restitution_; }  ///< e [-]
 
-  /// e = 0: the contact may close its gap within the step, max(0, g)/h, and a penetration is not
-  /// thrown out. e > 0: it acts only when closed, with e min(0, u_n before); a contact that
-  /// anticipated its gap would lose the restitution.
+  /// What is added to u_n [m/s]. e = 0: the contact may close its gap within the step, max(0, g)/h,
+  /// and a penetration is not thrown out. e > 0: it acts only when closed, with e min(0, u_n
+  /// before); a contact that anticipated its gap would lose the restitution.
+  /// @param gap    g [m], < 0 is penetration
+  /// @param before u_n ahead of the step [m/s], > 0 separates
+  /// @param step   h [s], > 0
+  /// @returns infinity where the contact cannot act in this step
   T velocity_offset(T gap, T before, T step) const {
     if (restitution_ == T(0)) return std::max(T(0), gap) / step;
     if (gap > T(0)) return std::numeric_limits<T>::infinity();
     return restitution_ * std::min(T(0), before);
   }
 
-  /// The exact impulse of the local problem [N s].
-  /// @param block W of the contact
-  /// @param b     relative velocity at zero impulse, with the offset [m/s]
-  /// @param guess any impulse nearby, or zero
+  /// The exact impulse of the local problem on b, in the contact's frame, normal first [N s]. It
+  /// uses friction(); the friction of rest is that of variant().
+  /// @param block W of the contact [1/kg]
+  /// @param b     D, relative velocity at zero impulse, with the offset [m/s]
+  /// @param guess any impulse nearby, or zero [N s]
   template <class S>
   typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
                            const typename S::Vector& guess) const {
@@ -156,11 +165,12 @@ class SignoriniCoulomb {
 
   /// See StatefulLaw: with the friction of rest, with that of slip.
   static constexpr std::size_t variants = 2;
-  /// See StatefulLaw: 0 after slip, 1 after rest.
+  /// See StatefulLaw: 0 after rest, 1 after slip.
   SignoriniCoulomb variant(std::size_t k) const {
     return SignoriniCoulomb(k == 0 ? static_ : friction_, restitution_);
   }
-  /// It slid if its impulse lies on one of the two cones.
+  /// It slid if its impulse [N s], in the contact's frame, lies on one of the two cones. 1 for all
+  /// if these are one.
   template <class Vector>
   std::size_t variant_after(const Vector& impulse) const {
     if (static_ == friction_) return 1;
@@ -171,7 +181,7 @@ class SignoriniCoulomb {
     return length > T(0) && slid ? 1 : 0;
   }
 
-  /// What two laws of this type differ in when they solve: the friction.
+  /// What two laws of this type differ in when they solve: the friction [-].
   std::array<T, 1> lane_parameters() const { return {friction_}; }
   /// One contact per lane; see CoulombLanes for what it returns of solve(). It remembers alpha.
   template <class S>
@@ -185,6 +195,7 @@ class SignoriniCoulomb {
 
   /// r - P_K(r - (u + mu |u_t| n)), K the Coulomb cone. Zero iff (u, r) satisfies the law
   /// (G. De Saxce and Z.-Q. Feng, Math. Comput. Modelling 28 (1998) 225).
+  /// @param u,r D, normal first, in one unit, which is that of the result
   template <class Vector>
   Vector natural_map(const Vector& u, const Vector& r) const {
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
@@ -193,7 +204,7 @@ class SignoriniCoulomb {
     return r - project(x);
   }
 
-  /// The point of the cone |x_t| <= mu x_n nearest to x.
+  /// The point of the cone |x_t| <= mu x_n nearest to x, D numbers, normal first, in its unit.
   template <class Vector>
   Vector project(const Vector& x) const {
     constexpr int tangents = Vector::RowsAtCompileTime - 1;

@@ -251,8 +251,10 @@ typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, con
 
 }  // namespace detail
 
-/// The volume of a polytope at a pose that lies in the control volume [m^D].
+/// The volume of a polytope at a pose that lies in the control volume, in the plane its area [m^D].
+/// Exact to some rounding errors of the volume of the polytope.
 /// @param control_volume  in world axes [m]
+/// @param workspace       buffers, reused
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <Polytope Shape, class S = SpaceOf<Shape>>
 typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,

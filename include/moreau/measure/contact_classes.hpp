@@ -14,11 +14,11 @@ namespace moreau {
 struct ContactClassShare {
   std::size_t pairs = 0;   ///< of bodies that carry force
   std::size_t points = 0;  ///< their points that carry force
-  double neighbours = 0;   ///< per grain: a pair of grains adds two, a grain and a wall one
-  double force = 0;        ///< part of the sum of all normal forces, in [0, 1]
+  double neighbours = 0;   ///< per grain: a pair of grains adds two, a grain and a wall one [-]
+  double force = 0;        ///< part of the sum of all normal forces, in [0, 1] [-]
 };
 
-/// By ContactClass.
+/// The share of every ContactClass.
 struct ContactClasses {
   /// In the order of ContactClass.
   std::array<ContactClassShare, static_cast<std::size_t>(ContactClass::face_face) + 1> shares;
@@ -33,7 +33,7 @@ struct ContactClasses {
 /// CoordinationCounter finds with all grains.
 /// @param pairs       of pair_forces()
 /// @param grain_count number of grains; without any, neighbours are 0
-/// @param is_grain    body -> false for a wall
+/// @param is_grain    body -> false for a wall; bodies by BodyId::index()
 template <class S>
 ContactClasses contact_classes(std::span<const PairForce<S>> pairs, std::size_t grain_count,
                                const auto& is_grain) {

@@ -31,6 +31,9 @@ bool is_control_volume(const Aabb<S>& box) {
          (box.lower.array() < box.upper.array()).all();
 }
 
+/// Checks a control volume.
+/// @param box      world axes [m]
+/// @param function the public name the caller used
 /// @throws std::invalid_argument naming the function and the box if it is empty, inverted or not
 ///         finite
 template <class S>
@@ -40,7 +43,8 @@ void require_control_volume(const Aabb<S>& box, std::string_view function) {
                 "must be finite with lower < upper on every axis");
 }
 
-/// For a control volume that is to hold grains only: it has to lie inside their container.
+/// For a control volume that is to hold grains only: it has to lie inside their container, both in
+/// world axes [m].
 /// @throws std::invalid_argument naming both boxes if it does not, or if one of them is no box
 template <class S>
 void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
@@ -51,7 +55,7 @@ void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
                 "must lie inside the box " + detail::describe(box));
 }
 
-/// [m^D]
+/// The box's volume, in the plane its area [m^D]; of no use for a box that is none.
 template <class S>
 typename S::Scalar volume(const Aabb<S>& box) {
   return (box.upper - box.lower).prod();

@@ -18,16 +18,17 @@ struct Coordination {
   std::size_t rattlers = 0;  ///< left out
   std::size_t points = 0;    ///< contact points with normal impulse > 0 between what is counted
   std::size_t pairs = 0;     ///< pairs of bodies with such a point
-  /// Bodies that push on a grain, mean over the grains counted. A pair of grains adds two, a grain
-  /// and a wall one; a pair counts once however many points it has.
+  /// Bodies that push on a grain, mean over the grains counted [-]. A pair of grains adds two, a
+  /// grain and a wall one; a pair counts once however many points it has. 0 without grains.
   double neighbours = 0;
-  double points_per_grain = 0;  ///< the same with points in place of pairs
+  double points_per_grain = 0;  ///< the same with points in place of pairs [-]
 };
 
 /// Counts contacts that carry force; keeps its buffers from call to call.
 template <class S>
 class CoordinationCounter {
  public:
+  /// Counts the contacts with normal impulse > 0.
   /// @param points     sorted by (a, b), as Contacts keeps them
   /// @param impulses   of the points, contact frames, normal first [N s]
   /// @param body_count number of bodies, walls included

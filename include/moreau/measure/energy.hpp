@@ -18,23 +18,23 @@ struct BodyMotion {
   typename S::Twist velocity = S::Twist::Zero();     ///< (v, w) [m/s, rad/s]
 };
 
-/// Of one body or of many.
+/// Kinetic energy of one body or of many, >= 0.
 template <class S>
 struct KineticEnergy {
-  typename S::Scalar translation = 0;  ///< [J]
-  typename S::Scalar rotation = 0;     ///< [J]
+  typename S::Scalar translation = 0;  ///< m v^2/2 [J]
+  typename S::Scalar rotation = 0;     ///< w.I w/2 [J]
 
-  typename S::Scalar total() const { return translation + rotation; }  ///< [J]
+  typename S::Scalar total() const { return translation + rotation; }  ///< of both [J]
 };
 
-/// Of one body or of many.
+/// Momentum of one body or of many, world axes.
 template <class S>
 struct Momentum {
   typename S::Vector linear = S::Vector::Zero();     ///< [kg m/s]
   typename S::Angular angular = S::Angular::Zero();  ///< about the origin asked for [kg m^2/s]
 };
 
-/// m v^2/2 and w.I w/2 of one body.
+/// m v^2/2 and w.I w/2 of one body [J].
 template <class S>
 KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
   const auto v = body.velocity.template head<S::dim>();
@@ -42,7 +42,8 @@ KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
   return {body.mass * v.squaredNorm() / 2, w.dot(body.inertia * w) / 2};
 }
 
-/// m v, and I w + r x m v with r from `origin` [m] to the centre of the body.
+/// m v [kg m/s], and I w + r x m v [kg m^2/s] with r from `origin` (world axes [m]) to the centre
+/// of the body.
 template <class S>
 Momentum<S> momentum(const BodyMotion<S>& body,
                      const typename S::Vector& origin = S::Vector::Zero()) {
@@ -51,8 +52,9 @@ Momentum<S> momentum(const BodyMotion<S>& body,
                       S::moment(body.position - origin, linear)};
 }
 
-/// Sum over bodies.
-/// @param motion_of k -> BodyMotion<S> of body k
+/// Sum over bodies [J].
+/// @param count     number of bodies
+/// @param motion_of k -> BodyMotion<S> of body k, k < count
 template <class S, class MotionOf>
 KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   KineticEnergy<S> sum;
@@ -64,8 +66,10 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   return sum;
 }
 
-/// Sum over bodies, angular momentum about the origin [m].
-/// @param motion_of k -> BodyMotion<S> of body k
+/// Sum over bodies, of angular momentum about the origin.
+/// @param count     number of bodies
+/// @param motion_of k -> BodyMotion<S> of body k, k < count
+/// @param origin    world axes [m]
 template <class S, class MotionOf>
 Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
                      const typename S::Vector& origin = S::Vector::Zero()) {

@@ -26,18 +26,19 @@
 
 namespace moreau {
 
-/// Sums since the balance began, in joules; in the plane, of what the densities are per.
+/// Sums since the balance began; in the plane, of what the densities are per. The header has the
+/// balance, with its signs.
 struct EnergyTerms {
-  double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy
-  double forces = 0;      ///< work of set_force() on grains, and on walls along their mass
-  double drives = 0;      ///< work of whatever moves bodies, or axes of them, that have no mass
-  double impacts = 0;     ///< taken by normal impulses: restitution, inelastic shocks
-  double friction = 0;    ///< taken by tangential impulses
-  double rolling = 0;     ///< taken by couples of rolling and twisting resistance
+  double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy [J]
+  double forces = 0;      ///< work of set_force() on grains, and on walls along their mass [J]
+  double drives = 0;      ///< work of whatever moves bodies, or axes of them, that have no mass [J]
+  double impacts = 0;     ///< taken by normal impulses: restitution, inelastic shocks [J]
+  double friction = 0;    ///< taken by tangential impulses [J]
+  double rolling = 0;     ///< taken by couples of rolling and twisting resistance [J]
   double correction = 0;  ///< work of gravity and forces along the shifts of the overlap
-                          ///< correction, which made no velocity: < 0 where it lifts grains
+                          ///< correction, which made no velocity: < 0 where it lifts grains [J]
 
-  /// What the kinetic energy should have gained.
+  /// What the kinetic energy should have gained [J].
   double gain() const {
     return gravity + forces + drives - impacts - friction - rolling - correction;
   }
@@ -83,8 +84,8 @@ class EnergyBalance {
 
   const EnergyTerms& terms() const { return terms_; }  ///< sums so far [J]
   double kinetic() const { return kinetic_; }          ///< of grains and walls with a mass [J]
-  double kinetic_at_start() const { return start_; }   ///< [J]
-  /// What the terms do not explain [J].
+  double kinetic_at_start() const { return start_; }   ///< kinetic() as the balance began [J]
+  /// What the kinetic energy gained beyond what the terms explain [J].
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:

@@ -14,14 +14,14 @@ namespace moreau {
 /// Which way the contacts look.
 template <class S>
 struct Fabric {
-  /// Mean of n n^T over the pairs, world axes: symmetric, of trace 1, identity / D if the normals
-  /// point everywhere alike. Zero without pairs.
+  /// Mean of n n^T over the pairs, D x D, world axes: symmetric, of trace 1, identity / D if the
+  /// normals point everywhere alike [-]. Zero without pairs.
   typename S::Matrix tensor = S::Matrix::Zero();
   std::size_t pairs = 0;  ///< counted
 
-  /// The traceless a of E(n) = (1 + n . a n) / (area of the unit sphere), the density of normals
-  /// that has this tensor: a = D (D + 2)/2 (tensor - identity / D). In the plane its eigenvalues
-  /// are +-a of E = (1 + a cos 2(theta - theta_c)) / 2 pi.
+  /// The traceless a [-], D x D, world axes, of E(n) = (1 + n . a n) / (area of the unit sphere),
+  /// the density of normals that has this tensor: a = D (D + 2)/2 (tensor - identity / D). In the
+  /// plane its eigenvalues are +-a of E = (1 + a cos 2(theta - theta_c)) / 2 pi.
   /// Source: K. Kanatani, Int. J. Eng. Sci. 22 (1984) 149, fabric tensors of the third kind.
   typename S::Matrix anisotropy() const {
     using Scalar = typename S::Scalar;
@@ -37,10 +37,10 @@ struct Fabric {
 /// @param pairs          of pair_forces()
 /// @param control_volume world axes [m]
 /// @param position_of    body -> its centre of mass in world axes [m]
-/// @param is_grain       body -> false for a wall
+/// @param is_grain       body -> false for a wall; bodies by BodyId::index()
 /// @param cell           if it is periodic: a pair counts if an image of it lies in the control
 ///                       volume, which is at most as long as the cell
-/// @throws std::invalid_argument if the control volume is no box
+/// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 /// Source: M. Satake, IUTAM Conf. on Deformation and Failure of Granular Materials (1982) 63.
 template <class S>
 Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_volume,

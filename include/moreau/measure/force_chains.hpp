@@ -13,7 +13,8 @@
 
 namespace moreau {
 
-/// One contact point. A wall has no centre: on its side the segment ends at the contact point.
+/// One contact point. A wall has no centre: on its side the segment ends at the contact point. All
+/// vectors in world axes.
 template <class S>
 struct ContactSegment {
   using Scalar = typename S::Scalar;
@@ -30,8 +31,8 @@ struct ContactSegment {
   ContactClass contact_class;  ///< of the pair
 };
 
-/// The segment of point c.
-/// @param step        impulses are divided by it [s]
+/// The segment of point c, c < contacts.size().
+/// @param step        impulses are divided by it [s], > 0; not checked here
 /// @param position_of body -> its centre of mass in world axes [m]
 /// @param is_grain    body -> false for a wall
 /// @param cell        if it is periodic: the segment begins at the position of a and ends at that
@@ -60,7 +61,8 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
   return segment;
 }
 
-/// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`.
+/// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`;
+/// arguments as of contact_segment().
 /// @throws std::invalid_argument if the step is not positive
 template <class S>
 void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
@@ -73,7 +75,7 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
       segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
-/// Fills `segments` with every contact, those without force too.
+/// Fills `segments` with every contact, those without force too; arguments as of contact_segment().
 /// @throws std::invalid_argument if the step is not positive
 template <class S>
 void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,

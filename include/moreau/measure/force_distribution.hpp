@@ -16,11 +16,11 @@ template <std::floating_point T>
 struct ForceDistribution {
   std::size_t count = 0;   ///< forces
   T mean = 0;              ///< of all forces [N]
-  T width = 0;             ///< of a bin, in means
-  std::vector<T> density;  ///< per bin; times width it sums to 1 - beyond
-  T beyond = 0;            ///< share of the forces above the last bin
+  T width = 0;             ///< of a bin, in means [-]
+  std::vector<T> density;  ///< per bin; times width it sums to 1 - beyond [-]
+  T beyond = 0;            ///< share of the forces above the last bin, in [0, 1] [-]
 
-  /// The middle of bin k, in means.
+  /// The middle of bin k, in means [-].
   T ratio(std::size_t k) const { return (static_cast<T>(k) + T(0.5)) * width; }
 };
 
@@ -31,9 +31,10 @@ struct ForceDistribution {
 /// @param count    number of forces
 /// @param force_of k -> the magnitude of force k [N], >= 0
 /// @param bins     > 0
-/// @param reach    where the last bin ends, in means, > 0
+/// @param reach    where the last bin ends, in means, > 0 [-]
 /// @returns densities of zero if there is no force greater than zero
-/// @throws std::invalid_argument for no bins, a reach or a force out of range
+/// @throws std::invalid_argument for no bins, a reach that is not finite or not positive, a force
+///         that is not finite or negative
 template <std::floating_point T>
 ForceDistribution<T> force_distribution(std::size_t count, const auto& force_of,
                                         std::size_t bins = 24, T reach = 6) {

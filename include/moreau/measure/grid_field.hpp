@@ -21,9 +21,9 @@ namespace moreau {
 /// One cell of a grid.
 template <class S>
 struct GridSample {
-  typename S::Vector position;  ///< its centre [m]
-  typename S::Vector value;     ///< weighted mean over its grains; zero without
-  typename S::Scalar weight;    ///< sum over its grains
+  typename S::Vector position;  ///< its centre, world axes [m]
+  typename S::Vector value;     ///< weighted mean over its grains, in their unit; zero without
+  typename S::Scalar weight;    ///< sum over its grains, in the unit of their weights
   std::size_t grains;           ///< counted, in all steps
 };
 
@@ -37,7 +37,8 @@ class GridField {
 
   /// @param control_volume world axes [m]
   /// @param cells          number of them along every axis, > 0
-  /// @throws std::invalid_argument for no cells or a control volume that is no box
+  /// @throws std::invalid_argument for no cells along an axis, or a control volume that is empty,
+  ///         inverted or not finite
   GridField(const Aabb<S>& control_volume, const Cells& cells)
       : box_(control_volume), cells_(cells) {
     require_control_volume(control_volume, "GridField");
@@ -54,9 +55,10 @@ class GridField {
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to average
   /// in time.
-  /// @param position of its centre [m]; in a periodic cell, of any image
+  /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param value    in any unit
   /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
+  /// @param periodic the simulation's cell
   /// @throws std::invalid_argument for a weight that is not positive
   void add(const Vector& position, const Vector& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
@@ -76,10 +78,10 @@ class GridField {
     ++sum.grains;
   }
 
-  const Aabb<S>& control_volume() const { return box_; }  ///< [m]
+  const Aabb<S>& control_volume() const { return box_; }  ///< world axes [m]
   const Cells& cells() const { return cells_; }           ///< along every axis
   std::size_t size() const { return sums_.size(); }       ///< cells in all
-  /// Cell number k; the first axis runs fastest.
+  /// Cell number k, k < size(); the first axis runs fastest.
   GridSample<S> sample(std::size_t k) const {
     const Sum& sum = sums_[k];
     Vector share;

@@ -10,14 +10,14 @@
 
 namespace moreau {
 
-/// Overlap is -gap, > 0 [m]. Zero where nothing overlaps.
+/// Overlaps, each -gap, > 0 [m], in numbers. Zero where nothing overlaps.
 template <class T>
 struct OverlapStatistics {
   std::size_t points = 0;  ///< contact points with gap < 0
   std::size_t pairs = 0;   ///< pairs of bodies with such a point
-  T mean = 0;              ///< over these points
-  T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point
-  T max = 0;               ///< of all points
+  T mean = 0;              ///< over these points [m]
+  T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point [m]
+  T max = 0;               ///< of all points [m]
 
   /// Adds points of another set, e.g. of another step.
   void merge(const OverlapStatistics& other) {
@@ -32,6 +32,7 @@ struct OverlapStatistics {
   }
 };
 
+/// Statistics of the overlaps of contact points.
 /// @param points sorted by (a, b), as Contacts keeps them
 template <class S>
 OverlapStatistics<typename S::Scalar> overlap_statistics(std::span<const Contact<S>> points) {

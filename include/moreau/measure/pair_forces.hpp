@@ -31,7 +31,7 @@ struct PairForce {
 };
 
 /// Fills `pairs` with the pairs that carry force, in the order of `contacts`.
-/// @param step impulses are divided by it [s]
+/// @param step impulses are divided by it [s], > 0
 /// @throws std::invalid_argument if the step is not positive
 template <class S>
 void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,

@@ -10,12 +10,12 @@
 
 namespace moreau {
 
-/// The solid fraction in a control volume. Where grains overlap, the overlap counts twice.
+/// The solid fraction in a control volume [-]. Where grains overlap, the overlap counts twice.
 /// @param control_volume  world axes [m]; if it reaches beyond the container, so does the void that
 ///                        is counted: require_inside() checks that
 /// @param grain_count     number of grains
 /// @param shape_of        k -> the shape of grain k
-/// @param pose_of         k -> its pose
+/// @param pose_of         k -> its pose, world axes [m]
 /// @param workspace       buffers, reused
 /// @returns volume of the grains in the control volume over its volume
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite

@@ -18,12 +18,13 @@ namespace moreau {
 /// @param step           impulses are divided by it [s], > 0
 /// @param control_volume world axes [m]
 /// @param position_of    body -> its centre of mass in world axes [m]
-/// @param is_grain       body -> false for a wall
+/// @param is_grain       body -> false for a wall; bodies by BodyId::index()
 /// @param cell           if it is periodic: a point counts if an image of it lies in the control
 ///                       volume, which is at most as long as the cell; any image of a position will
 ///                       do, as branches are differences of levers
-/// @returns [Pa], in the plane [N/m]
-/// @throws std::invalid_argument if the step is not positive or the control volume is no box
+/// @returns D x D, world axes [Pa], in the plane [N/m]
+/// @throws std::invalid_argument if the step is not positive, or the control volume is empty,
+///         inverted or not finite
 /// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.
 /// (1998).
 template <class S>

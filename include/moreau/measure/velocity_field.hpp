@@ -27,8 +27,10 @@ struct SectionSample {
 template <class T>
 struct Roll {
   T angular_velocity = 0;  ///< sum r x v / sum r^2, > 0 counter-clockwise [rad/s]
-  T strength = 0;   ///< sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1]; +-1 is a rigid rotation
-  T agreement = 0;  ///< share of the samples, by weight, that turn as the whole does, in [0, 1]
+  /// sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1] [-]; +-1 is a rigid rotation.
+  T strength = 0;
+  /// Share of the samples, weighted by |r x v|, that turn as the whole does, in [0, 1] [-].
+  T agreement = 0;
 };
 
 /// Mean velocity of the grains whose centres lie in each cell of a grid over the section of a
@@ -40,8 +42,10 @@ class VelocityField {
   using Vector = typename S::Vector;
   using Sample = SectionSample<Scalar>;
 
-  /// @param columns,rows number of cells along the first and the last axis, > 0
-  /// @throws std::invalid_argument for no cells or a control volume that is no box
+  /// @param control_volume world axes [m]
+  /// @param columns,rows   number of cells along the first and the last axis, > 0
+  /// @throws std::invalid_argument for no cells, or a control volume that is empty, inverted or not
+  ///         finite
   VelocityField(const Aabb<S>& control_volume, std::size_t columns, std::size_t rows)
       : box_(control_volume), columns_(columns), rows_(rows), cells_(columns * rows) {
     require_control_volume(control_volume, "VelocityField");
@@ -54,7 +58,9 @@ class VelocityField {
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to
   /// average in time.
-  /// @param position in a periodic cell, of any image
+  /// @param position of its centre, world axes [m]; in a periodic cell, of any image
+  /// @param velocity of its centre, world axes [m/s]
+  /// @param periodic the simulation's cell
   void add(const Vector& position, const Vector& velocity, const PeriodicCell<S>& periodic = {}) {
     const Vector image = periodic.image_from(box_.lower, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
@@ -66,7 +72,8 @@ class VelocityField {
 
   std::size_t columns() const { return columns_; }  ///< cells along the first axis
   std::size_t rows() const { return rows_; }        ///< cells along the last axis
-  /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
+  /// The cell in a column (from the left) and row (from below), column < columns(), row < rows();
+  /// velocity zero if it holds no grain.
   Sample sample(std::size_t column, std::size_t row) const {
     const Cell& cell = cells_[row * columns_ + column];
     const Section extent = section(box_.upper - box_.lower);
@@ -77,7 +84,7 @@ class VelocityField {
   }
 
   /// Turning about the centre of the cells that hold grains, their mean velocity taken off, so that
-  /// a translation is no roll. Every such cell counts the same.
+  /// a translation is no roll. Every such cell counts the same. All zero if nothing turns or moves.
   Roll<Scalar> roll() const {
     Section centre = Section::Zero(), drift = Section::Zero();
     Scalar count = 0;

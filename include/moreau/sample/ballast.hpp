@@ -32,16 +32,18 @@
 namespace moreau {
 
 /// How grains of a shape are drawn; specialise it for a shape of your own. draw(random) gives
-/// a random one of circumradius 1.
+/// a random one of circumradius 1 (to rounding).
 template <class Shape>
 struct Ballast;
 
+/// A shape of which random grains can be drawn: there is a Ballast<Shape>.
 template <class Shape>
 concept BallastShape = requires(std::mt19937_64& random) {
   { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
 };
 
-/// What the shapes are drawn from. Lengths are relative to the largest semi-axis.
+/// What the shapes are drawn from; the header says how. Lengths are relative to the largest
+/// semi-axis [-].
 struct BallastParameters {
   double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
   double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
@@ -116,6 +118,7 @@ std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
 /// 8 to 37 vertices, 12 to 70 faces, all triangles.
 template <std::floating_point T>
 struct Ballast<Polyhedron<T>> {
+  /// One of circumradius 1.
   static Polyhedron<T> draw(std::mt19937_64& random) {
     using S = Space<3, T>;
     const auto count = std::uniform_int_distribution<std::size_t>(8, 37)(random);
@@ -134,6 +137,7 @@ struct Ballast<Polyhedron<T>> {
 /// 5 to 7 sides.
 template <std::floating_point T>
 struct Ballast<Polygon<T>> {
+  /// One of circumradius 1.
   static Polygon<T> draw(std::mt19937_64& random) {
     using S = Space<2, T>;
     const auto count = std::uniform_int_distribution<std::size_t>(5, 7)(random);
@@ -149,11 +153,13 @@ struct Ballast<Polygon<T>> {
 /// The reference without corners: all the same.
 template <class S>
 struct Ballast<Sphere<S>> {
+  /// That of radius 1.
   static Sphere<S> draw(std::mt19937_64&) { return Sphere<S>(1); }
 };
 
 /// Random grain shapes of circumradius 1, each drawn by Ballast<Shape>.
-/// @param count how many, at least 1
+/// @param count  how many, at least 1
+/// @param random its state goes on; the same state gives the same shapes
 /// @throws std::invalid_argument for count = 0
 template <BallastShape Shape>
 std::vector<Shape> ballast_shapes(std::size_t count, std::mt19937_64& random) {

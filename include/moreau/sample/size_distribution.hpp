@@ -30,13 +30,13 @@ inline double circumradius_of(double size, SizeReading reading) {
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
-/// Sizes in classes, with shares by number.
+/// Sizes in classes, with shares by number. What a size measures is SizeReading's.
 class SizeDistribution {
  public:
   /// Grains of one size.
   struct Class {
     double size;   ///< [m], > 0
-    double share;  ///< by number, relative to the sum of all shares; >= 0
+    double share;  ///< by number, relative to the sum of all shares, >= 0 [-]
   };
 
   /// @throws std::invalid_argument for no class, a size that is not finite and positive, a share
@@ -91,7 +91,7 @@ class SizeDistribution {
     return count;
   }
 
-  /// The sizes [m] of n grains: counts(n) of each class, in random order.
+  /// The sizes [m] of n grains: counts(n) of each class, in random order, which `random` decides.
   /// @throws std::invalid_argument for n = 0
   std::vector<double> sample(std::size_t n, std::mt19937_64& random) const {
     require(n > 0, "SizeDistribution::sample", "n", n, "must be at least 1");

@@ -16,6 +16,10 @@ template <class Shape>
 using SpaceOf = typename Shape::Space;
 
 /// Anything with a mass and a box around it.
+///
+/// - mass_properties(density): at a uniform density [kg/m^D]; the centre has to be the origin for a
+///   grain
+/// - bounding_box(pose): what holds all of it at the pose, world axes [m]
 template <class T>
 concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<SpaceOf<T>> pose) {
   { shape.mass_properties(density) } -> std::same_as<MassProperties<SpaceOf<T>>>;
@@ -23,7 +27,7 @@ concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<
 };
 
 /// Convex: the farthest point in a direction (any length but zero) is all that is asked, in body
-/// coordinates. Enough for a user's own shape.
+/// coordinates [m]. Enough for a user's own shape.
 template <class T>
 concept ConvexShape = Shape<T> && requires(const T shape, typename T::Space::Vector direction) {
   { shape.support(direction) } -> std::same_as<typename T::Space::Vector>;
@@ -40,7 +44,8 @@ concept ConvexCore = requires(const T core, typename T::Space::Vector direction,
 
 /// A convex shape with flat faces. vertices(): N x D, one row each; face_normals(): F x D, unit and
 /// outward; face_offsets(): F, the distance of each face's plane from the origin, normal . x =
-/// offset on it. In the plane the faces are the edges: face i runs from vertex i to vertex i + 1.
+/// offset on it. Lengths in [m], all in body coordinates. In the plane the faces are the edges:
+/// face i runs from vertex i to vertex i + 1.
 template <class T>
 concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.vertices();
@@ -49,18 +54,23 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
 };
 
 // Members that shapes have where they can; what is made of other shapes has them where those do.
+
+/// volume() [m^D].
 template <class T>
 concept HasVolume = requires(const T shape) {
   shape.volume();
 };
+/// circumradius(): the farthest point's distance from the origin [m].
 template <class T>
 concept HasCircumradius = requires(const T shape) {
   shape.circumradius();
 };
+/// inradius(): the distance of the surface's nearest point from the origin [m].
 template <class T>
 concept HasInradius = requires(const T shape) {
   shape.inradius();
 };
+/// scaled(factor): the same shape, all lengths times the factor [-], > 0.
 template <class T>
 concept Scalable = requires(const T shape, typename T::Space::Scalar factor) {
   { shape.scaled(factor) } -> std::same_as<T>;

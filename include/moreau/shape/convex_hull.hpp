@@ -96,8 +96,10 @@ inline void begin_with_smallest(std::vector<std::uint32_t>& cycle) {
 
 /// The hull of points in the plane: indices of its vertices, counter-clockwise, the smallest first;
 /// points inside or on an edge are not among them.
+/// @param vertices N points, in any order [m]
 /// @param function named in errors
-/// @throws std::invalid_argument for fewer than 3 points, one that is not finite, or collinear ones
+/// @throws std::invalid_argument for fewer than 3 points, one that is not finite, or points that
+///         coincide or are collinear within HullTolerance
 /// Source: A. M. Andrew, Inf. Process. Lett. 9 (1979).
 template <std::floating_point T>
 std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> vertices,
@@ -131,8 +133,10 @@ std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> v
 /// The hull of points in space: its faces, each a cycle of vertex indices, counter-clockwise from
 /// outside, the smallest first; points inside, on a face or on an edge are in none of them.
 /// Triangles that are coplanar within HullTolerance are one face.
+/// @param vertices N points, in any order [m]
 /// @param function named in errors
-/// @throws std::invalid_argument for fewer than 4 points, one that is not finite, or coplanar ones
+/// @throws std::invalid_argument for fewer than 4 points, one that is not finite, or points that
+///         coincide, are collinear or coplanar within HullTolerance
 template <std::floating_point T>
 std::vector<std::vector<std::uint32_t>> convex_hull(
     std::span<const Eigen::Matrix<T, 3, 1>> vertices, std::string_view function = "convex_hull") {

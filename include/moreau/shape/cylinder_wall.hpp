@@ -32,7 +32,7 @@ class CylinderWall {
             "must be finite and > 0");
   }
 
-  const Angular& axis() const { return axis_; }  ///< unit
+  const Angular& axis() const { return axis_; }  ///< unit, body coordinates
   Scalar radius() const { return radius_; }      ///< [m]
 
  private:

@@ -8,7 +8,7 @@
 
 namespace moreau {
 
-/// The plane of a face of a polyhedron.
+/// The plane of a face of a polyhedron, in the coordinates of its vertices.
 template <class T>
 struct FacePlane {
   using Vector = Eigen::Matrix<T, 3, 1>;
@@ -23,6 +23,8 @@ struct FacePlane {
 /// outside: through their mean, normal to the area vector.
 /// The area vector of a sliver is a small difference of large products; its error along the sliver
 /// would tilt the plane most. The normal is therefore made orthogonal to the long axis.
+/// @param count number of vertices, >= 3; not checked
+/// @param at    k -> vertex k [m], k < count
 template <class T, class At>
 FacePlane<T> face_plane(std::size_t count, const At& at) {
   using Vector = Eigen::Matrix<T, 3, 1>;

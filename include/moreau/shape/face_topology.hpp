@@ -21,7 +21,7 @@ class IndexLists {
  public:
   std::size_t size() const { return begins_.size() - 1; }  ///< lists
   std::size_t total() const { return items_.size(); }      ///< indices in all lists
-  /// List i.
+  /// List i, i < size().
   std::span<const std::uint32_t> operator[](std::size_t i) const {
     MOREAU_ASSERT(i < size());
     return {items_.data() + begins_[i], begins_[i + 1] - begins_[i]};
@@ -51,7 +51,8 @@ struct PolyhedronEdge {
   std::array<std::uint32_t, 2> face;    ///< on its two sides
 };
 
-/// The incidences of a closed surface, derived from its faces.
+/// The incidences of a closed surface, derived from its faces. Each list is of indices; its place
+/// in the lists is the index of the face or vertex that it belongs to.
 struct FaceTopology {
   IndexLists faces;                   ///< vertices of each face, counter-clockwise from outside
   IndexLists face_edges;              ///< edge k of a face runs between its vertices k and k + 1
@@ -59,16 +60,17 @@ struct FaceTopology {
   IndexLists vertex_edges;            ///< edges at each vertex, ascending
   std::vector<PolyhedronEdge> edges;  ///< each once
 
+  /// Of no surface: to be read into.
   FaceTopology() = default;
   auto state() { return std::tie(faces); }  ///< the rest follows; see core/state.hpp
 
-  /// @param vertex_count number of vertices; each must be in a face
+  /// @param vertex_count number of vertices; each must be in three faces at least
+  /// @param face_list    vertices of each face, counter-clockwise from outside
   /// @param function     named in errors
   /// @throws std::invalid_argument for an index out of range, a face of fewer than three vertices
-  /// or
-  ///   with a vertex twice, an edge that does not occur once in each direction, a vertex in fewer
-  ///   than three faces, or a surface of more than one piece or with a hole through it (V - E + F
-  ///   is not 2)
+  ///         or with a vertex twice, an edge that does not occur once in each direction, a vertex
+  ///         in fewer than three faces, or a surface of more than one piece or with a hole through
+  ///         it (V - E + F is not 2)
   FaceTopology(std::size_t vertex_count, std::span<const std::vector<std::uint32_t>> face_list,
                std::string_view function) {
     for (std::size_t f = 0; f < face_list.size(); ++f) {

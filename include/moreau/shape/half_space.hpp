@@ -22,7 +22,7 @@ class HalfSpace {
     require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");
   }
 
-  /// Unit, points out of the solid.
+  /// Unit, points out of the solid, body coordinates.
   const Vector& normal() const { return normal_; }
 
  private:

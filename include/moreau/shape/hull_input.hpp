@@ -17,7 +17,7 @@
 namespace moreau {
 
 /// Lengths below which a hull takes things for flat, in units of the machine epsilon of the scalar
-/// times the size of the input, its largest coordinate.
+/// times the size of the input, its largest coordinate [-].
 struct HullTolerance {
   double flat = 32;   ///< vertices this close to the plane of a face (line of an edge) lie on it
   double thin = 512;  ///< a hull this thin is coplanar (collinear): an error

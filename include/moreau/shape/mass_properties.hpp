@@ -12,7 +12,7 @@ template <class S>
 struct MassProperties {
   typename S::Scalar mass = 0;                       ///< [kg]
   typename S::Vector center = S::Vector::Zero();     ///< centre of mass in the shape's frame [m]
-  typename S::Inertia inertia = S::Inertia::Zero();  ///< [kg m^2]
+  typename S::Inertia inertia = S::Inertia::Zero();  ///< A x A, about the centre [kg m^2]
 };
 
 }  // namespace moreau

@@ -17,7 +17,8 @@
 
 namespace moreau {
 
-/// Moments of a body of density one about the origin.
+/// Moments of a body of density one [-] about the origin, in the axes of its coordinates. The
+/// header has the formulas and their source.
 template <class S>
 struct Moments {
   using Scalar = typename S::Scalar;
@@ -26,9 +27,10 @@ struct Moments {
 
   Scalar volume = 0;               ///< [m^D]
   Vector first = Vector::Zero();   ///< int x [m^(D+1)]
-  Matrix second = Matrix::Zero();  ///< int x x^T [m^(D+2)]
+  Matrix second = Matrix::Zero();  ///< int x x^T, D x D [m^(D+2)]
 
-  /// Adds the simplex of the origin and the columns of v; negative if they are left-handed.
+  /// Adds the simplex of the origin and the columns of v, D x D [m]; negative if they are
+  /// left-handed.
   void add_simplex(const Matrix& v) {
     const Scalar part = v.determinant() / factorial(S::dim);
     const Vector s = v.rowwise().sum();
@@ -45,7 +47,7 @@ struct Moments {
     return *this;
   }
 
-  /// The moments of the same body about its own centre, first / volume.
+  /// The moments of the same body about its own centre, first / volume; its volume must not be 0.
   Moments centered() const {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
@@ -60,13 +62,13 @@ struct Moments {
   /// n!
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
 
-  /// The moments of the same body, all lengths times the factor.
+  /// The moments of the same body, all lengths times the factor [-].
   Moments scaled(Scalar factor) const {
     const Scalar of_volume = std::pow(factor, Scalar(S::dim));
     return {of_volume * volume, of_volume * factor * first, of_volume * factor * factor * second};
   }
 
-  /// int lever(x)^T lever(x): the inertia about the origin at density one.
+  /// int lever(x)^T lever(x), A x A: the inertia about the origin at density one [m^(D+2)].
   typename S::Inertia inertia() const {
     typename S::Inertia sum = S::Inertia::Zero();
     for (int i = 0; i < S::dim; ++i) {

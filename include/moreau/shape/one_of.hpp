@@ -41,15 +41,15 @@ requires(sizeof...(Shapes) > 0 &&
     return std::visit(std::forward<Use>(use), held_);
   }
 
-  /// [m^D]
+  /// [m^D], where all kinds know it.
   Scalar volume() const requires(HasVolume<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.volume(); });
   }
-  /// Farthest point from the origin [m].
+  /// Distance of the farthest point from the origin [m].
   Scalar circumradius() const requires(HasCircumradius<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.circumradius(); });
   }
-  /// Nearest point of the surface [m].
+  /// Distance of the nearest point of the surface from the origin [m].
   Scalar inradius() const requires(HasInradius<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.inradius(); });
   }
@@ -62,11 +62,11 @@ requires(sizeof...(Shapes) > 0 &&
   MassProperties<Space> mass_properties(Scalar density) const {
     return visit([&](const auto& shape) { return shape.mass_properties(density); });
   }
-  /// World axes [m].
+  /// The box around it at the pose, world axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return visit([&](const auto& shape) { return shape.bounding_box(pose); });
   }
-  /// The same shape, all lengths times the factor, > 0.
+  /// The same shape, all lengths times the factor [-], > 0.
   /// @throws what the shape throws
   OneOf scaled(Scalar factor) const requires(Scalable<Shapes>&&...) {
     return visit([&](const auto& shape) { return OneOf(shape.scaled(factor)); });

@@ -100,7 +100,8 @@ inline double exact_orientation(const Eigen::Vector3d& a, const Eigen::Vector3d&
 
 }  // namespace detail
 
-/// Twice the signed area of the triangle abc; its sign is exact: > 0 if c is to the left of a -> b.
+/// Twice the signed area of the triangle abc, in the square of the coordinates' unit; its sign is
+/// exact: > 0 if c is to the left of a -> b. What coordinates it needs, and the source: the header.
 inline double orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                           const Eigen::Vector2d& c) {
   constexpr double epsilon = 0x1p-53, bound = (3 + 16 * epsilon) * epsilon;
@@ -111,8 +112,9 @@ inline double orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return detail::exact_orientation(a, b, c);
 }
 
-/// Six times the signed volume of the tetrahedron abcd; its sign is exact: > 0 if d is on the side
-/// of the plane abc from which a, b, c run counter-clockwise.
+/// Six times the signed volume of the tetrahedron abcd, in the cube of the coordinates' unit; its
+/// sign is exact: > 0 if d is on the side of the plane abc from which a, b, c run
+/// counter-clockwise.
 inline double orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
   constexpr double epsilon = 0x1p-53, bound = (7 + 56 * epsilon) * epsilon;

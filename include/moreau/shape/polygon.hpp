@@ -25,8 +25,9 @@ class Polygon {
 
   /// The convex hull of the vertices [m]; those inside or on an edge are dropped, the others keep
   /// their cyclic order, the first of the input first.
-  /// @throws std::invalid_argument for fewer than 3, one that is not finite, collinear ones, or
-  ///   moments that the scalar cannot hold
+  /// @param vertices N points, in any order and in any frame [m]
+  /// @throws std::invalid_argument for fewer than 3, one that is not finite, ones that coincide or
+  ///         are collinear, or moments that the scalar cannot hold
   explicit Polygon(std::span<const Vector> vertices);
 
   const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 2 [m]
@@ -42,10 +43,11 @@ class Polygon {
   const Vector& centroid_of_input() const { return centroid_of_input_; }
   T area() const { return moments_.volume; }        ///< [m^2]
   T volume() const { return moments_.volume; }      ///< the area, under its uniform name [m^2]
-  T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
+  T circumradius() const { return circumradius_; }  ///< largest |vertex| from the origin [m]
   T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
-  const Moments<Space>& moments() const { return moments_; }  ///< about the origin, at density one
-  /// The least distance of two face normals, as unit vectors: about the least angle [rad].
+  /// About the origin, which is the centre of mass, at density one.
+  const Moments<Space>& moments() const { return moments_; }
+  /// The least distance of two face normals, as unit vectors [-]: about the least angle [rad].
   T normal_spacing() const { return normal_spacing_; }
 
   /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
@@ -63,15 +65,14 @@ class Polygon {
     detail::require_positive(density, "Polygon::mass_properties", "density");
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
-  /// World axes [m].
+  /// The tight box around it at the pose, world axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return box_around<Space>(vertices_, pose);
   }
 
-  /// The same polygon, all lengths times the factor, > 0.
+  /// The same polygon, all lengths times the factor [-], > 0.
   /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
-  /// the
-  ///   moments
+  ///         the moments
   Polygon scaled(T factor) const {
     detail::require_positive(factor, "Polygon::scaled", "factor");
     Polygon copy = *this;

@@ -33,14 +33,19 @@ class Polyhedron {
 
   /// The convex hull of the vertices [m]; those inside, on a face or on an edge are dropped, the
   /// others keep their order. Coplanar triangles are one face.
-  /// @throws std::invalid_argument for fewer than 4, one that is not finite, coplanar ones, or
-  ///   moments that the scalar cannot hold
+  /// @param vertices N points, in any order and in any frame [m]
+  /// @throws std::invalid_argument for fewer than 4, one that is not finite, ones that coincide,
+  ///         are collinear or coplanar, or moments that the scalar cannot hold
   explicit Polyhedron(std::span<const Vector> vertices);
 
   /// From vertices [m] and faces given as cycles of them, counter-clockwise from outside.
-  /// @throws std::invalid_argument unless the vertices are finite, every one is in 3 faces, every
-  ///   edge is in two faces, once in each direction, and every face is planar and has all other
-  ///   vertices strictly below it; coplanar neighbours have to be one face
+  /// @param vertices N points, in any frame [m]
+  /// @param faces    F cycles of indices of vertices
+  /// @throws std::invalid_argument for fewer than 4 vertices, or unless they are finite, every one
+  ///         is in 3 faces at least, every edge is in two faces, once in each direction, the
+  ///         surface is one piece without holes, every face is planar and has all other vertices
+  ///         strictly below it (coplanar neighbours have to be one face), and the scalar can hold
+  ///         the moments
   static Polyhedron from_faces(std::span<const Vector> vertices,
                                std::span<const std::vector<std::uint32_t>> faces);
 
@@ -55,16 +60,16 @@ class Polyhedron {
   /// Triangles that its surface consists of if every face is cut into triangles: 2 V - 4.
   std::size_t triangle_count() const { return 2 * vertex_count() - 4; }
 
-  /// The vertices of face f, counter-clockwise seen from outside.
+  /// The vertices of face f, f < face_count(), counter-clockwise seen from outside.
   std::span<const std::uint32_t> face(std::size_t f) const { return topology_.faces[f]; }
   /// The edges of face f; the k-th runs between face(f)[k] and face(f)[k + 1].
   std::span<const std::uint32_t> face_edges(std::size_t f) const { return topology_.face_edges[f]; }
   std::span<const Edge> edges() const { return topology_.edges; }  ///< each once
-  /// The faces around vertex v.
+  /// The faces around vertex v, v < vertex_count(), ascending.
   std::span<const std::uint32_t> vertex_faces(std::size_t v) const {
     return topology_.vertex_faces[v];
   }
-  /// The edges at vertex v.
+  /// The edges at vertex v, v < vertex_count(), ascending.
   std::span<const std::uint32_t> vertex_edges(std::size_t v) const {
     return topology_.vertex_edges[v];
   }
@@ -72,10 +77,11 @@ class Polyhedron {
   /// Where the centre of mass was in the coordinates of the input [m].
   const Vector& centroid_of_input() const { return centroid_of_input_; }
   T volume() const { return moments_.volume; }      ///< [m^3]
-  T circumradius() const { return circumradius_; }  ///< largest |vertex| [m]
+  T circumradius() const { return circumradius_; }  ///< largest |vertex| from the origin [m]
   T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
-  const Moments<Space>& moments() const { return moments_; }  ///< about the origin, at density one
-  /// The least distance of two face normals, as unit vectors: about the least angle [rad].
+  /// About the origin, which is the centre of mass, at density one.
+  const Moments<Space>& moments() const { return moments_; }
+  /// The least distance of two face normals, as unit vectors [-]: about the least angle [rad].
   T normal_spacing() const { return normal_spacing_; }
 
   /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
@@ -91,15 +97,14 @@ class Polyhedron {
     detail::require_positive(density, "Polyhedron::mass_properties", "density");
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
-  /// World axes [m].
+  /// The tight box around it at the pose, world axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return box_around<Space>(vertices_, pose);
   }
 
-  /// The same polyhedron, all lengths times the factor, > 0.
+  /// The same polyhedron, all lengths times the factor [-], > 0.
   /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
-  /// the
-  ///   moments
+  ///         the moments
   Polyhedron scaled(T factor) const;
 
  private:

@@ -29,9 +29,10 @@ class Rounded {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
+  /// @param core   in its own frame; copied
   /// @param radius of the ball [m], > 0
   /// @throws std::invalid_argument unless the radius is finite and greater than zero, and so is the
-  ///   volume
+  ///         volume, where it is known
   Rounded(const Core& core, Scalar radius) : core_(core), radius_(radius) {
     detail::require_positive(radius, "Rounded", "radius");
     if constexpr (HasRoundedMoments<Core>) {
@@ -48,24 +49,26 @@ class Rounded {
   /// Where the origin of the core's frame is in this shape's frame [m].
   const Vector& core_position() const { return core_position_; }
 
-  /// [m^D]
+  /// [m^D], where the core's rounded moments are known.
   Scalar volume() const requires HasRoundedMoments<Core> { return moments_.volume; }
-  /// Farthest point from the origin [m].
+  /// Distance of the farthest point from the origin [m]; of a core that is no polytope and whose
+  /// origin is not this one's, a bound from above.
   Scalar circumradius() const requires HasCircumradius<Core> {
     if constexpr (Polytope<Core>) {
       const auto from_origin = core_.vertices().rowwise() + core_position_.transpose();
       return from_origin.rowwise().norm().maxCoeff() + radius_;
     } else {
-      return core_.circumradius() + radius_;
+      return core_.circumradius() + core_position_.norm() + radius_;
     }
   }
-  /// Nearest point of the surface [m].
+  /// Distance of the nearest point of the surface from the origin [m]; of a core that is no
+  /// polytope and whose origin is not this one's, a bound from below.
   Scalar inradius() const requires HasInradius<Core> {
     if constexpr (Polytope<Core>) {
       const auto heights = (core_.face_normals() * core_position_).array() + core_.face_offsets();
       return heights.minCoeff() + radius_;
     } else {
-      return core_.inradius() + radius_;
+      return core_.inradius() - core_position_.norm() + radius_;
     }
   }
 
@@ -81,17 +84,18 @@ class Rounded {
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
 
-  /// Of the core, in the world.
+  /// Pose of the core's frame in the world, from that of this shape's frame [m].
   Pose<Space> core_pose(const Pose<Space>& pose) const {
     return {pose(core_position_), pose.rotation};
   }
-  /// World axes [m].
+  /// The box around it at the pose, world axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return core_.bounding_box(core_pose(pose)).inflated(radius_);
   }
 
-  /// The same shape, all lengths times the factor, > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero
+  /// The same shape, all lengths times the factor [-], > 0.
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and what the
+  ///         core throws
   Rounded scaled(Scalar factor) const requires Scalable<Core> {
     detail::require_positive(factor, "Rounded::scaled", "factor");
     return Rounded(core_.scaled(factor), radius_ * factor);

@@ -24,8 +24,8 @@ class Segment {
   }
 
   Scalar half_length() const { return half_length_; }   ///< [m]
-  Scalar circumradius() const { return half_length_; }  ///< farthest point from the origin [m]
-  Scalar inradius() const { return 0; }                 ///< nearest point of the surface [m]
+  Scalar circumradius() const { return half_length_; }  ///< of the ball around it [m]
+  Scalar inradius() const { return 0; }                 ///< 0: it is its own surface [m]
 
   /// An end that is farthest in the direction (any length but zero), body coordinates [m].
   Vector support(const Vector& direction) const {
@@ -33,13 +33,15 @@ class Segment {
     return direction.x() < 0 ? -half_length_ * Vector::UnitX() : half_length_ * Vector::UnitX();
   }
 
-  /// World axes [m].
+  /// The tight box around it at the pose, world axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const {
     const Vector half = (pose.rotation * Vector(half_length_ * Vector::UnitX())).cwiseAbs();
     return {pose.position - half, pose.position + half};
   }
 
-  /// A segment of half_length() times the factor, > 0.
+  /// A segment of half_length() times the factor [-], > 0.
+  /// @throws std::invalid_argument unless the factor, and then the half length, is finite and
+  ///         greater than zero
   Segment scaled(Scalar factor) const {
     detail::require_positive(factor, "Segment::scaled", "factor");
     return Segment(half_length_ * factor);

@@ -25,8 +25,8 @@ class Sphere {
   }
 
   Scalar radius() const { return radius_; }        ///< [m]
-  Scalar circumradius() const { return radius_; }  ///< farthest point from the origin [m]
-  Scalar inradius() const { return radius_; }      ///< nearest point of the surface [m]
+  Scalar circumradius() const { return radius_; }  ///< radius(), under its uniform name [m]
+  Scalar inradius() const { return radius_; }      ///< radius(), under its uniform name [m]
   /// [m^D]: pi r^2 in the plane, pi r^2 (4 r / 3) in space.
   Scalar volume() const {
     return std::numbers::pi_v<Scalar> * radius_ * radius_ *
@@ -51,12 +51,14 @@ class Sphere {
     return properties;
   }
 
-  /// World axes [m].
+  /// The tight box around it at the pose, world axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const {
     return {pose.position.array() - radius_, pose.position.array() + radius_};
   }
 
-  /// A sphere of radius() times the factor, > 0.
+  /// A sphere of radius() times the factor [-], > 0.
+  /// @throws std::invalid_argument unless the factor, and then the radius, is finite and greater
+  ///         than zero
   Sphere scaled(Scalar factor) const {
     detail::require_positive(factor, "Sphere::scaled", "factor");
     return Sphere(radius_ * factor);
@@ -70,8 +72,10 @@ class Sphere {
   Scalar radius_ = 0;
 };
 
+/// The sphere of the plane.
 template <std::floating_point T = double>
 using Disk = Sphere<moreau::Space<2, T>>;
+/// The sphere of space.
 template <std::floating_point T = double>
 using Ball = Sphere<moreau::Space<3, T>>;
 

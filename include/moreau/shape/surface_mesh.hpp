@@ -24,7 +24,7 @@ namespace moreau {
 template <class S>
 struct SurfaceMesh {
   std::vector<typename S::Vector> points;  ///< body coordinates [m]
-  std::vector<std::int32_t> corners;       ///< of all faces
+  std::vector<std::int32_t> corners;       ///< of all faces, as indices into points
   std::vector<std::int32_t> ends;          ///< where in corners each face ends
 
   /// Takes out points and faces; keeps the memory.
@@ -126,14 +126,15 @@ class SurfaceMesher {
  public:
   /// @param fineness of curved surfaces, 0 to 6: 8 * 2^fineness points in the plane,
   ///                 10 * 4^fineness + 2 in space
-  /// @throws std::invalid_argument outside
+  /// @throws std::invalid_argument for a fineness outside
   explicit SurfaceMesher(int fineness = 2) {
     require(fineness >= 0 && fineness <= 6, "SurfaceMesher", "fineness", fineness,
             "must lie in [0, 6]");
     directions_ = detail::unit_mesh(S{}, fineness);
   }
 
-  /// Fills `mesh` with the surface of a shape: exact for polytopes, inscribed for others.
+  /// Fills `mesh` with the surface of a shape in body coordinates [m]: exact for polytopes,
+  /// inscribed for others.
   template <ConvexShape ShapeT>
   void mesh(const ShapeT& shape, SurfaceMesh<S>& mesh) const {
     mesh.clear();

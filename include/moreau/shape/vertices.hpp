@@ -17,10 +17,12 @@
 
 namespace moreau {
 
+/// N x D, one vertex (or normal) per row.
 template <class S>
 using VertexMatrix = Eigen::Matrix<typename S::Scalar, Eigen::Dynamic, S::dim>;
 
-/// The first vertex that lies farthest in the direction (any length but zero).
+/// Index of the first vertex that lies farthest in the direction (any length but zero), both in the
+/// same axes; there must be a vertex.
 template <class S>
 std::size_t farthest_vertex(const VertexMatrix<S>& vertices, const typename S::Vector& direction) {
   MOREAU_ASSERT(direction.squaredNorm() > 0);
@@ -36,7 +38,7 @@ std::size_t farthest_vertex(const VertexMatrix<S>& vertices, const typename S::V
   return static_cast<std::size_t>(farthest);
 }
 
-/// The box in world axes around the vertices at the pose [m].
+/// The tight box in world axes [m] around the vertices, which are in body coordinates, at the pose.
 template <class S>
 Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
@@ -49,8 +51,8 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   return box;
 }
 
-/// The least distance between two of the rows; infinite if there is only one. Sorted along x, few
-/// of them have to be compared.
+/// The least distance between two of the rows, in their unit; infinite if there is only one. Sorted
+/// along x, few of them have to be compared.
 template <class S>
 typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   using T = typename S::Scalar;

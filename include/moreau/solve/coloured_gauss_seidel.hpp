@@ -33,11 +33,11 @@ namespace moreau {
 
 /// When the sweeps end, and how they go.
 struct ColouredOptions {
-  double tolerance = 1e-4;                     ///< on what stop_test names [-]
+  double tolerance = 1e-4;                     ///< on what stop_test names, > 0 [-]
   StopTest stop_test = StopTest::natural_map;  ///< what ends the sweeps
-  int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped. A solve that
-                            ///< is tried again has it twice
-  int check_interval = 20;  ///< sweeps from one stopping test to the next
+  int max_sweeps = 2000;    ///< cap, >= 1; reached without passing, the report says capped. A solve
+                            ///< that is tried again has it twice
+  int check_interval = 20;  ///< sweeps from one stopping test to the next, >= 1
   bool accelerate = true;   ///< off: plain sweeps
 };
 
@@ -52,7 +52,8 @@ class TeamGaussSeidel {
   requires PointLaw<Law, typename Operator::Space>
   using Workspace = detail::ColouredSweeps<Operator, Law>;
 
-  /// @throws std::invalid_argument for a tolerance out of range or a count below 1
+  /// @throws std::invalid_argument for a tolerance that is not finite and positive, or a cap or an
+  ///         interval below 1
   explicit TeamGaussSeidel(const Options& options = {}, const TeamT& team = TeamT{})
       : options_(options), team_(team) {
     detail::require_stopping(options, "ColouredGaussSeidel");
@@ -60,7 +61,8 @@ class TeamGaussSeidel {
 
   const Options& options() const { return options_; }  ///< as given
 
-  /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve.
+  /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve. Sizes are
+  /// not checked.
   template <class Operator, class Law>
   SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
                     std::span<typename Operator::Vector> impulses,
@@ -153,7 +155,7 @@ class TeamGaussSeidel {
   TeamT team_;
 };
 
-/// On the calling thread.
+/// The default solver: TeamGaussSeidel on the calling thread.
 class ColouredGaussSeidel : public TeamGaussSeidel<SingleThread> {
  public:
   using TeamGaussSeidel::TeamGaussSeidel;

@@ -23,8 +23,9 @@ using OperatorOf = std::conditional_t<RollingLaw<Law, S>, RollingDelassus<S>, Bo
 ///
 /// - Workspace<Operator, Law>: its buffers, made empty and kept from step to step
 /// - solve(op, laws, law_of, impulses, workspace): impulses [N s] that with u = op r + b obey
-///   laws[law_of[c]] at every contact c. They come in as a warm start; op is left with the
-///   velocities that those which go out make. Not converging is no error: the report says so.
+///   laws[law_of[c]] at every contact c, each in its frame, normal first. They come in as a warm
+///   start; op is left with the velocities that those which go out make. Not converging is no
+///   error: the report says so.
 template <class V, class Law, class S>
 concept ContactSolver = SetValuedLaw<Law, S> && std::copyable<V> &&
     requires(const V solver, OperatorOf<Law, S>& op, std::span<const Law> laws,

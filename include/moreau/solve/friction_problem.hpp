@@ -24,7 +24,8 @@
 
 namespace moreau {
 
-/// @tparam S the space; D numbers per contact, normal first
+/// A problem of n contacts; the header has its equations.
+/// @tparam S the space; D numbers per contact, in its own frame, normal first
 template <class S>
 struct FrictionProblem {
   using Space = S;
@@ -40,8 +41,8 @@ struct FrictionProblem {
 
 /// Checks the sizes and the numbers of a problem.
 /// @param function the public name the caller used
-/// @throws std::invalid_argument if W is not square, sizes differ, a number is not finite, a
-///         friction is negative, or no diagonal entry of W is positive or one is negative
+/// @throws std::invalid_argument if W is not D n x D n, sizes differ, a number is not finite, a
+///         friction is negative, or a diagonal entry of W is negative
 template <class S>
 void require_valid(const FrictionProblem<S>& problem, std::string_view function) {
   const auto& w = problem.delassus;
@@ -65,8 +66,8 @@ void require_valid(const FrictionProblem<S>& problem, std::string_view function)
   }
 }
 
-/// Mean of the diagonal of W, by which W is divided and r multiplied to make them free of units
-/// [1/kg]; 1 where it is 0.
+/// Mean of the diagonal of W [1/kg], by which W is divided and r multiplied, so that r has the unit
+/// of u; 1 where it is 0.
 template <class S>
 double delassus_scale(const FrictionProblem<S>& problem) {
   if (problem.size() == 0) return 1;
@@ -107,8 +108,11 @@ MapError map_error(const Eigen::VectorXd& u, const Eigen::VectorXd& r, const Eig
 }  // namespace detail
 
 /// The residual by which a solution is judged: that of the natural map, with u = W r + b computed
-/// anew, after scaling W and r so that the mean of diag W is 1, relative to max(|b|, |r|, |u|).
+/// anew, after scaling W and r so that the mean of diag W is 1, relative to max(|b|, |r|, |u|) [-].
+/// Infinite where it is not a number. For the map see SignoriniCoulomb::natural_map.
+/// @param problem  taken as valid; see require_valid()
 /// @param impulses D n, in the units of the problem [N s]
+/// @throws std::invalid_argument for impulses of another size
 template <class S>
 double natural_map_residual(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
   require(impulses.size() == problem.free_velocity.size(), "natural_map_residual",

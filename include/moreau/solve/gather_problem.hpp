@@ -41,7 +41,9 @@ void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
 /// W = J M^-1 J^T over the contacts of a step that can act in it, each in its own frame. Contacts
 /// that a law switches off (their free velocity is infinite) are left out.
 /// @param op     the operator of the step, e.g. BodyDelassus
-/// @param laws   the table of laws; law_of[c] is the entry of contact c
+/// @param laws   the table of laws, which know their friction()
+/// @param law_of one per contact: its entry in the table
+/// @returns a GatheredProblem in double
 /// @throws std::invalid_argument if law_of has another size than the operator
 template <class Operator, class Law>
 auto gather_problem(const Operator& op, std::span<const Law> laws,

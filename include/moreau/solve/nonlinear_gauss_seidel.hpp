@@ -25,7 +25,7 @@ enum class StopTest {
          ///< measures the change per sweep and is weaker than the residual.
 };
 
-/// LMGC90's criterion of that name, read from a report.
+/// LMGC90's criterion of that name, read from a report; the tolerance is relative [-].
 inline bool passes_qm16(const SolveReport& report, double tolerance) {
   return std::max(report.quad_dv, report.quad_dvr) <= tolerance &&
          std::max(report.maxm_dv, report.maxm_dvr) <= 16.67 * tolerance;
@@ -54,21 +54,23 @@ void apply_alone(Operator& op, std::span<const typename Operator::Vector> impuls
 
 /// Order of the contacts in consecutive sweeps.
 enum class SweepOrder {
-  forward,
+  forward,    ///< as they come
   symmetric,  ///< forward and backward in turn
 };
 
 /// When the sweeps end, and how they go.
 struct GaussSeidelOptions {
-  double tolerance = 1e-4;                     ///< on what stop_test names [-]
+  double tolerance = 1e-4;                     ///< on what stop_test names, > 0 [-]
   StopTest stop_test = StopTest::natural_map;  ///< what ends the sweeps
-  int max_sweeps = 2000;    ///< cap; reached without passing, the report says capped
-  int check_interval = 10;  ///< sweeps between two stopping tests
-  double relaxation = 1;    ///< factor on each impulse change, in (0, 1]; checks use a plain sweep
+  int max_sweeps = 2000;    ///< cap, >= 1; reached without passing, the report says capped
+  int check_interval = 10;  ///< sweeps from one stopping test to the next, >= 1
+  /// Factor on each impulse change, in (0, 1] [-]; checks use a plain sweep.
+  double relaxation = 1;
   SweepOrder order = SweepOrder::forward;  ///< of the contacts
 };
 
-/// The reference solver: plain sweeps, one contact after another.
+/// The reference solver: plain sweeps, one contact after another. It takes every set-valued law.
+/// Source: M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235.
 class NonlinearGaussSeidel {
  public:
   using Options = GaussSeidelOptions;
@@ -76,7 +78,8 @@ class NonlinearGaussSeidel {
   template <class Operator, class Law>
   struct Workspace {};
 
-  /// @throws std::invalid_argument for a tolerance or relaxation out of range or a cap below 1
+  /// @throws std::invalid_argument for a tolerance that is not finite and positive, a cap or an
+  ///         interval below 1, a relaxation outside (0, 1]
   explicit NonlinearGaussSeidel(const Options& options = {}) : options_(options) {
     constexpr const char* self = "NonlinearGaussSeidel";
     detail::require_stopping(options, self);
@@ -86,11 +89,13 @@ class NonlinearGaussSeidel {
 
   const Options& options() const { return options_; }  ///< as given
 
-  /// Solves u = W r + b with the law of every contact.
-  /// @param op       the operator W with the free velocities b; it is left with what the impulses
-  /// make
-  /// @param laws     table of laws; law_of[c] names the entry of contact c
-  /// @param impulses in: the warm start, out: the solution; in each contact's frame [N s]
+  /// Solves u = W r + b with the law of every contact. Sizes are not checked.
+  /// @param op       the operator W with the free velocities b; it is left with the velocities that
+  ///                 the impulses make
+  /// @param laws     table of laws
+  /// @param law_of   one per contact: its entry in the table
+  /// @param impulses one per contact, in: the warm start, out: the solution; in the contact's
+  ///                 frame, normal first [N s]
   /// @returns what was reached; never throws on failure to converge
   template <class Operator, class Law>
   SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,

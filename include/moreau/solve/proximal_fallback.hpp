@@ -35,6 +35,7 @@ concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
 };
 
+/// Sweeps, and where these stall the proximal point method; the header says for what.
 /// @tparam First solves what it can; its options give tolerance and stopping test
 template <class First = ColouredGaussSeidel>
 class ProximalFallback {
@@ -45,7 +46,7 @@ class ProximalFallback {
   requires CoulombLaw<Law, typename Operator::Space>
   struct Workspace {
     typename First::template Workspace<Operator, Law> first;  ///< of the sweeps
-    std::vector<typename Operator::Vector> swept;             ///< what they reached [N s]
+    std::vector<typename Operator::Vector> swept;  ///< what they reached, contact frames [N s]
   };
 
   /// @param options     of the sweeps
@@ -58,7 +59,7 @@ class ProximalFallback {
     require(max_seconds > 0, "ProximalFallback", "max_seconds", max_seconds, "must be > 0");
   }
 
-  const Options& options() const { return first_.options(); }  ///< as given
+  const Options& options() const { return first_.options(); }  ///< of the sweeps, as given
 
   /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve. Sweeps
   /// count those of both methods; where the second was needed, convergence is that of the residual,

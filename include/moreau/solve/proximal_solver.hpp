@@ -25,10 +25,10 @@ namespace moreau {
 
 /// When the solver ends.
 struct ProximalOptions {
-  double tolerance = 1e-10;  ///< on natural_map_residual()
-  int max_sweeps = 1000000;  ///< of Gauss-Seidel, over all contacts
-  /// Time after which the best result so far is returned [s], within one step of Newton's method. A
-  /// result that comes before does not depend on it.
+  double tolerance = 1e-10;  ///< on natural_map_residual(), > 0 [-]
+  int max_sweeps = 1000000;  ///< of Gauss-Seidel, over all contacts, >= 1
+  /// Time after which the best result so far is returned, > 0 [s], within one step of Newton's
+  /// method. A result that comes before does not depend on it.
   double max_seconds = std::numeric_limits<double>::infinity();
 };
 
@@ -37,18 +37,19 @@ struct ProblemReport {
   int sweeps = 0;          ///< of Gauss-Seidel
   int newton_steps = 0;    ///< each with a factorization
   int proximal_steps = 0;  ///< 0: Gauss-Seidel sufficed
-  double residual = 0;     ///< natural_map_residual() of the result
+  double residual = 0;     ///< natural_map_residual() of the result [-]
   /// The residual is within the tolerance, and relative to the velocities alone within its root: a
   /// problem without solution, where impulses grow without bound, does not pass.
   bool converged = false;
 };
 
-/// Solves a friction problem to rounding where that can be done.
+/// Solves a friction problem to rounding where that can be done; the header says how.
 class ProximalSolver {
  public:
   using Options = ProximalOptions;
 
-  /// @throws std::invalid_argument for a tolerance, cap or time that is not positive
+  /// @throws std::invalid_argument for a tolerance that is not finite and positive, a cap below 1
+  ///         or a time that is not positive
   explicit ProximalSolver(const Options& options = {}) : options_(options) {
     constexpr const char* self = "ProximalSolver";
     require(options.tolerance > 0 && std::isfinite(options.tolerance), self, "tolerance",
@@ -57,27 +58,15 @@ class ProximalSolver {
     require(options.max_seconds > 0, self, "max_seconds", options.max_seconds, "must be > 0");
   }
 
+  /// Solves u = W r + b with Signorini's condition and Coulomb's law.
+  /// @param problem  of n contacts
   /// @param impulses in: the start, D n, or empty for zero; out: the best result, in the units of
-  ///                 the problem [N s]
-  /// @throws std::invalid_argument for a problem that is not valid or a start of another size
+  ///                 the problem, normal first in every contact [N s]
+  /// @returns what was reached; not converging is no error
+  /// @throws std::invalid_argument for a problem that is not valid, or a start of another size or
+  ///         that is not finite
   template <class S>
-  ProblemReport solve(const FrictionProblem<S>& problem, Eigen::VectorXd& impulses) const {
-    constexpr const char* self = "ProximalSolver::solve";
-    require_valid(problem, self);
-    const Eigen::Index rows = problem.free_velocity.size();
-    if (impulses.size() == 0) impulses.setZero(rows);
-    require(impulses.size() == rows, self, "impulses.size()", impulses.size(),
-            "must be D times the contacts");
-    require(impulses.allFinite(), self, "impulses", impulses.norm(), "must be finite");
-    const double scale = delassus_scale(problem);
-    Run<S> run(problem, options_, scale * impulses);
-    run.start();
-    run.proximal_point();
-    impulses = run.best.r / scale;
-    run.report.residual = natural_map_residual(problem, impulses);
-    run.report.converged = std::max(run.report.residual, run.best.residual) <= options_.tolerance;
-    return run.report;
-  }
+  ProblemReport solve(const FrictionProblem<S>& problem, Eigen::VectorXd& impulses) const;
 
  private:
   struct Best {
@@ -190,5 +179,26 @@ class ProximalSolver {
 
   Options options_;
 };
+
+// Outside of its class, and so not inline: instances/friction_problems.hpp has it compiled once.
+template <class S>
+ProblemReport ProximalSolver::solve(const FrictionProblem<S>& problem,
+                                    Eigen::VectorXd& impulses) const {
+  constexpr const char* self = "ProximalSolver::solve";
+  require_valid(problem, self);
+  const Eigen::Index rows = problem.free_velocity.size();
+  if (impulses.size() == 0) impulses.setZero(rows);
+  require(impulses.size() == rows, self, "impulses.size()", impulses.size(),
+          "must be D times the contacts");
+  require(impulses.allFinite(), self, "impulses", impulses.norm(), "must be finite");
+  const double scale = delassus_scale(problem);
+  Run<S> run(problem, options_, scale * impulses);
+  run.start();
+  run.proximal_point();
+  impulses = run.best.r / scale;
+  run.report.residual = natural_map_residual(problem, impulses);
+  run.report.converged = std::max(run.report.residual, run.best.residual) <= options_.tolerance;
+  return run.report;
+}
 
 }  // namespace moreau

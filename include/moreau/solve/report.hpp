@@ -7,26 +7,28 @@ namespace moreau {
 struct SolveReport {
   int sweeps = 0;         ///< passes over all contacts, those of a first try that failed included
   bool converged = true;  ///< the stopping test was met
-  bool capped = false;    ///< the cap on sweeps was hit first
+  /// Not converged: the cap on sweeps was hit first, or left_over is above most_left_over.
+  bool capped = false;
 
-  /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1.
-  /// Absolute where r = 0.
+  /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1
+  /// [-]. Absolute where r = 0 [m/s].
   double residual = 0;
-  /// The same map relative to the approach there would be without impulses. Where impulses grow
+  /// The same map relative to the approach there would be without impulses [-]. Where impulses grow
   /// without bound because there is no solution, the residual is small and this is not: beyond
   /// `most_left_over` no solution counts as converged. 0 where nothing approaches.
   double left_over = 0;
-  static constexpr double most_left_over = 0.1;  ///< see left_over
+  static constexpr double most_left_over = 0.1;  ///< see left_over [-]
 
-  double quad_dv = 0;   ///< LMGC90: sqrt<|dv|^2> / sqrt<|W r|^2>
-  double quad_dvr = 0;  ///< LMGC90: sqrt<|dv|^2 |r|^2> / <r . W r>
-  double maxm_dv = 0;   ///< the same with the maximum in the numerator
-  double maxm_dvr = 0;  ///< the same with the maximum in the numerator
+  // Of the last plain sweep, dv = W (change of r), means over the contacts with r != 0.
+  double quad_dv = 0;   ///< LMGC90: sqrt<|dv|^2> / sqrt<|W r|^2> [-]
+  double quad_dvr = 0;  ///< LMGC90: sqrt<|dv|^2 |r|^2> / <r . W r> [-]
+  double maxm_dv = 0;   ///< quad_dv with the maximum in the numerator [-]
+  double maxm_dvr = 0;  ///< quad_dvr with the maximum in the numerator [-]
 
   double worst_velocity = 0;  ///< largest -(u_n + offset) > 0 [m/s]: approach left over
   double worst_gap = 0;       ///< what that closes in a step beyond contact [m]; by Simulation
   double worst_cone =
-      0;  ///< largest excess of |r_t| over mu r_n [N s], by the law's own projection
+      0;  ///< largest distance of r from what the law allows, by its own projection [N s]
   double worst_complementarity = 0;   ///< largest |(u_n + offset) r_n| [J]
   double wrong_sign_dissipation = 0;  ///< sum of positive u_t . r_t: friction that drives [J]
 };

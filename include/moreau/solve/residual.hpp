@@ -17,8 +17,10 @@ namespace moreau {
 /// One pass over all contacts: the natural-map residual and the separate violations of the law.
 /// Fills residual, worst_* and wrong_sign_dissipation of the report.
 /// @param op       the operator, carrying the velocities that the impulses make
-/// @param laws     the table of laws; law_of[c] is the entry of contact c
-/// @param impulses one per contact, normal first [N s]
+/// @param laws     the table of laws
+/// @param law_of   one per contact: its entry in the table
+/// @param impulses one per contact, in its frame, normal first [N s]
+/// @param report   the rest of it stays, worst_gap among it
 template <class Operator, class Law>
 void measure_residual(const Operator& op, std::span<const Law> laws,
                       std::span<const std::uint32_t> law_of,

@@ -21,6 +21,7 @@ struct SingleThread {
   }
 };
 
+/// Copies are cheap and do the same work; run() and meet() are what the header says.
 template <class T>
 concept Team = std::copyable<T> && requires(const T team) {
   team.run([](int, int, auto&& meet) { meet(); });

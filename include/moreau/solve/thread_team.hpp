@@ -107,6 +107,7 @@ class ThreadPool {
 /// time.
 class ThreadTeam {
  public:
+  /// Starts the threads, one fewer than said: the caller's own is one of them.
   /// @throws std::invalid_argument for less than one thread
   explicit ThreadTeam(int threads = 1) {
     require(threads >= 1, "ThreadTeam", "threads", threads, "must be at least 1");
@@ -130,7 +131,8 @@ class ThreadTeam {
 /// ColouredGaussSeidel by several threads: the same bits, whatever their number.
 class ParallelGaussSeidel : public TeamGaussSeidel<ThreadTeam> {
  public:
-  /// @param threads at least 1
+  /// @param options as ColouredGaussSeidel's
+  /// @param threads at least 1; copies of the solver share them
   /// @throws std::invalid_argument as ColouredGaussSeidel, and for less than one thread
   explicit ParallelGaussSeidel(const Options& options = {}, int threads = 1)
       : TeamGaussSeidel(options, ThreadTeam(threads)) {}

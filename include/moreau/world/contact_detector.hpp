@@ -30,12 +30,12 @@
 
 namespace moreau {
 
-/// The alert distance and the skin, in metres.
+/// The alert distance and the other lengths of detection.
 template <class T>
 struct DetectionLengths {
-  T margin;      ///< contacts enter at this gap
-  T skin;        ///< the pair list outlives motions of this size
-  T resolution;  ///< contact points closer together than this are one
+  T margin;      ///< contacts enter at this gap, >= 0 [m]
+  T skin;        ///< the pair list outlives motions of this size, >= 0 [m]
+  T resolution;  ///< contact points closer together than this are one, >= 0 [m]
 };
 
 /// Which points of a contact between two faces are kept.
@@ -44,7 +44,11 @@ enum class ContactPoints {
   all,  ///< the whole polygon of contact: any pressure on it can be carried, blocks stand exactly
 };
 
-/// From where the bodies stand to their contacts: pairs, manifolds, the list of the step.
+/// From where the bodies stand to their contacts: pairs, manifolds, the list of the step. What it
+/// is given is not checked, but for the cell: Simulation does that. Arrays of bodies are
+/// indexed by BodyId::index().
+/// @tparam ShapeT      of the grains
+/// @tparam BroadPhaseT a BroadPhase in its space
 template <class ShapeT, class BroadPhaseT>
 class ContactDetector {
  public:
@@ -58,14 +62,16 @@ class ContactDetector {
     widest_ = std::max(widest_, width(shape));
     stale_ = true;
   }
-  /// Takes up a plane wall.
+  /// Takes up a plane wall; the shape is copied, in body coordinates.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
     walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
   }
-  /// Takes up a cylinder around the grains.
+  /// Takes up a cylinder around the grains; the shape is copied, in body coordinates.
   void add_wall(BodyId body, const CylinderWall<S>& shape) {
     cylinders_.push_back({body, shape, Placed<CylinderWall<S>>(shape)});
   }
+  /// Takes another cell; pairs are found anew. Walls are judged where place_walls() put them.
+  /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the cell is too short for the
   ///         grains there are, or a wall bounds a periodic axis where it is placed
   void set_cell(const PeriodicCell<S>& cell, const DetectionLengths<Scalar>& lengths,
@@ -83,8 +89,9 @@ class ContactDetector {
     return std::max(widest_, width(shape)) + around(lengths);
   }
 
-  /// Refreshes the world-frame shapes and their boxes.
-  /// @param shape_of shape of grain k, in the order they were added
+  /// Refreshes the world-frame shapes of grains and walls, and the boxes of grains.
+  /// @param poses    one per body
+  /// @param shape_of k -> shape of grain k, in the order they were added
   template <class ShapeOf>
   void place(std::span<const Pose<S>> poses, ShapeOf&& shape_of) {
     boxes_.resize(grains_.size());
@@ -97,26 +104,33 @@ class ContactDetector {
     place_walls(poses);
   }
   /// Moves the walls to where their bodies are.
+  /// @param poses one per body
   void place_walls(std::span<const Pose<S>> poses) {
     for (auto& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
     for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
   }
 
-  /// Which points of a contact between faces act.
+  /// Which points of a contact between faces act from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
-  /// Pairs whose boxes come within the margin, sorted; recomputed only when a box has left its
-  /// skin.
+  /// Pairs of grains whose boxes come within the margin, sorted; recomputed only when a box has
+  /// left its skin. After place().
   void find_pairs(const DetectionLengths<Scalar>& lengths);
 
-  /// Contact points of all pairs, sorted by (a, b, feature), with zero impulse.
-  /// @param previous contacts of the step before, sorted alike: the memory of the choice of points
+  /// Contact points of all pairs with a gap up to the margin, sorted by (a, b, feature), with zero
+  /// impulse. After find_pairs().
+  /// @param poses     one per body, those that place() was given
+  /// @param materials one per body
+  /// @param laws      numbers the law of each pair of materials: Contact::law
+  /// @param previous  contacts of the step before, sorted alike: the memory of the choice of points
+  /// @param out       filled anew; frames, levers and gaps as Contact says
   void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
               std::span<const MaterialId> materials, const MaterialPairs& laws,
               const Contacts<S>& previous, Contacts<S>& out);
 
   /// Takes the bodies anew, once their shapes have been read from a file; the pairs stay.
   /// @param add_all adds grains and walls in the order in which they were added before
+  /// @throws std::invalid_argument if the pairs are not of the grains there are then
   void rebuild(auto&& add_all) {
     const bool stale = stale_;
     grains_.clear();

@@ -13,9 +13,12 @@
 
 namespace moreau {
 
-/// What goes with a law unless the user says otherwise.
+/// The integrator that goes with a law unless the user says otherwise: VelocityVerlet for a
+/// regularized law, MoreauJean for a set-valued one.
 template <class Law, class S>
 using DefaultIntegrator = std::conditional_t<RegularizedLaw<Law, S>, VelocityVerlet, MoreauJean>;
+/// The solver that does: none for a regularized law, ColouredGaussSeidel for a law of points,
+/// NonlinearGaussSeidel for one that rolls.
 template <class Law, class S>
 using DefaultSolver = std::conditional_t<
     RegularizedLaw<Law, S>, NoSolver,

@@ -18,7 +18,7 @@
 
 namespace moreau {
 
-/// Takes the solver's place where there is nothing to solve.
+/// Takes the solver's place where there is nothing to solve: under a regularized law.
 struct NoSolver {};
 
 namespace detail {

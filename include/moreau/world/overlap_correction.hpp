@@ -25,26 +25,27 @@ namespace moreau {
 /// Which overlaps are taken back, and how fast.
 struct OverlapCorrectionOptions {
   bool enabled = true;  ///< off: overlaps stay
-  double slop = 2e-4;   ///< overlap left alone, relative to the grain size
-  double rate = 0.2;    ///< share of the excess taken back per step, in (0, 1]
+  double slop = 2e-4;   ///< overlap left alone, relative to the grain size, >= 0 [-]
+  double rate = 0.2;    ///< share of the excess taken back per step, in (0, 1] [-]
   int sweeps = 10;      ///< over all contacts, >= 1
 };
 
 /// What the correction did in one step.
 struct OverlapCorrectionReport {
   std::size_t corrected = 0;  ///< contacts deeper than the slop
-  double work = 0;            ///< of the external forces along the shift [J]
-  double largest_shift = 0;   ///< of any centre of mass [m]
+  double work = 0;            ///< of the external forces along the shift [J]; < 0 where it lifts
+  double largest_shift = 0;   ///< length, of any centre of mass [m]
 };
 
-/// Finds the shifts; see above.
+/// Finds the shifts that take overlaps back; the header says which.
 template <class S>
 class OverlapCorrection {
  public:
   using Scalar = typename S::Scalar;
   using Options = OverlapCorrectionOptions;
 
-  /// @throws std::invalid_argument for options out of range
+  /// @throws std::invalid_argument for a slop that is negative or not finite, a rate outside (0,
+  ///         1], less than one sweep
   explicit OverlapCorrection(const Options& options = {}) : options_(options) {
     constexpr const char* self = "OverlapCorrection";
     require(options.slop >= 0 && std::isfinite(options.slop), self, "slop", options.slop,
@@ -56,9 +57,10 @@ class OverlapCorrection {
 
   /// Finds the shift of every body, (displacement [m], rotation vector [rad]) in world axes.
   /// @param op         rows of the contacts; not changed
-  /// @param contacts   in: gaps; out: gaps after the shift, to first order
-  /// @param roots      M^-1/2 of every body
+  /// @param contacts   those of op; in: gaps; out: gaps after the shift, to first order [m]
+  /// @param roots      M^-1/2 of every body, those that op was made with
   /// @param grain_size length that the slop is relative to [m]
+  /// @param report     filled but for work and largest_shift, which need the forces
   /// @returns whether any overlap was deep enough; if not, the shifts are all zero
   bool solve(const BodyDelassus<S>& op, std::span<Contact<S>> contacts,
              std::span<const MobilityRoot<S>> roots, Scalar grain_size,
@@ -80,7 +82,7 @@ class OverlapCorrection {
     return true;
   }
 
-  /// Of the last step, one per body: (displacement [m], rotation vector [rad]).
+  /// Of the last solve(), one per body: (displacement [m], rotation vector [rad]), world axes.
   std::span<const typename S::Twist> shifts() const { return shifts_; }
   const Options& options() const { return options_; }  ///< as given
 

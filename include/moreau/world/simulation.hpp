@@ -40,6 +40,9 @@
 
 namespace moreau {
 
+/// Grains and walls that touch, moved on step by step. SI units; in the plane, masses, forces and
+/// energies are per what the densities are per.
+///
 /// @tparam ShapeT     of the grains; its Space is the simulation's
 /// @tparam Law        contact law between two materials: set-valued or regularized
 /// @tparam Integrator time stepping: of impulses for a set-valued law, of forces for another
@@ -63,29 +66,42 @@ class Simulation {
   using Vector = typename S::Vector;
   using Twist = typename S::Twist;
 
-  /// @param grain_size the smallest grain's size [m]; all tolerances are relative to it
+  /// A simulation without bodies, at time 0, without gravity, for a set-valued law.
+  /// @param grain_size the smallest grain's size [m], > 0; all tolerances are relative to it
   /// @param materials  the law for every pair of materials
-  /// @throws std::invalid_argument for a size that is not positive or tolerances out of range
+  /// @param solver     of the contact problem, with its options
+  /// @param tolerances of detection, relative to the grain size [-]
+  /// @param correction how overlaps are taken back
+  /// @param integrator with its options
+  /// @throws std::invalid_argument for a size that is not finite or not positive, or for
+  ///         tolerances or options of the correction out of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Solver& solver = Solver{},
              const Tolerances& tolerances = {}, const OverlapCorrectionOptions& correction = {},
              const Integrator& integrator = Integrator{}) requires set_valued
       : Simulation(grain_size, materials, tolerances, Dynamics(solver, correction, integrator)) {}
-  /// The same for a regularized law, which has nothing to solve.
+  /// The same for a regularized law, which has nothing to solve and no overlap to take back.
+  /// @throws std::invalid_argument for a size that is not finite or not positive, or tolerances out
+  ///         of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
              const Integrator& integrator = Integrator{}) requires(!set_valued)
       : Simulation(grain_size, materials, tolerances, Dynamics(integrator)) {}
 
-  /// Adds a shape that grains can share.
+  /// Adds a shape that grains can share; it is copied.
   ShapeId add_shape(const ShapeT& shape) {
     shapes_.push_back(shape);
     return ShapeId(shapes_.size() - 1);
   }
 
   /// Adds a grain at rest.
-  /// @param pose    of the shape's frame in the world; its origin is the centre of mass
-  /// @param density [kg/m^3], in the plane [kg/m^2], > 0
-  /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite, a
-  ///         density that is not positive, a shape whose centre of mass is not its origin
+  /// @param shape    as add_shape() numbered it
+  /// @param pose     of the shape's frame in the world [m]; its origin is the centre of mass
+  /// @param density  [kg/m^3], in the plane [kg/m^2], > 0
+  /// @param material of its surface
+  /// @returns its id; bodies are numbered as they are added, grains and walls alike
+  /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite or
+  ///         no rigid one, a density that is not finite or not positive, a mass or an inertia that
+  ///         the scalar cannot hold, a shape whose centre of mass is farther from its origin than
+  ///         1e-3 of the grain size, a grain too wide for a periodic cell
   BodyId add_grain(ShapeId shape, const Pose<S>& pose, Scalar density,
                    MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_grain";
@@ -108,8 +124,12 @@ class Simulation {
   }
 
   /// Adds a half-space as a wall: fixed, or moving at the velocity that set_velocity gives.
-  /// @param normal unit vector out of the solid, towards the grains
-  /// @param point  any point of its plane [m]
+  /// @param normal   unit vector out of the solid, towards the grains, world axes
+  /// @param point    any point of its plane, in the plane of its line, world axes [m]
+  /// @param material of its surface
+  /// @returns its id
+  /// @throws std::invalid_argument for a normal that is not unit within 1e-5, a point that is not
+  ///         finite, an unknown material, a wall across a periodic axis
   BodyId add_wall(const Vector& normal, const Vector& point, MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_wall";
     require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
@@ -126,9 +146,14 @@ class Simulation {
   /// fixed, or moving as set_velocity and set_spin say, e.g. set_spin(drum, rate * axis). It is
   /// none of walls() and cannot have a mass; laws that ask for a radius of contact take it for
   /// flat.
-  /// @param point  any point of its axis [m]
-  /// @param axis   unit, as that of a rotation: in the plane the number 1 or -1
-  /// @param radius [m], > 0
+  /// @param point    any point of its axis, world axes [m]
+  /// @param axis     unit, world axes, as that of a rotation: in the plane the number 1 or -1
+  /// @param radius   [m], > 0
+  /// @param material of its surface
+  /// @returns its id
+  /// @throws std::invalid_argument for a point that is not finite, an axis that is not unit within
+  ///         1e-5, a radius that is not finite or not positive, an unknown material, a cylinder
+  ///         that bounds a periodic axis
   BodyId add_cylinder(const Vector& point, const typename S::Angular& axis, Scalar radius,
                       MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_cylinder";
@@ -165,39 +190,53 @@ class Simulation {
 
   /// Lets a wall move along its normal as a body of this mass, under set_force and the contacts.
   /// Gravity does not act on walls. An infinite mass makes it a fixed or driven wall again.
-  /// @throws std::invalid_argument for a body that is no wall or a mass that is not positive
+  /// @param wall a half-space; a cylinder cannot have a mass
+  /// @param mass [kg], > 0
+  /// @throws std::invalid_argument for a body that is none of walls() or a mass that is not
+  ///         positive
   void set_wall_mass(BodyId wall, Scalar mass) {
     require_wall(wall, "Simulation::set_wall_mass");
     require(mass > 0, "Simulation::set_wall_mass", "mass", mass, "must be > 0");
     bodies_.inverse_mass[wall.index()] = Vector::UnitX() / mass;
   }
-  /// External force on a body at its centre of mass, world axes [N]; stays until set again.
+  /// External force on a body at its centre of mass, world axes [N], beside gravity; stays until
+  /// set again. Where a body has no mass, as a wall, it moves nothing.
+  /// @throws std::invalid_argument for a body that is not of this simulation or a force that is not
+  ///         finite
   void set_force(BodyId body, const Vector& force) {
     require_body(body, "Simulation::set_force");
     require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
     bodies_.force[body.index()].template head<S::dim>() = force;
   }
-  /// Velocity of the centre, world axes [m/s]. Axes without inverse mass keep it.
+  /// Velocity of the centre, world axes [m/s]. Where a body has no mass, as a wall, it is kept.
+  /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
+  ///         not finite
   void set_velocity(BodyId body, const Vector& velocity) {
     require_body(body, "Simulation::set_velocity");
     require(velocity.allFinite(), "Simulation::set_velocity", "velocity", velocity,
             "must be finite");
     bodies_.velocity[body.index()].template head<S::dim>() = velocity;
   }
-  /// Angular velocity, world axes [rad/s]: a vector in space, a number in the plane.
+  /// Angular velocity, world axes [rad/s]: a vector in space, in the plane a number, > 0 from x to
+  /// y. A body without inertia, as a wall, keeps it.
+  /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
+  ///         finite
   void set_spin(BodyId body, const typename S::Angular& spin) {
     require_body(body, "Simulation::set_spin");
     require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
     bodies_.velocity[body.index()].template tail<S::angular_dim>() = spin;
   }
-  /// @throws std::invalid_argument for a body that is not of this simulation or no rigid pose
+  /// Puts a body elsewhere, world axes [m]; its velocity stays.
+  /// @throws std::invalid_argument for a body that is not of this simulation, or a pose that is not
+  ///         finite or no rigid one
   void set_pose(BodyId body, const Pose<S>& pose) {
     require_body(body, "Simulation::set_pose");
     require_pose(pose, "Simulation::set_pose");
     bodies_.pose[body.index()] = pose;
     if constexpr (!set_valued) dynamics_.forget();
   }
-  /// Acceleration of gravity, world axes [m/s^2]; acts on grains.
+  /// Acceleration of gravity, world axes [m/s^2]; acts on grains, not on walls. None until set.
+  /// @throws std::invalid_argument for a vector that is not finite
   void set_gravity(const Vector& gravity) {
     require(gravity.allFinite(), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
@@ -205,40 +244,46 @@ class Simulation {
   /// Another solver, or the same with other options, from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
   /// How overlaps are taken back, from the next step on.
+  /// @throws std::invalid_argument for options out of range; see OverlapCorrection
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
     dynamics_.set_correction(options);
   }
-  /// Which points of a contact between faces act; few of them until set.
+  /// Which points of a contact between faces act, from the next step on; few of them until set.
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
   /// Other laws, from the next step on; as many materials as before.
+  /// @throws std::invalid_argument for another number of materials
   void set_materials(const Materials<Law>& materials) {
     require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
             materials.count(), "must stay as it was");
     materials_ = materials;
   }
 
-  /// Advances the time by `step` [s].
+  /// Advances the time by `step` [s], > 0.
+  /// @returns what it did and how well the contacts were solved; not converging is no error
   /// @throws std::invalid_argument for a step that is not positive or not finite
   StepReport step(Scalar step);
 
-  Scalar time() const { return time_; }                           ///< [s]
-  Scalar grain_size() const { return grain_size_; }               ///< [m]
-  const Bodies<S>& bodies() const { return bodies_; }             ///< by BodyId::index()
-  const Contacts<S>& contacts() const { return contacts_; }       ///< of the last step
+  Scalar time() const { return time_; }                ///< sum of the steps [s]
+  Scalar grain_size() const { return grain_size_; }    ///< what tolerances are relative to [m]
+  const Bodies<S>& bodies() const { return bodies_; }  ///< by BodyId::index()
+  /// Those of the last step, with their impulses [N s], of a regularized law force x step.
+  const Contacts<S>& contacts() const { return contacts_; }
   const Materials<Law>& materials() const { return materials_; }  ///< laws
-  /// Shifts of the last step.
+  /// What took the overlaps of the last step back, with the shifts.
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
-  const Vector& gravity() const { return gravity_; }             ///< [m/s^2]
+  const Vector& gravity() const { return gravity_; }             ///< world axes [m/s^2]
   std::size_t grain_count() const { return grains_.size(); }     ///< without walls
-  BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< the k-th added
-  /// Of the k-th grain.
+  BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< the k-th added, k < count
+  /// Shape of the k-th grain, k < grain_count(), in its own frame.
   const ShapeT& shape_of_grain(std::size_t k) const { return shapes_[grains_[k].shape.index()]; }
-  std::span<const BodyId> walls() const { return walls_; }                    ///< half-spaces
-  bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }  ///< or a wall
+  std::span<const BodyId> walls() const { return walls_; }  ///< half-spaces, no cylinders
+  /// Whether body number `body`, which must exist, is a grain; else it is a wall.
+  bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }
 
-  /// Sum of the contact impulses on a body in the last step, world axes [N s].
+  /// Sum of the impulses that a body received from its contacts in the last step, attraction
+  /// included, world axes [N s].
   /// @throws std::invalid_argument for a body that is not of this simulation
   Vector contact_impulse(BodyId body) const {
     require_body(body, "Simulation::contact_impulse");

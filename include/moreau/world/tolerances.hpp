@@ -7,13 +7,18 @@
 
 namespace moreau {
 
-/// Lengths that act as tolerances, each relative to the grain size.
+/// Lengths that act as tolerances, each relative to the grain size [-].
 struct Tolerances {
-  double margin = 0.02;  ///< alert distance: a contact enters at this gap; must exceed speed x step
-  double skin = 0.05;    ///< the pair list is kept until a box has moved this far
-  double resolution = 1e-3;  ///< contact points of a pair closer together than this are one
+  /// Alert distance: a contact enters at this gap, > 0; times the grain size it must exceed what
+  /// two bodies approach in a step.
+  double margin = 0.02;
+  double skin = 0.05;        ///< the pair list is kept until a box has moved this far, >= 0
+  double resolution = 1e-3;  ///< contact points of a pair closer together than this are one, >= 0
 
-  /// @throws std::invalid_argument in the name of the function if one of them is out of range
+  /// Checks them.
+  /// @param function the public name the caller used
+  /// @throws std::invalid_argument in the name of the function if one of them is not finite or out
+  ///         of range
   void check(const char* function) const {
     require(std::isfinite(margin) && margin > 0, function, "margin", margin,
             "must be finite and > 0");

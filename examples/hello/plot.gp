@@ -1,0 +1,10 @@
+# hello > hello.txt; gnuplot plot.gp -> hello.png
+set terminal pngcairo size 640,400 font 'sans,11'
+set output 'hello.png'
+set key top right
+set xlabel 'time [s]'
+set xrange [0:1]
+set yrange [0:*]
+set ylabel 'points of contact, sweeps of a step'
+plot 'hello.txt' using (0.025 * ($0 + 1)):3 with lines lc 'gray' title 'sweeps', \
+     '' using (0.025 * ($0 + 1)):1 with steps lw 2 lc 'black' title 'points'
