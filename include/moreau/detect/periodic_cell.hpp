@@ -39,7 +39,7 @@ class PeriodicCell {
   }
 
   bool is_open() const { return length_.isZero(0); }              ///< along all axes
-  bool is_periodic(int axis) const { return length_[axis] > 0; }  ///< 0 for x, 1 for y, ..
+  bool is_periodic(int axis) const { return length_[axis] > 0; }  ///< axis 0 for x
   /// Along every axis [m]; zero where it is open.
   const Vector& length() const { return length_; }
   const Vector& lower() const { return lower_; }  ///< zero where it is open [m]
