@@ -50,6 +50,7 @@ constexpr Miss misses_in_float[] = {
      "rounding grows by 1000 and more in the collisions"},
     {"prisms against polygons", "distance over size", 2e-2,
      "rounding grows in the collisions, and on springs more"},
+    {"prisms against polygons", "difference of the angles", 3e-2, "as the distance"},
     {"prisms against polygons", "tilt out of the plane", 5e-3, "as the distance"},
 };
 

@@ -55,8 +55,8 @@ struct Silo {
   }
   static moreau::ColouredOptions options() {
     moreau::ColouredOptions o;
-    o.tolerance = 1e-3;
-    o.max_sweeps = 1000;
+    o.tolerance = 1e-4;
+    o.max_sweeps = 5000;
     return o;
   }
   static moreau::Tolerances tolerances() {
@@ -173,7 +173,7 @@ void janssen(Record& record, int across, int layers, int packings) {
 
 inline void janssen_silo(Record& record, Effort effort) {
   const bool quick = effort == Effort::quick;
-  janssen<Disk<>>(record, 8, quick ? 40 : 100, quick ? 1 : 8);
+  janssen<Disk<>>(record, 8, quick ? 40 : 60, quick ? 1 : 8);
   if (!quick) janssen<Ball<>>(record, 5, 30, 4);
 }
 
