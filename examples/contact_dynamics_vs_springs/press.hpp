@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <random>
 #include <type_traits>
@@ -92,9 +93,9 @@ class Press {
 };
 
 /// A loose lattice of disks of 8 to 12 mm.
-inline State loose(int count) {
+inline State loose(int count, std::uint64_t seed) {
   State state;
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> radius(0.004, 0.006), shift(-5e-4, 5e-4);
   constexpr int per_row = 9;
   for (int k = 0; k < count; ++k) {
@@ -143,8 +144,8 @@ Outcome settle(const State& packing, const Law& law, double step) {
 
 /// The packing that contact dynamics makes of `count` disks.
 /// @param duration that it settles for [s]
-inline State packed(int count, double duration) {
-  const State start = loose(count);
+inline State packed(int count, double duration, std::uint64_t seed = 1) {
+  const State start = loose(count, seed);
   Press<Coulomb> press(start, Coulomb(friction));
   press.solve_to(1e-5);
   press.run(duration, 2e-4);

@@ -31,8 +31,8 @@ double rebound(const Law& law, double mass, double step) {
 }
 
 /// Apart there is no force and no memory; pressed together it repels; friction stays in the cone,
-/// if the law has friction(); an impact gives back no more than it took; the answer turns with the
-/// tangents.
+/// if the law has friction(); it brakes; an impact gives back no more than it took; the answer
+/// turns with the tangents.
 /// @param step small against the duration of an impact of 1 kg [s]
 /// @param pull the largest force with which the law attracts [N]; such a law may act where there is
 ///             a gap, and its friction is held to mu (f_n + pull)
@@ -74,6 +74,15 @@ void regularized_law(const Law& law, double step, double pull = 0) {
     aside.velocity = turned(motion.velocity);
     const Vector aside_force = law.force(aside, turned_memory);
     CHECK(double((aside_force - turned(force)).norm()) <= 1e-5 * double(force.norm()));
+  }
+  // Friction of a contact that has no history works against the slide.
+  for (int i = 0; i < 100; ++i) {
+    Vector fresh = Vector::Zero();
+    motion.gap = T(-1e-5);
+    for (auto& x : motion.velocity) x = T(0.1 * normal(random));
+    const Vector force = law.force(motion, fresh);
+    CHECK(double(force.template tail<tangents>().dot(motion.velocity.template tail<tangents>())) <=
+          0);
   }
   const double speed = rebound<S>(law, 1, step);
   CHECK(speed >= 0);

@@ -108,6 +108,67 @@ std::vector<typename ShapeT::Space::Vector> check_support(const ShapeT& shape, d
   return points;
 }
 
+/// Volume, centroid and second moments about the origin, by volume [m^2], of the body that the
+/// farthest points describe: cells of a grid that no plane of support cuts off. A fifth too large
+/// where there are flat faces.
+template <class S>
+struct Described {
+  double volume = 0;
+  Eigen::Matrix<double, S::dim, 1> centre = Eigen::Matrix<double, S::dim, 1>::Zero();
+  Eigen::Matrix<double, S::dim, S::dim> second = Eigen::Matrix<double, S::dim, S::dim>::Zero();
+};
+template <class ShapeT>
+Described<typename ShapeT::Space> described(const ShapeT& shape, std::mt19937_64& random) {
+  using S = typename ShapeT::Space;
+  constexpr int per_axis = S::angular_dim > 1 ? 20 : 60, planes = S::angular_dim > 1 ? 300 : 60;
+  using V = Eigen::Matrix<double, S::dim, 1>;
+  std::vector<V> normals;
+  std::vector<double> heights;
+  for (int i = 0; i < planes; ++i) {
+    const auto d = random_direction<S>(random);
+    normals.push_back(d.template cast<double>());
+    heights.push_back(double(d.dot(shape.support(d))));
+  }
+  const auto box = moreau::support_box(shape, moreau::Pose<S>{});
+  const V lower = box.lower.template cast<double>();
+  const V cell = (box.upper - box.lower).template cast<double>() / per_axis;
+  Described<S> body;
+  std::size_t inside = 0;
+  for (int k = 0; k < std::pow(per_axis, int(S::dim)); ++k) {
+    V x;
+    for (int axis = 0, rest = k; axis < S::dim; ++axis, rest /= per_axis)
+      x[axis] = lower[axis] + cell[axis] * (rest % per_axis + 0.5);
+    bool within = true;
+    for (std::size_t i = 0; within && i < normals.size(); ++i)
+      within = normals[i].dot(x) <= heights[i];
+    if (!within) continue;
+    ++inside;
+    body.centre += x;
+    body.second += x * x.transpose();
+  }
+  body.volume = double(inside) * cell.prod();
+  body.centre /= double(inside);
+  body.second /= double(inside);
+  return body;
+}
+
+/// Mass, centre and inertia are about those of the body that the farthest points describe.
+template <class ShapeT>
+void check_mass_of_support(const ShapeT& shape, double size, std::mt19937_64& random) {
+  using S = typename ShapeT::Space;
+  using T = typename S::Scalar;
+  const auto mass = shape.mass_properties(T(1));
+  const auto body = described(shape, random);
+  expect_at_most("mass / volume within the support, from 0.9",
+                 std::abs(double(mass.mass) / body.volume - 0.9), 0.25);
+  expect_at_most("centre of what the support describes from the origin", body.centre.norm(),
+                 0.05 * size);
+  // The trace of the inertia: in space twice the mean square of the distance, in the plane once.
+  const double trace = (S::angular_dim > 1 ? 2 : 1) * body.second.trace() * double(mass.mass);
+  expect_at_most("trace of the inertia / that of the support, from 0.9",
+                 std::abs(double(mass.inertia.trace()) / trace - 0.9), 0.35);
+}
+
 /// Around the farthest points; it may be wider than they are, which costs pairs.
 template <class ShapeT>
 void check_box(const ShapeT& shape, double size, std::mt19937_64& random) {
@@ -175,6 +236,8 @@ void check_shape(const ShapeT& shape) {
   const moreau::Aabb<S> box = shape.bounding_box({});
   const double size = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
   check_mass(shape, size);
+  std::mt19937_64 of_grid(3);
+  check_mass_of_support(shape, size, of_grid);
   const auto points = check_support(shape, size, random);
   check_box(shape, size, random);
   check_members(shape, points, size);

@@ -43,7 +43,7 @@ namespace moreau {
 /// Grains and walls that touch, moved on step by step. SI units; in the plane, masses, forces and
 /// energies are per what the densities are per.
 ///
-/// @tparam ShapeT     of the grains; its Space is the simulation's
+/// @tparam ShapeT     of the grains, convex; its Space is the simulation's
 /// @tparam Law        contact law between two materials: set-valued or regularized
 /// @tparam Integrator time stepping: of impulses for a set-valued law, of forces for another
 /// @tparam Broad      broad phase
@@ -54,7 +54,7 @@ namespace moreau {
 /// Functions that are given a body, a material, a vector or a number throw std::invalid_argument,
 /// which names function, argument and value, for an id that is none of this simulation, what is not
 /// finite, and what their comments rule out; nothing has then changed.
-template <Shape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
+template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
 class Simulation {
@@ -407,7 +407,7 @@ class Simulation {
 };
 
 // Outside of the class, so that a program can instantiate it once and declare it extern elsewhere.
-template <Shape ShapeT, class Law, class Integrator, class Broad, class Solver>
+template <ConvexShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The policies of the examples through the suite that the library's own pass.
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/sphere.hpp"
+
+#include "../../../examples/own_integrator/symplectic_euler.hpp"
+#include "../../../examples/own_law/greased.hpp"
+#include "conformance/matrix.hpp"
+#include "world/assemblies.hpp"
+
+using namespace moreau;
+
+TEST_CASE("the greased faces of own_law") {
+  conformance::world(scenes::cuboid<Polygon<>>({0.003, 0.0025}), Greased{1e-3}, 0.009);
+}
+TEST_CASE("symplectic Euler of own_integrator") {
+  using Choice = conformance::With<SymplecticEuler>;
+  conformance::world<Choice>(Disk<double>(0.005), conformance::stiff_springs(0.08), 0.01);
+  conformance::world<Choice>(Sphere<Space<3>>(0.005), conformance::stiff_springs(5e-4), 0.01);
+}
