@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -29,6 +28,7 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/assembly.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
 #include "moreau/world/force_dynamics.hpp"
@@ -87,10 +87,7 @@ class Simulation {
       : Simulation(grain_size, materials, tolerances, Dynamics(integrator)) {}
 
   /// Adds a shape that grains can share; it is copied.
-  ShapeId add_shape(const ShapeT& shape) {
-    shapes_.push_back(shape);
-    return ShapeId(shapes_.size() - 1);
-  }
+  ShapeId add_shape(const ShapeT& shape) { return assembly_.add_shape(shape); }
 
   /// Adds a grain at rest.
   /// @param shape    as add_shape() numbered it
@@ -105,21 +102,12 @@ class Simulation {
   BodyId add_grain(ShapeId shape, const Pose<S>& pose, Scalar density,
                    MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_grain";
-    require(shape.index() < shapes_.size(), self, "shape", shape, "must be the id of a shape");
-    require_pose(pose, self);
-    require(std::isfinite(density) && density > 0, self, "density", density,
-            "must be finite and > 0");
-    const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
-    require(std::isfinite(mass.mass) && mass.mass > 0 && mass.inertia.allFinite() &&
-                inverse_root<S>(mass.inertia).allFinite(),
-            self, "mass", mass.mass, "must be finite and > 0, as must be the inertia");
-    require(mass.center.norm() <= Scalar(1e-3) * grain_size_, self, "center of mass", mass.center,
-            "must be the origin of the shape's frame");
-    cell().require_room(detector_.room_of(shapes_[shape.index()], lengths()), self);
-    const BodyId body = push_body(pose, material, self);
-    bodies_.set_mass(body.index(), mass.mass, mass.inertia);
-    detector_.add_grain(body, shapes_[shape.index()]);
-    grains_.push_back({body, shape});
+    assembly_.require_pose(pose, self);
+    const MassProperties<S> mass = assembly_.mass_of(shape, density, grain_size_, self);
+    cell().require_room(detector_.room_of(assembly_.shape(shape), lengths()), self);
+    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
+    assembly_.set_grain(body, shape, mass);
+    detector_.add_grain(body, assembly_.shape(shape));
     return body;
   }
 
@@ -137,9 +125,9 @@ class Simulation {
     cell().require_along(normal, self);
     const typename S::Rotation rotation(S::contact_frame(normal));
     const Pose<S> pose{point, S::normalized(rotation)};
-    const BodyId body = push_body(pose, material, self);
+    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
+    assembly_.set_wall(body);
     detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
-    walls_.push_back(body);
     return body;
   }
   /// Adds a drum that grains are in, the inside of an infinite cylinder (in the plane: a circle):
@@ -163,9 +151,10 @@ class Simulation {
     cell().require_around(axis, self);
     Pose<S> pose;
     pose.position = point;
-    const BodyId body = push_body(pose, material, self);
-    drums_.push_back({body, CylinderWall<S>(axis, radius)});
-    detector_.add_wall(body, drums_.back().shape);
+    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
+    const CylinderWall<S> shape(axis, radius);
+    assembly_.set_drum(body, shape);
+    detector_.add_wall(body, shape);
     return body;
   }
 
@@ -183,7 +172,7 @@ class Simulation {
     constexpr const char* self = "Simulation::set_periodic";
     PeriodicCell<S> cell = detector_.cell();
     cell.set(axis, lower, upper, self);
-    detector_.place_walls(bodies_.pose);
+    detector_.place_walls(assembly_.bodies().pose);
     detector_.set_cell(cell, lengths(), self);
   }
   const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
@@ -195,44 +184,44 @@ class Simulation {
   /// @throws std::invalid_argument for a body that is none of walls() or a mass that is not
   ///         positive
   void set_wall_mass(BodyId wall, Scalar mass) {
-    require_wall(wall, "Simulation::set_wall_mass");
+    assembly_.require_wall(wall, "Simulation::set_wall_mass");
     require(mass > 0, "Simulation::set_wall_mass", "mass", mass, "must be > 0");
-    bodies_.inverse_mass[wall.index()] = Vector::UnitX() / mass;
+    assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
   }
   /// External force on a body at its centre of mass, world axes [N], beside gravity; stays until
   /// set again. Where a body has no mass, as a wall, it moves nothing.
   /// @throws std::invalid_argument for a body that is not of this simulation or a force that is not
   ///         finite
   void set_force(BodyId body, const Vector& force) {
-    require_body(body, "Simulation::set_force");
+    assembly_.require_body(body, "Simulation::set_force");
     require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
-    bodies_.force[body.index()].template head<S::dim>() = force;
+    assembly_.bodies().force[body.index()].template head<S::dim>() = force;
   }
   /// Velocity of the centre, world axes [m/s]. Where a body has no mass, as a wall, it is kept.
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
   ///         not finite
   void set_velocity(BodyId body, const Vector& velocity) {
-    require_body(body, "Simulation::set_velocity");
+    assembly_.require_body(body, "Simulation::set_velocity");
     require(velocity.allFinite(), "Simulation::set_velocity", "velocity", velocity,
             "must be finite");
-    bodies_.velocity[body.index()].template head<S::dim>() = velocity;
+    assembly_.bodies().velocity[body.index()].template head<S::dim>() = velocity;
   }
   /// Angular velocity, world axes [rad/s]: a vector in space, in the plane a number, > 0 from x to
   /// y. A body without inertia, as a wall, keeps it.
   /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
   ///         finite
   void set_spin(BodyId body, const typename S::Angular& spin) {
-    require_body(body, "Simulation::set_spin");
+    assembly_.require_body(body, "Simulation::set_spin");
     require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
-    bodies_.velocity[body.index()].template tail<S::angular_dim>() = spin;
+    assembly_.bodies().velocity[body.index()].template tail<S::angular_dim>() = spin;
   }
   /// Puts a body elsewhere, world axes [m]; its velocity stays.
   /// @throws std::invalid_argument for a body that is not of this simulation, or a pose that is not
   ///         finite or no rigid one
   void set_pose(BodyId body, const Pose<S>& pose) {
-    require_body(body, "Simulation::set_pose");
-    require_pose(pose, "Simulation::set_pose");
-    bodies_.pose[body.index()] = pose;
+    assembly_.require_body(body, "Simulation::set_pose");
+    assembly_.require_pose(pose, "Simulation::set_pose");
+    assembly_.bodies().pose[body.index()] = pose;
     if constexpr (!set_valued) dynamics_.forget();
   }
   /// Acceleration of gravity, world axes [m/s^2]; acts on grains, not on walls. None until set.
@@ -263,9 +252,9 @@ class Simulation {
   /// @throws std::invalid_argument for a step that is not positive or not finite
   StepReport step(Scalar step);
 
-  Scalar time() const { return time_; }                ///< sum of the steps [s]
-  Scalar grain_size() const { return grain_size_; }    ///< what tolerances are relative to [m]
-  const Bodies<S>& bodies() const { return bodies_; }  ///< by BodyId::index()
+  Scalar time() const { return time_; }              ///< sum of the steps [s]
+  Scalar grain_size() const { return grain_size_; }  ///< what tolerances are relative to [m]
+  const Bodies<S>& bodies() const { return assembly_.bodies(); }  ///< by BodyId::index()
   /// Those of the last step, with their impulses [N s], of a regularized law force x step.
   const Contacts<S>& contacts() const { return contacts_; }
   const Materials<Law>& materials() const { return materials_; }  ///< laws
@@ -273,20 +262,29 @@ class Simulation {
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
-  const Vector& gravity() const { return gravity_; }             ///< world axes [m/s^2]
-  std::size_t grain_count() const { return grains_.size(); }     ///< without walls
-  BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< the k-th added, k < count
-  /// Shape of the k-th grain, k < grain_count(), in its own frame.
-  const ShapeT& shape_of_grain(std::size_t k) const { return shapes_[grains_[k].shape.index()]; }
-  std::span<const BodyId> walls() const { return walls_; }  ///< half-spaces, no cylinders
+  const Vector& gravity() const { return gravity_; }                   ///< world axes [m/s^2]
+  std::size_t grain_count() const { return assembly_.grain_count(); }  ///< without walls
+  /// The k-th grain that was added.
+  /// @throws std::invalid_argument unless k < grain_count()
+  BodyId grain(std::size_t k) const {
+    assembly_.require_grain(k, "Simulation::grain");
+    return assembly_.grain(k);
+  }
+  /// Shape of the k-th grain, in its own frame.
+  /// @throws std::invalid_argument unless k < grain_count()
+  const ShapeT& shape_of_grain(std::size_t k) const {
+    assembly_.require_grain(k, "Simulation::shape_of_grain");
+    return assembly_.shape_of_grain(k);
+  }
+  std::span<const BodyId> walls() const { return assembly_.walls(); }  ///< half-spaces only
   /// Whether body number `body`, which must exist, is a grain; else it is a wall.
-  bool is_grain(std::size_t body) const { return bodies_.weight[body] > 0; }
+  bool is_grain(std::size_t body) const { return bodies().weight[body] > 0; }
 
   /// Sum of the impulses that a body received from its contacts in the last step, attraction
   /// included, world axes [N s].
   /// @throws std::invalid_argument for a body that is not of this simulation
   Vector contact_impulse(BodyId body) const {
-    require_body(body, "Simulation::contact_impulse");
+    assembly_.require_body(body, "Simulation::contact_impulse");
     Vector sum = Vector::Zero();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const Contact<S>& contact = contacts_.points[c];
@@ -316,61 +314,21 @@ class Simulation {
     tolerances.check("Simulation");
   }
 
-  struct Grain {
-    BodyId body;
-    ShapeId shape;
-  };
-  struct Drum {
-    BodyId body;
-    CylinderWall<S> shape = StateAccess::blank<CylinderWall<S>>();
-  };
-
   friend struct StateAccess;
   auto state() {
-    return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, shapes_,
-                    grains_, walls_, drums_, bodies_, contacts_, detector_);
+    return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
+                    contacts_, detector_);
   }
   void restored() {
-    const auto exists = [&](BodyId body) { return body.index() < bodies_.size(); };
-    bool valid = bodies_.are_valid(materials_.count()) &&
-                 contacts_.are_valid(bodies_.size(), materials_.laws().size());
-    for (const Grain& grain : grains_)
-      valid = valid && exists(grain.body) && grain.shape.index() < shapes_.size();
-    for (const BodyId wall : walls_) valid = valid && exists(wall);
-    for (const Drum& drum : drums_) valid = valid && exists(drum.body);
-    require(valid, "Simulation", "bodies", bodies_.size(), "must be those that all else is of");
-    detector_.rebuild([&] {
-      for (const Grain& grain : grains_)
-        detector_.add_grain(grain.body, shapes_[grain.shape.index()]);
-      for (const BodyId wall : walls_) detector_.add_wall(wall, HalfSpace<S>(Vector::UnitX()));
-      for (const Drum& drum : drums_) detector_.add_wall(drum.body, drum.shape);
-    });
+    require(assembly_.is_valid(materials_.count()) &&
+                contacts_.are_valid(bodies().size(), materials_.laws().size()),
+            "Simulation", "bodies", bodies().size(), "must be those that all else is of");
+    detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 
   static double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
   }
-  static void require_pose(const Pose<S>& pose, const char* function) {
-    require(pose.position.allFinite(), function, "pose.position", pose.position, "must be finite");
-    require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",
-            "(no rotation)", "must be finite and of unit length");
-  }
-  void require_body(BodyId body, const char* function) const {
-    require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
-  }
-  void require_wall(BodyId body, const char* function) const {
-    bool found = false;
-    for (const BodyId wall : walls_) found = found || wall == body;
-    require(found, function, "wall", body, "must be the id of a wall");
-  }
-
-  BodyId push_body(const Pose<S>& pose, MaterialId material, const char* function) {
-    require(material.index() < materials_.count(), function, "material", material,
-            "must be the id of a material");
-    bodies_.push_back(pose, material);
-    return BodyId(bodies_.size() - 1);
-  }
-
   DetectionLengths<Scalar> lengths() const {
     return {static_cast<Scalar>(tolerances_.margin) * grain_size_,
             static_cast<Scalar>(tolerances_.skin) * grain_size_,
@@ -378,12 +336,13 @@ class Simulation {
   }
 
   void detect(StepReport& report) {
-    const std::span<const Pose<S>> poses(bodies_.pose);
+    const std::span<const Pose<S>> poses(assembly_.bodies().pose);
     std::swap(contacts_, previous_);
-    detector_.place(poses, [&](std::size_t k) -> const ShapeT& { return shape_of_grain(k); });
+    detector_.place(poses,
+                    [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     detector_.find_pairs(lengths());
-    detector_.detect(lengths(), poses, std::span<const MaterialId>(bodies_.material), materials_,
-                     previous_, contacts_);
+    detector_.detect(lengths(), poses, std::span<const MaterialId>(assembly_.bodies().material),
+                     materials_, previous_, contacts_);
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
@@ -397,11 +356,7 @@ class Simulation {
   Vector gravity_ = Vector::Zero();
   Scalar time_ = 0;
 
-  std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
-  std::vector<Grain> grains_;
-  std::vector<BodyId> walls_;
-  std::vector<Drum> drums_;
-  Bodies<S> bodies_;
+  detail::Assembly<ShapeT> assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
 };
@@ -414,23 +369,23 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   StepReport report;
   const auto start = Clock::now();
   if constexpr (set_valued) {
-    dynamics_.predict(bodies_, step);
+    dynamics_.predict(assembly_.bodies(), step);
   } else {
-    if (!dynamics_.is_ready(bodies_.size())) {
+    if (!dynamics_.is_ready(assembly_.bodies().size())) {
       detect(report);
-      dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, 0, report);
+      dynamics_.evaluate(assembly_.bodies(), materials_, previous_, contacts_, step, 0, report);
       report = {};
     }
-    dynamics_.predict(bodies_, gravity_, step);
+    dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
   detect(report);
   const auto detected = Clock::now();
   if constexpr (set_valued) {
-    dynamics_.advance(bodies_, gravity_, materials_, previous_, contacts_, grain_size_, step,
-                      report);
+    dynamics_.advance(assembly_.bodies(), gravity_, materials_, previous_, contacts_, grain_size_,
+                      step, report);
   } else {
-    dynamics_.evaluate(bodies_, materials_, previous_, contacts_, step, step, report);
-    dynamics_.advance(bodies_, gravity_, step);
+    dynamics_.evaluate(assembly_.bodies(), materials_, previous_, contacts_, step, step, report);
+    dynamics_.advance(assembly_.bodies(), gravity_, step);
   }
   time_ += step;
   report.ms_detect = milliseconds(start, detected);

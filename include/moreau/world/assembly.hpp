@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// What a simulation is made of: shapes, bodies, and which body is a grain, a wall or a drum.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/core/state.hpp"
+#include "moreau/integrate/bodies.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/cylinder_wall.hpp"
+#include "moreau/shape/half_space.hpp"
+
+namespace moreau::detail {
+
+/// Shapes and bodies of a Simulation, numbered as they are added. Its functions take the name of
+/// the caller's for their exceptions, std::invalid_argument.
+template <ConvexShape ShapeT>
+class Assembly {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+
+  /// Adds a shape that grains can share.
+  ShapeId add_shape(const ShapeT& shape) {
+    shapes_.push_back(shape);
+    return ShapeId(shapes_.size() - 1);
+  }
+  /// Adds a body at rest that no force moves; it is of no kind yet.
+  /// @param materials number of materials; `material` must be one of them
+  BodyId add_body(const Pose<S>& pose, MaterialId material, std::size_t materials,
+                  const char* function) {
+    require(material.index() < materials, function, "material", material,
+            "must be the id of a material");
+    bodies_.push_back(pose, material);
+    return BodyId(bodies_.size() - 1);
+  }
+  /// Makes a body a grain.
+  void set_grain(BodyId body, ShapeId shape, const MassProperties<S>& mass) {
+    bodies_.set_mass(body.index(), mass.mass, mass.inertia);
+    grains_.push_back({body, shape});
+  }
+  /// Makes a body a half-space; its pose says where.
+  void set_wall(BodyId body) { walls_.push_back(body); }
+  /// Makes a body the inside of a cylinder.
+  void set_drum(BodyId body, const CylinderWall<S>& shape) { drums_.push_back({body, shape}); }
+
+  /// Mass and inertia of a shape in use [kg, kg m^2], in its own frame.
+  /// @throws std::invalid_argument for an unknown shape, a density that is not finite or not
+  ///         positive, a mass or an inertia that the scalar cannot hold, a centre of mass farther
+  ///         from the origin than 1e-3 of the grain size
+  MassProperties<S> mass_of(ShapeId shape, Scalar density, Scalar grain_size,
+                            const char* function) const {
+    require(shape.index() < shapes_.size(), function, "shape", shape, "must be the id of a shape");
+    require(std::isfinite(density) && density > 0, function, "density", density,
+            "must be finite and > 0");
+    const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
+    require(std::isfinite(mass.mass) && mass.mass > 0 && mass.inertia.allFinite() &&
+                inverse_root<S>(mass.inertia).allFinite(),
+            function, "mass", mass.mass, "must be finite and > 0, as must be the inertia");
+    require(mass.center.norm() <= Scalar(1e-3) * grain_size, function, "center of mass",
+            mass.center, "must be the origin of the shape's frame");
+    return mass;
+  }
+
+  const ShapeT& shape(ShapeId id) const { return shapes_[id.index()]; }  ///< not checked
+  Bodies<S>& bodies() { return bodies_; }
+  const Bodies<S>& bodies() const { return bodies_; }
+  std::span<const BodyId> walls() const { return walls_; }
+  std::size_t grain_count() const { return grains_.size(); }
+  BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< not checked
+  /// Of the k-th grain, which is not checked.
+  const ShapeT& shape_of_grain(std::size_t k) const { return shape(grains_[k].shape); }
+
+  static void require_pose(const Pose<S>& pose, const char* function) {
+    require(pose.position.allFinite(), function, "pose.position", pose.position, "must be finite");
+    require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",
+            "(no rotation)", "must be finite and of unit length");
+  }
+  void require_body(BodyId body, const char* function) const {
+    require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
+  }
+  void require_wall(BodyId body, const char* function) const {
+    bool found = false;
+    for (const BodyId wall : walls_) found = found || wall == body;
+    require(found, function, "wall", body, "must be the id of a wall");
+  }
+  void require_grain(std::size_t k, const char* function) const {
+    require(k < grains_.size(), function, "k", k, "must be below the number of grains");
+  }
+
+  /// Whether it is one that can be: what was read from a file.
+  bool is_valid(std::size_t materials) const {
+    const auto exists = [&](BodyId body) { return body.index() < bodies_.size(); };
+    bool valid = bodies_.are_valid(materials);
+    for (const Grain& grain : grains_)
+      valid = valid && exists(grain.body) && grain.shape.index() < shapes_.size();
+    for (const BodyId wall : walls_) valid = valid && exists(wall);
+    for (const Drum& drum : drums_) valid = valid && exists(drum.body);
+    return valid;
+  }
+  /// Makes all grains, walls and drums known to a detector.
+  template <class Detector>
+  void add_to(Detector& detector) const {
+    for (const Grain& grain : grains_) detector.add_grain(grain.body, shape(grain.shape));
+    for (const BodyId wall : walls_) detector.add_wall(wall, HalfSpace<S>(S::Vector::UnitX()));
+    for (const Drum& drum : drums_) detector.add_wall(drum.body, drum.shape);
+  }
+
+ private:
+  struct Grain {
+    BodyId body;
+    ShapeId shape;
+  };
+  struct Drum {
+    BodyId body;
+    CylinderWall<S> shape = StateAccess::blank<CylinderWall<S>>();
+  };
+
+  friend struct moreau::StateAccess;
+  auto state() { return std::tie(shapes_, grains_, walls_, drums_, bodies_); }
+
+  std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
+  std::vector<Grain> grains_;
+  std::vector<BodyId> walls_;
+  std::vector<Drum> drums_;
+  Bodies<S> bodies_;
+};
+
+}  // namespace moreau::detail
