@@ -14,8 +14,8 @@
 #include "moreau/io/vtk.hpp"
 #include "moreau/measure/force_chains.hpp"
 
+#include "../rendering/render.hpp"
 #include "experiment.hpp"
-#include "render.hpp"
 
 namespace ratcheting {
 
@@ -80,12 +80,13 @@ class Views {
     moreau::force_chains<S>(simulation.contacts(), step_, position(), is_grain(), segments_);
     const auto color = [&](std::size_t k) {
       const double radius = double(simulation.shape_of_grain(k).circumradius());
-      return stone_color((2 * radius / largest() - 0.5) * 2, k);
+      return rendering::stone_color((2 * radius / largest() - 0.5) * 2, k);
     };
-    write_png(folder_ / ("packing" + suffix + ".png"),
-              render_packing(experiment_.box(), simulation.grain_count(), shape(), pose(), color));
-    write_png(folder_ / ("force_chains" + suffix + ".png"),
-              render_force_chains<S>(experiment_.box(), segments_));
+    rendering::write_png(folder_ / ("packing" + suffix + ".png"),
+                         rendering::render_packing(experiment_.box(), simulation.grain_count(),
+                                                   shape(), pose(), color));
+    rendering::write_png(folder_ / ("force_chains" + suffix + ".png"),
+                         rendering::render_force_chains<S>(experiment_.box(), segments_));
   }
 
  private:

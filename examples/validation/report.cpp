@@ -10,6 +10,7 @@
 #include "moreau/io/output_file.hpp"
 #include "moreau/version.hpp"
 
+#include "answers.hpp"
 #include "misses.hpp"
 
 namespace validation {
@@ -49,10 +50,12 @@ std::string verdict(const Row& row) {
 
 std::string markdown(std::span<const Result> results) {
   std::size_t rows = 0, passed = 0;
-  std::string table =
-      "| case | | expected | measured | error | tolerance | pass "
-      "|\n|---|---|---|---|---|---|---|\n";
-  for (const Result& result : results)
+  std::string table;
+  for (const Result& result : results) {
+    const Answer& answer = answer_of(result.name);
+    table += "\n## `" + result.name + "`\n\n" + answer.formula + ". Source: " + answer.source +
+             ".\n\n| comparison | | expected | measured | error | tolerance | pass "
+             "|\n|---|---|---|---|---|---|---|\n";
     for (const Row& row : result.record.rows()) {
       ++rows;
       passed += row.pass();
@@ -60,8 +63,9 @@ std::string markdown(std::span<const Result> results) {
                number(row.measured) + " | " + number(row.error) + " | " + number(row.tolerance) +
                " | " + verdict(row) + " |\n";
     }
+  }
   return "# Validation\n\nmoreau " MOREAU_VERSION_STRING ", " + today() + ", " + build() + ". " +
-         std::to_string(passed) + " of " + std::to_string(rows) + " comparisons pass.\n\n" + table;
+         std::to_string(passed) + " of " + std::to_string(rows) + " comparisons pass.\n" + table;
 }
 
 std::string csv(std::span<const Result> results) {

@@ -150,4 +150,7 @@ TEST_CASE("bad drives and servos are named") {
                        "PressureServo::apply: area = 0 must be finite and > 0",
                        std::invalid_argument);
   CHECK_THROWS_AS(moreau::wall_pressure(scene.simulation, scene.wall, 0, 1), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::wall_pressure(scene.simulation, BodyId(9), 1e-3, 1),
+                       "wall_pressure: wall = 9 must be the id of a half-space",
+                       std::invalid_argument);
 }

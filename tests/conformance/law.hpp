@@ -139,6 +139,46 @@ void set_valued_law(const Law& law, int problems = 5000, Normal normal = Normal:
   check_offset<S>(law);
 }
 
+/// What a law can be in a step is a law like others; which one it is after a step does not go by
+/// how the tangents are turned.
+template <class S, class Law>
+requires moreau::StatefulLaw<Law, S>
+void stateful_law(const Law& law, Normal normal = Normal::signorini) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  static_assert(Law::variants > 0);
+  for (std::size_t k = 0; k < Law::variants; ++k) set_valued_law<S>(law.variant(k), 500, normal);
+  std::mt19937_64 random(13);
+  std::normal_distribution<double> any;
+  CHECK(law.variant_after(Vector(Vector::Zero())) < Law::variants);
+  for (int i = 0; i < 2000; ++i) {
+    Vector impulse;
+    for (auto& x : impulse) x = T(any(random));
+    impulse[0] = std::abs(impulse[0]);
+    const std::size_t after = law.variant_after(impulse);
+    CHECK(after < Law::variants);
+    Vector turned = impulse;
+    turned.template tail<S::dim - 1>() = -impulse.template tail<S::dim - 1>().reverse();
+    CHECK(law.variant_after(turned) == after);
+  }
+}
+
+/// It attracts, less the farther away, and not at all beyond `range` [m].
+template <class S, class Law>
+requires moreau::AttractiveLaw<Law, S>
+void attractive_law(const Law& law, typename S::Scalar range) {
+  using T = typename S::Scalar;
+  T last = law.attraction(-range);
+  CHECK(std::isfinite(last));
+  for (int k = -99; k <= 200; ++k) {
+    const T now = law.attraction(range * T(k) / T(100));
+    CHECK(now >= T(0));
+    CHECK(now <= last);
+    last = now;
+  }
+  CHECK(last == T(0));
+}
+
 /// A law that knows lanes comes to the scalar solution in every lane.
 template <class S, class Law>
 requires moreau::LaneLaw<Law, S>

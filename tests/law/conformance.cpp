@@ -9,9 +9,10 @@
 #include "conformance/law.hpp"
 #include "conformance/regularized_law.hpp"
 #include "own_law/greased.hpp"
+#include "own_law/rubber.hpp"
 
 using namespace moreau;
-using conformance::lane_law, conformance::regularized_law, conformance::set_valued_law;
+using namespace conformance;
 
 TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   using T = typename S::Scalar;
@@ -24,11 +25,14 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   set_valued_law<S>(Greased{0.3});
   lane_law<S>(Frictionless<T>());
   lane_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
+  stateful_law<S>(SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)));
+  attractive_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1), T(1e-4)), T(1e-4));
 }
 
 TEST_CASE_TEMPLATE("regularized laws", S, Space<2>, Space<3>) {
   using T = typename S::Scalar;
   regularized_law<S>(LinearSpringDashpot<T>(T(1e5), T(8e4), T(0.4), T(0.5)), 1e-5);
+  regularized_law<S>(Rubber(), 1e-5);
   regularized_law<S>(HertzMindlin<T>::of_material(T(1e8), T(0.3), T(0.4), T(0.5)), 1e-5);
 }
 

@@ -399,7 +399,8 @@ TEST_CASE("a step that is no time is refused") {
   const Assembly<S> none;
   std::vector<ContactSegment<S>> segments;
   const Aabb<S> box{S::Vector::Zero(), S::Vector::Ones()};
-  for (const double step : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+  using Limits = std::numeric_limits<double>;
+  for (const double step : {0.0, -1.0, Limits::infinity(), Limits::quiet_NaN()}) {
     CHECK_THROWS_AS(
         force_chains(none.contacts, step, none.position_of(), none.is_grain(), segments),
         std::invalid_argument);
@@ -410,6 +411,9 @@ TEST_CASE("a step that is no time is refused") {
     CHECK_THROWS_AS(contact_stress(none.contacts, step, box, none.position_of(), none.is_grain()),
                     std::invalid_argument);
   }
+  CHECK_THROWS_WITH_AS(
+      moreau::contact_segment(none.contacts, 3, 1.0, none.position_of(), none.is_grain()),
+      "contact_segment: c = 3 must be below the number of contacts", std::invalid_argument);
   CHECK_THROWS_AS(
       contact_stress(none.contacts, 1.0, Aabb<S>{}, none.position_of(), none.is_grain()),
       std::invalid_argument);

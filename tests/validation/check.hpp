@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "answers.hpp"
 #include "misses.hpp"
 #include "suite.hpp"
 
@@ -12,6 +13,7 @@ namespace validation {
 
 /// Runs a case and checks every comparison of it that is not known to miss.
 inline void check(const Case& one, Effort effort) {
+  CHECK_NOTHROW(answer_of(one.name));
   Record record;
   one.run(record, effort);
   CHECK_FALSE(record.rows().empty());

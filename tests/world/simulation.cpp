@@ -143,6 +143,13 @@ TEST_CASE("bad input is named") {
   CHECK_THROWS_WITH_AS(simulation.add_grain(shape, twisted, 1000),
                        doctest::Contains("Simulation::add_grain: pose.rotation"),
                        std::invalid_argument);
+  CHECK_THROWS_WITH_AS(simulation.grain(1),
+                       "Simulation::grain: k = 1 must be below the number of grains",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(simulation.shape_of_grain(1), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(laws(MaterialId(0), MaterialId(1)),
+                       "Materials::operator(): b = 1 must be the id of a material",
+                       std::invalid_argument);
   CHECK_THROWS_WITH_AS(simulation.contact_impulse(BodyId(99)),
                        "Simulation::contact_impulse: body = 99 must be the id of a body",
                        std::invalid_argument);

@@ -34,17 +34,21 @@ concept AreaFunction = requires(const F area) {
 
 /// Pressure of the contacts on a wall over the last step [Pa], in the plane [N/m]; > 0 if the
 /// grains push.
-/// @param wall a half-space; whether it is one is not checked
+/// @param wall a half-space of the simulation
 /// @param step its length [s], > 0
 /// @param area [m^2], in the plane the length [m], > 0
-/// @throws std::invalid_argument for a step that is not positive, an area that is not finite or not
-///         positive, or a body that is not of the simulation
+/// @throws std::invalid_argument for a step or an area that is not finite or not positive, or a
+/// body
+///         that is none of the simulation's half-spaces
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
                                           typename Simulation::Scalar area) {
-  require(step > 0, "wall_pressure", "step", step, "must be > 0");
+  require(std::isfinite(step) && step > 0, "wall_pressure", "step", step, "must be finite and > 0");
   require(std::isfinite(area) && area > 0, "wall_pressure", "area", area, "must be finite and > 0");
+  const auto walls = simulation.walls();
+  require(std::find(walls.begin(), walls.end(), wall) != walls.end(), "wall_pressure", "wall", wall,
+          "must be the id of a half-space");
   const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
   return -simulation.bodies().axes(wall.index()).col(0).dot(impulse) / (step * area);
 }
@@ -103,7 +107,7 @@ class PressureLoad {
 template <AreaFunction Area>
 class PressureServo {
  public:
-  /// @param wall     a half-space without mass; not checked, as there is no simulation yet
+  /// @param wall     a half-space without mass; apply() checks it
   /// @param pressure to keep [Pa], in the plane [N/m]; > 0 pushes on the grains
   /// @param gain     velocity per missing pressure [m/(s Pa)], in the plane [m^2/(s N)], > 0
   /// @param limit    the largest speed [m/s], > 0; margin x grain size / step at most, or the wall
@@ -121,8 +125,8 @@ class PressureServo {
 
   /// Sets the velocity for the next step by the pressure of the last one.
   /// @param step length of the last step [s], > 0
-  /// @throws std::invalid_argument for a body that is not of the simulation, a step that is not
-  ///         positive, or an area that is not finite or not positive
+  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces, or a
+  ///         step or an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;

@@ -51,23 +51,21 @@ struct LocalBlock {
 
 namespace detail {
 
-/// Columns: orthonormal eigenvectors of a symmetric matrix, as a rotation.
-template <std::floating_point T>
-Eigen::Matrix<T, 1, 1> eigenvectors(const Eigen::Matrix<T, 1, 1>&) {
-  return Eigen::Matrix<T, 1, 1>::Ones();
-}
-template <std::floating_point T>
-Eigen::Matrix<T, 2, 2> eigenvectors(const Eigen::Matrix<T, 2, 2>& a) {
-  // One Jacobi rotation by the smaller angle.
-  T c = 1, s = 0;
-  if (a(1, 0) != T(0)) {
-    const T theta = (a(1, 1) - a(0, 0)) / (T(2) * a(1, 0));
+/// Columns: orthonormal eigenvectors of a symmetric matrix of one or two rows, as a rotation: for
+/// each pair of axes one of Jacobi's rotations, by the smaller angle.
+template <std::floating_point T, int N>
+Eigen::Matrix<T, N, N> eigenvectors(const Eigen::Matrix<T, N, N>& a) {
+  static_assert(N <= 2, "eigenvectors: of three rows one rotation for each pair is not enough");
+  Eigen::Matrix<T, N, N> q = Eigen::Matrix<T, N, N>::Identity();
+  for (int k = 1; k < N; ++k) {
+    if (a(k, k - 1) == T(0)) continue;
+    const T theta = (a(k, k) - a(k - 1, k - 1)) / (T(2) * a(k, k - 1));
     const T t = std::copysign(T(1), theta) / (std::abs(theta) + std::sqrt(theta * theta + T(1)));
-    c = T(1) / std::sqrt(t * t + T(1));
-    s = t * c;
+    const T c = T(1) / std::sqrt(t * t + T(1));
+    q(k - 1, k - 1) = q(k, k) = c;
+    q(k - 1, k) = t * c;
+    q(k, k - 1) = -t * c;
   }
-  Eigen::Matrix<T, 2, 2> q;
-  q << c, s, -s, c;
   return q;
 }
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "moreau/detect/contact_class.hpp"
-#include "moreau/detect/contact_segment.hpp"
+#include "moreau/detect/edge_overlap.hpp"
 #include "moreau/detect/lone_point.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
@@ -51,8 +51,7 @@ ManifoldPoint<Space<2, T>> witness_point(const PolygonPair<T>& pair,
 
 /// The facing edges, whose overlap is the region of contact.
 template <std::floating_point T>
-ContactSegment<T> contact_segment(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis,
-                                  T margin) {
+EdgeOverlap<T> edge_overlap(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T margin) {
   const T slab = margin - axis.gap + pair.rounding();
   const auto edge_a = facing_edge(pair.a, feature_of_a(axis.kind), axis.a, axis.normal, slab);
   const auto edge_b = facing_edge(pair.b, feature_of_b(axis.kind), axis.b,
@@ -77,7 +76,7 @@ typename Space<2, T>::Vector middle_of_contact(const PolygonPair<T>& pair,
                                : has_foot(pair.b, axis.b, pair.a.vertices()[axis.a] - pair.offset));
   if (!is_on_both) {
     best.gap = std::numeric_limits<T>::infinity();
-    contact_segment(pair, axis, std::max(axis.gap, T(0)))
+    edge_overlap(pair, axis, std::max(axis.gap, T(0)))
         .for_each_corner([&](const ManifoldPoint<Space<2, T>>& corner) {
           if (corner.gap < best.gap) best = corner;
         });
@@ -98,7 +97,7 @@ void fill(const PolygonPair<T>& pair, const Axis<Space<2, T>>& axis, T margin,
     out.contact_class = ContactClass::vertex_edge;
     return;
   }
-  const ContactSegment<T> segment = contact_segment(pair, axis, margin);
+  const EdgeOverlap<T> segment = edge_overlap(pair, axis, margin);
   T deepest = std::numeric_limits<T>::infinity();
   segment.for_each_corner([&](const ManifoldPoint<S>& corner) {
     if (!(corner.gap <= margin + pair.rounding())) return;

@@ -12,7 +12,7 @@
 #include "moreau/detect/collide_convex.hpp"
 #include "moreau/detect/collide_polygons.hpp"
 #include "moreau/detect/contact_class.hpp"
-#include "moreau/detect/contact_segment.hpp"
+#include "moreau/detect/edge_overlap.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
@@ -113,7 +113,7 @@ bool add_corners(const Placed<Segment<Space<2, T>>>& a, const Placed<Polygon<T>>
   const Vector towards_a = -found.normal, offset = b.center() - a.center();
   const auto edge = facing_edge(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
                                 towards_a, margin - found.gap);
-  ContactSegment<T>(a, 0, b, edge, offset, found.normal, near)
+  EdgeOverlap<T>(a, 0, b, edge, offset, found.normal, near)
       .for_each_corner([&](const auto& corner) {
         if (corner.gap <= margin) out.points.push_back(corner);
       });

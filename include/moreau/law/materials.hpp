@@ -43,17 +43,26 @@ class Materials : public MaterialPairs {
   /// Gives the law of the pairs (a, b) and (b, a).
   /// @throws std::invalid_argument for a material that does not exist
   void set(MaterialId a, MaterialId b, const Law& law) {
-    require(a.index() < count(), "Materials::set", "a", a, "must be the id of a material");
-    require(b.index() < count(), "Materials::set", "b", b, "must be the id of a material");
+    require_pair(a, b, "Materials::set");
     laws_[law_index(a, b)] = law;
     laws_[law_index(b, a)] = law;
   }
 
-  /// The law between two materials; both must exist, which is not checked.
-  const Law& operator()(MaterialId a, MaterialId b) const { return laws_[law_index(a, b)]; }
+  /// The law between two materials. Where it is asked for at every contact, laws()[law_index(a, b)]
+  /// is it without a check.
+  /// @throws std::invalid_argument for a material that does not exist
+  const Law& operator()(MaterialId a, MaterialId b) const {
+    require_pair(a, b, "Materials::operator()");
+    return laws_[law_index(a, b)];
+  }
   const std::vector<Law>& laws() const { return laws_; }  ///< count()^2, see law_index()
 
  private:
+  void require_pair(MaterialId a, MaterialId b, const char* function) const {
+    require(a.index() < count(), function, "a", a, "must be the id of a material");
+    require(b.index() < count(), function, "b", b, "must be the id of a material");
+  }
+
   friend struct StateAccess;
   auto state() { return std::tie(count_, laws_); }
   void restored() const {

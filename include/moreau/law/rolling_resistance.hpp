@@ -65,9 +65,14 @@ class RollingResistance {
   /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
   /// @throws std::invalid_argument outside these ranges
   explicit RollingResistance(T friction = T(0), T rolling = T(0), T restitution = T(0))
-      : point_(friction, restitution), rolling_(rolling) {
+      : rolling_(rolling) {
+    require(std::isfinite(friction) && friction >= 0, "RollingResistance", "friction", friction,
+            "must be finite and >= 0");
+    require(restitution >= 0 && restitution <= 1, "RollingResistance", "restitution", restitution,
+            "must lie in [0, 1]");
     require(std::isfinite(rolling) && rolling >= 0, "RollingResistance", "rolling", rolling,
             "must be finite and >= 0");
+    point_ = SignoriniCoulomb<T>(friction, restitution);
   }
 
   T friction() const { return point_.friction(); }        ///< mu [-]

@@ -15,6 +15,7 @@
 // imbalance is that of the forces, which are taken as constant during a step.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -65,7 +66,8 @@ class EnergyBalance {
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
     const Bodies<S>& bodies = simulation.bodies();
-    require(step > 0, "EnergyBalance::add", "step", step, "must be > 0");
+    require(std::isfinite(step) && step > 0, "EnergyBalance::add", "step", step,
+            "must be finite and > 0");
     require(bodies.size() == positions_.size(), "EnergyBalance::add", "number of bodies",
             bodies.size(), "must be that of the start");
     for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -2,6 +2,7 @@
 // Contacts as segments between the centres of their bodies.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,10 +38,12 @@ struct ContactSegment {
 /// @param is_grain    body -> false for a wall
 /// @param cell        if it is periodic: the segment begins at the position of a and ends at that
 ///                    image of b which the contact is with
+/// @throws std::invalid_argument if there is no such point
 template <class S>
 ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
                                   typename S::Scalar step, const auto& position_of,
                                   const auto& is_grain, const PeriodicCell<S>& cell = {}) {
+  require(c < contacts.size(), "contact_segment", "c", c, "must be below the number of contacts");
   const Contact<S>& contact = contacts.points[c];
   const typename S::Vector& impulse = contacts.impulses[c];
   const std::uint32_t grain = is_grain(contact.a) ? contact.a : contact.b;
@@ -63,12 +66,12 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
 
 /// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`;
 /// arguments as of contact_segment().
-/// @throws std::invalid_argument if the step is not positive
+/// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>
 void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
                   const auto& is_grain, std::vector<ContactSegment<S>>& segments,
                   const PeriodicCell<S>& cell = {}) {
-  require(step > 0, "force_chains", "step", step, "must be > 0");
+  require(std::isfinite(step) && step > 0, "force_chains", "step", step, "must be finite and > 0");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (contacts.impulses[c][0] > 0)
@@ -76,12 +79,13 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
 }
 
 /// Fills `segments` with every contact, those without force too; arguments as of contact_segment().
-/// @throws std::invalid_argument if the step is not positive
+/// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>
 void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
                       const auto& is_grain, std::vector<ContactSegment<S>>& segments,
                       const PeriodicCell<S>& cell = {}) {
-  require(step > 0, "contact_segments", "step", step, "must be > 0");
+  require(std::isfinite(step) && step > 0, "contact_segments", "step", step,
+          "must be finite and > 0");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));

@@ -10,9 +10,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "moreau/core/error.hpp"
 #include "moreau/detect/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 
@@ -59,10 +61,13 @@ class GridField {
   /// @param value    in any unit
   /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
   /// @param periodic the simulation's cell
-  /// @throws std::invalid_argument for a weight that is not positive
+  /// @throws std::invalid_argument for what is not finite, or a weight that is not positive
   void add(const Vector& position, const Vector& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
-    require(weight > 0, "GridField::add", "weight", weight, "must be > 0");
+    constexpr const char* self = "GridField::add";
+    require(position.allFinite(), self, "position", position, "must be finite");
+    require(value.allFinite(), self, "value", value, "must be finite");
+    require(std::isfinite(weight) && weight > 0, self, "weight", weight, "must be finite and > 0");
     const Vector image = periodic.image_from(box_.lower, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;

@@ -3,6 +3,7 @@
 // the statistics of forces, whatever the number of points it was made of.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,7 +37,7 @@ struct PairForce {
 template <class S>
 void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,
                  std::vector<PairForce<S>>& pairs) {
-  require(step > 0, "pair_forces", "step", step, "must be > 0");
+  require(std::isfinite(step) && step > 0, "pair_forces", "step", step, "must be finite and > 0");
   pairs.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<S>& contact = contacts.points[c];

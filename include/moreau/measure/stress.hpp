@@ -2,6 +2,7 @@
 // The mean stress of an assembly from its contact forces.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
@@ -32,7 +33,8 @@ typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scala
                                   const Aabb<S>& control_volume, const auto& position_of,
                                   const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   using Vector = typename S::Vector;
-  require(step > 0, "contact_stress", "step", step, "must be > 0");
+  require(std::isfinite(step) && step > 0, "contact_stress", "step", step,
+          "must be finite and > 0");
   require_control_volume(control_volume, "contact_stress");
   typename S::Matrix sum = S::Matrix::Zero();
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -5,6 +5,7 @@
 
 #include "../../../examples/own_integrator/symplectic_euler.hpp"
 #include "../../../examples/own_law/greased.hpp"
+#include "../../../examples/own_law/rubber.hpp"
 #include "conformance/matrix.hpp"
 #include "world/assemblies.hpp"
 
@@ -12,6 +13,11 @@ using namespace moreau;
 
 TEST_CASE("the greased faces of own_law") {
   conformance::world(scenes::cuboid<Polygon<>>({0.003, 0.0025}), Greased{1e-3}, 0.009);
+}
+TEST_CASE("the rubber of own_law") {
+  // Stiff enough for a drop of a centimetre: 2e-3 kg of a ball, 0.08 kg/m of a disk.
+  conformance::world(Sphere<Space<3>>(0.005), Rubber{2e4, 1e-4, 0.5, 1, 0.4}, 0.01);
+  conformance::world(Disk<double>(0.005), Rubber{3e6, 1e-4, 100, 50, 0.4}, 0.01);
 }
 TEST_CASE("symplectic Euler of own_integrator") {
   using Choice = conformance::With<SymplecticEuler>;

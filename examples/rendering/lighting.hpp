@@ -13,7 +13,7 @@
 
 #include "scene.hpp"
 
-namespace ratcheting {
+namespace rendering {
 
 class Lighting {
  public:
@@ -118,4 +118,4 @@ inline void draw_edges(const Scene& scene, const DepthBuffer& seen, int width, I
     }
 }
 
-}  // namespace ratcheting
+}  // namespace rendering

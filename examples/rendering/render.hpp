@@ -19,7 +19,7 @@
 #include "drawing.hpp"
 #include "lighting.hpp"
 
-namespace ratcheting {
+namespace rendering {
 
 /// Colours of stone, from small to large grains (share 0..1), varied a little by the grain's number
 /// so that neighbours can be told apart.
@@ -252,4 +252,4 @@ Image render_force_chains(const moreau::Aabb<S>& box,
   return drawing.finished();
 }
 
-}  // namespace ratcheting
+}  // namespace rendering

@@ -17,7 +17,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/io/output_file.hpp"
 
-namespace ratcheting {
+namespace rendering {
 
 using Color = Eigen::Vector3f;  ///< red, green, blue in linear light, 0..1
 
@@ -230,4 +230,4 @@ inline void write_png(const std::filesystem::path& path, const Image& image) {
   moreau::write_atomically(path, png(image));
 }
 
-}  // namespace ratcheting
+}  // namespace rendering

@@ -13,7 +13,7 @@
 namespace moreau::detail {
 
 template <std::floating_point T>
-class ContactSegment {
+class EdgeOverlap {
  public:
   using S = Space<2, T>;
   using Vector = typename S::Vector;
@@ -23,8 +23,8 @@ class ContactSegment {
   /// @param offset  centre of b minus centre of a
   /// @param near    distance within which two ends are one [m]
   template <class ShapeA>
-  ContactSegment(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
-                 const Vector& offset, const Vector& normal, T near)
+  EdgeOverlap(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
+              const Vector& offset, const Vector& normal, T near)
       : center_(a.center()), frame_(S::contact_frame(normal)), near_(near) {
     a_ = project(a, edge_a, Vector::Zero());
     b_ = project(b, edge_b, offset);

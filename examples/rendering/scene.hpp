@@ -17,7 +17,7 @@
 #include "image.hpp"
 #include "rasterizer.hpp"
 
-namespace ratcheting {
+namespace rendering {
 
 /// What is seen in space.
 class Scene {
@@ -115,4 +115,4 @@ class Scene {
   std::vector<Color> colors_;
 };
 
-}  // namespace ratcheting
+}  // namespace rendering

@@ -11,7 +11,7 @@
 #include "image.hpp"
 #include "rasterizer.hpp"
 
-namespace ratcheting {
+namespace rendering {
 
 using Eigen::Vector2d;
 
@@ -77,4 +77,4 @@ class Drawing {
   double scale_ = 1;
 };
 
-}  // namespace ratcheting
+}  // namespace rendering
