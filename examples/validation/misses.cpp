@@ -46,8 +46,6 @@ constexpr Miss misses_in_float[] = {
     {"column of", "relative error of the impulses", 1e-3,
      "a rounding of the places over the step is 1e-3 of the velocity that gravity gives"},
     {"packing at rest", "imbalance of forces over weight", 2e-3, "as in the column"},
-    {"frame indifference", "distance over size", 5e-3,
-     "rounding grows by 1000 and more in the collisions"},
     {"prisms against polygons", "distance over size", 2e-2,
      "rounding grows in the collisions, and on springs more"},
     {"prisms against polygons", "difference of the angles", 3e-2, "as the distance"},

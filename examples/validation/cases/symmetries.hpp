@@ -67,7 +67,7 @@ double growth_of_rounding(const Heap<ShapeT, Law>& reference, const HeapOptions&
 /// and which of them is found goes by the order. Rounding grows with each collision of rough
 /// bodies, by a factor that goes by their number: so the measure is what the same experiment does
 /// with its grains aside by some roundings of a metre, the largest of several such. What grows from
-/// a frame or an order is no more than thirty times that, and both stand in the table.
+/// a frame or an order is no more than ten times that, and both stand in the table.
 template <class ShapeT, class Law>
 void symmetries(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -91,9 +91,9 @@ void symmetries(Record& record) {
   const auto name = [](const char* text) { return with_law<Law>(with_shape<ShapeT>(text)); };
   record.vanishes(name("frame indifference") + ": no grain pushed another", S{}, pushes == 0, 0);
   record.vanishes(name("frame indifference") + ": distance over size", S{},
-                  detail::distance(reference, moved, frame) / Heap::size, 30 * grown);
+                  detail::distance(reference, moved, frame) / Heap::size, 10 * grown);
   record.vanishes(name("permuted bodies") + ": distance over size", S{},
-                  detail::distance(first, permuted, {}) / Heap::size, 30 * grown_smooth);
+                  detail::distance(first, permuted, {}) / Heap::size, 10 * grown_smooth);
 }
 
 template <class ShapeT>

@@ -7,8 +7,9 @@
 #include "conformance/matrix.hpp"
 #include "world/assemblies.hpp"
 
-TEST_CASE_TEMPLATE("grains with sharp and with rounded corners", Sharp, moreau::Polygon<double>,
-                   moreau::Polyhedron<double>, moreau::Polygon<float>, moreau::Polyhedron<float>) {
+TEST_CASE_TEMPLATE("grains with sharp and with rounded corners under every law", Sharp,
+                   moreau::Polygon<double>, moreau::Polyhedron<double>, moreau::Polygon<float>,
+                   moreau::Polyhedron<float>) {
   using S = moreau::SpaceOf<Sharp>;
   using T = typename S::Scalar;
   using Grain = moreau::OneOf<Sharp, moreau::Rounded<Sharp>>;
@@ -16,12 +17,5 @@ TEST_CASE_TEMPLATE("grains with sharp and with rounded corners", Sharp, moreau::
   const typename S::Vector inner = half.array() - T(0.001);
   const std::vector<Grain> grains{scenes::cuboid<Sharp>(half),
                                   moreau::Rounded<Sharp>(scenes::cuboid<Sharp>(inner), T(0.001))};
-  const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
-  const T mass = grains[1].mass_properties(T(1000)).mass;
-  SUBCASE("SignoriniCoulomb") {
-    conformance::world(grains, coulomb, T(0.01));
-  }
-  SUBCASE("LinearSpringDashpot") {
-    conformance::world(grains, conformance::stiff_springs<T>(mass), T(0.01));
-  }
+  conformance::all_laws(grains, T(0.01));
 }
