@@ -80,7 +80,7 @@ void conclude(const Parameters& p, const ExperimentT& experiment, const SolverTo
   std::printf("overlaps: mean %.1e d, largest %.1e d\n", totals.mean(totals.mean_overlap) / size,
               totals.max_overlap / size);
   if (ExperimentT::solves)
-    std::printf("%zu of %zu steps capped at %d sweeps\n", totals.capped, totals.steps,
+    std::printf("%zu of %zu steps did not converge; cap: %d sweeps\n", totals.capped, totals.steps,
                 p.max_sweeps);
   if (!experiment.settled())
     std::printf("note: the sample was still moving when the preparation's %g s were over\n",

@@ -50,7 +50,11 @@ std::string completeness(const std::vector<Case>& plan, const std::vector<Result
     capped += r.facts.capped_steps;
   }
   return text + "\nOf " + std::to_string(steps) + " steps " + std::to_string(capped) +
-         " ended at the cap of sweeps; all others met the stopping test.\n";
+         " did not converge: the cap of sweeps was met first, or more than a tenth of the approach "
+         "that "
+         "the step would bring was left over (SolveReport::left_over; a heavy wall that is jammed "
+         "has "
+         "little of it). All others met the stopping test.\n";
 }
 
 std::string verdict_table(const std::vector<Row>& rows, const Shapes& shapes) {
