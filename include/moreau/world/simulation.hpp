@@ -251,9 +251,7 @@ class Simulation {
   /// Advances the time by `step` [s], > 0.
   /// @returns what it did and how well the contacts were solved; not converging is no error
   /// @throws std::invalid_argument for a step that is not positive or not finite
-  /// @throws std::runtime_error naming a body whose velocity or place is no number any more, as
-  ///         under a law that gives none, or forces beyond the scalar; the simulation is then of
-  ///         no use
+  /// @throws std::runtime_error naming a body whose velocity or place is no number any more
   StepReport step(Scalar step);
 
   Scalar time() const { return time_; }              ///< sum of the steps [s]
