@@ -20,6 +20,14 @@ const Answer& answer_of(const std::string& name) {
       {"bouncing_ball",
        {"v′ = −e v at every impact; at rest after √(2 h₀/g) (1 + e)/(1 − e), to the order of h",
         "Newton's restitution; a geometric series of flights"}},
+      {"two_grains",
+       {"part with e v; overlap without damping v √(m/k) on linear springs, (15 m v²/(16 E "
+        "√R))^(2/5) "
+        "on Hertz's; sticking, vₜ′ = vₜ (1 + k/(1 + k) (cos(π √((1 + 1/k) kₜ/kₙ)) − 1)); m and R "
+        "effective, k = I/(m R²)",
+        "H. Hertz, J. reine angew. Math. 92 (1882) 156; two linear oscillators of one contact, as "
+        "N. "
+        "Maw, J. R. Barber and J. N. Fawcett, Wear 38 (1976) 101"}},
       {"incline",
        {"sticks iff tan α ≤ μ, else a = g (sin α − μ cos α)",
         "C. A. de Coulomb, Théorie des machines simples (1785)"}},
@@ -52,7 +60,7 @@ const Answer& answer_of(const std::string& name) {
       {"arch",
        {"a semicircular arch with radial joints stands iff thickness/radius ≥ 0.1075",
         "M. Milankovitch, Z. Math. Phys. 55 (1907) 1; H. Alexakis and N. Makris, Arch. Appl. Mech. "
-        "85 (2015) 1233"}},
+        "85 (2015) 1363"}},
       {"painleve",
        {"no closed contact has a force where 1 + 3 cos φ (cos φ − μ sin φ) < 0 (slender rod, μ > "
         "4/3); over a step an impulse exists, and no energy comes of it",
@@ -65,7 +73,8 @@ const Answer& answer_of(const std::string& name) {
         "Galilei's invariance; the order of bodies is none of the problem's data"}},
       {"momentum", {"Σ m v and Σ (m x × v + I ω) of free bodies that collide are kept", balance}},
       {"prisms",
-       {"prisms held in a plane do what the polygons do, to 1e-9 for the first hundred steps",
+       {"prisms that symmetry keeps in a plane do what the polygons do, to 1e-9 for the first "
+        "hundred steps",
         "the same equations"}},
       {"balance",
        {"contacts and weight of every grain at rest add up to zero, force and moment", balance}},

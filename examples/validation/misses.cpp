@@ -16,7 +16,7 @@ struct Miss {
 };
 
 constexpr Miss misses_in_double[] = {
-    {"plane shear of disks, I = 0.0", ": friction", 0.06,
+    {"plane shear of disks, I = 0.08", ": friction", 0.06,
      "the friction rises faster than the published line below I = 0.1: 0.384 at I = 0.085, with "
      "another sample 0.377 at I = 0.090, with half the step 0.377 at I = 0.091"},
 };
@@ -46,6 +46,8 @@ constexpr Miss misses_in_float[] = {
     {"column of", "relative error of the impulses", 1e-3,
      "a rounding of the places over the step is 1e-3 of the velocity that gravity gives"},
     {"packing at rest", "imbalance of forces over weight", 2e-3, "as in the column"},
+    {"frame indifference", "distance over size", 5e-3,
+     "rounding grows by 1000 and more in the collisions"},
     {"prisms against polygons", "distance over size", 2e-2,
      "rounding grows in the collisions, and on springs more"},
     {"prisms against polygons", "difference of the angles", 3e-2, "as the distance"},

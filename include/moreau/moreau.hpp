@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The core of moreau in one include. Files (io/) and the sample generators (sample/) are taken
-// singly.
+// The core of moreau in one include: shapes, Coulomb's law, the default solver, Simulation. All
+// else is taken singly: further laws and solvers, drives (boundary/), instruments (measure/),
+// samples (sample/), files (io/), threads.
 #pragma once
 
 #include "moreau/law/materials.hpp"

@@ -135,6 +135,8 @@ TEST_CASE("bad drives and servos are named") {
                        "wall without set_wall_mass",
                        std::invalid_argument);
   along.apply(scene.simulation, 1e-3);
+  CHECK_THROWS_AS(along.apply(scene.simulation, -1e-3), std::invalid_argument);
+  CHECK_THROWS_AS(HarmonicForce(0, 1, 1e308), std::invalid_argument);
   const ForceDrive endless(scene.wall, V(1, 0), [](double) { return std::nan(""); });
   CHECK_THROWS_AS(endless.apply(scene.simulation, 1e-3), std::invalid_argument);
   double length = 1;
@@ -145,6 +147,10 @@ TEST_CASE("bad drives and servos are named") {
                        "PressureServo: gain = 0 must be finite and > 0", std::invalid_argument);
   CHECK_THROWS_AS(PressureServo(scene.wall, 1, 1, -1, area), std::invalid_argument);
   const PressureServo servo(scene.wall, 1, 1, 1, area);
+  CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),
+                       "PressureServo::apply: wall = 0 must have no mass, or its velocity is not "
+                       "kept",
+                       std::invalid_argument);
   length = 0;
   CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),
                        "PressureServo::apply: area = 0 must be finite and > 0",

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "moreau/shape/concepts.hpp"
@@ -44,11 +45,11 @@ constexpr double rounding() {
 
 // Not templates: they take the compiler long.
 inline void expect_at_most(const char* what, double value, double limit) {
-  CAPTURE(what);
+  INFO(std::string(what));
   CHECK(value <= limit);
 }
 inline void expect_positive(const char* what, double value) {
-  CAPTURE(what);
+  INFO(std::string(what));
   CHECK(value > 0);
 }
 inline void check_principal(const Eigen::Matrix<double, 1, 1>& inertia, double) {

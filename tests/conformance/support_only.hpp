@@ -14,9 +14,6 @@ class SupportOnly {
   using Space = moreau::SpaceOf<ShapeT>;
   using Vector = typename Space::Vector;
 
-  static constexpr bool one_point =
-      true;  ///< of contact with its like, where a face would have more
-
   explicit SupportOnly(ShapeT shape) : shape_(std::move(shape)) {}
 
   Vector support(const Vector& direction) const { return shape_.support(direction); }

@@ -117,9 +117,18 @@ TEST_CASE_TEMPLATE("a grid holds the weighted means of its cells, along every ax
   field.add(V::Constant(6.5), V::Ones(), 1, cell);  // the image at 0.5
   CHECK(field.sample(0).value == V(V::Ones()));
   CHECK_THROWS_AS(field.add(V::Zero(), V::Zero(), 0), std::invalid_argument);
+  CHECK_THROWS_AS(field.sample(field.size()), std::invalid_argument);
+  typename GridField<S>::Cells endless;
+  endless.fill(std::size_t(1) << 33);
+  CHECK_THROWS_AS(GridField<S>(box, endless), std::invalid_argument);
+  VelocityField<S> section(box, 2, 3);
+  CHECK_THROWS_AS(section.sample(2, 0), std::invalid_argument);
+  CHECK_THROWS_AS(section.sample(0, 3), std::invalid_argument);
+  CHECK_THROWS_AS(VelocityField<S>(box, endless[0], endless[0]), std::invalid_argument);
   const V nowhere = V::Constant(std::numeric_limits<double>::quiet_NaN());
   CHECK_THROWS_AS(field.add(nowhere, V::Zero()), std::invalid_argument);
   CHECK_THROWS_AS(field.add(V::Zero(), nowhere), std::invalid_argument);
+  CHECK_THROWS_AS(section.add(V::Zero(), nowhere), std::invalid_argument);
   cells[0] = 0;
   CHECK_THROWS_AS(GridField<S>(box, cells), std::invalid_argument);
   CHECK_THROWS_AS(GridField<S>({}, field.cells()), std::invalid_argument);

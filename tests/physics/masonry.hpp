@@ -231,7 +231,7 @@ Structure<ShapeT> card_house(double friction) {
 }
 
 /// A semicircular arch of equal voussoirs, mean radius 1, on the floor.
-/// @param thickness over the mean radius; 0.1075 is the least that stands (V. Milankovitch, 1907)
+/// @param thickness over the mean radius; 0.1075 is the least that stands (M. Milankovitch, 1907)
 template <class ShapeT>
 Structure<ShapeT> arch(int voussoirs, double thickness) {
   Structure<ShapeT> structure(thickness, 0.7, 0.3);

@@ -106,6 +106,40 @@ TEST_CASE("the order in which walls and grains are added does not matter to the 
   }
 }
 
+namespace {
+
+/// Takes fast contacts for more than it can say.
+struct NoNumber {
+  double velocity_offset(double gap, double, double step) const { return gap / step; }
+  template <class S>
+  typename S::Vector solve(const moreau::LocalBlock<S>&, const typename S::Vector& b,
+                           const typename S::Vector&) const {
+    return S::Vector::Constant(std::sqrt(b[0] + 1));
+  }
+  template <class Vector>
+  Vector natural_map(const Vector&, const Vector& r) const {
+    return Vector(0 * r);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a step that comes to no numbers ends in an error, before anything has moved") {
+  using S = Space<3>;
+  moreau::Simulation<Sphere<S>, NoNumber> world(0.02, moreau::Materials<NoNumber>(1));
+  const BodyId ball = world.add_grain(world.add_shape(Sphere<S>(0.01)), {}, 1000);
+  world.add_wall(S::Vector::UnitZ(), S::Vector(0, 0, -0.01));
+  world.set_velocity(ball, S::Vector(0, 0, -5));
+  CHECK_THROWS_WITH_AS(world.step(1e-3), doctest::Contains("Simulation::step: velocity of body 0"),
+                       std::runtime_error);
+  CHECK(world.bodies().pose[ball.index()].is_finite());
+
+  scenes::World<Sphere<S>> far(0.02, moreau::Materials<moreau::SignoriniCoulomb<double>>(1));
+  far.add_grain(far.add_shape(Sphere<S>(0.01)), {}, 1000);
+  far.set_gravity(S::Vector(0, 0, -1e308));
+  CHECK_THROWS_AS(far.step(10), std::runtime_error);
+}
+
 TEST_CASE("bad input is named") {
   using S = Space<3>;
   using Law = moreau::SignoriniCoulomb<double>;
@@ -147,6 +181,9 @@ TEST_CASE("bad input is named") {
                        "Simulation::grain: k = 1 must be below the number of grains",
                        std::invalid_argument);
   CHECK_THROWS_AS(simulation.shape_of_grain(1), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(BodyId(std::size_t(1) << 32), "Id: index = 4294967296 must be below 2^32",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(moreau::Materials<Law>(65536), std::invalid_argument);
   CHECK_THROWS_WITH_AS(laws(MaterialId(0), MaterialId(1)),
                        "Materials::operator(): b = 1 must be the id of a material",
                        std::invalid_argument);

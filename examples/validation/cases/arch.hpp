@@ -62,8 +62,8 @@ ArchRun stand_arch(int blocks, double thickness, double time) {
 }  // namespace detail
 
 /// A semicircular arch with radial joints stands iff its thickness is at least 0.1075 of its mean
-/// radius (V. Milankovitch, Z. Math. Phys. 55 (1907) 1; H. Alexakis and N. Makris, Arch. Appl.
-/// Mech. 85 (2015) 1233), for friction enough not to slip.
+/// radius (M. Milankovitch, Z. Math. Phys. 55 (1907) 1; H. Alexakis and N. Makris, Arch. Appl.
+/// Mech. 85 (2015) 1363), for friction enough not to slip.
 template <class ShapeT>
 void arch(Record& record, int blocks, int bisections) {
   using S = SpaceOf<ShapeT>;

@@ -36,7 +36,7 @@ class HarmonicForce {
   /// @throws std::invalid_argument if one of them is not finite, for fmin > fmax or a negative
   ///         frequency
   HarmonicForce(double fmin, double fmax, double frequency, double start = 0)
-      : mean_((fmax + fmin) / 2), amplitude_((fmax - fmin) / 2), start_(start) {
+      : mean_(fmin / 2 + fmax / 2), amplitude_(fmax / 2 - fmin / 2), start_(start) {
     constexpr const char* self = "HarmonicForce";
     require(std::isfinite(fmin), self, "fmin", fmin, "must be finite");
     require(std::isfinite(fmax) && fmax >= fmin, self, "fmax", fmax, "must be finite and >= fmin");
@@ -44,6 +44,7 @@ class HarmonicForce {
             "must be finite and >= 0");
     require(std::isfinite(start), self, "start", start, "must be finite");
     rate_ = 2 * std::numbers::pi * frequency;
+    require(std::isfinite(rate_), self, "frequency", frequency, "must be less");
   }
   /// f(t) [N] at the time t [s].
   double operator()(double t) const { return mean_ - amplitude_ * std::sin(rate_ * (t - start_)); }
@@ -105,9 +106,11 @@ class ForceDrive : public detail::Drive<VectorT, F> {
 
   /// Sets the force for the next step, of this length [s].
   /// @throws std::invalid_argument for a body that is not the simulation's, one that the force
-  ///         cannot move (a wall without set_wall_mass, or across its normal), a force not finite
+  ///         cannot move (a wall without set_wall_mass, or across its normal), a force not finite,
+  ///         a step that is not finite or not positive
   void apply(auto& simulation, typename VectorT::Scalar step) const {
     constexpr const char* self = "ForceDrive::apply";
+    require(std::isfinite(step) && step > 0, self, "step", step, "must be finite and > 0");
     require(this->can_accelerate(simulation, self), self, "body", this->body(),
             "must have a mass along the direction; set_wall_mass gives a wall one");
     simulation.set_force(this->body(), this->value(simulation.time(), step));
@@ -133,9 +136,10 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
 
   /// Sets the velocity for the next step, of this length [s].
   /// @throws std::invalid_argument for a body that is not the simulation's, one that has a mass
-  ///         along the direction, a velocity not finite
+  ///         along the direction, a velocity not finite, a step that is not finite or not positive
   void apply(auto& simulation, typename VectorT::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
+    require(std::isfinite(step) && step > 0, self, "step", step, "must be finite and > 0");
     require(!this->can_accelerate(simulation, self), self, "body", this->body(),
             "must have no mass along the direction, as a wall without set_wall_mass");
     simulation.set_velocity(this->body(), this->value(simulation.time(), step));

@@ -125,13 +125,15 @@ class PressureServo {
 
   /// Sets the velocity for the next step by the pressure of the last one.
   /// @param step length of the last step [s], > 0
-  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces, or a
-  ///         step or an area that is not finite or not positive
+  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces or
+  ///         has a mass, or a step or an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;
     const Scalar area = detail::checked_area<Scalar>(area_, "PressureServo::apply");
     const double missing = pressure_ - double(wall_pressure(simulation, wall_, step, area));
+    require(simulation.bodies().inverse_mass[wall_.index()].isZero(0), "PressureServo::apply",
+            "wall", wall_, "must have no mass, or its velocity is not kept");
     const double speed = std::clamp(gain_ * missing, -limit_, limit_);
     simulation.set_velocity(
         wall_, static_cast<Scalar>(speed) * simulation.bodies().axes(wall_.index()).col(0));

@@ -51,6 +51,21 @@ template <class Value>
   throw std::invalid_argument(message.str());
 }
 
+/// Gives up a step whose numbers are none any more.
+/// @param what  e.g. "velocity of body"
+/// @param index of the body
+/// @throws std::runtime_error "function: what index = value is not finite", always
+template <class Value>
+[[noreturn]] void throw_not_finite(std::string_view function, std::string_view what,
+                                   std::size_t index, const Value& value) {
+  std::ostringstream message;
+  message.precision(9);
+  message << function << ": " << what << ' ' << index << " = ";
+  detail::print(message, value);
+  message << " is not finite";
+  throw std::runtime_error(message.str());
+}
+
 /// Checks an argument of a public function.
 /// @param condition   what has to hold
 /// @param function    the public name the caller used, e.g. "Polyhedron"

@@ -8,6 +8,8 @@
 #include <ostream>
 #include <tuple>
 
+#include "moreau/core/error.hpp"
+
 namespace moreau {
 
 /// An index that knows what it counts. Trivially copyable; ordered like its value.
@@ -16,8 +18,11 @@ struct Id {
   std::uint32_t value = 0;  ///< counted from 0
 
   constexpr Id() = default;  ///< the first one's
-  /// The id of what stands at this position.
-  constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
+  /// The id of what stands at this position, < 2^32.
+  /// @throws std::invalid_argument for a position that an id cannot hold
+  constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {
+    if (value != index) throw_invalid("Id", "index", index, "must be below 2^32");
+  }
 
   /// The position in the array of what it counts.
   constexpr std::size_t index() const { return value; }

@@ -32,8 +32,8 @@ class PeriodicCell {
     require(axis >= 0 && axis < S::dim, function, "axis", axis, "must be an axis of the space");
     const bool opens = lower == -infinity && upper == infinity;
     require(opens || std::isfinite(lower), function, "lower", lower, "must be finite");
-    require(opens || (std::isfinite(upper) && upper > lower), function, "upper", upper,
-            "must be finite and above lower");
+    require(opens || (std::isfinite(upper) && upper > lower && std::isfinite(upper - lower)),
+            function, "upper", upper, "must be finite and above lower");
     lower_[axis] = opens ? Scalar(0) : lower;
     length_[axis] = opens ? Scalar(0) : upper - lower;
   }

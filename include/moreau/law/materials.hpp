@@ -34,10 +34,11 @@ class Materials : public MaterialPairs {
  public:
   /// @param count    number of materials, at least 1
   /// @param fallback the law of every pair until set() says otherwise
-  /// @throws std::invalid_argument if count is 0
-  explicit Materials(std::size_t count, const Law& fallback = Law{})
-      : MaterialPairs(count), laws_(count * count, fallback) {
-    require(count > 0, "Materials", "count", count, "must be at least 1");
+  /// @throws std::invalid_argument if count is 0 or above 65535
+  explicit Materials(std::size_t count, const Law& fallback = Law{}) : MaterialPairs(count) {
+    // An id of a law has 32 bits.
+    require(count > 0 && count <= 65535, "Materials", "count", count, "must lie in [1, 65535]");
+    laws_.assign(count * count, fallback);
   }
 
   /// Gives the law of the pairs (a, b) and (b, a).

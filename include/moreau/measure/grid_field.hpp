@@ -46,7 +46,8 @@ class GridField {
     require_control_volume(control_volume, "GridField");
     std::size_t count = 1;
     for (const std::size_t n : cells) {
-      require(n > 0, "GridField", "cells", n, "must be > 0 along every axis");
+      require(n > 0 && n <= sums_.max_size() / count, "GridField", "cells", n,
+              "must be > 0 along every axis, and no more than memory can hold");
       count *= n;
     }
     sums_.resize(count);
@@ -86,8 +87,10 @@ class GridField {
   const Aabb<S>& control_volume() const { return box_; }  ///< world axes [m]
   const Cells& cells() const { return cells_; }           ///< along every axis
   std::size_t size() const { return sums_.size(); }       ///< cells in all
-  /// Cell number k, k < size(); the first axis runs fastest.
+  /// Cell number k; the first axis runs fastest.
+  /// @throws std::invalid_argument unless k < size()
   GridSample<S> sample(std::size_t k) const {
+    require(k < size(), "GridField::sample", "k", k, "must be below the number of cells");
     const Sum& sum = sums_[k];
     Vector share;
     for (int axis = 0; axis < S::dim; ++axis) {

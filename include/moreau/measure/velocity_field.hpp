@@ -47,10 +47,13 @@ class VelocityField {
   /// @throws std::invalid_argument for no cells, or a control volume that is empty, inverted or not
   ///         finite
   VelocityField(const Aabb<S>& control_volume, std::size_t columns, std::size_t rows)
-      : box_(control_volume), columns_(columns), rows_(rows), cells_(columns * rows) {
+      : box_(control_volume), columns_(columns), rows_(rows) {
     require_control_volume(control_volume, "VelocityField");
     require(columns > 0, "VelocityField", "columns", columns, "must be > 0");
     require(rows > 0, "VelocityField", "rows", rows, "must be > 0");
+    require(rows <= cells_.max_size() / columns, "VelocityField", "rows", rows,
+            "must be no more than memory can hold");
+    cells_.resize(columns * rows);
   }
 
   /// Forgets all grains.
@@ -61,7 +64,11 @@ class VelocityField {
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param velocity of its centre, world axes [m/s]
   /// @param periodic the simulation's cell
+  /// @throws std::invalid_argument for what is not finite
   void add(const Vector& position, const Vector& velocity, const PeriodicCell<S>& periodic = {}) {
+    constexpr const char* self = "VelocityField::add";
+    require(position.allFinite(), self, "position", position, "must be finite");
+    require(velocity.allFinite(), self, "velocity", velocity, "must be finite");
     const Vector image = periodic.image_from(box_.lower, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
@@ -72,9 +79,12 @@ class VelocityField {
 
   std::size_t columns() const { return columns_; }  ///< cells along the first axis
   std::size_t rows() const { return rows_; }        ///< cells along the last axis
-  /// The cell in a column (from the left) and row (from below), column < columns(), row < rows();
-  /// velocity zero if it holds no grain.
+  /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
+  /// @throws std::invalid_argument unless column < columns() and row < rows()
   Sample sample(std::size_t column, std::size_t row) const {
+    constexpr const char* self = "VelocityField::sample";
+    require(column < columns_, self, "column", column, "must be below their number");
+    require(row < rows_, self, "row", row, "must be below their number");
     const Cell& cell = cells_[row * columns_ + column];
     const Section extent = section(box_.upper - box_.lower);
     const Section share{(Scalar(column) + Scalar(0.5)) / Scalar(columns_),

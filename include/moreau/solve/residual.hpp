@@ -20,7 +20,9 @@ namespace moreau {
 /// @param laws     the table of laws
 /// @param law_of   one per contact: its entry in the table
 /// @param impulses one per contact, in its frame, normal first [N s]
-/// @param report   the rest of it stays, worst_gap among it
+/// @param report   the rest of it stays, worst_gap among it; residual and left_over are infinite
+/// where
+///                 velocities or impulses are not finite
 template <class Operator, class Law>
 void measure_residual(const Operator& op, std::span<const Law> laws,
                       std::span<const std::uint32_t> law_of,
@@ -38,7 +40,7 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
     const Vector& r = impulses[c];
     if (r[0] == 0 && op.normal_velocity(c) >= 0) continue;
     const Vector u = op.velocity(c);
-    if (!std::isfinite(u[0])) continue;  // cannot act in this step
+    if (std::isinf(u[0]) && u[0] > 0) continue;  // cannot act in this step
     const auto to_velocity = static_cast<typename Operator::Scalar>(scale);
     const Vector scaled = r * to_velocity;
     const double free = std::min(0.0, double(op.free_velocity(c)[0]));
@@ -58,6 +60,9 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
   // Impulses so large that the velocities are lost in their rounding leave nothing to be read.
   const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
   report.left_over = approach > 0 ? std::sqrt((map + rounding * rounding * norm) / approach) : 0;
+  if (std::isfinite(map) && std::isfinite(norm)) return;
+  // Not a number, or beyond all numbers: no solution.
+  report.residual = report.left_over = std::numeric_limits<double>::infinity();
 }
 
 }  // namespace moreau

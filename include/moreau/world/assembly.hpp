@@ -96,6 +96,16 @@ class Assembly {
     require(k < grains_.size(), function, "k", k, "must be below the number of grains");
   }
 
+  /// @throws std::runtime_error for a velocity or a pose that is not finite
+  void require_finite(const char* function) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!bodies_.velocity[i].allFinite())
+        throw_not_finite(function, "velocity of body", i, bodies_.velocity[i]);
+      if (!bodies_.pose[i].is_finite())
+        throw_not_finite(function, "position of body", i, bodies_.pose[i].position);
+    }
+  }
+
   /// Whether it is one that can be: what was read from a file.
   bool is_valid(std::size_t materials) const {
     const auto exists = [&](BodyId body) { return body.index() < bodies_.size(); };

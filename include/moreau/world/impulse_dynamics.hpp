@@ -195,7 +195,7 @@ class ImpulseDynamics {
     }
   }
 
-  /// V = V_free + M^-1/2 y.
+  /// V = V_free + M^-1/2 y. Nothing has moved yet: what is not finite ends here.
   void velocities_after() {
     for (std::size_t i = 0; i < roots_.size(); ++i) {
       const auto y = operator_.scaled_velocity(i);
@@ -203,6 +203,8 @@ class ImpulseDynamics {
       after_[i].template head<S::dim>() += roots_[i].linear * y.template head<S::dim>();
       after_[i].template tail<S::angular_dim>() +=
           roots_[i].angular * y.template tail<S::angular_dim>();
+      if (!after_[i].allFinite())
+        throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
     }
   }
   /// The energy that the impulses took: -sum r . (u before + u after)/2, and so the couples.

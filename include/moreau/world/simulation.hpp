@@ -185,7 +185,8 @@ class Simulation {
   ///         positive
   void set_wall_mass(BodyId wall, Scalar mass) {
     assembly_.require_wall(wall, "Simulation::set_wall_mass");
-    require(mass > 0, "Simulation::set_wall_mass", "mass", mass, "must be > 0");
+    require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
+            "must be > 0, with a finite inverse");
     assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
   }
   /// External force on a body at its centre of mass, world axes [N], beside gravity; stays until
@@ -250,6 +251,7 @@ class Simulation {
   /// Advances the time by `step` [s], > 0.
   /// @returns what it did and how well the contacts were solved; not converging is no error
   /// @throws std::invalid_argument for a step that is not positive or not finite
+  /// @throws std::runtime_error naming a body whose velocity or place is no number any more
   StepReport step(Scalar step);
 
   Scalar time() const { return time_; }              ///< sum of the steps [s]
@@ -387,6 +389,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     dynamics_.evaluate(assembly_.bodies(), materials_, previous_, contacts_, step, step, report);
     dynamics_.advance(assembly_.bodies(), gravity_, step);
   }
+  assembly_.require_finite("Simulation::step");
   time_ += step;
   report.ms_detect = milliseconds(start, detected);
   report.ms_solve = milliseconds(detected, Clock::now());
