@@ -96,6 +96,50 @@ TEST_CASE("a table goes on where it was") {
   CHECK(read(path).size() == size + 2);
 }
 
+TEST_CASE("a table that is not the one to go on with is refused and left as it was") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder / "rows.csv";
+  {
+    CsvWriter csv(path, {{"t", "s"}, "i"});
+    for (int i = 0; i < 3; ++i) csv.row(0.5, 10 * i);
+  }
+  const std::string text = read(path);
+  REQUIRE(text == "t [s],i\n0.5,0\n0.5,10\n0.5,20\n");
+  const auto goes_on = [&](std::initializer_list<CsvColumn> columns, std::uintmax_t keep) {
+    return CsvWriter(path, columns, 1, keep).size();
+  };
+  const std::string short_of =
+      "cannot go on with '" + path.string() + "', it has 28 of the 1000 bytes to be kept";
+  CHECK_THROWS_WITH_AS(goes_on({{"t", "s"}, "i"}, 1000), doctest::Contains(short_of.c_str()),
+                       std::system_error);
+  const std::string other =
+      "CsvWriter: columns = t [ms],i must be the header of '" + path.string() + "'";
+  CHECK_THROWS_WITH_AS(goes_on({{"t", "ms"}, "i"}, 14), doctest::Contains(other.c_str()),
+                       std::invalid_argument);
+  CHECK_THROWS_AS(goes_on({{"t", "s"}}, 14), std::invalid_argument);
+  CHECK_THROWS_AS(goes_on({{"t", "s"}, "i", "j"}, 14), std::invalid_argument);
+  CHECK_THROWS_AS(goes_on({"a column whose name is longer than the table"}, 14),
+                  std::invalid_argument);
+  const std::string within = "CsvWriter: keep = 13 must be where a line of '" + path.string() + "'";
+  CHECK_THROWS_WITH_AS(goes_on({{"t", "s"}, "i"}, 13), doctest::Contains(within.c_str()),
+                       std::invalid_argument);
+  CHECK_THROWS_AS(goes_on({{"t", "s"}, "i"}, 15), std::invalid_argument);
+  CHECK_THROWS_AS(goes_on({{"t", "s"}, "i"}, 3), std::invalid_argument);
+  CHECK(read(path) == text);
+  CHECK(goes_on({{"t", "s"}, "i"}, 28) == 28);
+  CHECK(read(path) == text);
+  CHECK(goes_on({{"t", "s"}, "i"}, 14) == 14);
+  CHECK(read(path) == text.substr(0, 14));
+  CHECK(goes_on({{"t", "s"}, "i"}, 8) == 8);
+  CHECK(read(path) == "t [s],i\n");
+  try {
+    CsvWriter csv(folder / "none.csv", {"i"}, 1, 2);
+    FAIL("did not throw");
+  } catch (const std::system_error& error) {
+    CHECK(error.code() == std::errc::no_such_file_or_directory);
+  }
+}
+
 TEST_CASE("bad tables are refused") {
   const TemporaryFolder folder("csv");
   const auto path = folder / "bad.csv";
@@ -104,6 +148,10 @@ TEST_CASE("bad tables are refused") {
   CHECK_THROWS_AS(CsvWriter(path, {"a,b"}), std::invalid_argument);
   CHECK_THROWS_AS(CsvWriter(path, {{"a", "m,s"}}), std::invalid_argument);
   CHECK_THROWS_AS(CsvWriter(path, {{"", "m"}}), std::invalid_argument);
+  for (const char* bad : {"a]", "[a", "a\nb", "a\rb", "a\"b"}) {
+    CHECK_THROWS_AS(CsvWriter(path, {bad}), std::invalid_argument);
+    CHECK_THROWS_AS(CsvWriter(path, {{"a", bad}}), std::invalid_argument);
+  }
   CHECK_THROWS_AS(CsvWriter(path, {"a"}, 0), std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(path));
   CsvWriter csv(path, {"a", "b"});
@@ -208,4 +256,22 @@ TEST_CASE("a file is replaced as a whole or left as it was") {
   CHECK_THROWS_AS(write_atomically(folder / "taken", "x"), std::system_error);
   CHECK_FALSE(std::filesystem::exists(folder / "taken.part"));
   CHECK_THROWS_AS(write_atomically(folder / "missing" / "file", "x"), std::system_error);
+}
+
+TEST_CASE("a file that cannot be replaced is named as the caller named it") {
+  const TemporaryFolder folder("atomic");
+  const auto missing = folder / "missing" / "series.pvd";
+  try {
+    write_atomically(missing, "x");
+    FAIL("did not throw");
+  } catch (const std::system_error& error) {
+    CHECK(error.what() == "cannot write '" + missing.string() +
+                              "' by way of 'series.pvd.part' beside it: No such file or directory");
+    CHECK(error.code() == std::errc::no_such_file_or_directory);
+  }
+  const auto taken = folder / "taken";
+  std::filesystem::create_directory(taken);
+  const std::string says = "cannot write '" + taken.string() + "' by way of";
+  CHECK_THROWS_WITH_AS(write_atomically(taken, "x"), doctest::Contains(says.c_str()),
+                       std::system_error);
 }

@@ -129,5 +129,8 @@ TEST_CASE("every cut of a file is refused, never read beyond") {
       CHECK_THROWS_AS(parse_siconos_text(std::string_view(text).substr(0, size)),
                       std::invalid_argument);
   }
-  CHECK_THROWS_AS(read_siconos_text(temporary / "missing"), std::system_error);
+  CHECK_THROWS_WITH_AS(read_siconos_text(temporary / "missing"),
+                       doctest::Contains("missing': No such file or directory"), std::system_error);
+  CHECK_THROWS_WITH_AS(read_siconos_text(temporary / ""), doctest::Contains("Is a directory"),
+                       std::system_error);
 }

@@ -123,7 +123,7 @@ TEST_CASE("what else belongs to a run goes with it") {
   CHECK(note_back.numbers == note.numbers);
   CHECK(note_back.text == "at rest");
   CHECK(tally_back.count() == 7);
-  CHECK_THROWS_WITH_AS(restore_snapshot(bytes, world), doctest::Contains("holds std::tuple<"),
+  CHECK_THROWS_WITH_AS(restore_snapshot(bytes, world), doctest::Contains("holds 4 objects, not 0"),
                        std::runtime_error);
 }
 
@@ -134,7 +134,8 @@ TEST_CASE("any flipped byte and any cut is refused") {
     std::string flipped = bytes;
     flipped[k] = static_cast<char>(flipped[k] ^ (1 << k % 8));
     CHECK(refusal(flipped) != "");
-    CHECK(refusal(bytes.substr(0, k)).find("truncated") != std::string::npos);
+    CHECK(refusal(bytes.substr(0, k)).find(k > 0 ? "is truncated" : "is empty") !=
+          std::string::npos);
   }
   CHECK(crc64("123456789") == 0x995dc9bbdf1939fa);
 }
@@ -142,7 +143,8 @@ TEST_CASE("any flipped byte and any cut is refused") {
 TEST_CASE("a refusal says why") {
   const TemporaryFolder folder("restart");
   const std::string bytes = snapshot(disks());
-  CHECK(refusal("t,f,x\n0,0,0\n") == "restore_snapshot: what is given is no snapshot of moreau");
+  CHECK(refusal("t,f,x\n0,0,0\n") ==
+        "restore_snapshot: what is given is no snapshot of moreau, or is corrupted");
   CHECK(refusal(with(bytes, 8, std::uint32_t(0x04030201))).find("order of bytes") !=
         std::string::npos);
   CHECK(refusal(with(bytes, 12, std::uint32_t(7)))
@@ -159,8 +161,8 @@ TEST_CASE("a refusal says why") {
   const auto path = folder / "disks.snapshot";
   write_snapshot(path, disks());
   World<Polygon<>> polygons = other_world<Polygon<>>();
-  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons),
-                       doctest::Contains("holds std::tuple<moreau::Sphere<"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains("holds moreau::Sphere<"),
+                       std::runtime_error);
   CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains(path.c_str()),
                        std::runtime_error);
   CHECK_THROWS_WITH_AS(read_snapshot(folder / "none", polygons), doctest::Contains("cannot read"),

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 
 #include "moreau/core/error.hpp"
@@ -37,22 +39,20 @@ class CsvWriter {
   /// @param flush_every rows that may be held back, > 0; 1 writes every row at once
   /// @param keep        > 0: goes on with a table that is there behind so many bytes, as size()
   ///                    gave them, and cuts off what follows them
-  /// @throws std::system_error naming the path if the file cannot be created or written
+  /// @throws std::system_error naming the path if the file cannot be created or written, or has
+  ///         less than `keep`
   /// @throws std::invalid_argument without columns, for a name that is empty, a name or unit that
-  ///         holds a comma, a quote or a line break, or for flush_every = 0
+  ///         holds a comma, a quote, a bracket or a line break, for flush_every = 0, or if the
+  ///         table that is there has another header or no line that ends at `keep`; it is then as
+  ///         it was
   CsvWriter(const std::filesystem::path& path, std::initializer_list<CsvColumn> columns,
             std::size_t flush_every = 1, std::uintmax_t keep = 0)
       : columns_(columns.size()),
         flush_every_(flush_every),
         written_(keep),
-        file_(checked(path, columns, flush_every), keep) {
+        file_(checked(path, columns, flush_every, keep), keep) {
     if (keep > 0) return;
-    for (const CsvColumn& column : columns) {
-      if (!lines_.empty()) lines_ += ',';
-      lines_ += column.name;
-      if (!column.unit.empty()) lines_.append(" [").append(column.unit) += ']';
-    }
-    lines_ += '\n';
+    lines_ = header(columns) + '\n';
     flush();
   }
   /// Hands the file on.
@@ -109,19 +109,47 @@ class CsvWriter {
  private:
   static const std::filesystem::path& checked(const std::filesystem::path& path,
                                               std::initializer_list<CsvColumn> columns,
-                                              std::size_t flush_every) {
+                                              std::size_t flush_every, std::uintmax_t keep) {
     require(columns.size() > 0, "CsvWriter", "columns.size()", columns.size(), "must be > 0");
     require(flush_every > 0, "CsvWriter", "flush_every", flush_every, "must be > 0");
     for (const CsvColumn& column : columns) {
       const auto is_plain = [](std::string_view text) {
-        return text.find_first_of(",\"\r\n") == std::string_view::npos;
+        return text.find_first_of(",\"[]\r\n") == std::string_view::npos;
       };
       require(!column.name.empty() && is_plain(column.name), "CsvWriter", "column", column.name,
-              "must be a name without comma, quote and line break");
+              "must be a name without comma, quote, bracket and line break");
       require(is_plain(column.unit), "CsvWriter", "unit", column.unit,
-              "must have no comma, quote and line break");
+              "must have no comma, quote, bracket and line break");
     }
+    if (keep > 0) check_table(path, header(columns), keep);
     return path;
+  }
+
+  static std::string header(std::initializer_list<CsvColumn> columns) {
+    std::string line;
+    for (const CsvColumn& column : columns) {
+      if (!line.empty()) line += ',';
+      line += column.name;
+      if (!column.unit.empty()) line.append(" [").append(column.unit) += ']';
+    }
+    return line;
+  }
+  /// Of a table to go on with. One that is missing or too short is for OutputFile to refuse.
+  static void check_table(const std::filesystem::path& path, const std::string& header,
+                          std::uintmax_t keep) {
+    std::error_code error;
+    if (std::filesystem::file_size(path, error) < keep || error) return;
+    std::ifstream file(path, std::ios::binary);
+    std::string found(header.size() + 1, '\0');
+    file.read(found.data(), static_cast<std::streamsize>(found.size()));
+    if (!file.is_open() || file.bad())
+      throw std::system_error(std::make_error_code(std::errc::io_error),
+                              "cannot read '" + path.string() + "' to go on with it");
+    require(file && found == header + '\n', "CsvWriter", "columns", header,
+            "must be the header of '" + path.string() + "' to go on with it");
+    file.seekg(static_cast<std::streamoff>(keep - 1));
+    require(file.get() == '\n', "CsvWriter", "keep", keep,
+            "must be where a line of '" + path.string() + "' ends");
   }
 
   void append(auto number, std::size_t start) {

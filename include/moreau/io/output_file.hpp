@@ -30,8 +30,14 @@ class OutputFile {
     errno = 0;
     if (keep > 0) {
       std::error_code error;
-      if (std::filesystem::file_size(path, error) < keep || error) fail("go on with");
-      std::filesystem::resize_file(path, keep);
+      const std::uintmax_t size = std::filesystem::file_size(path, error);
+      if (!error && size < keep)
+        throw std::system_error(std::make_error_code(std::errc::invalid_argument),
+                                "cannot go on with '" + path.string() + "', it has " +
+                                    std::to_string(size) + " of the " + std::to_string(keep) +
+                                    " bytes to be kept");
+      if (!error) std::filesystem::resize_file(path, keep, error);
+      if (error) throw std::system_error(error, "cannot go on with '" + path.string() + "'");
     }
     file_.reset(std::fopen(path.c_str(), keep > 0 ? "ab" : "wb"));
     if (!file_) fail("open");
@@ -110,7 +116,7 @@ inline void sync_folder([[maybe_unused]] const std::filesystem::path& folder) {
 /// Replaces a file as a whole: a reader, a run that is killed or a machine that loses its power
 /// finds the old one or the new one, never a part. On the way the new one is beside it, under its
 /// name with ".part".
-/// @throws std::system_error naming the path; the old file is then as it was
+/// @throws std::system_error naming the path and the reason; the old file is then as it was
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path partial = path;
   partial += ".part";
@@ -122,6 +128,10 @@ inline void write_atomically(const std::filesystem::path& path, std::string_view
     file.close();
     std::filesystem::rename(partial, path);
     detail::sync_folder(path.parent_path());
+  } catch (const std::system_error& error) {
+    std::filesystem::remove(partial, ignored);
+    throw std::system_error(error.code(), "cannot write '" + path.string() + "' by way of '" +
+                                              partial.filename().string() + "' beside it");
   } catch (...) {
     std::filesystem::remove(partial, ignored);
     throw;

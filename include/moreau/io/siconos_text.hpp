@@ -9,8 +9,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +16,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/io/friction_file.hpp"
+#include "moreau/io/input_file.hpp"
 
 namespace moreau {
 
@@ -236,10 +235,10 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
 /// @throws std::system_error naming the path if the file cannot be read or is empty
 /// @throws std::invalid_argument naming what is wrong if it is no valid problem
 inline AnyFrictionProblem read_siconos_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.is_open() || file.bad() || text.empty())
-    throw std::system_error(std::make_error_code(std::errc::io_error), path.string());
+  const std::string text = detail::read_file(path, "read_siconos_text");
+  if (text.empty())
+    throw std::system_error(std::make_error_code(std::errc::invalid_argument),
+                            "read_siconos_text: '" + path.string() + "' is empty");
   return parse_siconos_text(text);
 }
 

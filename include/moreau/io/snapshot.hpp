@@ -21,6 +21,7 @@
 // whose programs you would not run.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,19 +30,18 @@
 #include <cxxabi.h>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <tuple>
 #include <typeinfo>
 #include <utility>
+#include <vector>
 
 #include "moreau/io/archive.hpp"
 #include "moreau/io/crc64.hpp"
+#include "moreau/io/input_file.hpp"
 #include "moreau/io/output_file.hpp"
 #include "moreau/version.hpp"
 #include "moreau/world/simulation.hpp"
@@ -95,13 +95,53 @@ std::uint64_t outline_of(Objects&... objects) {
   return outline.checksum();
 }
 
+/// A, B<C, D>, .. of std::tuple<A, B<C, D>, ..>
+inline std::vector<std::string_view> parts_of(std::string_view tuple) {
+  const std::size_t first = tuple.find('<') + 1, last = tuple.rfind('>');
+  if (first == 0 || last == tuple.npos || last < first) return {};
+  std::vector<std::string_view> parts;
+  std::size_t start = first;
+  int depth = 0;
+  for (std::size_t k = first; k <= last; ++k) {
+    const char c = tuple[k];
+    if (k == last || (c == ',' && depth == 0)) {
+      parts.push_back(tuple.substr(start, k - start));
+      while (!parts.back().empty() && parts.back().front() == ' ') parts.back().remove_prefix(1);
+      while (!parts.back().empty() && parts.back().back() == ' ') parts.back().remove_suffix(1);
+      start = k + 1;
+    }
+    depth += c == '<' || c == '(' || c == '[' || c == '{';
+    depth -= c == '>' || c == ')' || c == ']' || c == '}';
+  }
+  return parts;
+}
+
+/// The first thing in which two lists of types differ.
+inline std::string difference(std::string_view found, std::string_view wanted) {
+  constexpr std::array<std::string_view, 4> of_world{"shape", "law", "integrator",
+                                                     "solver's options"};
+  const std::vector<std::string_view> is = parts_of(found), want = parts_of(wanted);
+  for (std::size_t k = 0; k < std::min(is.size(), want.size()); ++k) {
+    if (is[k] == want[k]) continue;
+    const std::string what = k < of_world.size()
+                                 ? std::string(of_world[k])
+                                 : "object " + std::to_string(k + 1 - of_world.size()) +
+                                       " that goes with the simulation";
+    return "holds " + std::string(is[k]) + ", not " + std::string(want[k]) + ", as its " + what;
+  }
+  if (is.size() < of_world.size() || is.size() == want.size()) return "holds other types";
+  return "holds " + std::to_string(is.size() - of_world.size()) + " objects, not " +
+         std::to_string(want.size() - of_world.size()) + ", that go with the simulation";
+}
+
 /// @throws std::runtime_error unless these are all bytes of a snapshot of this format
 inline SnapshotHead checked_head(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& why) { throw std::runtime_error(name + why); };
+  if (bytes.empty()) refuse(" is empty");
   SnapshotHead head;
   const std::string_view magic(head.magic.data(), head.magic.size());
   if (bytes.substr(0, magic.size()) != magic.substr(0, bytes.size()))
-    refuse(" is no snapshot of moreau");
+    refuse(" is no snapshot of moreau, or is corrupted");
   if (bytes.size() < sizeof head + sizeof(std::uint64_t))
     refuse(" is truncated: " + std::to_string(bytes.size()) + " bytes");
   std::memcpy(&head, bytes.data(), sizeof head);
@@ -109,10 +149,12 @@ inline SnapshotHead checked_head(std::string_view bytes, const std::string& name
     refuse(" was written on a machine with another order of bytes, or is corrupted");
   if (head.format != SnapshotHead::this_format)
     refuse(" has format " + std::to_string(head.format) +
-           ", moreau " MOREAU_VERSION_STRING " reads " + std::to_string(SnapshotHead::this_format));
+           ", moreau " MOREAU_VERSION_STRING " reads " + std::to_string(SnapshotHead::this_format) +
+           ", or is corrupted");
   if (head.size != bytes.size())
     refuse((bytes.size() < head.size ? " is truncated: " : " is too long: ") +
-           std::to_string(bytes.size()) + " of " + std::to_string(head.size) + " bytes");
+           std::to_string(bytes.size()) + " of " + std::to_string(head.size) +
+           " bytes, or is corrupted");
   const std::string_view all_before = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + all_before.size(), sizeof checksum);
@@ -133,7 +175,7 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
     transfer(archive, version);
     transfer(archive, types);
     const std::string wanted = SnapshotTypes<World, More...>::name();
-    if (types != wanted) throw std::runtime_error("holds " + types + ", not " + wanted);
+    if (types != wanted) throw std::runtime_error(difference(types, wanted));
     if (head.outline != outline_of(world, more...))
       throw std::runtime_error("was written by moreau " + version +
                                ", whose objects have other members than those of this " +
@@ -201,17 +243,13 @@ void write_snapshot(const std::filesystem::path& path,
 }
 
 /// Reads what write_snapshot() wrote, into a simulation of the same type; see restore_snapshot().
-/// @throws std::system_error naming the path if the file cannot be read
+/// @throws std::system_error naming the path and the reason if the file cannot be read
 /// @throws std::runtime_error naming the path and saying why if the file is refused; nothing is
 ///         changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void read_snapshot(const std::filesystem::path& path,
                    Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.is_open() || file.bad())
-    throw std::system_error(std::make_error_code(std::errc::io_error),
-                            "read_snapshot: cannot read '" + path.string() + "'");
+  const std::string bytes = detail::read_file(path, "read_snapshot");
   detail::restore(bytes, "read_snapshot: '" + path.string() + "'", world, more...);
 }
 
