@@ -53,13 +53,14 @@ StepProblem<S> problem_of(const std::function<void()>& step) {
   return problem;
 }
 
-/// Grains on a lattice fall into a box, then a wall presses from the side with ten weights.
+/// Grains on a lattice fall into a box, for as long as the highest takes to fall through half of
+/// it, then a wall presses from the side with ten weights.
 template <class ShapeT>
 StepProblem<SpaceOf<ShapeT>> packing(std::size_t count) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
-  constexpr double radius = 0.0125, step = 2e-4, cell = 2.05 * radius;
+  constexpr double radius = 0.0125, step = 2e-4, cell = 2.05 * radius, gravity = 9.81;
   std::mt19937_64 random(1);
   const auto shapes = ballast_shapes<ShapeT>(30, random);
   Simulation<ShapeT, Law, MoreauJean, SweepAndPrune<S>, Keeping> world(
@@ -88,10 +89,11 @@ StepProblem<SpaceOf<ShapeT>> packing(std::size_t count) {
     if (d == 0) wall = far;
   }
   world.add_wall(Vector::Unit(up), Vector::Zero());
-  world.set_gravity(-9.81 * Vector::Unit(up));
-  for (int k = 0; k < 400; ++k) world.step(step);
+  world.set_gravity(-gravity * Vector::Unit(up));
+  const double fall = std::sqrt(width / gravity);
+  while (world.time() < fall) world.step(step);
   world.set_wall_mass(wall, mass);
-  world.set_force(wall, -10 * mass * 9.81 * Vector::Unit(0));
+  world.set_force(wall, -10 * mass * gravity * Vector::Unit(0));
   for (int k = 0; k < 200; ++k) world.step(step);
   return problem_of<S>([&] { world.step(step); });
 }
