@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Structures that statics says stand. The sizes that take minutes are in long/structures.cpp.
-#include "physics/masonry.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+#include "physics/standing.hpp"
 #include "sanitized.hpp"
 
 using moreau::Polygon;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The structures of ../structures.cpp, larger and for ten seconds.
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
 
-#include "physics/masonry.hpp"
+#include "physics/standing.hpp"
 
 using moreau::Polygon;
 using moreau::Polyhedron;
