@@ -15,10 +15,13 @@ struct Miss {
   const char* reason;
 };
 
+constexpr const char* shear =
+    "not explained: above the published line by 0.015 to 0.04 at every I, in two samples and with "
+    "two steps; walls here are flat and hold the disks on them, the paper's are glued disks";
+
 constexpr Miss misses_in_double[] = {
-    {"plane shear of disks, I = 0.08", ": friction", 0.06,
-     "the friction rises faster than the published line below I = 0.1: 0.384 at I = 0.085, with "
-     "another sample 0.377 at I = 0.090, with half the step 0.377 at I = 0.091"},
+    {"plane shear of disks, I = 0.08", ": friction", 0.06, shear},
+    {"plane shear of disks, I = 0.09", ": friction", 0.06, shear},
 };
 
 constexpr Miss misses_in_float[] = {
