@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <doctest/doctest.h>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -248,6 +249,63 @@ TEST_CASE("arrays that do not fit and folders that do not exist are refused") {
   CHECK_THROWS_AS(data.write(folder / "missing" / "x.vtp"), std::system_error);
   data.write(folder / "x.vtp");
   CHECK(Vtp(folder / "x.vtp").array<double>("PointData", "uv") == two);
+}
+
+TEST_CASE("names that XML would not take are refused") {
+  const TemporaryFolder folder("vtk");
+  VtkPolyData data;
+  for (const char* bad : {"", "a\nb", "a\tb", "a\x7f", "a\"", "a&b", "a>b"})
+    CHECK_THROWS_WITH_AS(data.add_array<double>(On::points, bad, 1, {}),
+                         doctest::Contains("VtkPolyData::add_array: name = "),
+                         std::invalid_argument);
+  CHECK_NOTHROW(data.add_array<double>(On::points, "speed \xc3\xbc", 1, {}));
+  PvdSeries series(folder / "run.pvd");
+  CHECK_THROWS_WITH_AS(series.add(0, ""), "PvdSeries::add: file = '' must be a name",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(series.add(0, "a\nb.vtp"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(series.add(0, "a.vtp", -1), "PvdSeries::add: part = -1 must be >= 0",
+                       std::invalid_argument);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.pvd"));
+}
+
+TEST_CASE_TEMPLATE("what has no place is refused and no file written", S, Space<2>, Space<3>) {
+  using Vector = typename S::Vector;
+  using Core =
+      std::remove_cvref_t<decltype(samples::grain(S{}, *std::declval<std::mt19937_64*>()))>;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryFolder folder("vtk");
+  const auto path = folder / "x.vtp";
+  std::mt19937_64 random(4);
+  const Core core = samples::grain(S{}, random);
+  const Sphere<S> ball(0.5);
+  VtkWriter<S> writer;
+  const auto write = [&](const auto& shape, const Pose<S>& pose) {
+    writer.write_grains(
+        path, 3, [&](std::size_t) -> const auto& { return shape; },
+        [&](std::size_t k) { return k == 2 ? pose : Pose<S>{}; },
+        [](std::size_t) -> typename S::Twist { return S::Twist::Zero(); });
+  };
+  Pose<S> turned;
+  turned.rotation = S::exp(S::Angular::Constant(nan));
+  for (const Pose<S>& pose : {Pose<S>{Vector::Constant(nan), S::identity()},
+                              Pose<S>{Vector::Constant(1e39), S::identity()}, turned}) {
+    CHECK_THROWS_WITH_AS(write(core, pose),
+                         doctest::Contains("VtkWriter::write_grains: pose_of(2)."),
+                         std::invalid_argument);
+    CHECK_THROWS_AS(write(ball, pose), std::invalid_argument);
+  }
+  CHECK_THROWS_WITH_AS(writer.write_box(path, Aabb<S>{}),
+                       doctest::Contains("VtkWriter::write_box: box.lower = (inf, inf"),
+                       std::invalid_argument);
+  CHECK_THROWS_AS(writer.write_box(path, {Vector::Zero(), Vector::Constant(nan)}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(writer.write_box(path, {Vector::Ones(), Vector::Zero()}), std::invalid_argument);
+  const std::vector<ContactSegment<S>> contacts = {
+      segment<S>(Vector::Zero(), Vector::Constant(nan), 1)};
+  CHECK_THROWS_AS(writer.write_contacts(path, contacts), std::invalid_argument);
+  CHECK_FALSE(std::filesystem::exists(path));
+  write(core, {});  // the next one is not hurt
+  CHECK(Vtp(path).template array<std::int32_t>("CellData", "id").back() == 2);
 }
 
 TEST_CASE("the series is whole after every snapshot") {

@@ -14,10 +14,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/pose.hpp"
 #include "moreau/io/vtk_poly_data.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/measure/grid_field.hpp"
@@ -48,6 +51,7 @@ class VtkWriter {
   /// [m/s], `speed` and `spin` (magnitude of the angular velocity [rad/s]).
   /// @param shape_of,pose_of,velocity_of k -> shape, pose [m], twist (v, w) [m/s, rad/s] of grain
   ///                                     k, world axes
+  /// @throws std::invalid_argument for a pose with infinite numbers or none
   /// @throws std::system_error naming the path if the file cannot be written
   template <class ShapeOf, class PoseOf, class VelocityOf>
   void write_grains(const std::filesystem::path& path, std::size_t grain_count,
@@ -58,11 +62,18 @@ class VtkWriter {
     if constexpr (std::same_as<Shape, Sphere<S>>) as_points = options_.spheres_as_points;
     for (std::size_t k = 0; k < grain_count; ++k) {
       const Shape& shape = shape_of(k);
+      const Pose<S>& pose = pose_of(k);
+      if (!is_drawable(pose.position))
+        throw_invalid("VtkWriter::write_grains", "pose_of(" + std::to_string(k) + ").position",
+                      pose.position, "must be finite as float");
+      if (!S::is_finite(pose.rotation))
+        throw_invalid("VtkWriter::write_grains", "pose_of(" + std::to_string(k) + ").rotation",
+                      pose.rotation.toRotationMatrix(), "must be finite");
       const std::size_t before = data_.cell_count();
       if (as_points)
-        append_point(pose_of(k).position);
+        append_point(pose.position);
       else
-        append_surface(shape, pose_of(k));
+        append_surface(shape, pose);
       const typename S::Twist twist = velocity_of(k);
       const Vector v = twist.template head<S::dim>();
       for (std::size_t cell = before; cell < data_.cell_count(); ++cell) {
@@ -86,11 +97,15 @@ class VtkWriter {
   /// `friction_force` [N], `gap` [m], `class` (the number of the ContactClass) and `point`, where
   /// it is [m].
   /// @param contacts of force_chains() or contact_segments()
+  /// @throws std::invalid_argument for an end with infinite numbers or none
   /// @throws std::system_error naming the path if the file cannot be written
   void write_contacts(const std::filesystem::path& path,
                       std::span<const ContactSegment<S>> contacts) {
     clear();
     for (const ContactSegment<S>& contact : contacts) {
+      for (const Vector& end : {contact.from, contact.to})
+        require(is_drawable(end), "VtkWriter::write_contacts", "end of a contact", end,
+                "must be finite as float");
       cell_.assign({data_.add_point(contact.from), data_.add_point(contact.to)});
       data_.add_cell(VtkPolyData::Cells::lines, cell_);
       numbers_.push_back(static_cast<std::int32_t>(contact.contact_class));
@@ -126,8 +141,15 @@ class VtkWriter {
   }
 
   /// The edges of a box, world axes [m].
+  /// @throws std::invalid_argument for a box that is empty or has infinite numbers or none
   /// @throws std::system_error naming the path if the file cannot be written
   void write_box(const std::filesystem::path& path, const Aabb<S>& box) {
+    require(is_drawable(box.lower), "VtkWriter::write_box", "box.lower", box.lower,
+            "must be finite as float");
+    require(is_drawable(box.upper), "VtkWriter::write_box", "box.upper", box.upper,
+            "must be finite as float");
+    require((box.lower.array() <= box.upper.array()).all(), "VtkWriter::write_box", "box.upper",
+            box.upper, "must be >= box.lower");
     clear();
     for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {
       Vector x = box.lower;
@@ -154,6 +176,8 @@ class VtkWriter {
     first_.clear();
     second_.clear();
   }
+  /// Whether a file, whose coordinates are floats, can have the point.
+  static bool is_drawable(const Vector& x) { return x.template cast<float>().allFinite(); }
   void append_point(const Vector& position) {
     cell_.assign(1, data_.add_point(position));
     data_.add_cell(VtkPolyData::Cells::vertices, cell_);

@@ -4,8 +4,10 @@
 // preceded by its number of bytes (header_type UInt64).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +40,17 @@ constexpr std::string_view vtk_type_name() {
   if constexpr (std::same_as<T, std::int32_t>) return "Int32";
   if constexpr (std::same_as<T, std::uint32_t>) return "UInt32";
 }
+
+namespace detail {
+
+/// Whether an attribute of XML can have this text as it is.
+inline bool is_plain_xml(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '"' || c == '<' || c == '&';
+  });
+}
+
+}  // namespace detail
 
 /// One data set. Cells are vertices, lines or polygons; a file orders them so, and cell arrays
 /// have to follow that order. clear() keeps the memory for the next snapshot.
@@ -80,16 +93,16 @@ class VtkPolyData {
   }
 
   /// Values on all points or cells added so far, `components` in a row for each, in any unit.
-  /// @throws std::invalid_argument for a number of values that does not fit, or a name that XML
-  ///         would not take
+  /// @throws std::invalid_argument for a number of values that does not fit, or a name that is
+  ///         empty or has a control character or one of " < > &
   template <VtkNumber T>
   void add_array(On place, std::string_view name, std::size_t components,
                  std::span<const T> values) {
+    require(!name.empty() && detail::is_plain_xml(name) && name.find('>') == name.npos,
+            "VtkPolyData::add_array", "name", name, "must be a plain name");
     const std::size_t count = place == On::points ? point_count() : cell_count();
     require(values.size() == components * count, "VtkPolyData::add_array", name, values.size(),
             "values must be components times points or cells");
-    require(!name.empty() && name.find_first_of("\"<>&") == std::string_view::npos,
-            "VtkPolyData::add_array", "name", name, "must be a plain name");
     arrays_.push_back({place, element(name, components, values)});
   }
 
@@ -169,12 +182,15 @@ class PvdSeries {
 
   /// Lists a file (relative to the .pvd file) at a time [s] and rewrites the series, so that it is
   /// whole at any moment. Files of the same time are shown together as parts 0, 1, ...
-  /// @throws std::invalid_argument for a name with one of " < &, or a time that is not finite
+  /// @throws std::invalid_argument for a name that is empty or has a control character or one of
+  ///         " < &, a time that is not finite, or a part < 0
   /// @throws std::system_error naming the path if the series cannot be written
   void add(double time, std::string_view file, int part = 0) {
     require(std::isfinite(time), "PvdSeries::add", "time", time, "must be finite");
-    require(file.find_first_of("\"<&") == std::string_view::npos, "PvdSeries::add", "file",
-            std::string(file), "must have none of \" < &");
+    require(!file.empty(), "PvdSeries::add", "file", "''", "must be a name");
+    require(detail::is_plain_xml(file), "PvdSeries::add", "file", file,
+            "must have no control character and none of \" < &");
+    require(part >= 0, "PvdSeries::add", "part", part, "must be >= 0");
     std::ostringstream line;
     line.imbue(std::locale::classic());
     line.precision(17);
