@@ -48,7 +48,15 @@ void regularized_law(const Law& law, double step, double pull = 0) {
   Vector memory = Vector::Constant(T(1e-6));
   const Vector apart = law.force(motion, memory);
   CHECK(double(apart.norm()) <= pull);
-  if (pull == 0) CHECK(memory.isZero(0));
+  // A law that does not write its memory has none to clear.
+  moreau::ContactMotion<S> pressed = motion;
+  pressed.gap = T(-1e-5);
+  pressed.velocity.setOnes();
+  Vector kept = Vector::Constant(T(1e-6));
+  law.force(pressed, kept);
+  const bool remembers = kept != Vector(Vector::Constant(T(1e-6)));
+  if (pull == 0 && remembers) CHECK(memory.isZero(0));
+  if (!remembers) memory.setZero();
   Vector mirrored_memory = memory, turned_memory = memory;
   Eigen::Matrix<T, tangents, tangents> turn;  // of the tangents, in space by half a radian
   turn.setIdentity();
