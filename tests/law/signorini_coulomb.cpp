@@ -117,6 +117,12 @@ TEST_CASE_TEMPLATE("projection on the cone is the nearest point", S, Space<2>, S
     CHECK(std::abs((x - p).dot(p)) < 1e-14);
     CHECK((x - p).dot(law.project(y)) < 1e-14);
   }
+  // Without friction the cone is a ray, and what is opposite to it, exactly, is nearest to its end.
+  const SignoriniCoulomb<double> smooth(0);
+  const typename S::Vector unit = S::Vector::UnitX();
+  CHECK(smooth.project(typename S::Vector(-unit)).isZero(0));
+  CHECK(smooth.project(unit) == unit);
+  CHECK(smooth.natural_map(unit, typename S::Vector(S::Vector::Zero())).isZero(0));
 }
 
 TEST_CASE("what the law adds to the normal velocity") {

@@ -209,8 +209,8 @@ class SignoriniCoulomb {
   Vector project(const Vector& x) const {
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
     const T length = x.template tail<tangents>().norm();
+    if (friction_ * length <= -x[0]) return Vector::Zero();  // first: 0 <= -0 would hold below
     if (length <= friction_ * x[0]) return x;
-    if (friction_ * length <= -x[0]) return Vector::Zero();
     const T normal = (x[0] + friction_ * length) / (T(1) + friction_ * friction_);
     Vector p;
     p[0] = normal;
