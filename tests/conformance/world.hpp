@@ -247,7 +247,7 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   const double drop = double(grains.mass()) * 10 * double(size);
   // One point of contact where others have two: the grain rocks on it, and the end that comes down
   // is seen when it is there, deeper by what it moves in a step.
-  constexpr bool rocks = moreau::detail::SupportOnly<ShapeT>;
+  constexpr bool rocks = moreau::SupportOnly<ShapeT>;
   const T step = A::springs ? T(1e-5) : rocks ? T(1e-4) : T(2e-4);
   double deepest = 0, most = energy, scale = 0;
   int unsolved = 0;
