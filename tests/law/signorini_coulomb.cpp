@@ -144,7 +144,8 @@ TEST_CASE("bad values are named") {
                        "SignoriniCoulomb: restitution = 1.5 must lie in [0, 1]",
                        std::invalid_argument);
   using Table = moreau::Materials<SignoriniCoulomb<double>>;
-  CHECK_THROWS_WITH_AS(Table(0), "Materials: count = 0 must lie in [1, 65535]", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Table(0), "Materials: count = 0 must lie in [1, 65535]",
+                       std::invalid_argument);
   Table table(2, SignoriniCoulomb<double>(0.3));
   CHECK_THROWS_WITH_AS(
       table.set(moreau::MaterialId(0), moreau::MaterialId(2), SignoriniCoulomb<double>()),
