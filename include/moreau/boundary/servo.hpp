@@ -38,8 +38,7 @@ concept AreaFunction = requires(const F area) {
 /// @param step its length [s], > 0
 /// @param area [m^2], in the plane the length [m], > 0
 /// @throws std::invalid_argument for a step or an area that is not finite or not positive, or a
-/// body
-///         that is none of the simulation's half-spaces
+///         body that is none of the simulation's half-spaces
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,

@@ -21,8 +21,7 @@ namespace moreau {
 /// @param law_of   one per contact: its entry in the table
 /// @param impulses one per contact, in its frame, normal first [N s]
 /// @param report   the rest of it stays, worst_gap among it; residual and left_over are infinite
-/// where
-///                 velocities or impulses are not finite
+///                 where velocities or impulses are not finite
 template <class Operator, class Law>
 void measure_residual(const Operator& op, std::span<const Law> laws,
                       std::span<const std::uint32_t> law_of,
