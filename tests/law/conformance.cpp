@@ -20,7 +20,10 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   set_valued_law<S>(coulomb);
   set_valued_law<S>(Frictionless<T>());
   set_valued_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
-  set_valued_law<S>(RollingResistance<T>(T(0.4), T(0.2)));
+  const RollingResistance<T> rolling(T(0.4), T(0.2));
+  set_valued_law<S>(rolling);
+  set_valued_law<S>(Cohesive<Frictionless<T>>(Frictionless<T>(), T(1)));
+  set_valued_law<S>(Cohesive<RollingResistance<T>>(rolling, T(1)));
   lane_law<S>(coulomb);
   set_valued_law<S>(Greased{0.3});
   lane_law<S>(Frictionless<T>());
@@ -53,6 +56,24 @@ TEST_CASE("the restitution of springs is what was asked for") {
 TEST_CASE("a spring's impact lasts pi sqrt(m / k)") {
   const LinearSpringDashpot<> law(1e6);
   CHECK(law.duration(0.25) == doctest::Approx(3.14159265 * 5e-4));
+}
+
+TEST_CASE_TEMPLATE("Newton's restitution is one for all set-valued laws", Law, SignoriniCoulomb<>,
+                   Frictionless<>, Cohesive<>, RollingResistance<>) {
+  const auto law = [] {
+    if constexpr (std::same_as<Law, Frictionless<>>)
+      return Law(0.25);
+    else if constexpr (std::same_as<Law, Cohesive<>>)
+      return Law(SignoriniCoulomb<>(0.4, 0.25), 1);
+    else if constexpr (std::same_as<Law, RollingResistance<>>)
+      return Law(0.4, 0.1, 0.25);
+    else
+      return Law(0.4, 0.25);
+  }();
+  CHECK(law.restitution() == 0.25);
+  CHECK(law.velocity_offset(-1e-6, -2, 1e-3) == -0.5);
+  CHECK(law.velocity_offset(0, 2, 1e-3) == 0);
+  CHECK(std::isinf(law.velocity_offset(1e-6, -2, 1e-3)));
 }
 
 TEST_CASE("static friction holds after rest, dynamic friction after slip") {

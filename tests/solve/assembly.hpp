@@ -53,8 +53,10 @@ struct Assembly {
   std::vector<std::uint32_t> law_of;
   std::vector<Contact<S>> contacts;
 
-  /// @param hub mobility of the first body, relative to the others
-  explicit Assembly(std::uint64_t seed, bool friction = true, T hub = T(0.1)) {
+  /// @param hub      mobility of the first body, relative to the others
+  /// @param on_floor whether the first body touches the floor
+  explicit Assembly(std::uint64_t seed, bool friction = true, T hub = T(0.1),
+                    bool on_floor = true) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<T> unit(-1, 1);
     const auto vector = [&] {
@@ -76,7 +78,7 @@ struct Assembly {
     for (std::uint32_t a = 0; a < count; ++a) {
       if (a % 4 != 0 && a + 1 < count) touch(a, a + 1);
       if (a > 12 && a % 2 == 0) touch(0, a);
-      if (a % 3 == 0) touch(a, floor);
+      if (a % 3 == 0 && (a > 0 || on_floor)) touch(a, floor);
     }
     std::vector<MobilityRoot<S>> roots(count + 1);
     std::vector<typename S::Twist> free(count + 1, S::Twist::Zero());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "moreau/instances/friction_problems.hpp"
+#include "moreau/law/cohesive.hpp"
 
 #include "conformance/solver.hpp"
 
@@ -26,6 +27,16 @@ TEST_CASE_TEMPLATE("where sweeps do not suffice, the proximal point method does"
                    Space<3>) {
   conformance::solver<S>(ProximalFallback<>(few_sweeps(1e-9)), 1e-9);
   static_assert(!ContactSolver<ProximalFallback<>, PlainCoulomb<double>, S>);
+}
+
+TEST_CASE_TEMPLATE("adhesion leaves the push to Coulomb's law, and so to the fallback", S, Space<2>,
+                   Space<3>) {
+  Assembly<S> problem(2);
+  std::vector<Cohesive<>> sticky;
+  for (const auto& law : problem.laws) sticky.emplace_back(law, 1);
+  std::vector<typename S::Vector> impulses;
+  CHECK(problem.solve(ProximalFallback<>(few_sweeps(1e-9)), sticky, impulses).converged);
+  CHECK(problem.measure(impulses).residual <= 1e-9);
 }
 
 TEST_CASE("a solution that repels sweeps is found") {

@@ -34,6 +34,48 @@ TEST_CASE_TEMPLATE("a body of many partners may be heavier than they are or as l
   }
 }
 
+TEST_CASE_TEMPLATE("a heavy body that no floor holds shares the lanes of its partners", S, Space<2>,
+                   Space<3>) {
+  for (const double mobility : {1e-4, 0.02, 0.05})
+    for (const std::uint64_t seed : {9u, 10u, 11u, 12u}) {
+      Assembly<S> problem(seed, true, mobility, false);
+      std::vector<typename S::Vector> impulses;
+      const SolveReport report =
+          problem.solve(ColouredGaussSeidel(fast<S>(1e-8)), problem.laws, impulses);
+      CHECK(report.converged);
+      CHECK(problem.measure(impulses).residual <= 1e-8);
+    }
+}
+
+TEST_CASE_TEMPLATE("LMGC90's test ends the sweeps, and the residual is told all the same", S,
+                   Space<2>, Space<3>) {
+  const auto check = [](auto solver, auto options) {
+    options.stop_test = StopTest::qm16;
+    options.max_sweeps = 20000;
+    int sweeps = 0;
+    for (const double tolerance : {1e-3, 1e-4, 1e-6}) {
+      options.tolerance = tolerance;
+      Assembly<S> problem(5);
+      std::vector<typename S::Vector> impulses;
+      const SolveReport report = problem.solve(decltype(solver)(options), problem.laws, impulses);
+      CHECK(report.converged);
+      CHECK(passes_qm16(report, tolerance));
+      CHECK(report.sweeps >= sweeps);
+      CHECK(problem.measure(impulses).residual == doctest::Approx(report.residual).epsilon(1e-6));
+      sweeps = report.sweeps;
+    }
+    options.tolerance = 1e-12;
+    options.max_sweeps = 20;
+    Assembly<S> problem(5);
+    std::vector<typename S::Vector> impulses;
+    const SolveReport report = problem.solve(decltype(solver)(options), problem.laws, impulses);
+    CHECK(report.capped);
+    CHECK_FALSE(passes_qm16(report, options.tolerance));
+  };
+  check(NonlinearGaussSeidel(), GaussSeidelOptions());
+  check(ColouredGaussSeidel(), ColouredOptions());
+}
+
 TEST_CASE_TEMPLATE("without friction the velocities are unique and equal", S, Space<2>, Space<3>) {
   Assembly<S> problem(4, false);
   GaussSeidelOptions options;

@@ -18,22 +18,25 @@ struct HeapOptions {
   std::uint64_t seed = 1;
 };
 
-/// @tparam Law rigid contacts, or springs
-template <class ShapeT, class Law = Coulomb<ShapeT>>
+/// @tparam Law    rigid contacts, or springs
+/// @tparam Solver of rigid contacts
+template <class ShapeT, class Law = Coulomb<ShapeT>,
+          class Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>>
 struct Heap {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
   static constexpr double size = 0.02;  ///< [m]
 
-  World<ShapeT, Law> world;
+  World<ShapeT, Law, Solver> world;
   std::vector<std::size_t> place;  ///< of grain k in the order in which they were added
 
   /// @param frame the experiment is moved by this, with its gravity
   /// @param order in which the grains are added; as they are drawn if empty
   explicit Heap(const HeapOptions& options, const Pose<S>& frame = {},
                 std::vector<std::size_t> order = {})
-      : world(world_of<ShapeT>(size, law(options.friction), sweeps(options.tolerance))),
+      : world(
+            world_of<ShapeT, Law, Solver>(size, law(options.friction), sweeps(options.tolerance))),
         place(options.count) {
     // Springs on few points lose some and gain others as rounding has it.
     if (!is_rigid<ShapeT, Law>) world.set_contact_points(moreau::ContactPoints::all);

@@ -39,10 +39,9 @@ double resolved(double fine, double roundings = 100) {
   return std::max(fine, roundings * double(std::numeric_limits<typename S::Scalar>::epsilon()));
 }
 
-/// The solver that goes with the law.
-template <class ShapeT, class Law>
-auto solver_of(const moreau::ColouredOptions& options) {
-  using Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>;
+/// The solver, by default the one that goes with the law.
+template <class ShapeT, class Law, class Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>>
+Solver solver_of(const moreau::ColouredOptions& options) {
   typename Solver::Options own;
   own.tolerance = resolved<SpaceOf<ShapeT>>(options.tolerance);
   own.max_sweeps = options.max_sweeps;
@@ -54,22 +53,22 @@ template <class ShapeT, class Law>
 constexpr bool is_rigid = moreau::SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
 /// @param theta of the integrator of a law that gives impulses
-template <class ShapeT, class Law>
-World<ShapeT, Law> world_of(double size, const Law& law,
-                            const moreau::ColouredOptions& options = tight(),
-                            const moreau::Tolerances& tolerances = {}, double theta = 0.5) {
+template <class ShapeT, class Law, class Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>>
+World<ShapeT, Law, Solver> world_of(double size, const Law& law,
+                                    const moreau::ColouredOptions& options = tight(),
+                                    const moreau::Tolerances& tolerances = {}, double theta = 0.5) {
   const Materials<Law> materials(1, law);
   if constexpr (is_rigid<ShapeT, Law>)
-    return World<ShapeT, Law>(size, materials, solver_of<ShapeT, Law>(options), tolerances, {},
-                              moreau::MoreauJean(theta));
+    return World<ShapeT, Law, Solver>(size, materials, solver_of<ShapeT, Law, Solver>(options),
+                                      tolerances, {}, moreau::MoreauJean(theta));
   else
     return World<ShapeT, Law>(size, materials, tolerances);
 }
 
 /// Some ten sweeps of the correction of overlaps do not converge, depend on the order of the bodies
 /// and move them without regard to their velocities.
-template <class ShapeT, class Law>
-void without_correction(World<ShapeT, Law>& world) {
+template <class ShapeT, class Law, class Solver>
+void without_correction(World<ShapeT, Law, Solver>& world) {
   if constexpr (is_rigid<ShapeT, Law>) {
     moreau::OverlapCorrectionOptions off;
     off.enabled = false;

@@ -10,6 +10,7 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/sphere.hpp"
+#include "moreau/solve/proximal_fallback.hpp"
 #include "moreau/world/simulation.hpp"
 
 // Compiled once, in worlds/ and in_float/.
@@ -41,11 +42,16 @@ using Springs = moreau::LinearSpringDashpot<ScalarOf<ShapeT>>;
 template <class ShapeT>
 using Hertz = moreau::HertzMindlin<ScalarOf<ShapeT>>;
 
-/// A simulation whose step is compiled once for each shape and law, in worlds/ and in_float/, and
-/// not again in every case.
-template <class ShapeT, class Law = Coulomb<ShapeT>>
-struct World : moreau::Simulation<ShapeT, Law> {
-  using Base = moreau::Simulation<ShapeT, Law>;
+/// A simulation whose step is compiled once for each shape, law and solver, in worlds/ and
+/// in_float/, and not again in every case.
+template <class ShapeT, class Law = Coulomb<ShapeT>,
+          class Solver = moreau::DefaultSolver<Law, moreau::SpaceOf<ShapeT>>>
+struct World
+    : moreau::Simulation<ShapeT, Law, moreau::DefaultIntegrator<Law, moreau::SpaceOf<ShapeT>>,
+                         moreau::SweepAndPrune<moreau::SpaceOf<ShapeT>>, Solver> {
+  using Base =
+      moreau::Simulation<ShapeT, Law, moreau::DefaultIntegrator<Law, moreau::SpaceOf<ShapeT>>,
+                         moreau::SweepAndPrune<moreau::SpaceOf<ShapeT>>, Solver>;
   using Base::Base;
   moreau::StepReport step(double step);
 };

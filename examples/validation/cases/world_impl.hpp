@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What takes long to compile of world.hpp; included by one source file per shape and law.
+// What takes long to compile of world.hpp; included by one source file per shape, law and solver.
 #pragma once
 
 #include "world.hpp"
 
 namespace validation {
 
-template <class ShapeT, class Law>
-moreau::StepReport World<ShapeT, Law>::step(double step) {
+template <class ShapeT, class Law, class Solver>
+moreau::StepReport World<ShapeT, Law, Solver>::step(double step) {
   return Base::step(static_cast<ScalarOf<ShapeT>>(step));
 }
 

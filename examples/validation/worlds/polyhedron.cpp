@@ -5,4 +5,6 @@ template class moreau::Polyhedron<double>;
 
 namespace validation {
 template moreau::StepReport World<Polyhedron<>, Coulomb<Polyhedron<>>>::step(double);
+template moreau::StepReport
+World<Polyhedron<>, Coulomb<Polyhedron<>>, moreau::ProximalFallback<>>::step(double);
 }  // namespace validation

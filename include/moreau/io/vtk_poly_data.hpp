@@ -184,7 +184,8 @@ class PvdSeries {
   /// whole at any moment. Files of the same time are shown together as parts 0, 1, ...
   /// @throws std::invalid_argument for a name that is empty or has a control character or one of
   ///         " < &, a time that is not finite, or a part < 0
-  /// @throws std::system_error naming the path if the series cannot be written
+  /// @throws std::system_error naming the path if the series cannot be written; the file is then
+  ///         not listed, and can be added again
   void add(double time, std::string_view file, int part = 0) {
     require(std::isfinite(time), "PvdSeries::add", "time", time, "must be finite");
     require(!file.empty(), "PvdSeries::add", "file", "''", "must be a name");
@@ -196,11 +197,12 @@ class PvdSeries {
     line.precision(17);
     line << "<DataSet timestep=\"" << time << "\" part=\"" << part << "\" file=\"" << file
          << "\"/>\n";
-    lines_ += line.str();
+    std::string lines = lines_ + line.str();
     write_atomically(path_,
                      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
                      "<Collection>\n" +
-                         lines_ + "</Collection>\n</VTKFile>\n");
+                         lines + "</Collection>\n</VTKFile>\n");
+    lines_ = std::move(lines);
   }
 
  private:
