@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
                                                    : moreau::read_siconos_text(line.file);
     return std::visit([&](const auto& p) { return solve(p, line); }, problem);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", line.file.c_str(), error.what());
+    std::fprintf(stderr, "fclib_solve: %s\n", error.what());
     return 2;
   }
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "moreau/law/concepts.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 struct Greased {

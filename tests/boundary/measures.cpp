@@ -2,8 +2,10 @@
 // Measures of whole simulations: across a periodic boundary, along a run.
 #include <cmath>
 #include <doctest/doctest.h>
+#include <string>
 #include <vector>
 
+#include "moreau/io/snapshot.hpp"
 #include "moreau/measure/coordination.hpp"
 #include "moreau/measure/energy_balance.hpp"
 #include "moreau/measure/force_chains.hpp"
@@ -72,6 +74,23 @@ TEST_CASE("the energy balance of bodies whose inertia turns closes as the step s
   const auto fine = balance_of<moreau::Polyhedron<double>>(2.5e-4);
   CHECK(std::abs(coarse.imbalance()) < 1e-2 * turnover(coarse.terms()));
   CHECK(std::abs(fine.imbalance()) < 0.5 * std::abs(coarse.imbalance()));
+}
+
+TEST_CASE("a balance goes on with a run from its snapshot") {
+  using ShapeT = moreau::Polygon<double>;
+  const auto run = [](auto& world, auto& energy) {
+    for (int k = 0; k < 50; ++k) energy.add(world, world.step(1e-3), 1e-3);
+  };
+  scenes::BoxOfGrains<ShapeT> box(6), other(6);
+  moreau::EnergyBalance<Space<2>> energy(box.simulation), again(other.simulation);
+  run(box.simulation, energy);
+  const std::string bytes = moreau::snapshot(box.simulation, energy);
+  moreau::restore_snapshot(bytes, other.simulation, again);
+  run(box.simulation, energy);
+  run(other.simulation, again);
+  CHECK(moreau::snapshot(box.simulation, energy) == moreau::snapshot(other.simulation, again));
+  CHECK(again.imbalance() == energy.imbalance());
+  CHECK(energy.terms().gravity != 0);
 }
 
 TEST_CASE("a balance is kept of the bodies that it began with") {

@@ -68,8 +68,16 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
     const moreau::SignoriniCoulomb<T> sticky(T(0.3), T(0), T(0.4));
     world(shapes, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(sticky, T(1e-3), T(1e-4)), size);
   }
+  SUBCASE("Cohesive without friction") {
+    world(shapes, moreau::Cohesive<moreau::Frictionless<T>>(moreau::Frictionless<T>(), T(1e-3)),
+          size);
+  }
   SUBCASE("RollingResistance") {
     world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
+  }
+  SUBCASE("Cohesive with rolling resistance") {
+    const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
+    world(shapes, moreau::Cohesive<moreau::RollingResistance<T>>(rolling, T(1e-3)), size);
   }
   SUBCASE("LinearSpringDashpot") {
     world(shapes, conformance::stiff_springs<T>(mass), size);

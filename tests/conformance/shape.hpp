@@ -153,7 +153,8 @@ Described<typename ShapeT::Space> described(const ShapeT& shape, std::mt19937_64
   return body;
 }
 
-/// Mass, centre and inertia are about those of the body that the farthest points describe.
+/// Mass (to a quarter), centre, trace of the inertia (to a third) and in space the shares of its
+/// axes (to a tenth) are about those of the body that the farthest points describe.
 template <class ShapeT>
 void check_mass_of_support(const ShapeT& shape, double size, std::mt19937_64& random) {
   using S = typename ShapeT::Space;
@@ -168,6 +169,13 @@ void check_mass_of_support(const ShapeT& shape, double size, std::mt19937_64& ra
   const double trace = (S::angular_dim > 1 ? 2 : 1) * body.second.trace() * double(mass.mass);
   expect_at_most("trace of the inertia / that of the support, from 0.9",
                  std::abs(double(mass.inertia.trace()) / trace - 0.9), 0.35);
+  if constexpr (S::angular_dim > 1) {
+    // I = trace(M) - M of the second moments M, so M = trace(I) / 2 - I.
+    const Eigen::Matrix3d inertia = mass.inertia.template cast<double>();
+    const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
+    expect_at_most("second moments over their trace, from those of the support",
+                   (second / second.trace() - body.second / body.second.trace()).norm(), 0.1);
+  }
 }
 
 /// Around the farthest points; it may be wider than they are, which costs pairs.

@@ -192,8 +192,10 @@ void cloud(const std::vector<ShapeT>& shapes, const Law& law,
   CHECK(unsolved <= steps / 100);  // grains that lock for a moment
   CHECK(deepest < allowed);
   CHECK(std::isfinite(grains.kinetic_energy()));
-  CHECK(double((after.linear - before.linear).norm()) < 1e5 * rounding * mass);
-  CHECK(double((after.angular - before.angular).norm()) < 1e5 * rounding * mass * double(size));
+  // In float the steps' own roundings, in double what laws with small constants add.
+  const double lost = (sizeof(T) == 4 ? double(steps) : 1e5) * rounding * mass;
+  CHECK(double((after.linear - before.linear).norm()) < lost);
+  CHECK(double((after.angular - before.angular).norm()) < lost * double(size));
   CHECK(most - energy <= rise);
 }
 
@@ -251,6 +253,7 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   const T step = A::springs ? T(1e-5) : rocks ? T(1e-4) : T(2e-4);
   double deepest = 0, most = energy, scale = 0;
   int unsolved = 0;
+  std::size_t points = 0;
   MomentumBalance<Vector> balance;
   const int steps = int(0.15 / double(step));
   for (int k = 0; k < steps; ++k) {
@@ -260,6 +263,7 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
     for (const auto wall : simulation.walls()) push -= simulation.contact_impulse(wall);
     const Vector pull = step * grains.mass() * simulation.gravity();
     balance.step(grains.momentum().linear - start - pull, push);
+    points += report.points;
     unsolved += !report.solve.converged;
     scale = std::max(scale, double(push.norm() + pull.norm()));
     deepest = std::max(deepest, report.max_overlap);
@@ -269,7 +273,10 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   const double share = A::springs ? std::round(2 * balance.share()) / 2 : 1;
   CHECK(share >= 0);
   CHECK(share <= 1);
-  CHECK(balance.worst(share) < 1e4 * rounding * scale + 1e4 * rounding * double(grains.mass()));
+  CHECK(points > 0);
+  // In float a hundredth of what gravity adds in a step.
+  const double roundings = (sizeof(T) == 4 ? 100 : 1e4) * rounding;
+  CHECK(balance.worst(share) < roundings * (scale + double(grains.mass())));
   CHECK(unsolved <= steps / 100);  // grains that lock for a moment
   CHECK(deepest < (A::springs ? 0.05 : 0.01) * double(size));
   CHECK(most - energy <= (A::springs ? 0.02 : 1e-3) * drop);

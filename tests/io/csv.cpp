@@ -11,6 +11,8 @@
 #include <random>
 #include <sstream>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <thread>
 
 #include "faults.hpp"
 #include "temporary_folder.hpp"
@@ -256,6 +258,25 @@ TEST_CASE("a file is replaced as a whole or left as it was") {
   CHECK_THROWS_AS(write_atomically(folder / "taken", "x"), std::system_error);
   CHECK_FALSE(std::filesystem::exists(folder / "taken.part"));
   CHECK_THROWS_AS(write_atomically(folder / "missing" / "file", "x"), std::system_error);
+}
+
+TEST_CASE("a link stays a link, and what is no file is written to") {
+  const TemporaryFolder folder("atomic");
+  std::filesystem::create_directory(folder / "disk");
+  std::filesystem::create_symlink("disk/run.snapshot", folder / "link");
+  for (const char* text : {"first", "second"}) {
+    write_atomically(folder / "link", text);
+    CHECK(std::filesystem::is_symlink(folder / "link"));
+    CHECK(read(folder / "disk" / "run.snapshot") == text);
+  }
+  const auto pipe = folder / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::string got;
+  std::thread reader([&] { got = read(pipe); });
+  write_atomically(pipe, "through");
+  reader.join();
+  CHECK(got == "through");
+  CHECK(std::filesystem::is_fifo(pipe));
 }
 
 TEST_CASE("a file that cannot be replaced is named as the caller named it") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/io/fclib.hpp"
 
+#include <chrono>
 #include <doctest/doctest.h>
 #include <fstream>
 #include <random>
@@ -10,6 +11,7 @@
 #include "moreau/instances/friction_problems.hpp"
 #include "moreau/io/siconos_text.hpp"
 
+#include "faults.hpp"
 #include "temporary_folder.hpp"
 
 using namespace moreau;
@@ -96,6 +98,28 @@ TEST_CASE("a problem is written and read back to the same bits") {
           CHECK(Eigen::Map<const Eigen::VectorXd>(written.data(), r.size()) == r);
         },
         any);
+  }
+}
+
+TEST_CASE("a full disk and a kill leave the whole file that was there") {
+  const TemporaryFolder temporary("fclib");
+  const auto path = temporary / "problem.hdf5";
+  const AnyFrictionProblem any = read_siconos_text(folder + "FrictionContact3D_1c.dat");
+  const auto& problem = std::get<FrictionProblem<Space<3>>>(any);
+  const auto is_whole = [&] {
+    const AnyFrictionProblem back = read_fclib(path);
+    check_equal(problem, std::get<FrictionProblem<Space<3>>>(back));
+  };
+  write_fclib(path, problem);
+  {
+    const FullDisk full(1000);
+    CHECK_THROWS_WITH_AS(write_fclib(path, problem), doctest::Contains(path.c_str()),
+                         std::system_error);
+  }
+  is_whole();
+  for (int k = 0; k < 5; ++k) {
+    kill_while(std::chrono::microseconds(500 + 331 * k), [&] { write_fclib(path, problem); });
+    is_whole();
   }
 }
 

@@ -14,6 +14,7 @@
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <hdf5.h>
@@ -24,6 +25,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/io/friction_file.hpp"
+#include "moreau/io/output_file.hpp"
 
 namespace moreau {
 
@@ -197,7 +199,8 @@ void write_fclib_matrix(hid_t group, const FrictionProblem<S>& problem) {
 
 inline AnyFrictionProblem read_fclib_problem(const std::filesystem::path& path) {
   constexpr const char* self = "read_fclib";
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose, "open it");
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose,
+                        "open it: missing, not readable, no HDF5 file, or cut off");
   const bool is_local = H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0;
   require(is_local || H5Lexists(file, "fclib_global", H5P_DEFAULT) > 0, self, "path", path.string(),
           "must hold a group fclib_local or fclib_global");
@@ -222,11 +225,14 @@ inline AnyFrictionProblem read_fclib_problem(const std::filesystem::path& path) 
   return checked_problem(raw, self);
 }
 
+/// The bytes of a file, made in memory: HDF5 itself would leave half of one on a full disk.
 template <class S>
-void write_fclib_problem(const std::filesystem::path& path, const FrictionProblem<S>& problem,
-                         const Eigen::VectorXd& impulses) {
-  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), &H5Fclose,
-                        "create it");
+std::string fclib_image(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose, "make it in memory");
+  if (H5Pset_fapl_core(access, std::size_t{1} << 20, false) < 0)
+    throw std::runtime_error("HDF5: cannot make it in memory");
+  const Hdf5Handle file(H5Fcreate("problem.hdf5", H5F_ACC_TRUNC, H5P_DEFAULT, access), &H5Fclose,
+                        "make it in memory");
   const auto local = create_hdf5_group(file, "fclib_local");
   write_hdf5(local, "spacedim", int(S::dim));
   write_fclib_matrix(create_hdf5_group(local, "W"), problem);
@@ -239,7 +245,12 @@ void write_fclib_problem(const std::filesystem::path& path, const FrictionProble
     write_hdf5(solution, "u", u);
     write_hdf5(solution, "r", impulses);
   }
-  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error("HDF5: cannot write it");
+  const ssize_t size =
+      H5Fflush(file, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file, nullptr, 0);
+  std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (size <= 0 || H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
+    throw std::runtime_error("HDF5: cannot make it in memory");
+  return bytes;
 }
 
 /// Calls f(); its errors of HDF5 name the file.
@@ -250,6 +261,8 @@ auto naming(const std::filesystem::path& path, F&& f) {
     return f();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path.string() + ": " + error.what());
   }
 }
 
@@ -264,16 +277,18 @@ inline bool is_hdf5(const std::filesystem::path& path) {
 /// Reads the problem of an FCLIB file, in the units it has. A global one is brought to its local
 /// form first: W = H^T M^-1 H, b = H^T M^-1 f + w.
 /// @throws std::runtime_error naming the path if the file cannot be opened or lacks a part
-/// @throws std::invalid_argument naming what is wrong if it is no valid problem, or if it has
+/// @throws std::invalid_argument naming the path and what is wrong if it is no valid problem, or if
+/// it has
 ///         bilateral constraints or rolling friction, which this library does not solve
 inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
   return detail::naming(path, [&] { return detail::read_fclib_problem(path); });
 }
 
-/// Writes a problem as an FCLIB file, W by compressed rows; an existing file is replaced.
+/// Writes a problem as an FCLIB file, W by compressed rows; an existing file is replaced, as a
+/// whole (write_atomically()).
 /// @param impulses r in the units of the problem, D n [N s], or empty: with it goes a solution
 ///                 group with r and u = W r + b
-/// @throws std::runtime_error naming the path if the file cannot be written
+/// @throws std::system_error naming the path if the file cannot be written
 /// @throws std::invalid_argument for a problem that is not valid or impulses of another size
 template <class S>
 void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& problem,
@@ -281,7 +296,8 @@ void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& pr
   require_valid(problem, "write_fclib");
   require(impulses.size() == 0 || impulses.size() == problem.free_velocity.size(), "write_fclib",
           "impulses.size()", impulses.size(), "must be 0 or D times the contacts");
-  detail::naming(path, [&] { detail::write_fclib_problem(path, problem, impulses); });
+  write_atomically(path,
+                   detail::naming(path, [&] { return detail::fclib_image(problem, impulses); }));
 }
 
 }  // namespace moreau

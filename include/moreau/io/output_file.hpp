@@ -111,23 +111,40 @@ inline void sync_folder([[maybe_unused]] const std::filesystem::path& folder) {
 #endif
 }
 
+/// What a path leads to behind symbolic links, there or not.
+inline std::filesystem::path behind_links(std::filesystem::path path) {
+  std::error_code none;
+  for (int k = 0; k < 40 && std::filesystem::is_symlink(path, none); ++k)
+    path = path.parent_path() / std::filesystem::read_symlink(path, none);
+  return path;
+}
+
 }  // namespace detail
 
 /// Replaces a file as a whole: a reader, a run that is killed or a machine that loses its power
 /// finds the old one or the new one, never a part. On the way the new one is beside it, under its
-/// name with ".part".
+/// name with ".part". A symbolic link stays, what it leads to is replaced; what is no file, a
+/// device or a pipe, is written to.
 /// @throws std::system_error naming the path and the reason; the old file is then as it was
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  std::filesystem::path partial = path;
+  const std::filesystem::path target = detail::behind_links(path);
+  std::filesystem::path partial = target;
   partial += ".part";
   std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(target, ignored);
+  if (std::filesystem::is_other(there)) {
+    OutputFile file(path);
+    file.write(bytes);
+    file.close();
+    return;
+  }
   try {
     OutputFile file(partial);
     file.write(bytes);
     file.sync();
     file.close();
-    std::filesystem::rename(partial, path);
-    detail::sync_folder(path.parent_path());
+    std::filesystem::rename(partial, target);
+    detail::sync_folder(target.parent_path());
   } catch (const std::system_error& error) {
     std::filesystem::remove(partial, ignored);
     throw std::system_error(error.code(), "cannot write '" + path.string() + "' by way of '" +

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -38,7 +39,7 @@ class TextScanner {
     const std::string_view next = word();
     double value = 0;
     if (!parse(next, value) || !std::isfinite(value))
-      throw_invalid(function_, name, next, "must be a finite number");
+      throw_invalid(function_, name, shown(next), "must be a finite number");
     return value;
   }
   int integer(std::string_view name, int least = 0) {
@@ -47,13 +48,13 @@ class TextScanner {
     double value = 0;  // large indices may be printed as 1e+06
     if (!parse(next, value) || value != std::floor(value) ||
         !(value >= least && value < 2147483647.))
-      throw_invalid(function_, name, next, "must be an integer >= " + std::to_string(least));
+      throw_invalid(function_, name, shown(next), "must be an integer >= " + std::to_string(least));
     return static_cast<int>(value);
   }
   void expect(std::string_view expected) {
     const std::string_view next = word();
     if (next != expected)
-      throw_invalid(function_, "word", next, "must be '" + std::string(expected) + "'");
+      throw_invalid(function_, "word", shown(next), "must be '" + std::string(expected) + "'");
   }
   /// Numbers still to come at most, so that a wrong size does not ask for all memory.
   void require_room(std::size_t count, std::string_view name) const {
@@ -64,6 +65,14 @@ class TextScanner {
   std::string_view function() const { return function_; }
 
  private:
+  /// A word of a file that may be none of text, fit for a message.
+  static std::string shown(std::string_view word) {
+    constexpr std::size_t most = 32;
+    std::string text(word.substr(0, most));
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return word.size() > most ? text + "..." : text;
+  }
   static bool parse(std::string_view word, double& value) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -198,7 +207,8 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
 
 }  // namespace detail
 
-/// Reads a problem from the text of a dump, in the units it has.
+/// Reads a problem from the text of a dump, in the units it has. A text that was cut within its
+/// last number cannot be told from a whole one: some are written without a line end.
 /// @throws std::invalid_argument naming what is wrong if the text is no valid problem
 inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   constexpr std::string_view self = "parse_siconos_text";
@@ -233,13 +243,17 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
 
 /// Reads a problem from a file; see parse_siconos_text().
 /// @throws std::system_error naming the path if the file cannot be read or is empty
-/// @throws std::invalid_argument naming what is wrong if it is no valid problem
+/// @throws std::invalid_argument naming the path and what is wrong if it is no valid problem
 inline AnyFrictionProblem read_siconos_text(const std::filesystem::path& path) {
   const std::string text = detail::read_file(path, "read_siconos_text");
   if (text.empty())
     throw std::system_error(std::make_error_code(std::errc::invalid_argument),
                             "read_siconos_text: '" + path.string() + "' is empty");
-  return parse_siconos_text(text);
+  try {
+    return parse_siconos_text(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path.string() + ": " + error.what());
+  }
 }
 
 }  // namespace moreau

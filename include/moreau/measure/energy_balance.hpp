@@ -18,10 +18,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/state.hpp"
 #include "moreau/integrate/bodies.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -46,7 +48,8 @@ struct EnergyTerms {
 };
 
 /// Follows one simulation. Whoever sets velocities or poses of bodies with a mass between two steps
-/// will find that in the imbalance, or in the work of gravity and forces.
+/// will find that in the imbalance, or in the work of gravity and forces. A snapshot can hold it
+/// beside the simulation (write_snapshot()), so that it goes on with a run.
 template <class S>
 class EnergyBalance {
  public:
@@ -91,6 +94,9 @@ class EnergyBalance {
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:
+  friend struct StateAccess;
+  auto state() { return std::tie(terms_, positions_, kinetic_, start_); }
+
   /// The part of a vector along the axes of the body that have a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x) {
     const typename S::Matrix axes = bodies.axes(i);
