@@ -81,7 +81,11 @@ const Answer& answer_of(const std::string& name) {
       {"energy",
        {"without drive and with restitution 0 energy never grows, over 1e5 steps",
         "contacts without restitution take energy and give none"}},
-      {"energy_of_fall", {"the same while the grains come down", "as energy"}},
+      {"energy_of_fall",
+       {"the same while the grains come down, to the first order of the step: on contacts that "
+        "turn "
+        "the velocity before a step points out of the frame after it, by v h/R",
+        "as energy"}},
       {"close_packing",
        {"frictionless: solid fraction 0.64 of equal spheres, 0.84 of disks of two sizes; 2 D "
         "contacts per grain that is no rattler",

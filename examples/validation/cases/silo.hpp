@@ -76,10 +76,10 @@ struct Silo {
     for (const BodyId wall : sides) world.set_velocity(wall, speed * Vector::Unit(up));
   }
 
-  /// Adds to weight[j] and friction[j] what stands, and what the walls carry, above the height
-  /// j x `spacing` [N].
-  void add_forces(double spacing, std::vector<double>& weight,
-                  std::vector<double>& friction) const {
+  /// Adds to weight[j], friction[j] and push[j] what stands, what the walls carry and what they
+  /// push inwards above the height j x `spacing` [N].
+  void add_forces(double spacing, std::vector<double>& weight, std::vector<double>& friction,
+                  std::vector<double>& push) const {
     const auto& bodies = world.bodies();
     const auto add = [&](std::vector<double>& sum, double height, double force) {
       for (std::size_t j = 0; j < sum.size() && double(j) * spacing < height; ++j) sum[j] += force;
@@ -93,7 +93,9 @@ struct Silo {
       const auto& contact = contacts.points[c];
       if (world.is_grain(contact.b) || std::abs(contact.frame(up, 0)) > 0.5) continue;
       const Vector force = contact.frame * contacts.impulses[c] / -h;
-      add(friction, bodies.pose[contact.a].position[up] + contact.lever_a[up], force[up]);
+      const double height = bodies.pose[contact.a].position[up] + contact.lever_a[up];
+      add(friction, height, force[up]);
+      add(push, height, contacts.impulses[c][0] / h);
     }
   }
 };
@@ -106,15 +108,18 @@ struct Silo {
 /// above and the walls leave. It speaks of a mean: in one packing, eight grains wide, the stress
 /// wanders by a tenth about the profile, so several are taken, while the walls slide from a quarter
 /// of a diameter to one. A rough floor would shear the lowest two widths, which slices do not know.
-/// Their friction is all mobilised, but not all of mu times their push: balls roll on the walls
-/// too, and half of it is what was found (0.49 in the plane, 0.46 in space). So lambda = 1/(mu K)
-/// times the area over the perimeter does not hold with the mu of the contacts, and is not
-/// compared.
+///
+/// And lambda is what the walls say: a slice loses mu K s P/A per height to them, P/A the perimeter
+/// over the area, if all their friction is mobilised and they push with K s. With s over the weight
+/// w above, in forces, lambda = s dw / (mu dN), dN the push of the walls per slice: here over all
+/// slices at once, sum(s dw) / (mu N). Both misses: balls roll on the walls too, and half of mu
+/// times the push is what the walls carry.
 template <class ShapeT>
 void janssen(Record& record, int across, int layers, int packings) {
   using S = SpaceOf<ShapeT>;
   using Silo = detail::Silo<ShapeT>;
-  std::vector<double> weight(std::size_t(1.2 * layers)), friction(weight.size());
+  std::vector<double> weight(std::size_t(1.2 * layers)), friction(weight.size()),
+      push(weight.size());
   int samples = 0, unsolved = 0;
   for (int seed = 1; seed <= packings; ++seed) {
     Silo silo(across, layers, std::uint64_t(seed));
@@ -125,7 +130,7 @@ void janssen(Record& record, int across, int layers, int packings) {
     silo.unsolved = 0;  // count where it is measured
     for (int k = 0; k < 150; ++k, ++samples) {
       silo.run(10 * Silo::h);
-      silo.add_forces(Silo::size, weight, friction);
+      silo.add_forces(Silo::size, weight, friction, push);
     }
     unsolved += silo.unsolved;
   }
@@ -157,6 +162,13 @@ void janssen(Record& record, int across, int layers, int packings) {
   const std::string name = with_shape<ShapeT>("Janssen's silo");
   record.compare(name + ": R^2 of the profile", S{}, 1, 1 - misfit(lambda) / spread, 0.02);
   record.vanishes(name + ": lambda over the depth", S{}, lambda / w[0], 0.5);
+  double slices = 0;  // of s dw
+  for (std::size_t j = 0; j + 1 < w.size(); ++j)
+    slices += (s[j] + s[j + 1]) / 2 * (w[j] - w[j + 1]);
+  record.compare(name + ": friction of the walls over mu times their push", S{}, 1,
+                 friction[0] / (Silo::mu * push[0]), 0.05);
+  record.compare_relative(name + ": lambda, from the push of the walls", S{},
+                          slices * samples / (Silo::mu * push[0]), lambda, 0.1);
   record.vanishes(name + ": share of steps not solved", S{}, unsolved / (10.0 * samples), 0.01);
 }
 

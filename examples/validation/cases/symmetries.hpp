@@ -89,6 +89,7 @@ Frames in_frames(const HeapOptions& options, std::initializer_list<double> turns
 template <class ShapeT, class Law>
 struct SymmetricHeaps {
   using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
   HeapOptions rough, smooth;
   Heap<ShapeT, Law> reference, first;
   Fall seen;
@@ -109,6 +110,8 @@ struct SymmetricHeaps {
     Heap<ShapeT, Law> reordered(smooth, {}, order);
     fall(reordered);
     moved = distance(reference, elsewhere, frame);
+    if (std::is_same_v<T, double> && is_rigid<ShapeT, Law>)
+      moved = std::max(moved, in_frames<Heap<ShapeT, Law>>(rough, {0.3, 1.1, -0.7, 2.0}).distance);
     permuted = distance(first, reordered, {});
   }
 };
