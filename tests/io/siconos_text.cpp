@@ -118,21 +118,23 @@ TEST_CASE("bad texts are refused by name") {
   CHECK(error_of("2 1 2 2 2 2 nothing here").find("sparse W") != std::string::npos);
 }
 
-TEST_CASE("a file cut before its last number is refused, never read beyond") {
+TEST_CASE("a file cut before its last coefficient of friction is refused, never read beyond") {
   const TemporaryFolder temporary("siconos");
   for (const char* name : {"FrictionContact3D_1c.dat", "FrictionContactProblem00031.dat"}) {
     std::string text = read(folder + name);
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-    // The last number may be cut and still be one.
+    const auto is_space = [](char c) { return std::isspace(static_cast<unsigned char>(c)); };
+    // A flag that nothing depends on is last; the coefficient before it may be cut and still be
+    // one.
+    while (is_space(text.back())) text.pop_back();
+    while (!is_space(text.back())) text.pop_back();
+    while (is_space(text.back())) text.pop_back();
     const std::size_t last = text.find_last_of(" \n");
     for (std::size_t size = 0; size < last; size += size + 200 < last ? 7 : 1)
       CHECK_THROWS_AS(parse_siconos_text(std::string_view(text).substr(0, size)),
                       std::invalid_argument);
   }
-  std::ofstream(temporary / "strange") << std::string(
-      "\x7f"
-      "ELF\0\1 and no more",
-      18);
+  const char strange[] = "\177ELF\0\1 and no more";
+  std::ofstream(temporary / "strange").write(strange, sizeof strange - 1);
   CHECK_THROWS_WITH_AS(read_siconos_text(temporary / "strange"),
                        doctest::Contains("strange: parse_siconos_text: dimension = ?ELF?? must be"),
                        std::invalid_argument);
