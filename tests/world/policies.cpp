@@ -2,9 +2,11 @@
 // Some of the combinations that long/matrix_*.cpp have all of. Rolling resistance and adhesion are
 // among the quick cases of the validation.
 #include "moreau/detect/all_pairs.hpp"
+#include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
@@ -27,6 +29,10 @@ TEST_CASE(
 
 TEST_CASE("frictionless disks") {
   conformance::world(Disk<double>(0.005), Frictionless<>(), 0.01);
+}
+TEST_CASE("sticky disks that resist rolling") {
+  const RollingResistance<> rolling(0.4, 0.1);
+  conformance::world(Disk<double>(0.005), Cohesive<RollingResistance<>>(rolling, 1e-3), 0.01);
 }
 TEST_CASE("disks on springs") {
   conformance::world(Disk<double>(0.005), conformance::stiff_springs(0.08), 0.01);

@@ -29,9 +29,11 @@ namespace moreau {
 /// rotations.
 class MoreauJean {
  public:
+  /// theta = 1/2.
+  MoreauJean() = default;
   /// @param theta in [1/2, 1] [-]: 1/2 is second order and keeps energy, 1 is fully implicit
   /// @throws std::invalid_argument for a theta outside [1/2, 1]
-  explicit MoreauJean(double theta = 0.5) : theta_(theta) {
+  explicit MoreauJean(double theta) : theta_(theta) {
     require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
   }
   double theta() const { return theta_; }  ///< in [1/2, 1] [-]
@@ -93,7 +95,7 @@ class MoreauJean {
   friend struct StateAccess;
   auto state() { return std::tie(theta_); }
 
-  double theta_;
+  double theta_ = 0.5;
 };
 
 }  // namespace moreau

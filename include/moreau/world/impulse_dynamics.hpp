@@ -268,8 +268,8 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::advance(Bodies<S>& bodies, con
   report.solve = solver_.solve(operator_, laws(materials), std::span<const std::uint32_t>(law_of_),
                                unknowns_.impulses(contacts), workspace_);
   report.solve.worst_gap = report.solve.worst_velocity * double(step);
-  unknowns_.finish(operator_, contacts);
   if constexpr (AttractiveLaw<Law, S>) shift_impulses(contacts, -1);
+  unknowns_.finish(operator_, contacts);
   velocities_after();
   measure_dissipation(bodies, contacts, report);
   integrator_.advance_configuration(bodies, std::span<const Twist>(after_), step);
