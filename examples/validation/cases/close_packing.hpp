@@ -166,7 +166,8 @@ void close_packing(Record& record, double expected, const std::vector<std::size_
   const std::string name =
       with_shape<ShapeT>("random close packing of " + std::to_string(counts.back())) + ": ";
   record.compare(name + "solid fraction", S{}, expected, packing.fraction, 0.01);
-  record.compare(name + "coordination", S{}, 2 * S::dim, packing.coordination, 0.1);
+  record.compare(name + "twice the contacts per grain, walls included", S{}, 2 * S::dim,
+                 packing.coordination, 0.1);
   record.compare(name + "at rest", S{}, 1, packing.settled, 0);
 }
 

@@ -110,7 +110,7 @@ class TeamGaussSeidel {
       } else if (report.quad_dv <= believed || ++unchecked == most_unchecked) {
         unchecked = 0;
         certify(op, laws, law_of, impulses, sweeps, report);
-        report.converged = report.residual <= options_.tolerance;
+        report.converged = is_solved(report);
         believed = report.quad_dv * options_.tolerance / report.residual;
       }
       if (report.converged) break;
@@ -124,8 +124,7 @@ class TeamGaussSeidel {
     if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.go_back();
     if (!report.converged || options_.stop_test == StopTest::qm16)
       certify(op, laws, law_of, impulses, sweeps, report);
-    if (options_.stop_test == StopTest::natural_map)
-      report.converged = report.residual <= options_.tolerance;
+    if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
     report.converged = report.converged && report.left_over <= SolveReport::most_left_over;
     report.capped = !report.converged;
     return report;
@@ -137,6 +136,10 @@ class TeamGaussSeidel {
   /// Impulses are kept when the change has fallen by `kept`, gone back to when it is `astray` times
   /// what it was: acceleration can drive away.
   static constexpr double kept = 0.5, astray = 1e3;
+
+  bool is_solved(const SolveReport& report) const {
+    return report.residual <= options_.tolerance && report.left_over <= SolveReport::most_left_over;
+  }
 
   /// The residual of the impulses as they are, with velocities made from them alone.
   template <class Operator, class Law>

@@ -177,7 +177,7 @@ class NonlinearGaussSeidel {
               std::span<const typename Operator::Vector> impulses, SolveReport& report) const {
     if (options_.stop_test == StopTest::qm16) return passes_qm16(report, options_.tolerance);
     certify(op, laws, law_of, impulses, report);
-    return report.residual <= options_.tolerance;
+    return report.residual <= options_.tolerance && report.left_over <= SolveReport::most_left_over;
   }
 
   /// The residual with velocities made of the impulses alone: what many small changes rounded off

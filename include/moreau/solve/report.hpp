@@ -7,7 +7,7 @@ namespace moreau {
 struct SolveReport {
   int sweeps = 0;         ///< passes over all contacts, those of a first try that failed included
   bool converged = true;  ///< the stopping test was met
-  /// Not converged: the cap on sweeps was hit first, or left_over is above most_left_over.
+  /// Not converged: the cap on sweeps came before the stopping test and `most_left_over` were met.
   bool capped = false;
 
   /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1
