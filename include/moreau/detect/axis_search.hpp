@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "moreau/detect/edge_search.hpp"
 #include "moreau/detect/foot.hpp"
@@ -28,28 +29,39 @@ class AxisSearch {
   using S = Space<3, T>;
   using Vector = typename S::Vector;
 
+  /// Looks at the faces of a.
   /// @param points_a  at least one vertex of a, relative to the centre of b; points_b likewise.
   /// They
-  ///                  save time if they are near the contact
+  ///                  save time if they are near the contact; they grow
   /// @param margin    stop at an axis that separates by more [m]
   AxisSearch(const PolyhedronPair<T>& pair, PointSet<T>& points_a, PointSet<T>& points_b, T margin)
-      : pair_(pair), rounding_(pair.rounding()) {
+      : pair_(pair),
+        points_a_(points_a),
+        points_b_(points_b),
+        margin_(margin),
+        rounding_(pair.rounding()) {
     const auto of_a =
         search_faces(pair.a, pair.b, pair.offset, points_b, -std::numeric_limits<T>::infinity());
     axis_ = {pair.a.normals()[of_a.face], of_a.separation, AxisKind::face_a, of_a.face,
              of_a.vertex};
     if (axis_.gap > margin) return;
-    const FaceMasks<T> below_a(pair.a, points_b, level());
-    if (is_proved(pair.a, of_a, pair.offset, pair.b, below_a)) return;
+    below_a_.emplace(pair.a, points_b, level());
+    is_proved(pair.a, of_a, pair.offset, pair.b, *below_a_);
+  }
+  /// Whether there is nothing to go on for.
+  bool is_done() const { return is_exact_ || axis_.gap > margin_; }
+  /// Looks at b's faces and the edges, unless that is so.
+  void go_on() {
+    if (is_done()) return;
     const auto of_b =
-        search_faces(pair.b, pair.a, Vector(-pair.offset), points_a, axis_.gap + rounding_);
+        search_faces(pair_.b, pair_.a, Vector(-pair_.offset), points_a_, axis_.gap + rounding_);
     if (of_b.is_found)
-      axis_ = {-pair.b.normals()[of_b.face], of_b.separation, AxisKind::face_b, of_b.vertex,
+      axis_ = {-pair_.b.normals()[of_b.face], of_b.separation, AxisKind::face_b, of_b.vertex,
                of_b.face};
-    if (axis_.gap > margin) return;
-    const FaceMasks<T> below_b(pair.b, points_a, level());
-    if (of_b.is_found && is_proved(pair.b, of_b, Vector(-pair.offset), pair.a, below_b)) return;
-    search_edges(edges_left(pair.a, below_a), edges_left(pair.b, below_b));
+    if (axis_.gap > margin_) return;
+    const FaceMasks<T> below_b(pair_.b, points_a_, level());
+    if (of_b.is_found && is_proved(pair_.b, of_b, Vector(-pair_.offset), pair_.a, below_b)) return;
+    search_edges(edges_left(pair_.a, *below_a_), edges_left(pair_.b, below_b));
     if (axis_.gap <= T(0)) is_exact_ = true;
     if (axis_.kind == AxisKind::edges) measure_again();
   }
@@ -103,7 +115,9 @@ class AxisSearch {
   }
 
   const PolyhedronPair<T>& pair_;
-  const T rounding_;
+  PointSet<T>&points_a_, &points_b_;
+  const T margin_, rounding_;
+  std::optional<FaceMasks<T>> below_a_;
   Axis<S> axis_;
   bool is_exact_ = false;
 };

@@ -59,9 +59,9 @@ template <std::floating_point T>
 }
 
 /// What the nearest points of a simplex lie on; `nearest_points` if not on a vertex and an edge.
+/// @param axis  an Axis or a PairCache: what has a kind and the features' numbers
 template <std::floating_point T>
-void name_features(const PolyhedronPair<T>& pair, const Simplex<T>& simplex,
-                   Axis<Space<3, T>>& axis) {
+void name_features(const PolyhedronPair<T>& pair, const Simplex<T>& simplex, auto& axis) {
   axis.kind = AxisKind::nearest_points;
   axis.a = simplex[0].a;
   axis.b = simplex[0].b;
@@ -72,6 +72,24 @@ void name_features(const PolyhedronPair<T>& pair, const Simplex<T>& simplex,
       axis.kind = AxisKind::edge_vertex;
     else if (simplex[1].a == axis.a && find_edge(pair.b, axis.b, simplex[1].b, axis.b))
       axis.kind = AxisKind::vertex_edge;
+  }
+}
+
+/// The same of the nearest points of three: a face and a vertex, or an edge of each. A guess: the
+/// face is the one that is turned most towards the other shape.
+template <std::floating_point T>
+void name_facet(const PolyhedronPair<T>& pair, const Simplex<T>& simplex,
+                PairCache<Space<3, T>>& guess) {
+  const auto &p = simplex[0], &q = simplex[1], &r = simplex[2];
+  if (p.b == q.b && p.b == r.b) {
+    guess.kind = AxisKind::face_a;
+    guess.a = pair.a.normals().farthest(simplex.direction()).index;
+  } else if (p.a == q.a && p.a == r.a) {
+    guess.kind = AxisKind::face_b;
+    guess.b = pair.b.normals().farthest(-simplex.direction()).index;
+  } else if (find_edge(pair.a, p.a, p.a == q.a ? r.a : q.a, guess.a) &&
+             find_edge(pair.b, p.b, p.b == q.b ? r.b : q.b, guess.b)) {
+    guess.kind = AxisKind::edges;
   }
 }
 

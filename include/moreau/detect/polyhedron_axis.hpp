@@ -2,12 +2,15 @@
 // The axis of a pair of polyhedra: a few steps of the distance algorithm, which part most pairs
 // that are apart and else give vertices near the contact; then the search over faces and edges,
 // exact but for shapes that are apart by vertices; for those the distance algorithm to its end.
+// Where a face of a parts the shapes without being the answer, the distance algorithm is brought to
+// its end at once: what it ends on is a guess, proved like one from the step before.
 #pragma once
 
 #include "moreau/detect/axis_search.hpp"
 #include "moreau/detect/gjk.hpp"
 #include "moreau/detect/nearest_axis.hpp"
 #include "moreau/detect/polyhedron_pair.hpp"
+#include "moreau/detect/polyhedron_recall.hpp"
 
 namespace moreau::detail {
 
@@ -43,7 +46,12 @@ class PolyhedronAxis {
     if (is_beyond_) return;
     PointSet<T> points_a, points_b;
     collect(points_a, points_b);
-    const AxisSearch<T> search(pair_, points_a, points_b, margin);
+    AxisSearch<T> search(pair_, points_a, points_b, margin);
+    if (!search.is_done() && search.axis().gap > T(0)) {
+      if (proximity == Proximity::undecided) proximity = go_on(margin, all_steps);
+      if (is_beyond_ || (proximity == Proximity::apart && prove_end(margin))) return;
+    }
+    search.go_on();
     axis_ = search.axis();
     is_beyond_ = axis_.gap > margin;
     if (is_beyond_ || search.is_exact()) return;
@@ -58,6 +66,20 @@ class PolyhedronAxis {
     is_beyond_ = proximity == Proximity::beyond;
     if (is_beyond_) axis_.normal = direction.normalized();
     return proximity;
+  }
+  /// Whether the features that the distance algorithm ended on are proved to make the axis.
+  bool prove_end(T margin) {
+    PairCache<S> end;
+    if (simplex_.size() == 3)
+      name_facet(pair_, simplex_, end);
+    else
+      name_features(pair_, simplex_, end);
+    PolyhedronRecall<T> recall(pair_);
+    if (!recall.prove(end) || !(std::abs(recall.axis().gap - margin) > pair_.rounding()))
+      return false;
+    axis_ = recall.axis();
+    is_beyond_ = axis_.gap > margin;
+    return true;
   }
   void collect(PointSet<T>& points_a, PointSet<T>& points_b) const {
     for (int i = 0; i < simplex_.size(); ++i) {
