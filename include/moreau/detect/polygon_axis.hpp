@@ -108,13 +108,12 @@ class PolygonPair {
   static Extreme<T> best_edge(const Shape& own, const Shape& other, const Vector& offset) {
     WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
     auto index = W::iota();
+    const auto apart = Rows<S>::broadcast(offset);
     for (Eigen::Index i = 0; i < own.normals().padded_size(); i += W::lanes) {
-      auto lowest = own.normals().dot(i, Rows<S>::broadcast(other.vertices()[0] + offset));
-      for (std::size_t k = 1; k < other.vertices().size(); ++k) {
-        const auto h = own.normals().dot(i, Rows<S>::broadcast(other.vertices()[k] + offset));
-        lowest = h < lowest ? h : lowest;
-      }
-      best.take(lowest - W::load(own.offsets() + i), index);
+      const auto normals = own.normals().wide(i);
+      best.take(other.vertices().lowest(normals) + own.normals().dot(i, apart) -
+                    W::load(own.offsets() + i),
+                index);
       index += W::lanes;
     }
     return best.reduce();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
@@ -66,6 +67,31 @@ class Rows {
     for (std::size_t k = 0; k < S::dim; ++k)
       wide[k] = W::broadcast(v[static_cast<Eigen::Index>(k)]);
     return wide;
+  }
+
+  /// A block of rows from row i on.
+  Wides wide(Eigen::Index i) const {
+    Wides rows;
+    for (std::size_t k = 0; k < S::dim; ++k)
+      rows[k] = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
+    return rows;
+  }
+  /// The smallest direction . row, for a direction in each lane.
+  typename W::Values lowest(const Wides& directions) const {
+    constexpr std::size_t lanes = W::lanes;
+    auto lowest = W::broadcast(std::numeric_limits<T>::infinity());
+    const T* block = rows_.data();
+    for (std::size_t left = size(); left > 0; block += S::dim * lanes) {
+      const std::size_t here = std::min(left, lanes);
+      for (std::size_t l = 0; l < here; ++l) {
+        auto height = directions[0] * W::broadcast(block[l]);
+        for (std::size_t k = 1; k < S::dim; ++k)
+          height += directions[k] * W::broadcast(block[k * lanes + l]);
+        lowest = height < lowest ? height : lowest;
+      }
+      left -= here;
+    }
+    return lowest;
   }
 
   /// The largest direction . row.
