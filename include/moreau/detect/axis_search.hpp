@@ -96,20 +96,45 @@ class AxisSearch {
     Vector n;
     if (!crossing_normal(a, b, n)) return;
     const Vector apart = b.from + pair_.offset - a.from;
+    if (are_nearly_parallel(a, b)) return try_parallel(a, id_a, b, id_b, apart, n);
     if (!(n.dot(apart) > axis_.gap + rounding_)) return;
-    // Whatever n is, its own separation is a lower bound of the gap: nothing that rounding did to
-    // the arcs can make the result too large.
+    if (try_lower_bound(id_a, id_b, n))
+      is_exact_ = axis_.gap > T(0) && feet_are_within(a, b, apart, n);
+  }
+  /// Whatever n is, its own separation is a lower bound of the gap: nothing that rounding did to
+  /// the arcs can make the result too large.
+  bool try_lower_bound(std::uint32_t id_a, std::uint32_t id_b, const Vector& n) {
     const T separation = pair_.separation(n);
-    if (!(separation > axis_.gap + rounding_)) return;
+    if (!(separation > axis_.gap + rounding_)) return false;
     axis_ = {n, separation, AxisKind::edges, id_a, id_b};
-    is_exact_ = separation > T(0) && feet_are_within(a, b, apart, n);
+    is_exact_ = false;
+    return true;
   }
 
-  /// From the edges alone, if they are not so parallel that their ends say something else.
+  /// The normal of edges that are nearly parallel is known to an angle of some eps / sine only, and
+  /// so is the separation along it. The edges' distance is known better, and the two are the same
+  /// if the feet are within: as they are for the axis that is looked for.
+  void try_parallel(const EdgeView<T>& a, std::uint32_t id_a, const EdgeView<T>& b,
+                    std::uint32_t id_b, const Vector& apart, const Vector& n) {
+    constexpr T eps = std::numeric_limits<T>::epsilon();
+    const T sine =
+        a.direction.cross(b.direction).norm() / (a.direction.norm() * b.direction.norm());
+    const T angle = T(16) * eps / sine;
+    const T height = height_at_feet(a, b, apart, n);
+    if (sine < T(4) * std::cbrt(eps * eps) || !feet_are_within(a, b, apart, n, T(4) * angle) ||
+        pair_.separation(n) < height - (rounding_ + angle * pair_.size)) {
+      try_lower_bound(id_a, id_b, n);
+    } else if (height > axis_.gap + rounding_) {
+      axis_ = {n, height, AxisKind::edges, id_a, id_b};
+      is_exact_ = false;
+    }
+  }
+
+  /// From the edges alone, unless they are nearly parallel: then they have been.
   void measure_again() {
     Axis<S> axis = axis_;
-    if (measure_edges(EdgeView<T>(pair_.a, axis_.a), EdgeView<T>(pair_.b, axis_.b), pair_.offset,
-                      axis) &&
+    const EdgeView<T> a(pair_.a, axis_.a), b(pair_.b, axis_.b);
+    if (!are_nearly_parallel(a, b) && measure_edges(a, b, pair_.offset, axis) &&
         std::abs(axis.gap - axis_.gap) <= rounding_)
       axis_ = axis;
   }

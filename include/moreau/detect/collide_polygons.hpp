@@ -127,7 +127,13 @@ bool find_axis(const PolygonPair<T>& pair, T margin, PairCache<Space<2, T>>& cac
   }
   const auto found = pair.edge_axis(margin);
   axis = found.axis;
-  if (axis.gap <= margin && !found.is_exact) axis = pair.nearest_points();
+  if (axis.gap <= margin && !found.is_exact) {
+    // Where vertices all but touch, their difference has no direction: the edge's stays.
+    const auto nearest = pair.nearest_points();
+    const T doubt = T(4) * pair.rounding();
+    if (pair.separation(nearest.normal) >= nearest.gap - doubt || axis.gap < nearest.gap - doubt)
+      axis = nearest;
+  }
   cache.remember(axis);
   if (axis.gap <= margin) return true;
   cache.kind = AxisKind::none;
@@ -185,7 +191,8 @@ bool overlap(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b,
 /// The same without a memory of the pair.
 template <std::floating_point T>
 bool overlap(const Placed<Polygon<T>>& a, const Placed<Polygon<T>>& b) {
-  return detail::PolygonPair<T>(a, b).edge_axis(T(0)).axis.gap <= T(0);
+  PairCache<Space<2, T>> none;
+  return overlap(a, b, none);
 }
 
 }  // namespace moreau

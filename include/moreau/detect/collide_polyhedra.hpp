@@ -8,6 +8,7 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
+#include "moreau/detect/polyhedron_axis.hpp"
 #include "moreau/detect/polyhedron_manifold.hpp"
 #include "moreau/detect/polyhedron_recall.hpp"
 
@@ -96,7 +97,8 @@ bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b,
   return !detail::FoundAxis<T>(pair, T(0), cache).is_beyond();
 }
 
-/// The same without a memory of the pair.
+/// The same without a memory of the pair. The distance algorithm alone answers where rounding has
+/// no say; elsewhere the features are searched, so that the answer is that of the other queries.
 template <std::floating_point T>
 bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b) {
   const detail::PolyhedronPair<T> pair(a, b);
@@ -104,8 +106,12 @@ bool overlap(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b) {
   if (pair.is_apart_at_once(T(0), none)) return false;
   detail::Simplex<T> simplex(pair.support(pair.start()));
   typename Space<3, T>::Vector axis = pair.start();
-  return detail::approach<T>([&](const auto& n) { return pair.support(n); }, simplex, axis, T(0),
-                             pair.size, detail::all_steps) == detail::Proximity::touching;
+  const auto proximity =
+      detail::approach<T>([&](const auto& n) { return pair.support(n); }, simplex, axis,
+                          pair.rounding(), pair.size, detail::all_steps);
+  if (proximity == detail::Proximity::beyond) return false;
+  if (simplex.holds_origin(pair.size * DetectionTolerance<T>::certain)) return true;
+  return !detail::FoundAxis<T>(pair, T(0), none).is_beyond();
 }
 
 }  // namespace moreau

@@ -72,17 +72,40 @@ bool crossing_normal(const EdgeView<T>& a, const EdgeView<T>& b,
   return normal.dot(b.normal_0 + b.normal_1) < T(0);
 }
 
-/// Whether the nearest points of the two lines lie within both edges.
+/// Whether edges are so parallel that their common normal has lost digits.
+template <std::floating_point T>
+bool are_nearly_parallel(const EdgeView<T>& a, const EdgeView<T>& b) {
+  return a.direction.cross(b.direction).squaredNorm() <=
+         T(1e-4) * a.direction.squaredNorm() * b.direction.squaredNorm();
+}
+
+/// Where two lines are nearest to each other, as a fraction of each edge: {on a, on b}.
 /// @param apart   from the start of a's edge to that of b's
+template <std::floating_point T>
+std::array<T, 2> feet_of(const EdgeView<T>& a, const EdgeView<T>& b,
+                         const typename Space<3, T>::Vector& apart,
+                         const typename Space<3, T>::Vector& normal) {
+  const auto across = normal.cross(b.direction).eval();
+  const T scale = a.direction.dot(across);
+  return {apart.dot(across) / scale, apart.dot(normal.cross(a.direction)) / scale};
+}
+/// Whether the nearest points of the two lines lie within both edges.
 template <std::floating_point T>
 bool feet_are_within(const EdgeView<T>& a, const EdgeView<T>& b,
                      const typename Space<3, T>::Vector& apart,
-                     const typename Space<3, T>::Vector& normal) {
-  const auto across = normal.cross(b.direction).eval();
-  const T scale = a.direction.dot(across);
-  const T t = apart.dot(across) / scale;
-  const T u = apart.dot(normal.cross(a.direction)) / scale;
-  return t >= T(0) && t <= T(1) && u >= T(0) && u <= T(1);
+                     const typename Space<3, T>::Vector& normal, T beyond = 0) {
+  const auto [t, u] = feet_of(a, b, apart, normal);
+  return t >= -beyond && t <= T(1) + beyond && u >= -beyond && u <= T(1) + beyond;
+}
+/// The height of b's edge above a's at their feet: there an error of the normal counts in second
+/// order only, elsewhere in first.
+template <std::floating_point T>
+T height_at_feet(const EdgeView<T>& a, const EdgeView<T>& b,
+                 const typename Space<3, T>::Vector& apart,
+                 const typename Space<3, T>::Vector& normal) {
+  const auto [t, u] = feet_of(a, b, apart, normal);
+  return normal.dot(apart + std::clamp(u, T(0), T(1)) * b.direction -
+                    std::clamp(t, T(0), T(1)) * a.direction);
 }
 
 /// The common normal of two edges and the separation of their end points along it. One function for

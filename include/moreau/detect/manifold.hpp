@@ -101,7 +101,9 @@ struct Manifold {
   }
 };
 
-/// The signed distance of a pair.
+/// The signed distance of a pair. Of shapes that overlap deeply, by a tenth of their size, and one
+/// of which is a segment or is known by its support alone, the witnesses may lie beside the
+/// surfaces.
 template <class S>
 struct SignedDistance {
   typename S::Scalar gap;        ///< [m], < 0: the depth of penetration

@@ -39,12 +39,12 @@ std::array<typename Space<3, T>::Vector, 2> nearest_of(const PolyhedronPair<T>& 
   using Vector = typename Space<3, T>::Vector;
   if (kind == AxisKind::edge_vertex) {
     const Vector on_b = pair.b.vertices()[b] + pair.offset;
-    return {point_along(pair.a, a, fraction_along(pair.a, a, on_b)), on_b};
+    return {point_along(pair.a, a, std::clamp(fraction_along(pair.a, a, on_b), T(0), T(1))), on_b};
   }
   const Vector on_a = pair.a.vertices()[a];
   if (kind == AxisKind::vertices) return {on_a, pair.b.vertices()[b] + pair.offset};
   const T fraction = fraction_along(pair.b, b, Vector(on_a - pair.offset));
-  return {on_a, point_along(pair.b, b, fraction) + pair.offset};
+  return {on_a, point_along(pair.b, b, std::clamp(fraction, T(0), T(1))) + pair.offset};
 }
 
 /// The distance of the features and its direction. One function for the search and for what is

@@ -44,11 +44,13 @@ class PolygonPair {
     return n.dot(offset) - (a.vertices().reach(n) + b.vertices().reach(-n));
   }
 
-  /// Whether an axis is at hand along which the shapes are farther apart than the margin.
+  /// Whether an axis is at hand along which the shapes are farther apart than the margin, by more
+  /// than rounding: then every other way to the answer finds the same.
   bool is_apart_at_once(T margin, const PairCache<S>& cache) const {
-    const T reach = size + margin;
+    const T reach = size + margin + rounding();
     if (offset.squaredNorm() > reach * reach) return true;
-    return cache.kind == AxisKind::none && !cache.axis.isZero(0) && separation(cache.axis) > margin;
+    return cache.kind == AxisKind::none && !cache.axis.isZero(0) &&
+           separation(cache.axis) > margin + rounding();
   }
 
   /// The best axis among the edges; exact if it says so.

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The axis of a pair of polyhedra: a few steps of the distance algorithm, which part most pairs
 // that are apart and else give vertices near the contact; then the search over faces and edges,
-// exact but for shapes that are apart by vertices; for those the distance algorithm to its end.
-// Where a face of a parts the shapes without being the answer, the distance algorithm is brought to
-// its end at once: what it ends on is a guess, proved like one from the step before.
+// exact but for shapes that are apart by vertices; for those the distance algorithm to its end, and
+// where that ends on rounding, all features that can be nearest. Where a face of a parts the shapes
+// without being the answer, the distance algorithm is brought to its end at once: what it ends on
+// is a guess, proved like one from the step before.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "moreau/detect/axis_search.hpp"
 #include "moreau/detect/gjk.hpp"
 #include "moreau/detect/nearest_axis.hpp"
+#include "moreau/detect/nearest_features.hpp"
 #include "moreau/detect/polyhedron_pair.hpp"
 #include "moreau/detect/polyhedron_recall.hpp"
+#include "moreau/detect/polyhedron_witness.hpp"
 
 namespace moreau::detail {
 
@@ -56,8 +62,7 @@ class PolyhedronAxis {
     is_beyond_ = axis_.gap > margin;
     if (is_beyond_ || search.is_exact()) return;
     if (proximity == Proximity::undecided) proximity = go_on(margin, all_steps);
-    if (is_beyond_) return;
-    if (proximity != Proximity::touching) take_nearest_points(margin);
+    if (!is_beyond_) take_nearest_points(margin);
   }
   Proximity go_on(T margin, int steps) {
     Vector direction;
@@ -89,19 +94,48 @@ class PolyhedronAxis {
     }
   }
   /// The distance, and its direction, unless the face or edges found before lie across it just as
-  /// far away: theirs does not suffer from the rounding of a small difference.
+  /// far away, so that the nearest points are on them: theirs does not suffer from the rounding of
+  /// a small difference.
+  ///
+  /// The distance of any two points of the shapes is an upper bound of the gap, the separation
+  /// along any direction a lower one. What the distance algorithm ended on is taken where they
+  /// meet; else all features are compared that can be nearest.
   void take_nearest_points(T margin) {
     constexpr T aligned = DetectionTolerance<T>::aligned;
-    Axis<S> nearest{simplex_.direction().normalized(), simplex_.nearest().norm(),
-                    AxisKind::nearest_points, 0, 0};
+    const T doubt = T(4) * pair_.rounding();
+    if (axis_.gap <= doubt && simplex_.size() == 4) return;
+    Axis<S> nearest;
+    const T upper = measure_end(nearest);
+    if (upper <= doubt) return;
+    const auto separates = [&] { return pair_.separation(nearest.normal) >= nearest.gap - doubt; };
+    bool is_exact = std::abs(upper - nearest.gap) <= doubt && separates();
+    if (!is_exact) {
+      const T slab = std::max(upper - axis_.gap, T(0)) + doubt;
+      nearest = NearestFeatures<T>(pair_, axis_.normal, slab).axis();
+      if (!std::isfinite(nearest.gap)) return;
+      is_exact = separates();
+    }
+    const T turn = (axis_.normal - nearest.normal).norm();
+    const bool is_aligned =
+        turn < aligned && turn * nearest.gap < pair_.size * DetectionTolerance<T>::coincident;
+    const T lacking = nearest.gap - axis_.gap;
+    if (lacking > doubt || (is_exact && (lacking > pair_.rounding() || !is_aligned)))
+      axis_ = nearest;
+    is_beyond_ = axis_.gap > margin;
+  }
+  /// What the distance algorithm ended on.
+  /// @returns the distance of two points of the shapes
+  T measure_end(Axis<S>& nearest) const {
+    if (simplex_.size() == 4) return simplex_[0].point.norm();
+    nearest.normal = simplex_.direction().normalized();
+    nearest.gap = simplex_.nearest().norm();
     name_features(pair_, simplex_, nearest);
-    if (nearest.kind != AxisKind::nearest_points)
-      measure_nearest(pair_, nearest.kind, nearest.a, nearest.b, nearest);
-    is_beyond_ = nearest.gap > margin;
-    if (axis_.gap >= nearest.gap - pair_.rounding() &&
-        (axis_.normal - nearest.normal).squaredNorm() < aligned * aligned)
-      return;
-    axis_ = nearest;
+    if (nearest.kind == AxisKind::nearest_points) {
+      const auto points = witness_of_nearest(pair_, simplex_);
+      return (points.b - points.a).norm();
+    }
+    measure_nearest(pair_, nearest.kind, nearest.a, nearest.b, nearest);
+    return nearest.gap;
   }
 
   const PolyhedronPair<T>& pair_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -88,21 +89,33 @@ std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
                       typename Space<3, T>::Vector(-axis.normal), slab)};
 }
 
+/// Whether the witness is a point of both features that make the axis. Of several vertices that are
+/// equally deep, or of edges so parallel that they separate wherever they end, one that lies beside
+/// the other feature proves nothing.
+template <std::floating_point T>
+bool is_on_both(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis,
+                const Witness<typename Space<3, T>::Vector>& witness) {
+  using Vector = typename Space<3, T>::Vector;
+  if (axis.kind == AxisKind::face_a) return has_foot(pair.a, axis.a, witness.b);
+  const Vector on_b = witness.b - pair.offset;
+  if (axis.kind == AxisKind::face_b)
+    return has_foot(pair.b, axis.b, Vector(witness.a - pair.offset));
+  if (axis.kind != AxisKind::edges) return true;
+  const T near = pair.size * DetectionTolerance<T>::coincident;
+  const T along = std::clamp(fraction_along(pair.b, axis.b, on_b), T(0), T(1));
+  return (point_along(pair.b, axis.b, along) - on_b).squaredNorm() <= near * near;
+}
+
 /// Midway between the surfaces where they are nearest or deepest, relative to the centre of a.
-/// Where several vertices are equally deep, one whose foot lies beside the face proves nothing, and
-/// the polygon in which the faces overlap has to say where.
+/// Where the witness does not say it, the polygon in which the faces overlap does.
 template <std::floating_point T>
 typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
                                                const Axis<Space<3, T>>& axis,
                                                const Simplex<T>* simplex) {
   using Vector = typename Space<3, T>::Vector;
   const Witness<Vector> witness = witness_of(pair, axis, simplex);
-  bool is_on_both = true;
-  if (axis.kind == AxisKind::face_a) is_on_both = has_foot(pair.a, axis.a, witness.b);
-  if (axis.kind == AxisKind::face_b)
-    is_on_both = has_foot(pair.b, axis.b, Vector(witness.a - pair.offset));
   Vector middle = T(0.5) * (witness.a + witness.b);
-  if (is_on_both) return middle;
+  if (is_on_both(pair, axis, witness)) return middle;
   std::vector<T> scratch;
   const auto [face_a, face_b] = facing_faces(pair, axis, std::max(axis.gap, T(0)));
   const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal,
@@ -155,17 +168,26 @@ void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Si
   if (is_lone_point(pair, axis, face_a, face_b, slab, near)) return add_witness();
   const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal, near,
                                   out.scratch);
-  T deepest = std::numeric_limits<T>::infinity();
+  ManifoldPoint<Space<3, T>> deepest{{}, std::numeric_limits<T>::infinity(), FeatureKey()};
   polygon.for_each_corner([&](const ManifoldPoint<Space<3, T>>& corner) {
-    if (!(corner.gap <= margin + pair.rounding())) return;
-    deepest = std::min(deepest, corner.gap);
-    out.points.push_back(corner);
+    if (corner.gap < deepest.gap) deepest = corner;
+    if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
   });
   // Nearest vertices lie above each other, but no face takes part.
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
-  if (is_degenerate || !(deepest <= axis.gap + T(64) * pair.rounding())) add_witness();
+  if (is_degenerate || !(deepest.gap <= axis.gap + T(64) * pair.rounding())) {
+    // A polygon narrower than what counts as one point may miss the deepest. The witness is that,
+    // unless it is beside the face: then the polygon's deepest corner is as near as can be told.
+    if (std::isfinite(deepest.gap) && !is_on_both(pair, axis, witness_of(pair, axis, simplex))) {
+      if (out.points.empty()) out.points.push_back(deepest);
+      for (auto& point : out.points)
+        if (point.feature == deepest.feature) point.gap = axis.gap;
+    } else {
+      add_witness();
+    }
+  }
   out.sort();
   switch (out.points.size()) {
     case 1:

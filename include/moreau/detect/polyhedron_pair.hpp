@@ -45,12 +45,13 @@ class PolyhedronPair {
     return offset.squaredNorm() > rounding() * rounding() ? offset : Vector(Vector::UnitX());
   }
 
-  /// Whether an axis is at hand along which the shapes are farther apart than the margin.
+  /// Whether an axis is at hand along which the shapes are farther apart than the margin, by more
+  /// than rounding: then every other way to the answer finds the same.
   bool is_apart_at_once(T margin, PairCache<Space<3, T>>& cache) const {
     if (cache.kind == AxisKind::none && cache.axis != Vector::Zero() &&
-        separation(cache.axis) > margin)
+        separation(cache.axis) > margin + rounding())
       return true;
-    const T reach = size + margin;
+    const T reach = size + margin + rounding();
     if (!(offset.squaredNorm() > reach * reach)) return false;
     cache.axis = offset.normalized();
     cache.kind = AxisKind::none;

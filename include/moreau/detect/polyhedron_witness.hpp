@@ -7,7 +7,8 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/nearest_axis.hpp"
-#include "moreau/detect/polyhedron_axis.hpp"
+#include "moreau/detect/polyhedron_pair.hpp"
+#include "moreau/detect/simplex.hpp"
 
 namespace moreau::detail {
 
@@ -18,7 +19,8 @@ struct Witness {
   FeatureKey feature;
 };
 
-/// Nearest points of two lines that are not parallel.
+/// Nearest points of two edges that lie across their common normal. Where they are so parallel that
+/// the crossing of their lines is lost in rounding, some point of each beside the other.
 template <std::floating_point T>
 Witness<typename Space<3, T>::Vector> witness_of_edges(const PolyhedronPair<T>& pair,
                                                        const Axis<Space<3, T>>& axis) {
@@ -32,7 +34,12 @@ Witness<typename Space<3, T>::Vector> witness_of_edges(const PolyhedronPair<T>& 
   // Both lines in the plane perpendicular to v: p + t u meets q there.
   const Vector across = v.cross(axis.normal);
   const T slope = u.dot(across);
-  const T t = slope == T(0) ? T(0.5) : std::clamp((q - p).dot(across) / slope, T(0), T(1));
+  T t = slope == T(0) ? T(0.5) : std::clamp((q - p).dot(across) / slope, T(0), T(1));
+  const T beside = (p + t * u - q).dot(v) / v.squaredNorm();
+  if (!(beside >= T(0) && beside <= T(1))) {
+    const Vector end = beside > T(0) ? Vector(q + v) : q;
+    t = std::clamp((end - p).dot(u) / u.squaredNorm(), T(0), T(1));
+  }
   const Vector on_a = p + t * u;
   return {on_a, on_a + axis.gap * axis.normal,
           FeatureKey(FeatureKey::Kind::edge_edge, axis.a, axis.b)};

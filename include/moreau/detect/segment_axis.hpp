@@ -30,6 +30,10 @@ struct SegmentPair {
         half_b(b.half()),
         offset(b.center() - a.center()),
         size(a.radius() + b.radius()) {}
+  /// @param first,second  the halves, from the middle to an end
+  /// @param between       from the middle of the first to that of the second
+  SegmentPair(const Vector& first, const Vector& second, const Vector& between)
+      : half_a(first), half_b(second), offset(between), size(first.norm() + second.norm()) {}
 
   Vector apart(T s, T t) const { return offset + t * half_b - s * half_a; }
   /// Where on the line of the other the foot of a point is.
@@ -45,6 +49,24 @@ struct SegmentAxis {
   typename S::Scalar s = 0, t = 0;
 };
 
+/// The inner points of two segments in space where their lines are nearest, if there are any. From
+/// the common normal: its digits last longer than those of a determinant.
+template <std::floating_point T, class Take>
+void take_inner(const SegmentPair<Space<3, T>>& pair, const Take& take) {
+  using Vector = typename Space<3, T>::Vector;
+  const Vector across = pair.half_a.cross(pair.half_b);
+  const T length2 = across.squaredNorm();
+  constexpr T parallel = T(16) * std::numeric_limits<T>::epsilon();
+  const T product = pair.half_a.squaredNorm() * pair.half_b.squaredNorm();
+  if (!(length2 > parallel * parallel * product)) return;
+  const T s = pair.offset.cross(pair.half_b).dot(across) / length2;
+  const T t = pair.offset.cross(pair.half_a).dot(across) / length2;
+  if (std::abs(s) < T(1) && std::abs(t) < T(1)) take(s, t);
+}
+/// In the plane segments without an end nearest to the other cross.
+template <std::floating_point T, class Take>
+void take_inner(const SegmentPair<Space<2, T>>&, const Take&) {}
+
 /// The nearest points; the normal is not set.
 template <class S>
 SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
@@ -58,13 +80,7 @@ SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
     take(end, std::clamp(pair.foot_on_b(end), T(-1), T(1)));
     take(std::clamp(pair.foot_on_a(end), T(-1), T(1)), end);
   }
-  const T aa = pair.half_a.squaredNorm(), bb = pair.half_b.squaredNorm();
-  const T ab = pair.half_a.dot(pair.half_b), det = aa * bb - ab * ab;
-  if (det > T(64) * std::numeric_limits<T>::epsilon() * aa * bb) {
-    const T d = pair.half_a.dot(pair.offset), e = pair.half_b.dot(pair.offset);
-    const T s = (d * bb - ab * e) / det, t = (ab * d - aa * e) / det;
-    if (std::abs(s) < T(1) && std::abs(t) < T(1)) take(s, t);
-  }
+  take_inner(pair, take);
   return best;
 }
 
@@ -113,19 +129,43 @@ void refine(const SegmentPair<Space<3, T>>& pair, SegmentAxis<Space<3, T>>& axis
   const bool is_inner = std::abs(axis.s) < T(1) && std::abs(axis.t) < T(1);
   const T sine = across.norm() / (pair.half_a.norm() * pair.half_b.norm());
   if (!is_inner || !(axis.gap < sine * pair.size)) return;
+  // Between the feet, where an error of the normal counts in second order only.
   axis.normal = across.normalized();
-  axis.gap = axis.normal.dot(pair.offset);
+  axis.gap = axis.normal.dot(pair.apart(axis.s, axis.t));
   if (axis.gap >= T(0)) return;
   axis.normal = -axis.normal;
   axis.gap = -axis.gap;
+}
+
+/// Whether the segments meet.
+/// @param nearest  of their points
+template <std::floating_point T>
+bool do_meet(const SegmentPair<Space<3, T>>& pair, const SegmentAxis<Space<3, T>>& nearest) {
+  return !(nearest.gap > pair.size * DetectionTolerance<T>::rounding);
+}
+/// In the plane the nearest of the ends' distances is how far the origin is from the rim of C,
+/// within it or not. It is within if it is below both pairs of sides, by as much: of segments
+/// almost in line the sides alone do not tell, as they are almost parallel.
+template <std::floating_point T>
+bool do_meet(const SegmentPair<Space<2, T>>& pair, const SegmentAxis<Space<2, T>>& nearest) {
+  const T rounding = pair.size * DetectionTolerance<T>::rounding;
+  if (!(nearest.gap > rounding)) return true;
+  const T below = crossing_axis(pair, nearest).gap;
+  return below <= T(0) && nearest.gap + below <= rounding;
 }
 
 template <class S>
 SegmentAxis<S> segment_axis(const SegmentPair<S>& pair) {
   using T = typename S::Scalar;
   SegmentAxis<S> axis = nearest_points(pair);
-  if (!(axis.gap > pair.size * DetectionTolerance<T>::rounding)) return crossing_axis(pair, axis);
-  axis.normal = pair.apart(axis.s, axis.t) / axis.gap;
+  if (do_meet(pair, axis)) return crossing_axis(pair, axis);
+  // Across a segment whose end is not the nearest point, whatever rounding adds along it.
+  typename S::Vector apart = pair.apart(axis.s, axis.t);
+  if (std::abs(axis.s) < T(1))
+    apart -= apart.dot(pair.half_a) / pair.half_a.squaredNorm() * pair.half_a;
+  if (std::abs(axis.t) < T(1))
+    apart -= apart.dot(pair.half_b) / pair.half_b.squaredNorm() * pair.half_b;
+  axis.normal = apart.normalized();
   refine(pair, axis);
   return axis;
 }

@@ -3,7 +3,9 @@
 // origin: the inner step of the distance algorithm of Gilbert, Johnson and Keerthi (1988).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -34,6 +36,23 @@ class Simplex {
   const Vector& nearest() const { return nearest_; }
   const Vector& direction() const { return direction_; }
   T squared_distance() const { return nearest_.squaredNorm(); }
+  /// Whether the origin lies at least the depth within the hull, all of which is so thick that
+  /// rounding has no say in it.
+  bool holds_origin(T depth) const {
+    if (size_ < 4) return false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector& top = points_[k].point;
+      const Vector& foot = points_[(k + 1) % 4].point;
+      const Vector along = points_[(k + 2) % 4].point - foot;
+      const Vector across = points_[(k + 3) % 4].point - foot;
+      const Vector n = along.cross(across);
+      const T length = n.norm(), above = n.dot(top - foot), height = n.dot(-foot);
+      if (!(length > depth * std::max(along.norm(), across.norm())) ||
+          !(std::abs(height) > depth * length) || (above > T(0)) != (height > T(0)))
+        return false;
+    }
+    return true;
+  }
   bool contains(const Point& p) const {
     for (int i = 0; i < size_; ++i)
       if ((*this)[i].a == p.a && (*this)[i].b == p.b) return true;
@@ -100,7 +119,10 @@ class Simplex {
   // perpendicular to the triangle. Beyond none, its foot is on the face.
   Feature face(const Vector& s, std::size_t i, std::size_t j, const Vector& n) const {
     const T squared = n.squaredNorm();
-    const bool is_flat = !(squared > std::numeric_limits<T>::min());
+    // Points on a line make a normal of nothing but rounding.
+    constexpr T parallel = T(1024) * std::numeric_limits<T>::epsilon();
+    const bool is_flat =
+        !(squared > parallel * parallel * to(s, i).squaredNorm() * to(s, j).squaredNorm());
     const bool is_beyond_i = is_flat || n.cross(to(s, i)).dot(s) > T(0);
     const bool is_beyond_j = is_flat || n.cross(to(s, j)).dot(s) < T(0);
     if (is_beyond_i && is_beyond_j) {
@@ -137,7 +159,7 @@ class Simplex {
   Vector nearest_, direction_;
 };
 
-/// The weights of the points in the nearest one.
+/// The weights of the points in the nearest one: none is negative, and their sum is one.
 template <std::floating_point T>
 std::array<T, 3> weights_of(const Simplex<T>& simplex) {
   using Vector = typename Space<3, T>::Vector;
@@ -145,13 +167,16 @@ std::array<T, 3> weights_of(const Simplex<T>& simplex) {
   const Vector& x = simplex.nearest();
   if (simplex.size() == 2) {
     const Vector along = simplex[1].point - simplex[0].point;
-    weight[1] = (x - simplex[0].point).dot(along) / along.squaredNorm();
+    weight[1] = std::clamp((x - simplex[0].point).dot(along) / along.squaredNorm(), T(0), T(1));
     weight[0] = T(1) - weight[1];
   } else if (simplex.size() == 3) {
     const Vector p = simplex[0].point - x, q = simplex[1].point - x, r = simplex[2].point - x;
     const Vector n = (q - p).cross(r - p);
     weight = {n.dot(q.cross(r)), n.dot(r.cross(p)), n.dot(p.cross(q))};
-    for (T& w : weight) w /= n.squaredNorm();
+    T sum = 0;
+    for (T& w : weight) sum += w = std::max(w, T(0));
+    if (!(sum > T(0))) return {T(1), T(0), T(0)};
+    for (T& w : weight) w /= sum;
   }
   return weight;
 }

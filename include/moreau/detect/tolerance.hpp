@@ -13,6 +13,9 @@ template <std::floating_point T>
 struct DetectionTolerance {
   /// Differences of separations that rounding alone can make.
   static constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
+  /// Depth within a tetrahedron, and thickness of it, above which rounding does not decide on which
+  /// side of its faces a point is.
+  static constexpr T certain = std::same_as<T, float> ? T(1.4e-3) : T(6e-8);
   /// Two corners of a contact polygon this near are one, and a corner this near an edge lies on
   /// it: so that shapes stacked flush keep their features while they tremble. About 1.5e-8.
   static constexpr T coincident = std::same_as<T, float> ? T(3.5e-4) : T(1.5e-8);
