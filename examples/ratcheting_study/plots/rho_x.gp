@@ -2,11 +2,11 @@
 # The change of the inner solid fraction over the wall's displacement, from the first jam on.
 width = 1400; height = 1000
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 2 margins 0.08, 0.92, 0.07, 0.95 spacing 0.19, 0.14
+set multiplot layout 2, 2 margins 0.10, 0.90, 0.07, 0.95 spacing 0.22, 0.14
 unset key
 set xlabel "x  [mm]"
-set ylabel "Δρ, inner volume"
-set cblabel "t  [s]"
+set ylabel "Δρ, inner volume" offset 1, 0
+set cblabel "t  [s]" offset -1, 0
 set palette defined (0 "#16335b", 0.5 "#2e7d4f", 1 "#e0a100")
 set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05
 do for [shape in shapes] {
