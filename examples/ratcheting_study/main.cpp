@@ -92,7 +92,8 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"polyhedron", "polygon", "sphere", "disk"}));
   app.add_option("--seed", o.selection.seeds, "only these samples");
   app.add_option("--case", o.selection.numbers,
-                 "only the cases of these numbers, without a report: for job arrays");
+                 "only the cases of these numbers, without a report: for job arrays")
+      ->check(CLI::PositiveNumber);
   std::vector<std::string> names;
   for (const study::Figure& figure : study::figures()) names.emplace_back(figure.name);
   app.add_option("--figure", o.figures, "only the series that these figures need, and the figures")

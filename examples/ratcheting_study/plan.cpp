@@ -59,9 +59,9 @@ std::string name_of(const Parameters& p, const Parameters& base, double usual_du
   return name;
 }
 
-/// One second as in the paper, three periods where that is longer.
+/// One second as in the paper, five periods where that is longer.
 double duration_at(const std::string& plan, double frequency) {
-  return plan == "small" ? 0.6 : std::max(1.0, 3 / frequency);
+  return plan == "small" ? 0.6 : std::max(1.0, 5 / frequency);
 }
 
 /// Collects cases; one that is asked for twice is there once, in both sets.

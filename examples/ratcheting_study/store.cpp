@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "store.hpp"
 
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -77,7 +78,11 @@ std::vector<Result> read_results(const Places& places, const std::vector<Case>& 
   std::vector<Result> results;
   for (const Case& c : plan) {
     if (has_folder(places, c)) keep(places, c);
-    if (auto result = read_kept(places, c)) results.push_back(std::move(*result));
+    if (auto result = read_kept(places, c))
+      results.push_back(std::move(*result));
+    else if (fs::exists(file_of(places, c)))
+      std::fprintf(stderr, "not read: %s is of a run with other parameters\n",
+                   file_of(places, c).c_str());
   }
   return results;
 }

@@ -23,12 +23,12 @@ PowerLaw law_of(const Series& series, double Parameters::*parameter, double Resu
   return series.size() < 4 ? PowerLaw{} : fit_power_law(points_of(series, parameter, value));
 }
 
-Proportion master_fit(const Series& series, double beta) {
+Proportion master_fit(const Series& series, double Result::*displacement, double beta) {
   std::vector<Point> points;
   for (const Result* r : series) {
     const double load =
         r->scaled_load() * (r->mass + r->wall_mass) / (beta * r->mass + r->wall_mass);
-    points.push_back({load, r->dx_max});
+    points.push_back({load, r->*displacement});
   }
   return fit_proportion(points);
 }
@@ -41,15 +41,50 @@ bool walls_differ(const Series& series) {
 }
 
 /// C and beta of least scatter.
-MovingShare best_master(const Series& series) {
+MovingShare best_master(const Series& series, double Result::*displacement) {
   MovingShare best;
   if (!walls_differ(series)) return best;
   for (int k = 0; k <= 400; ++k) {
     const double beta = 0.005 * k;
-    const Proportion fit = master_fit(series, beta);
+    const Proportion fit = master_fit(series, displacement, beta);
     if (k == 0 || fit.scatter < best.measured_over_predicted.scatter) best = {beta, fit};
   }
   return best;
+}
+
+Scaling scaling_of(const std::vector<Result>& results, const std::string& shape, std::size_t seed,
+                   double Result::*displacement) {
+  const auto law = [&](const char* set, double Parameters::*parameter) {
+    return law_of(series_of(results, set, shape, seed, parameter), parameter, displacement);
+  };
+  Scaling scaling;
+  scaling.frequency = law("frequencies", &Parameters::frequency);
+  scaling.fmax = law("fmax", &Parameters::fmax);
+  scaling.gravity = law("gravity", &Parameters::gravity);
+  const Series all = master_series(results, shape, seed);
+  if (all.size() >= 4) scaling.master = master_fit(all, displacement, 1);
+  scaling.master_share = best_master(all, displacement);
+  const Series walls = series_of(results, "wall-mass", shape, seed, &Parameters::wall_mass_ratio);
+  scaling.wall_share = best_master(walls, displacement);
+  if (walls.size() >= 4) scaling.paper_wall_scatter = master_fit(walls, displacement, 1).scatter;
+  return scaling;
+}
+
+/// The closed form with each run's own thrust, against the displacement without creep.
+void predict_displacements(const Series& all, SampleSummary& sample) {
+  std::vector<Pushed> pushed;
+  std::vector<Point> third, over_frequency;
+  for (const Result* r : all) {
+    const double predicted = sine_displacement(r->push(), 1.0 / 3);
+    pushed.push_back({r->push(), r->dx_active});
+    third.push_back({predicted, r->dx_active});
+    if (r->c.sets.contains("frequencies"))
+      over_frequency.push_back({r->c.parameters.frequency, predicted});
+  }
+  if (pushed.size() < 4) return;
+  if (walls_differ(all)) sample.prediction = fit_moving_share(pushed);
+  sample.prediction_third = fit_proportion(third);
+  if (over_frequency.size() >= 4) sample.predicted_frequency = fit_power_law(over_frequency);
 }
 
 double scaled_loop_distance(const Result& slow, const Result& fast) {
@@ -69,6 +104,32 @@ void fit_compaction_rates(const Series& frequencies, SampleSummary& sample) {
   sample.branches = fit_compaction(rates, two_branches);
   sample.single = fit_compaction(rates, single_form);
   sample.slopes = slopes_about(rates, sample.branches.nu_c);
+  // What the branches have to beat.
+  std::vector<Point> one, law;
+  sample.rate_law = fit_power_law(rates);
+  for (const Point& p : rates) {
+    one.push_back({1, p.y});
+    law.push_back({std::pow(p.x, sample.rate_law.exponent), p.y});
+  }
+  sample.rate_scatter = fit_proportion(one).scatter;
+  sample.rate_law_scatter = fit_proportion(law).scatter;
+}
+
+/// What the closed form says of the speed of the way back, in which the wall passes its start.
+void predict_returns(const Series& frequencies, SampleSummary& sample) {
+  constexpr double beta = 1.0 / 3;
+  std::vector<Point> at_start, at_jam;
+  for (const Result* r : frequencies) {
+    if (!(r->dx_active > 0)) continue;
+    const double nu = r->c.parameters.frequency, inward = std::max(r->net_contraction, 0.0);
+    Push push = r->push();
+    push.thrust = thrust_of_displacement(push, r->dx_active, beta);
+    at_start.push_back({nu, returning_speed(push, 0, beta)});
+    at_jam.push_back({nu, returning_speed(push, inward, beta)});
+  }
+  if (at_start.size() < 4) return;
+  sample.speed_at_start = fit_power_law(at_start);
+  sample.speed_at_jam = fit_power_law(at_jam);
 }
 
 SampleSummary summarize_sample(const std::vector<Result>& results, const std::string& shape,
@@ -76,41 +137,17 @@ SampleSummary summarize_sample(const std::vector<Result>& results, const std::st
   SampleSummary sample;
   sample.seed = seed;
   const Series frequencies = series_of(results, "frequencies", shape, seed);
+  sample.frequencies = frequencies;
   sample.base = find(results, "frequencies", shape, seed, &Parameters::frequency, 5);
   const Result* ten = find(results, "frequencies", shape, seed, &Parameters::frequency, 10);
   if (sample.base != nullptr) sample.behaviour = sample.base->behaviour;
   if (sample.base != nullptr && ten != nullptr)
     sample.loop_distance = scaled_loop_distance(*sample.base, *ten);
-  for (const Result* r : frequencies) {
-    const double nu = r->c.parameters.frequency, share = r->creep / r->dx_max;
-    if (nu == 5) sample.creep_5 = share;
-    if (nu == 20) sample.creep_20 = share;
-    if (nu == 60) sample.creep_60 = share;
-  }
-  sample.dx_frequency = law_of(frequencies, &Parameters::frequency, &Result::dx_max);
-  sample.active_frequency = law_of(frequencies, &Parameters::frequency, &Result::dx_active);
+  sample.whole = scaling_of(results, shape, seed, &Result::dx_max);
+  sample.active = scaling_of(results, shape, seed, &Result::dx_active);
   sample.v_frequency = law_of(frequencies, &Parameters::frequency, &Result::v_max);
-  const auto series = [&](const char* set, double Parameters::*parameter) {
-    return law_of(series_of(results, set, shape, seed, parameter), parameter, &Result::dx_max);
-  };
-  sample.dx_fmax = series("fmax", &Parameters::fmax);
-  sample.dx_gravity = series("gravity", &Parameters::gravity);
-  const Series all = master_series(results, shape, seed);
-  if (all.size() >= 4) sample.master = master_fit(all, 1);
-  sample.master_share = best_master(all);
-  const Series walls = series_of(results, "wall-mass", shape, seed, &Parameters::wall_mass_ratio);
-  sample.wall_share = best_master(walls);
-  if (walls.size() >= 4) sample.paper_wall_scatter = master_fit(walls, 1).scatter;
-  std::vector<Pushed> pushed;
-  std::vector<Point> third;
-  for (const Result* r : all) {
-    pushed.push_back({r->push(), r->dx_active});
-    third.push_back({sine_displacement(r->push(), 1.0 / 3), r->dx_active});
-  }
-  if (pushed.size() >= 4) {
-    if (walls_differ(all)) sample.prediction = fit_moving_share(pushed);
-    sample.prediction_third = fit_proportion(third);
-  }
+  predict_displacements(master_series(results, shape, seed), sample);
+  predict_returns(frequencies, sample);
   fit_compaction_rates(frequencies, sample);
   return sample;
 }

@@ -23,25 +23,43 @@ Series series_of(const std::vector<Result>& results, const std::string& set,
                  const std::string& shape, std::size_t seed,
                  double Parameters::*parameter = &Parameters::frequency);
 
+/// How far the wall moves out, over what is varied. Fits to fewer points than they need are nan.
+struct Scaling {
+  PowerLaw frequency, fmax, gravity;
+  Proportion master;                         ///< over (mg)^2 / [(m + m_w) fmax nu^2]: C
+  MovingShare master_share;                  ///< the same with m_w + beta m, beta fitted
+  MovingShare wall_share;                    ///< the same over the wall masses alone
+  double paper_wall_scatter = std::nan("");  ///< over the wall masses alone, with m + m_w
+};
+
 /// The fits to one sample's runs. Fits to fewer points than they need are nan.
 struct SampleSummary {
   std::size_t seed = 0;
   const Result* base = nullptr;  ///< the baseline, 5 Hz and 6 kN
   Behaviour behaviour;           ///< of the baseline
-  PowerLaw dx_frequency, v_frequency, dx_fmax, dx_gravity;
-  PowerLaw active_frequency;                               ///< of the displacement without creep
-  double creep_5 = std::nan(""), creep_20 = std::nan("");  ///< creep / dx at so many Hz
-  double creep_60 = std::nan("");
-  double loop_distance = std::nan("");       ///< scaled phase portraits at 5 and 10 Hz
-  Proportion master;                         ///< dx over (mg)^2 / [(m + m_w) fmax nu^2]: C
-  MovingShare master_share;                  ///< the same with m_w + beta m, beta fitted
-  MovingShare wall_share;                    ///< the same over the wall masses alone
-  double paper_wall_scatter = std::nan("");  ///< over the wall masses alone, with m + m_w
-  MovingShare prediction;                    ///< with the measured thrust, beta fitted
-  Proportion prediction_third;               ///< with the measured thrust and beta = 1/3
+  Series frequencies;            ///< by rising frequency
+  Scaling whole, active;         ///< of dx_max; of dx_active, the displacement without creep
+  PowerLaw v_frequency;
+  double loop_distance = std::nan("");  ///< scaled phase portraits at 5 and 10 Hz
+  MovingShare prediction;               ///< dx_active with the measured thrust, beta fitted
+  Proportion prediction_third;          ///< with the measured thrust and beta = 1/3
+  PowerLaw predicted_frequency;         ///< of that prediction
+  /// Of the speed of the way back by the closed form, where the wall is again at its start and
+  /// where it jams; its thrust is that which explains the way out, beta = 1/3.
+  PowerLaw speed_at_start, speed_at_jam;
   CompactionFit branches, single;
-  Slopes slopes;                   ///< below and above the nu_c of the branches
-  std::size_t negative_rates = 0;  ///< frequencies without compaction: not in the fits
+  Slopes slopes;      ///< below and above the nu_c of the branches
+  PowerLaw rate_law;  ///< the rival of the branches: one power law
+  double rate_scatter = std::nan(""),
+         rate_law_scatter = std::nan("");  ///< rms ln: about one value, about that law
+  std::size_t negative_rates = 0;          ///< frequencies without compaction: not in the fits
+
+  /// A value of the run at a frequency; nan if it is not done.
+  double at(double frequency, const auto& value_of) const {
+    for (const Result* r : frequencies)
+      if (r->c.parameters.frequency == frequency) return value_of(*r);
+    return std::nan("");
+  }
 };
 
 /// All samples of one shape.

@@ -87,11 +87,16 @@ Cell method_cell(const ShapeSummary& s) {
 Cell preparation_cell(const ShapeSummary& s) {
   const Sample* first = first_of(s);
   if (first == nullptr) return {};
-  const bool settled = first->base->facts.settled;
+  std::size_t settled = 0, samples = 0;
+  for (const Sample& sample : s.samples)
+    if (sample.base != nullptr) {
+      ++samples;
+      settled += sample.base->facts.settled;
+    }
   const double raise = first->base->c.parameters.lid_raise;
-  return {std::string(settled ? "settled" : "still moving after 1 s") + "; lid up " +
-              text_of(100 * raise) + " cm",
-          raise == 0.01};
+  return {std::to_string(settled) + " of " + std::to_string(samples) +
+              " at rest within 1 s; lid up " + text_of(100 * raise) + " cm",
+          settled == samples && raise == 0.01};
 }
 
 Cell load_cell(const std::vector<Result>& results, const ShapeSummary& s) {
@@ -166,13 +171,13 @@ Cell roll_cell(const ShapeSummary& s) {
       over_samples(s, [](const Sample& x) { return x.behaviour.roll_strength; });
   if (first == nullptr || roll.samples == 0) return {};
   std::string value = text_of(roll, 2) + " rad/s, strength " + text_of(strength.mean, 2);
-  if (std::isfinite(first->base->facts.roll_agreement))
-    value += "; at the largest speed " + text_of(100 * first->base->facts.roll_agreement, 2) +
-             " % of the cells turn alike";
+  const double agreement = first->base->facts.roll_agreement;
+  if (std::isfinite(agreement))
+    value += "; at the largest speed " + text_of(100 * agreement, 2) + " % of the cells turn alike";
   const bool clockwise = roll.mean < 0;
   return {value + (clockwise ? "; clockwise, counter-clockwise with the wall at the left"
                              : "; counter-clockwise, clockwise with the wall at the left"),
-          std::nullopt};
+          within(agreement, 0.75, 1)};
 }
 
 Cell rho_x_cell(const ShapeSummary& s) {
@@ -187,7 +192,7 @@ Cell rho_x_cell(const ShapeSummary& s) {
 }
 
 /// Builds a row with a cell per shape.
-Row row(const std::vector<ShapeSummary>& shapes, const char* quantity, const char* paper,
+Row row(const std::vector<ShapeSummary>& shapes, const std::string& quantity, const char* paper,
         const char* accepted, const std::function<Cell(const ShapeSummary&)>& cell) {
   Row r{quantity, paper, accepted, {}};
   for (const ShapeSummary& shape : shapes) r.cells.push_back(cell(shape));
@@ -196,6 +201,20 @@ Row row(const std::vector<ShapeSummary>& shapes, const char* quantity, const cha
 
 using Rows = std::vector<Row>;
 using Shapes = std::vector<ShapeSummary>;
+
+/// What the paper says of the plane beside space: the plane's cells hold only if that does too.
+/// @param more whether the plane has more of the value
+void compare_dimensions(const Shapes& shapes, Row& r, bool more,
+                        const std::function<double(const Sample&)>& value) {
+  for (std::size_t k = 0; k + 1 < shapes.size(); k += 2) {
+    if (r.cells[k].value.empty() || r.cells[k + 1].value.empty()) continue;
+    const double space = over_samples(shapes[k], value).mean,
+                 plane = over_samples(shapes[k + 1], value).mean;
+    Cell& cell = r.cells[k + 1];
+    cell.value += plane > space ? "; above 3D" : "; below 3D";
+    cell.holds = cell.holds.value_or(true) && (plane > space) == more;
+  }
+}
 
 void judge_setting(const std::vector<Result>& results, const Shapes& shapes, Rows& rows) {
   rows.push_back(row(shapes, "1 grains", "1200; 8–37 vertices, 12–70 faces", "exact", sample_cell));
@@ -249,19 +268,22 @@ void judge_period(const Shapes& shapes, Rows& rows) {
   rows.push_back(row(shapes, "10 σxx, σzz", "jammed: horizontal; active: vertical",
                      "σxx > σzz jammed, reverse active", stress_cell));
   rows.push_back(row(shapes, "11 passive velocity field (x right, z up, wall at the right)",
-                     "clockwise roll, wall's side not said", "one roll, sign told", roll_cell));
+                     "clockwise roll, wall's side not said",
+                     "one roll: ≥ 75 % of the cells turn alike; sign told", roll_cell));
   rows.push_back(row(shapes, "12 1e4 Δρ out, in; inner volume", "> 0, < 0", "signs", rho_x_cell));
 }
 
 void judge_rate(const Shapes& shapes, Rows& rows) {
   rows.push_back(row(shapes, "13 compaction rate, 5 Hz, 6 kN [1/s]", "0.025 (3D), 2D slower",
-                     "×2 (3D)", [](const ShapeSummary& s) {
+                     "×2 (3D); 2D below", [](const ShapeSummary& s) {
                        Cell cell = ranged(
                            s, [](const Sample& x) { return of_base(x, &Result::rate); }, 0.0125,
                            0.05);
                        if (plane(s)) cell.holds.reset();
                        return cell;
                      }));
+  compare_dimensions(shapes, rows.back(), false,
+                     [](const Sample& x) { return of_base(x, &Result::rate); });
 }
 
 void judge_scaling(const Shapes& shapes, Rows& rows) {
@@ -272,76 +294,82 @@ void judge_scaling(const Shapes& shapes, Rows& rows) {
                        if (!cell.value.empty()) cell.value += " %";
                        return cell;
                      }));
-  const auto exponent = [&](const char* quantity, const char* paper, const char* accepted,
-                            PowerLaw Sample::*law, double low, double high) {
+  using Law = std::function<const PowerLaw&(const Sample&)>;
+  const auto exponent = [&](const std::string& quantity, const char* paper, const char* accepted,
+                            double low, double high, const Law& law) {
     rows.push_back(row(shapes, quantity, paper, accepted, [=](const ShapeSummary& s) {
-      return ranged(
-          s, [=](const Sample& x) { return (x.*law).exponent; }, low, high);
+      Cell cell = ranged(
+          s, [=](const Sample& x) { return law(x).exponent; }, low, high);
+      const Estimate error =
+          over_samples(s, [=](const Sample& x) { return law(x).exponent_error; });
+      if (!cell.value.empty()) cell.value += ", fit ± " + text_of(error.mean, 1);
+      return cell;
     }));
   };
-  exponent("15 Δx_max over ν", "−2", "−2 ± 0.1", &Sample::dx_frequency, -2.1, -1.9);
-  exponent("15 the same from where f falls below mg", "−2", "−2 ± 0.1", &Sample::active_frequency,
-           -2.1, -1.9);
-  exponent("15 v_max, passive, over ν", "−1", "−1 ± 0.1", &Sample::v_frequency, -1.1, -0.9);
-  exponent("16 Δx_max over fmax", "−1", "−1 ± 0.1", &Sample::dx_fmax, -1.1, -0.9);
-  exponent("16 Δx_max over g", "2", "2 ± 0.15", &Sample::dx_gravity, 1.85, 2.15);
-  rows.push_back(row(shapes, "16 Δx_max ∝ m/(m + m_w): scatter over five wall masses", "0",
-                     "< 20 %", [](const ShapeSummary& s) {
-                       return ranged(
-                           s, [](const Sample& x) { return x.paper_wall_scatter; }, 0, 0.2);
-                     }));
-  rows.push_back(row(shapes, "16 β of Δx_max ∝ 1/(m_w + βm)", "1", "–", [](const ShapeSummary& s) {
-    return told(s, [](const Sample& x) { return x.wall_share.beta; });
-  }));
-}
-
-/// Row 17 wants more of C in the plane than in space; told in the plane's cells.
-void compare_constants(const Shapes& shapes, Row& r) {
-  for (std::size_t k = 0; k + 1 < shapes.size(); k += 2) {
-    if (r.cells[k].value.empty() || r.cells[k + 1].value.empty()) continue;
-    const auto constant = [&](std::size_t i) {
-      return over_samples(shapes[i], [](const Sample& x) { return x.master.factor; }).mean;
-    };
-    r.cells[k + 1].value += constant(k + 1) > constant(k) ? "; above 3D" : "; not above 3D";
-  }
+  const auto displacement = [&](const char* name, Scaling Sample::*of) {
+    const std::string start = name;
+    exponent("15 " + start + " over ν", "−2", "−2 ± 0.1", -2.1, -1.9,
+             [=](const Sample& x) -> const PowerLaw& { return (x.*of).frequency; });
+    exponent("16 " + start + " over fmax", "−1", "−1 ± 0.1", -1.1, -0.9,
+             [=](const Sample& x) -> const PowerLaw& { return (x.*of).fmax; });
+    exponent("16 " + start + " over g", "2", "2 ± 0.15", 1.85, 2.15,
+             [=](const Sample& x) -> const PowerLaw& { return (x.*of).gravity; });
+    rows.push_back(row(shapes, "16 " + start + " ∝ m/(m + m_w): scatter over five wall masses", "0",
+                       "< 20 %", [=](const ShapeSummary& s) {
+                         return ranged(
+                             s, [=](const Sample& x) { return (x.*of).paper_wall_scatter; }, 0,
+                             0.2);
+                       }));
+    rows.push_back(
+        row(shapes, "16 β of " + start + " ∝ 1/(m_w + βm)", "1", "–", [=](const ShapeSummary& s) {
+          return told(s, [=](const Sample& x) { return (x.*of).wall_share.beta; });
+        }));
+  };
+  exponent("15 v_max, passive, over ν", "−1", "−1 ± 0.1", -1.1, -0.9,
+           [](const Sample& x) -> const PowerLaw& { return x.v_frequency; });
+  displacement("Δx_max", &Sample::whole);
+  displacement("Δx from where f falls below mg", &Sample::active);
 }
 
 /// What the wall moves while the falling force still holds it: the paper has none of it.
 Row creep_row(const Shapes& shapes) {
-  return row(
-      shapes, "8 creep while blocked, (x(f = mg) − x_j)/Δx_max at 5; 20; 60 Hz", "0", "–",
-      [](const ShapeSummary& s) {
-        Cell cell;
-        for (double Sample::*creep : {&Sample::creep_5, &Sample::creep_20, &Sample::creep_60}) {
-          const std::string value =
-              text_of(over_samples(s, [=](const Sample& x) { return x.*creep; }), 2);
-          if (!value.empty()) cell.value += (cell.value.empty() ? "" : "; ") + value;
-        }
-        return cell;
-      });
+  return row(shapes, "8 creep while blocked, (x(f = mg) − x_j)/Δx_max at 5; 20; 60 Hz", "0", "–",
+             [](const ShapeSummary& s) {
+               Cell cell;
+               for (const double nu : {5.0, 20.0, 60.0}) {
+                 const Estimate creep = over_samples(s, [=](const Sample& x) {
+                   return x.at(nu, [](const Result& r) { return r.creep / r.dx_max; });
+                 });
+                 const std::string value = text_of(creep, 2);
+                 if (!value.empty()) cell.value += (cell.value.empty() ? "" : "; ") + value;
+               }
+               return cell;
+             });
 }
 
 void judge_constant(const Shapes& shapes, Rows& rows) {
-  rows.push_back(row(shapes, "17 C, with m + m_w", "0.01 (3D), 0.05 (2D)", "×3; C(2D) > C(3D)",
-                     [](const ShapeSummary& s) {
-                       const double paper = plane(s) ? 0.05 : 0.01;
-                       return ranged(
-                           s, [](const Sample& x) { return x.master.factor; }, paper / 3,
-                           3 * paper);
-                     }));
-  compare_constants(shapes, rows.back());
-  const auto scatter = [&](const char* quantity, const char* accepted, double high,
-                           const std::function<double(const Sample&)>& value) {
-    rows.push_back(row(shapes, quantity, "one line", accepted,
-                       [=](const ShapeSummary& s) { return ranged(s, value, 0, high); }));
+  const auto displacement = [&](const std::string& name, Scaling Sample::*of) {
+    const auto constant = [=](const Sample& x) { return (x.*of).master.factor; };
+    rows.push_back(row(shapes, "17 C" + name + ", with m + m_w", "0.01 (3D), 0.05 (2D)",
+                       "×3; C(2D) > C(3D)", [=](const ShapeSummary& s) {
+                         const double paper = plane(s) ? 0.05 : 0.01;
+                         return ranged(s, constant, paper / 3, 3 * paper);
+                       }));
+    compare_dimensions(shapes, rows.back(), true, constant);
+    const auto scatter = [&](const std::string& quantity,
+                             const std::function<double(const Sample&)>& value) {
+      rows.push_back(row(shapes, quantity, "one line", "< 20 %",
+                         [=](const ShapeSummary& s) { return ranged(s, value, 0, 0.2); }));
+    };
+    scatter("17 scatter about that line", [=](const Sample& x) { return (x.*of).master.scatter; });
+    scatter("17 scatter, with m_w + βm",
+            [=](const Sample& x) { return (x.*of).master_share.measured_over_predicted.scatter; });
+    rows.push_back(row(shapes, "17 that β", "1", "–", [=](const ShapeSummary& s) {
+      return told(s, [=](const Sample& x) { return (x.*of).master_share.beta; });
+    }));
   };
-  scatter("17 scatter about the line, with m + m_w", "< 20 %", 0.2,
-          [](const Sample& x) { return x.master.scatter; });
-  scatter("17 scatter, with m_w + βm", "< 20 %", 0.2,
-          [](const Sample& x) { return x.master_share.measured_over_predicted.scatter; });
-  rows.push_back(row(shapes, "17 that β", "1", "–", [](const ShapeSummary& s) {
-    return told(s, [](const Sample& x) { return x.master_share.beta; });
-  }));
+  displacement("", &Sample::whole);
+  displacement(" of the way from where f falls below mg", &Sample::active);
 }
 
 /// Frequencies at which the packing loosened have no place in the fits; their number is told.
@@ -360,9 +388,38 @@ void judge_compaction(const Shapes& shapes, Rows& rows) {
     rows.push_back(row(shapes, quantity, paper, accepted,
                        [=](const ShapeSummary& s) { return ranged(s, value, low, high); }));
   };
-  add("18 ν_c [Hz], two branches", "10", "7–14", 7, 14,
+  add("18 ν_c [Hz], two branches", "10", "7–14; the branches fit better than one power law", 7, 14,
       [](const Sample& x) { return x.branches.nu_c; });
-  tell_negative_rates(shapes, rows.back());
+  Row& branches = rows.back();
+  tell_negative_rates(shapes, branches);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const Estimate gain = over_samples(
+        shapes[k], [](const Sample& x) { return x.rate_law_scatter - x.branches.scatter; });
+    if (branches.cells[k].holds && !(gain.mean > 0)) branches.cells[k].holds = false;
+  }
+  rows.push_back(
+      row(shapes, "18 rms of ln(rate) about the branches; about one power law; about one value",
+          "–", "–", [](const ShapeSummary& s) {
+            const auto value = [&](const auto& of) { return text_of(over_samples(s, of).mean, 2); };
+            const std::string first = value([](const Sample& x) { return x.branches.scatter; });
+            if (first.empty()) return Cell{};
+            return Cell{first + "; " + value([](const Sample& x) { return x.rate_law_scatter; }) +
+                            "; " + value([](const Sample& x) { return x.rate_scatter; }),
+                        std::nullopt};
+          }));
+  rows.push_back(row(shapes, "18 1e4 Δρ_1/ρ0 per period at 2; 5; 10; 20; 60 Hz",
+                     "50 below ν_c, falling as ν⁻² above", "–", [](const ShapeSummary& s) {
+                       Cell cell;
+                       for (const double nu : {2.0, 5.0, 10.0, 20.0, 60.0}) {
+                         const Estimate e = over_samples(s, [=](const Sample& x) {
+                           return x.at(
+                               nu, [](const Result& r) { return 1e4 * r.compaction_per_period; });
+                         });
+                         cell.value += (cell.value.empty() ? "" : "; ") +
+                                       (e.samples > 0 ? text_of(e.mean, 2) : "–");
+                       }
+                       return cell;
+                     }));
   add("18 slope below ν_c", "1", "1 ± 0.3", 0.7, 1.3,
       [](const Sample& x) { return x.slopes.below.exponent; });
   add("18 slope above ν_c", "−1", "−1 ± 0.3", -1.3, -0.7,
@@ -382,6 +439,7 @@ std::vector<Row> judge(const std::vector<Result>& results,
                        const std::vector<ShapeSummary>& shapes) {
   Rows rows;
   judge_setting(results, shapes, rows);
+  for (Row& r : rows) r.is_setting = true;
   judge_density(shapes, rows);
   judge_period(shapes, rows);
   rows.push_back(creep_row(shapes));

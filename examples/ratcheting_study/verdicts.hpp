@@ -20,6 +20,7 @@ struct Cell {
 struct Row {
   std::string quantity, paper, accepted;
   std::vector<Cell> cells;  ///< in the order of the shapes
+  bool is_setting = false;  ///< of how the case is set up, not of what comes out
 };
 
 /// @param shapes any; the ranges for polygons and disks are the paper's for 2D where it has some

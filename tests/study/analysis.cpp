@@ -2,6 +2,7 @@
 // What the study fits, on data whose answer is known.
 #include <cmath>
 #include <doctest/doctest.h>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -123,6 +124,28 @@ TEST_CASE("the closed form is what integrating the wall gives") {
     t += h;
   } while (v > 0);
   CHECK(sine_displacement(p, 0.5) == doctest::Approx(x).epsilon(1e-4));
+}
+
+TEST_CASE("speed of the way back") {
+  const Push p = push(0.05);
+  // By small steps, from where the force falls to the thrust.
+  const double omega = 2 * std::numbers::pi * p.frequency, mass = p.moving_mass(0.5), h = 1e-7;
+  double t = -std::acos(1 - 2 * p.thrust / p.fmax) / omega, x = 0, v = 0, at_start = 0;
+  const double inward = 2 * sine_displacement(p, 0.5);
+  for (; x > -inward; t += h) {
+    v += h * (p.thrust - p.fmax / 2 * (1 - std::cos(omega * (t + h / 2)))) / mass;
+    x += h * v;
+    if (x > 0) at_start = -v;
+  }
+  CHECK(returning_speed(p, 0, 0.5) == doctest::Approx(at_start).epsilon(1e-3));
+  CHECK(returning_speed(p, inward, 0.5) == doctest::Approx(-v).epsilon(1e-3));
+  CHECK(thrust_of_displacement(p, sine_displacement(p, 0.5), 0.5) ==
+        doctest::Approx(p.thrust).epsilon(1e-9));
+
+  // At the parabola the displacement goes as 1/nu^2 and the speed as 1/nu.
+  Push slow = push(0.001), fast = slow;
+  fast.frequency *= 4;
+  CHECK(returning_speed(slow, 0, 1) / returning_speed(fast, 0, 1) == doctest::Approx(4));
 }
 
 TEST_CASE("the share of the grains that moves is found from different wall masses") {
