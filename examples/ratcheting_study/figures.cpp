@@ -202,6 +202,7 @@ void add_values(const ShapeSummary& s, Values& values) {
   using Sample = SampleSummary;
   add("dx_frequency_exponent", [](const Sample& x) { return x.whole.frequency.exponent; });
   add("dx_frequency_prefactor", [](const Sample& x) { return x.whole.frequency.prefactor; });
+  add("active_frequency_exponent", [](const Sample& x) { return x.active.frequency.exponent; });
   add("v_frequency_exponent", [](const Sample& x) { return x.v_frequency.exponent; });
   add("v_frequency_prefactor", [](const Sample& x) { return x.v_frequency.prefactor; });
   add("dx_fmax_exponent", [](const Sample& x) { return x.whole.fmax.exponent; });
@@ -273,7 +274,9 @@ const std::vector<Figure>& figures() {
        "Force of the grains on the wall over its displacement (paper, fig. 7)",
        {"frequencies"}},
       {"force_chains",
-       "Normal forces, jammed and active, in a section (paper, fig. 8)",
+       "Normal forces, jammed and active, in a section, each panel relative to its own mean "
+       "(paper, "
+       "fig. 8)",
        {"frequencies"}},
       {"rho_t", "Change of the solid fraction over time (paper, fig. 9)", {"frequencies"}},
       {"rho_x",

@@ -13,8 +13,8 @@ commands = ""
 do for [shape in shapes] {
   if (has("fmax", shape)) {
     p = number("dx_fmax_prefactor", shape); e = number("dx_fmax_exponent", shape)
-    commands = commands.sprintf("file_of('fmax', '%s') using (1e-3 * $1):(mm($2)):(mm(error($3))) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, point_of(shape), color_of(shape), title_of(shape), known(e) ? sprintf(": f_{max}^{%.2f}", e) : "")
+    commands = commands.sprintf("file_of('fmax', '%s') using (1e-3 * $1):(mm($2)):(mm(below(2, 3))):(mm(above(2, 3))) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, point_of(shape), color_of(shape), title_of(shape), known(e) ? sprintf(": f_{max}^{%.2f}", e) : "")
     if (known(e)) { commands = commands.sprintf("mm(%g * (1e3 * x)**%g) with lines linewidth 0.8 linecolor rgb '%s' notitle, ", p, e, color_of(shape)) }
   }
 }
-eval "plot ".commands."2.5 * x**(-1) with lines dashtype 2 linecolor rgb grey title 'paper: f_{max}^{-1}'"
+eval "plot ".commands."2.5 * x**(-1) with lines dashtype 2 linecolor rgb grey title 'paper: slope f_{max}^{-1}'"

@@ -13,8 +13,8 @@ commands = ""
 do for [shape in shapes] {
   if (has("gravity", shape)) {
     p = number("dx_gravity_prefactor", shape); e = number("dx_gravity_exponent", shape)
-    commands = commands.sprintf("file_of('gravity', '%s') using ($1):(mm($2)):(mm(error($3))) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, point_of(shape), color_of(shape), title_of(shape), known(e) ? sprintf(": g^{%.2f}", e) : "")
+    commands = commands.sprintf("file_of('gravity', '%s') using ($1):(mm($2)):(mm(below(2, 3))):(mm(above(2, 3))) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, point_of(shape), color_of(shape), title_of(shape), known(e) ? sprintf(": g^{%.2f}", e) : "")
     if (known(e)) { commands = commands.sprintf("mm(%g * (1 * x)**%g) with lines linewidth 0.8 linecolor rgb '%s' notitle, ", p, e, color_of(shape)) }
   }
 }
-eval "plot ".commands."4e-3 * x**2 with lines dashtype 2 linecolor rgb grey title 'paper: g^2'"
+eval "plot ".commands."4e-3 * x**2 with lines dashtype 2 linecolor rgb grey title 'paper: slope g^2'"

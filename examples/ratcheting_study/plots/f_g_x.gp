@@ -2,7 +2,7 @@
 # The force of the grains on the wall over its displacement, from the first jam on.
 width = 1400; height = 1000
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 2 margins 0.08, 0.92, 0.07, 0.95 spacing 0.19, 0.14
+set multiplot layout 2, 2 margins 0.08, 0.89, 0.07, 0.95 spacing 0.2, 0.14
 unset key
 set xlabel "x  [mm]"
 set ylabel "f_g  [kN]"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Mean loops in the phase plane at two frequencies, raw above and scaled below.
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 4 columnsfirst margins 0.06, 0.99, 0.09, 0.94 spacing 0.06, 0.16
+set multiplot layout 2, 4 columnsfirst margins 0.06, 0.99, 0.09, 0.9 spacing 0.06, 0.18
 set xzeroaxis linetype 1 linecolor rgb grey
 do for [shape in shapes] {
   if (!has("loop5", shape)) {
@@ -10,7 +10,7 @@ do for [shape in shapes] {
     continue
   }
   set title title_of(shape)
-  set key bottom left
+  set key above horizontal maxrows 1
   set xrange [*:*]
   set yrange [*:*]
   stats file_of("loop5", shape) using 1 skip 1 nooutput

@@ -18,6 +18,8 @@ do for [shape in shapes] {
   stats file_of("packing", shape) every ::0::0 using 3 skip 1 nooutput
   box = STATS_min
   set title title_of(shape)
+  set label 1 (shape eq "polyhedron" ? "paper: +2 % by 0.2 s" : "") at 0.22, 0.02 * inner textcolor rgb grey font ",12"
+  set arrow 1 from 0, 0.02 * inner to (shape eq "polyhedron" ? 0.2 : 0), 0.02 * inner nohead dashtype 2 linecolor rgb grey
   plot file_of("packing", shape) using 1:($3 - box) skip 1 with lines linecolor rgb grey linewidth 0.9 title sprintf("whole box, from %.3f", box), \
        file_of("packing", shape) using 1:($2 - inner) skip 1 with lines linecolor rgb color_of(shape) linewidth 1.6 title sprintf("inner volume, from %.3f", inner)
 }

@@ -29,6 +29,10 @@ orange = "#d07a00"
 grey = "#7a7a7a"
 mm(x) = 1e3 * x
 error(x) = x == x ? x : 0  # a spread that is not known is not drawn
+# A bar on a logarithmic axis, as long below as above, of the value and spread in these columns.
+spread_of(k) = valid(k) ? column(k) : 0
+below(k, spread) = column(k) / (1 + spread_of(spread) / column(k))
+above(k, spread) = column(k) + spread_of(spread)
 kN(f) = 1e-3 * f
 shapes = "polyhedron polygon sphere disk"
 title_of(shape) = shape eq "polyhedron" ? "3D, polyhedra" : shape eq "polygon" ? "2D, polygons" : shape eq "sphere" ? "3D, spheres" : "2D, disks"
