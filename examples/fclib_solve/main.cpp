@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <variant>
 
@@ -30,6 +32,19 @@ std::string format_impulses(const Eigen::VectorXd& impulses, Eigen::Index per_co
     text += (k + 1) % per_contact == 0 ? '\n' : ' ';
   }
   return text;
+}
+
+/// Before the time is spent on solving.
+/// @throws std::invalid_argument for an output that is the problem itself or has no folder
+void require_output(const CommandLine& line) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (line.output.empty()) return;
+  if (fs::equivalent(line.output, line.file, none))
+    throw std::invalid_argument("--output: '" + line.output + "' is the problem itself");
+  const fs::path folder = fs::absolute(line.output).parent_path();
+  if (!fs::is_directory(folder))
+    throw std::invalid_argument("--output: there is no folder '" + folder.string() + "'");
 }
 
 /// @returns 0, or 1 if the tolerance was not reached
@@ -70,13 +85,17 @@ int main(int argc, char** argv) {
   app.add_option("--output", line.output, "impulses as text, one contact per line, normal first");
   app.add_option("--time-limit", line.solver.max_seconds,
                  "the best result so far is given after this time [s]");
-  app.footer("Exit status: 0 solved, 1 not solved to the tolerance, 2 bad input.");
+  app.footer(
+      "Exit status: 0 solved, 1 not solved to the tolerance, 2 bad input, or impulses that cannot "
+      "be "
+      "written.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    require_output(line);
     const moreau::AnyFrictionProblem problem = moreau::is_hdf5(line.file)
                                                    ? moreau::read_fclib(line.file)
                                                    : moreau::read_siconos_text(line.file);

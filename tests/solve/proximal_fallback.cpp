@@ -61,3 +61,26 @@ TEST_CASE("what it cannot solve in time it leaves as swept, and says so") {
   CHECK_THROWS_AS(ProximalFallback<>(few_sweeps(1e-8), 0), std::invalid_argument);
   CHECK_THROWS_AS(ProximalFallback<>(few_sweeps(-1)), std::invalid_argument);
 }
+
+TEST_CASE("large friction hides no approach, and numbers that end no failure") {
+  FrictionProblem<Space<3>> problem;
+  problem.delassus.resize(3, 3);
+  problem.delassus.setIdentity();
+  problem.free_velocity = Eigen::Vector3d(-1, 5, 0);
+  problem.friction = Eigen::VectorXd::Constant(1, 1e4);
+  Eigen::VectorXd impulses;
+  ProximalOptions options;
+  options.tolerance = 1e-4;
+  CHECK(ProximalSolver(options).solve(problem, impulses).converged);
+  CHECK((impulses - Eigen::Vector3d(1, -5, 0)).norm() < 1e-3);
+
+  options.max_sweeps = 1000;
+  impulses.setZero();
+  problem.friction[0] = 1e160;
+  const ProblemReport steep = ProximalSolver(options).solve(problem, impulses);
+  CHECK((!steep.converged || (impulses - Eigen::Vector3d(1, -5, 0)).norm() < 1e-3));
+  impulses.setZero();
+  problem.friction[0] = 0.5;
+  problem.free_velocity[0] = -1e200;
+  CHECK_FALSE(ProximalSolver(options).solve(problem, impulses).converged);
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Both solvers on random assemblies: the suite for all, and what these two have to fulfil besides.
+#include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -144,4 +146,67 @@ TEST_CASE("options out of range are refused") {
   options.check_interval = 0;
   CHECK_THROWS_WITH_AS(ColouredGaussSeidel{options}, doctest::Contains("check_interval"),
                        std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("a warm start that is no number, or beyond them, is none", S, Space<2>,
+                   Space<3>) {
+  Assembly<S> problem(3);
+  std::vector<typename S::Vector> cold;
+  const SolveReport expected =
+      problem.solve(ColouredGaussSeidel(fast<S>(1e-8)), problem.laws, cold);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300}) {
+    std::vector<typename S::Vector> impulses(cold.size(), S::Vector::Constant(bad));
+    const SolveReport report =
+        problem.solve(ColouredGaussSeidel(fast<S>(1e-8)), problem.laws, impulses);
+    CHECK(report.converged == expected.converged);
+    CHECK(report.sweeps == expected.sweeps);
+    CHECK(impulses == cold);
+  }
+}
+
+// The change per sweep falls below the tolerance long before the load has come down the column.
+TEST_CASE_TEMPLATE("sweeps go on while approach is left over", SolverT, NonlinearGaussSeidel,
+                   ColouredGaussSeidel) {
+  using S = Space<2>;
+  constexpr std::uint32_t height = 100;  // body 0 is the floor
+  std::vector<Contact<S>> contacts;
+  std::vector<MobilityRoot<S>> roots(height + 1);
+  std::vector<S::Twist> free(height + 1, S::Twist(0, -1, 0));
+  const S::Vector up(0, 1);
+  for (std::uint32_t k = 0; k < height; ++k) {
+    contacts.push_back({k, k + 1, 0, 0, S::contact_frame(up), up, -up});
+    roots[k + 1].linear = S::Matrix::Identity();
+    roots[k + 1].angular = S::Inertia::Identity();
+  }
+  roots[0].linear.setZero();
+  roots[0].angular.setZero();
+  free[0].setZero();
+  BodyDelassus<S> op;
+  op.assemble(contacts, roots, free);
+  const std::vector<SignoriniCoulomb<double>> laws(1, SignoriniCoulomb<double>(0.3));
+  const std::vector<std::uint32_t> law_of(height, 0);
+  std::vector<S::Vector> impulses(height, S::Vector::Zero());
+  typename SolverT::Options options;
+  options.tolerance = 1e-3;
+  options.stop_test = StopTest::qm16;
+  options.max_sweeps = 200000;
+  typename SolverT::template Workspace<BodyDelassus<S>, SignoriniCoulomb<double>> workspace;
+  const SolveReport report = SolverT(options).solve(
+      op, std::span<const SignoriniCoulomb<double>>(laws), std::span<const std::uint32_t>(law_of),
+      std::span(impulses), workspace);
+  CHECK(report.converged);
+  CHECK(report.left_over <= SolveReport::most_left_over);
+}
+
+TEST_CASE_TEMPLATE("friction beyond all measure hides no approach", S, Space<2>, Space<3>) {
+  Assembly<S> problem(5);
+  const std::vector<SignoriniCoulomb<double>> steep(problem.laws.size(),
+                                                    SignoriniCoulomb<double>(1e5));
+  for (const double tolerance : {1e-3, 1e-4}) {
+    std::vector<typename S::Vector> impulses;
+    const SolveReport report =
+        problem.solve(ColouredGaussSeidel(fast<S>(tolerance)), steep, impulses);
+    CHECK((!report.converged || report.left_over <= SolveReport::most_left_over));
+    CHECK(report.converged == !report.capped);
+  }
 }

@@ -59,6 +59,17 @@ struct Contacts {
       return point.a < bodies && point.b < bodies && point.law < laws;
     });
   }
+  /// Sum of the impulses that a body received, world axes [N s].
+  typename S::Vector impulse_on(std::uint32_t body) const {
+    typename S::Vector sum = S::Vector::Zero();
+    for (std::size_t c = 0; c < size(); ++c) {
+      const Contact<S>& point = points[c];
+      if (point.a != body && point.b != body) continue;
+      const typename S::Vector impulse = point.frame * impulses[c];
+      sum += point.b == body ? impulse : typename S::Vector(-impulse);
+    }
+    return sum;
+  }
   /// Takes out all points; keeps the memory.
   void clear() {
     points.clear();

@@ -127,17 +127,17 @@ inline std::filesystem::path behind_links(std::filesystem::path path) {
 /// device or a pipe, is written to.
 /// @throws std::system_error naming the path and the reason; the old file is then as it was
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path target = detail::behind_links(path);
-  std::filesystem::path partial = target;
-  partial += ".part";
   std::error_code ignored;
-  const std::filesystem::file_status there = std::filesystem::status(target, ignored);
-  if (std::filesystem::is_other(there)) {
+  // Asked of the path itself: the link of a pipe's descriptor names no file.
+  if (std::filesystem::is_other(std::filesystem::status(path, ignored))) {
     OutputFile file(path);
     file.write(bytes);
     file.close();
     return;
   }
+  const std::filesystem::path target = detail::behind_links(path);
+  std::filesystem::path partial = target;
+  partial += ".part";
   try {
     OutputFile file(partial);
     file.write(bytes);

@@ -209,6 +209,7 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
 
 /// Reads a problem from the text of a dump, in the units it has. A text that was cut within its
 /// last number cannot be told from a whole one: some are written without a line end.
+/// What comes after mu is not read: many dumps have a flag there.
 /// @throws std::invalid_argument naming what is wrong if the text is no valid problem
 inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   constexpr std::string_view self = "parse_siconos_text";

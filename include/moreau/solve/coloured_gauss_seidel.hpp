@@ -67,6 +67,7 @@ class TeamGaussSeidel {
   SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& sweeps) const {
+    detail::drop_if_not_finite(impulses);
     SolveReport report = attempt(op, laws, law_of, impulses, sweeps, options_.accelerate);
     if (!options_.accelerate || report.left_over <= 1) return report;
     // Worse than no impulses at all: driven away, by the warm start or by acceleration. Once more
@@ -107,6 +108,8 @@ class TeamGaussSeidel {
       const double change = std::max(report.quad_dv, report.quad_dvr);
       if (options_.stop_test == StopTest::qm16) {
         report.converged = passes_qm16(report, options_.tolerance);
+        if (report.converged) certify(op, laws, law_of, impulses, sweeps, report);
+        report.converged = report.converged && is_closed(report);
       } else if (report.quad_dv <= believed || ++unchecked == most_unchecked) {
         unchecked = 0;
         certify(op, laws, law_of, impulses, sweeps, report);
@@ -122,10 +125,8 @@ class TeamGaussSeidel {
       }
     }
     if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.go_back();
-    if (!report.converged || options_.stop_test == StopTest::qm16)
-      certify(op, laws, law_of, impulses, sweeps, report);
+    if (!report.converged) certify(op, laws, law_of, impulses, sweeps, report);
     if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
-    report.converged = report.converged && report.left_over <= SolveReport::most_left_over;
     report.capped = !report.converged;
     return report;
   }
@@ -137,8 +138,11 @@ class TeamGaussSeidel {
   /// what it was: acceleration can drive away.
   static constexpr double kept = 0.5, astray = 1e3;
 
+  static bool is_closed(const SolveReport& report) {
+    return report.left_over <= SolveReport::most_left_over;
+  }
   bool is_solved(const SolveReport& report) const {
-    return report.residual <= options_.tolerance && report.left_over <= SolveReport::most_left_over;
+    return report.residual <= options_.tolerance && is_closed(report);
   }
 
   /// The residual of the impulses as they are, with velocities made from them alone.

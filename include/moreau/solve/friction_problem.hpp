@@ -81,28 +81,36 @@ namespace detail {
 /// units.
 struct MapError {
   double map, velocity, impulse;  ///< the map, max(|b|, |u|), |r|
+  double closing;                 ///< | min(0, u_n) |
 
   double residual() const { return relative(std::max(velocity, impulse)); }
-  /// The residual, or that of the velocities alone times a factor. Without it impulses that grow
-  /// without bound, where there is no solution, would look like one.
-  double guarded(double factor) const { return std::max(residual(), factor * relative(velocity)); }
-  double relative(double norm) const {
-    const double e = norm > 0 ? map / norm : map;
-    return e >= 0 ? e : std::numeric_limits<double>::infinity();  // where it is not a number
+  /// The residual, or a factor times that of the velocities alone or the approach that is left.
+  /// Without it impulses that grow without bound, where there is no solution, would look like one,
+  /// and so would none where mu is large: the map of an approach with slip is then 1/mu of it.
+  double guarded(double factor) const {
+    return std::max(residual(), factor * std::max(relative(velocity), share(closing, velocity)));
+  }
+  double relative(double norm) const { return share(map, norm); }
+  /// Of the norm; of 1 if that is 0, and infinite where numbers end.
+  static double share(double part, double norm) {
+    const double e = norm > 0 ? part / norm : part;
+    return e >= 0 && std::isfinite(norm) ? e : std::numeric_limits<double>::infinity();
   }
 };
 
 template <class S>
 MapError map_error(const Eigen::VectorXd& u, const Eigen::VectorXd& r, const Eigen::VectorXd& b,
                    const Eigen::VectorXd& friction) {
-  double map = 0;
+  double map = 0, closing = 0;
   for (Eigen::Index c = 0; c < friction.size(); ++c) {
     const SignoriniCoulomb<double> law(friction[c]);
     const typename S::Vector u_c = u.template segment<S::dim>(S::dim * c);
     const typename S::Vector r_c = r.template segment<S::dim>(S::dim * c);
     map += law.natural_map(u_c, r_c).squaredNorm();
+    const double left = std::min(0.0, u_c[0]);
+    closing += left * left;
   }
-  return {std::sqrt(map), std::max(b.norm(), u.norm()), r.norm()};
+  return {std::sqrt(map), std::max(b.norm(), u.norm()), r.norm(), std::sqrt(closing)};
 }
 
 }  // namespace detail

@@ -6,15 +6,24 @@
 #include <Eigen/SparseCore>
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/solve/friction_problem.hpp"
 
 namespace moreau {
+
+/// A law whose impulses are those of Coulomb's with this friction, so that matrices and
+/// coefficients of friction say all of a problem.
+template <class L, class S>
+concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
+  { law.friction() } -> std::convertible_to<double>;
+};
 
 /// A problem and where its contacts come from.
 template <class S>

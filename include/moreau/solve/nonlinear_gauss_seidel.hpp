@@ -50,6 +50,14 @@ void apply_alone(Operator& op, std::span<const typename Operator::Vector> impuls
     if (!impulses[c].isZero(0)) op.apply(c, impulses[c]);
 }
 
+/// A warm start of numbers that cannot be squared is none: the sweeps begin from zero.
+template <class Vector>
+void drop_if_not_finite(std::span<Vector> impulses) {
+  const auto is_usable = [](const Vector& r) { return std::isfinite(r.squaredNorm()); };
+  if (!std::all_of(impulses.begin(), impulses.end(), is_usable))
+    std::fill(impulses.begin(), impulses.end(), Vector::Zero());
+}
+
 }  // namespace detail
 
 /// Order of the contacts in consecutive sweeps.
@@ -95,13 +103,14 @@ class NonlinearGaussSeidel {
   /// @param laws     table of laws
   /// @param law_of   one per contact: its entry in the table
   /// @param impulses one per contact, in: the warm start, out: the solution; in the contact's
-  ///                 frame, normal first [N s]
+  ///                 frame, normal first [N s]; a warm start that is not finite counts as none
   /// @returns what was reached; never throws on failure to converge
   template <class Operator, class Law>
   SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
                     std::span<typename Operator::Vector> impulses,
                     const Workspace<Operator, Law>& = {}) const {
     SolveReport report;
+    detail::drop_if_not_finite(impulses);
     detail::apply_alone<Operator>(op, impulses);
     if (op.size() == 0) return report;
     report.converged = false;
@@ -112,8 +121,8 @@ class NonlinearGaussSeidel {
       ++report.sweeps;
       report.converged = passes(op, laws, law_of, impulses, report);
     }
-    if (options_.stop_test == StopTest::qm16) certify(op, laws, law_of, impulses, report);
-    report.converged = report.converged && report.left_over <= SolveReport::most_left_over;
+    if (options_.stop_test == StopTest::qm16 && !report.converged)
+      certify(op, laws, law_of, impulses, report);
     report.capped = !report.converged;
     return report;
   }
@@ -175,9 +184,11 @@ class NonlinearGaussSeidel {
   template <class Operator, class Law>
   bool passes(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
               std::span<const typename Operator::Vector> impulses, SolveReport& report) const {
-    if (options_.stop_test == StopTest::qm16) return passes_qm16(report, options_.tolerance);
+    const bool by_change = options_.stop_test == StopTest::qm16;
+    if (by_change && !passes_qm16(report, options_.tolerance)) return false;
     certify(op, laws, law_of, impulses, report);
-    return report.residual <= options_.tolerance && report.left_over <= SolveReport::most_left_over;
+    return (by_change || report.residual <= options_.tolerance) &&
+           report.left_over <= SolveReport::most_left_over;
   }
 
   /// The residual with velocities made of the impulses alone: what many small changes rounded off

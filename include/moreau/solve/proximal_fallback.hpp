@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,7 +16,6 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/state.hpp"
-#include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/friction_problem.hpp"
 #include "moreau/solve/gather_problem.hpp"
@@ -27,13 +25,6 @@
 #include "moreau/solve/residual.hpp"
 
 namespace moreau {
-
-/// A law whose impulses are those of Coulomb's with this friction, so that matrices and
-/// coefficients of friction say all of a problem.
-template <class L, class S>
-concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
-  { law.friction() } -> std::convertible_to<double>;
-};
 
 /// Sweeps, and where these stall the proximal point method; the header says for what.
 /// @tparam First solves what it can; its options give tolerance and stopping test
@@ -73,7 +64,7 @@ class ProximalFallback {
     workspace.swept.assign(impulses.begin(), impulses.end());
     SolveReport polished = report;
     polish(op, laws, law_of, impulses, polished);
-    if (polished.residual < report.residual) return polished;
+    if (is_nearer(polished, report)) return polished;
     report.sweeps = polished.sweeps;
     std::copy(workspace.swept.begin(), workspace.swept.end(), impulses.begin());
     detail::apply_alone<Operator>(op, impulses);
@@ -109,6 +100,13 @@ class ProximalFallback {
     report.converged =
         report.residual <= tolerance() && report.left_over <= SolveReport::most_left_over;
     report.capped = !report.converged;
+  }
+
+  /// By the residual among those that leave no approach over; it falls where impulses diverge.
+  static bool is_nearer(const SolveReport& one, const SolveReport& other) {
+    constexpr double most = SolveReport::most_left_over;
+    if (one.left_over <= most && other.left_over <= most) return one.residual < other.residual;
+    return one.left_over < other.left_over;
   }
 
   double tolerance() const { return first_.options().tolerance; }

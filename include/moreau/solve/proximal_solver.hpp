@@ -38,8 +38,9 @@ struct ProblemReport {
   int newton_steps = 0;    ///< each with a factorization
   int proximal_steps = 0;  ///< 0: Gauss-Seidel sufficed
   double residual = 0;     ///< natural_map_residual() of the result [-]
-  /// The residual is within the tolerance, and relative to the velocities alone within its root: a
-  /// problem without solution, where impulses grow without bound, does not pass.
+  /// The residual is within the tolerance; relative to the velocities alone it, and the approach
+  /// that is left, are within its root: a problem without solution, where impulses grow without
+  /// bound, does not pass.
   bool converged = false;
 };
 

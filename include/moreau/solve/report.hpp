@@ -13,9 +13,11 @@ struct SolveReport {
   /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1
   /// [-]. Absolute where r = 0 [m/s].
   double residual = 0;
-  /// The same map relative to the approach there would be without impulses [-]. Where impulses grow
-  /// without bound because there is no solution, the residual is small and this is not: beyond
-  /// `most_left_over` no solution counts as converged. 0 where nothing approaches.
+  /// The same map, or the approach that is left if that is larger, relative to the approach there
+  /// would be without impulses; root mean squares over the contacts [-]. Where impulses grow
+  /// without bound because there is no solution, or loads are still on their way through a long
+  /// chain, the residual is small and this is not: beyond `most_left_over` no solution counts as
+  /// converged, and sweeps go on. 0 where nothing approaches.
   double left_over = 0;
   static constexpr double most_left_over = 0.1;  ///< see left_over [-]
 

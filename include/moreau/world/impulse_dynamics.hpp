@@ -113,6 +113,11 @@ class ImpulseDynamics {
                const Contacts<S>& previous, Contacts<S>& contacts, Scalar grain_size, Scalar step,
                StepReport& report);
 
+  /// visitor(operator, table of laws, entry of each contact) of the last step.
+  decltype(auto) visit_problem(const Materials<Law>& materials, auto& visitor) const {
+    return visitor(operator_, laws(materials), std::span<const std::uint32_t>(law_of_));
+  }
+
  private:
   friend struct moreau::StateAccess;
   auto state() { return std::tie(solver_, correction_, integrator_); }

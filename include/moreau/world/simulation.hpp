@@ -287,14 +287,13 @@ class Simulation {
   /// @throws std::invalid_argument for a body that is not of this simulation
   Vector contact_impulse(BodyId body) const {
     assembly_.require_body(body, "Simulation::contact_impulse");
-    Vector sum = Vector::Zero();
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const Contact<S>& contact = contacts_.points[c];
-      if (contact.a != body.value && contact.b != body.value) continue;
-      const Vector impulse = contact.frame * contacts_.impulses[c];
-      sum += contact.b == body.value ? impulse : Vector(-impulse);
-    }
-    return sum;
+    return contacts_.impulse_on(body.value);
+  }
+  /// What the solver was given in the last step, for contact_problem() and solvers of one's own:
+  /// visitor(op, laws, law_of) with the operator u = op r + b of contacts(), the table of laws and
+  /// the entry of each contact in it.
+  decltype(auto) visit_contact_problem(auto&& visitor) const requires set_valued {
+    return dynamics_.visit_problem(materials_, visitor);
   }
 
  private:

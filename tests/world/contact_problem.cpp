@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/world/contact_problem.hpp"
+
+#include <doctest/doctest.h>
+
+#include "moreau/instances/friction_problems.hpp"
+
+#include "world/assemblies.hpp"
+
+using namespace moreau;
+using scenes::BoxOfGrains;
+
+namespace {
+
+/// The impulses of the step, those of the problem's contacts.
+template <class World, class Gathered>
+Eigen::VectorXd impulses_of(const World& world, const Gathered& gathered) {
+  constexpr int rows = decltype(gathered.problem)::Space::dim;
+  Eigen::VectorXd r(rows * Eigen::Index(gathered.contacts.size()));
+  for (std::size_t k = 0; k < gathered.contacts.size(); ++k)
+    r.segment<rows>(rows * Eigen::Index(k)) = world.contacts().impulses[gathered.contacts[k]];
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a step's problem is solved by the step's impulses, and by another solver",
+                   ShapeT, Polyhedron<>, Polygon<>) {
+  BoxOfGrains<ShapeT> scene(8);
+  auto& world = scene.simulation;
+  for (int k = 0; k < 400; ++k) world.step(5e-4);
+  REQUIRE(world.contacts().size() > 0);
+
+  const auto gathered = contact_problem(world);  // matrices, and which contact is which
+  Eigen::VectorXd impulses;
+  const ProblemReport report = ProximalSolver().solve(gathered.problem, impulses);
+
+  CHECK(report.converged);
+  CHECK(natural_map_residual(gathered.problem, impulses_of(world, gathered)) < 1e-3);
+  // Which impulses solve it is not unique where contacts are many: the velocities are.
+  CHECK(natural_map_residual(gathered.problem, impulses) < 1e-10);
+}
