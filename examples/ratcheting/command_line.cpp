@@ -93,8 +93,9 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--tolerance", p.tolerance, "of the stopping test, below 1")->check(below_one);
   std::string test = "qm16";
-  app.add_option("--stop-test", test,
-                 "qm16: change per sweep, as in LMGC90; residual: natural map, stronger")
+  app.add_option(
+         "--stop-test", test,
+         "qm16: change per sweep, as in LMGC90; residual: the natural map of the contact law")
       ->check(CLI::IsMember({"qm16", "residual"}));
   app.add_option("--max-sweeps", p.max_sweeps, "cap per step; capped steps are counted")
       ->check(CLI::Range(1, 100000000));
@@ -110,6 +111,10 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--margin", p.margin, "alert distance / smallest size")->check(positive);
   bool no_correction = false;
   app.add_flag("--no-correction", no_correction, "leave overlaps as they are");
+  app.add_option("--solver", p.solver,
+                 "coloured sweeps with momentum, or plain ones, the reference; the preparation "
+                 "takes the first")
+      ->check(CLI::IsMember({"coloured", "plain"}));
   app.add_option("--threads", p.threads, "threads of the solver; they do not change the results")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--cold-start", p.cold_start,

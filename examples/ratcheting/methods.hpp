@@ -13,6 +13,7 @@
 #include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/thread_team.hpp"
 #include "moreau/world/simulation.hpp"
 
@@ -21,11 +22,13 @@
 namespace ratcheting {
 
 /// The library's solver on threads. To see how unique its solutions are it can be told to begin
-/// every step without the impulses of the last.
+/// every step without the impulses of the last; to see what its speed costs, to leave the step to
+/// the reference solver.
 class StudySolver : public moreau::ParallelGaussSeidel {
  public:
-  explicit StudySolver(const Options& options = {}, int threads = 1, bool cold = false)
-      : ParallelGaussSeidel(options, threads), cold_(cold) {}
+  explicit StudySolver(const Options& options = {}, int threads = 1, bool cold = false,
+                       bool plain = false)
+      : ParallelGaussSeidel(options, threads), cold_(cold), plain_(plain) {}
 
   template <class Operator, class Law>
   moreau::SolveReport solve(Operator& op, std::span<const Law> laws,
@@ -33,14 +36,23 @@ class StudySolver : public moreau::ParallelGaussSeidel {
                             std::span<typename Operator::Vector> impulses,
                             Workspace<Operator, Law>& workspace) const {
     if (cold_) std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
+    if (plain_) return reference().solve(op, laws, law_of, impulses);
     return ParallelGaussSeidel::solve(op, laws, law_of, impulses, workspace);
   }
 
  private:
   friend struct moreau::StateAccess;
-  auto state() { return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_); }
+  auto state() { return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_, plain_); }
 
-  bool cold_;
+  moreau::NonlinearGaussSeidel reference() const {
+    moreau::GaussSeidelOptions plain;
+    plain.tolerance = options().tolerance;
+    plain.stop_test = options().stop_test;
+    plain.max_sweeps = options().max_sweeps;
+    return moreau::NonlinearGaussSeidel(plain);
+  }
+
+  bool cold_, plain_;
 };
 
 struct ContactDynamics {

@@ -46,8 +46,9 @@ struct Parameters {
   /// After so long under the lid's force the packing is taken as it is [s]: without gravity, grains
   /// that touch nothing keep their energy for ever.
   double preparation_time = 1;
-  double margin = 0.02;    ///< alert distance, relative to the smallest size
-  bool correction = true;  ///< overlap correction outside the velocity problem
+  double margin = 0.02;             ///< alert distance, relative to the smallest size
+  bool correction = true;           ///< overlap correction outside the velocity problem
+  std::string solver = "coloured";  ///< or plain: one contact after another, the reference
   int threads = 1;
   bool cold_start = false;  ///< of every solution, without the impulses of the step before
   /// Not 0: after the preparation the grains, and so the contacts, are put into another order, by

@@ -114,7 +114,7 @@ inline std::string packing_identity(const Parameters& p) {
   Json json = to_json(p);
   for (const char* later : {"frequency", "fmax", "fmin", "gravity", "wall_mass_ratio", "duration",
                             "step", "lid_raise", "tolerance", "stop_test", "max_sweeps",
-                            "overlap_correction", "threads", "cold_start", "order"})
+                            "overlap_correction", "solver", "threads", "cold_start", "order"})
     json.erase(later);
   return json.dump();
 }

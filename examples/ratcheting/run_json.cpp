@@ -48,21 +48,25 @@ Json to_json(const SolverTotals& t, double size) {
 }
 
 Json versions() {
-  return {
-    {"moreau", MOREAU_VERSION_STRING},
-        {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
-                      "." + std::to_string(EIGEN_MINOR_VERSION)},
 #if defined(__clang__)
-    {
-      "compiler", __VERSION__
-    }
-  };
+  constexpr const char* compiler = __VERSION__;
 #else
-    {
-      "compiler", "g++ " __VERSION__
-    }
-  };
+  constexpr const char* compiler = "g++ " __VERSION__;
 #endif
+  // Other instructions round otherwise, and another rounding is, in time, another packing.
+#if defined(__AVX512F__)
+  constexpr const char* instructions = "AVX-512";
+#elif defined(__AVX2__) && defined(__FMA__)
+  constexpr const char* instructions = "AVX2 and FMA";
+#else
+  constexpr const char* instructions = "no wide instructions";
+#endif
+  return {
+      {"moreau", MOREAU_VERSION_STRING},
+      {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                    "." + std::to_string(EIGEN_MINOR_VERSION)},
+      {"compiler", compiler},
+      {"instructions", instructions}};
 }
 
 namespace {

@@ -337,6 +337,17 @@ std::string contradictions(const Shapes& shapes) {
   return text;
 }
 
+/// What the runs were made with; how many by each where they are not all alike.
+std::string builds(const std::vector<Result>& results) {
+  std::map<std::string, int> count;
+  for (const Result& r : results) ++count[r.facts.versions];
+  std::string text;
+  for (const auto& [versions, runs] : count)
+    text += (text.empty() ? "" : "; ") + versions +
+            (count.size() > 1 ? " (" + std::to_string(runs) + " runs)" : "");
+  return text;
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& folder, const std::string& plan_name,
@@ -349,7 +360,7 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       "` from the runs that are done; the study "
       "is that of Azéma, Radjai, Peyroux, Richefeu and Saussine, "
       "[arXiv 0711.1081](https://arxiv.org/abs/0711.1081). " +
-      (results.empty() ? "" : results.front().facts.versions) +
+      builds(results) +
       ". Every run stands in [cases.csv](cases.csv), what the figures show in [data](data), the "
       "wall clock in [wall_clock.md](wall_clock.md).\n\n" +
       completeness(plan, results) + "\n## Against the paper\n\n" +

@@ -35,6 +35,8 @@ Facts read_facts(const nlohmann::json& json) {
   const auto& versions = json.at("versions");
   f.versions = "moreau " + versions.value("moreau", "") + ", Eigen " + versions.value("eigen", "") +
                ", " + versions.value("compiler", "");
+  if (const std::string wide = versions.value("instructions", ""); !wide.empty())
+    f.versions += ", " + wide;
   const auto& sample = json.at("sample");
   f.settled = sample.value("settled", false);
   f.vertices = read_range(sample, "vertices");
