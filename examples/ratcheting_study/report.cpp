@@ -189,7 +189,22 @@ std::string numerics(const std::vector<Result>& results) {
   return text;
 }
 
-/// Rows 7, 8, 13 and 15 from the runs of another set than the frequencies.
+/// Of a series the runs that have the paper's values but for one parameter.
+Series varying(const Series& series, double Parameters::*parameter) {
+  const Parameters paper;
+  Series kept;
+  for (const Result* r : series) {
+    bool keeps = true;
+    for (const auto other : {&Parameters::frequency, &Parameters::fmax, &Parameters::gravity,
+                             &Parameters::wall_mass_ratio})
+      keeps = keeps && (other == parameter || r->c.parameters.*other == paper.*other);
+    if (keeps) kept.push_back(r);
+  }
+  return kept;
+}
+
+/// Rows 7, 8, 13 and 15, and of a set that varies more than the frequency 16 and 17, from the runs
+/// of another set.
 std::string elsewhere(const std::string& set, const std::string& title,
                       const std::vector<Result>& results, const Shapes& shapes) {
   std::string text = header(title, shapes);
@@ -201,17 +216,29 @@ std::string elsewhere(const std::string& set, const std::string& title,
     }
     text += "\n";
   };
-  const auto law = [](const Series& series, double Result::*field) {
+  const auto law = [](const Series& series, double Result::*field,
+                      double Parameters::*parameter = &Parameters::frequency) {
     std::vector<Point> points;
-    for (const Result* r : series) points.push_back({r->c.parameters.frequency, r->*field});
+    for (const Result* r : varying(series, parameter))
+      points.push_back({r->c.parameters.*parameter, r->*field});
     return points.size() < 3 ? std::string() : text_of(fit_power_law(points).exponent);
+  };
+  const auto master = [](const Series& series, double Result::*field) {
+    std::vector<Point> points;
+    for (const Result* r : series) points.push_back({r->scaled_load(), r->*field});
+    if (varying(series, &Parameters::fmax).size() < 3) return std::string();
+    const Proportion fit = fit_proportion(points);
+    return text_of(fit.factor) + ", scatter " + text_of(100 * fit.scatter) + " %";
   };
   const auto at_five = [](const Series& series,
                           const std::function<std::string(const Result&)>& f) {
-    for (const Result* r : series)
+    for (const Result* r : varying(series, &Parameters::frequency))
       if (r->c.parameters.frequency == 5) return f(*r);
     return std::string();
   };
+  const bool varies_more = std::any_of(results.begin(), results.end(), [&](const Result& r) {
+    return r.c.sets.contains(set) && r.c.parameters.fmax != Parameters{}.fmax;
+  });
   line("7 periods in which x_j falls, 5 Hz", [&](const Series& s) {
     return at_five(s, [](const Result& r) {
       return std::to_string(r.contracting) + " of " + std::to_string(r.periods.size());
@@ -229,6 +256,18 @@ std::string elsewhere(const std::string& set, const std::string& title,
   line("15 the same from where f falls below mg",
        [&](const Series& s) { return law(s, &Result::dx_active); });
   line("15 exponent of v_max over ν", [&](const Series& s) { return law(s, &Result::v_max); });
+  if (!varies_more) return text;
+  line("16 exponent of Δx_max over fmax",
+       [&](const Series& s) { return law(s, &Result::dx_max, &Parameters::fmax); });
+  line("16 the same from where f falls below mg",
+       [&](const Series& s) { return law(s, &Result::dx_active, &Parameters::fmax); });
+  line("16 exponent of Δx_max over g",
+       [&](const Series& s) { return law(s, &Result::dx_max, &Parameters::gravity); });
+  line("16 the same from where f falls below mg",
+       [&](const Series& s) { return law(s, &Result::dx_active, &Parameters::gravity); });
+  line("17 C of all", [&](const Series& s) { return master(s, &Result::dx_max); });
+  line("17 the same from where f falls below mg",
+       [&](const Series& s) { return master(s, &Result::dx_active); });
   return text;
 }
 
@@ -369,7 +408,8 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       "\n## Parameters that the paper leaves open\n\n" + open_parameters(results) +
       "\n## Numerics\n\n" + numerics(results) + "\n" +
       elsewhere("uncorrected", "without correction", results, shapes) + "\n" +
-      elsewhere("fine", "step 5e-5 s", results, shapes) + "\n## Other states\n\n" +
+      elsewhere("fine", "step 5e-5 s", results, shapes) + "\n" +
+      elsewhere("tight", "tolerance 1e-5", results, shapes) + "\n## Other states\n\n" +
       states(results) +
       "\n## What sets ν_c\n\nForce and gap stay as they are. Were they scaled with weight and "
       "size, "

@@ -144,7 +144,7 @@ class ConvexPair {
     Vector normal = -face.outward, witness = a_.center() + face.on_a, turn = Vector::Zero();
     T gap = separation(normal);
     for (int step = 0; step < all_steps; ++step) {
-      SignedDistance<S> moved;
+      SignedDistance<S> moved{gap, normal, witness, witness};
       if (!is_apart(normal, (aside() - gap) * normal, std::numeric_limits<T>::infinity(), moved))
         break;
       const T better = separation(moved.normal), gain = better - gap;

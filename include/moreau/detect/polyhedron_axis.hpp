@@ -65,7 +65,7 @@ class PolyhedronAxis {
     if (!is_beyond_) take_nearest_points(margin);
   }
   Proximity go_on(T margin, int steps) {
-    Vector direction;
+    Vector direction = Vector::Zero();
     const auto proximity = approach<T>([this](const Vector& n) { return pair_.support(n); },
                                        simplex_, direction, margin, pair_.size, steps);
     is_beyond_ = proximity == Proximity::beyond;
