@@ -224,10 +224,8 @@ std::string elsewhere(const std::string& set, const std::string& title,
     return points.size() < 3 ? std::string() : text_of(fit_power_law(points).exponent);
   };
   const auto master = [](const Series& series, double Result::*field) {
-    std::vector<Point> points;
-    for (const Result* r : series) points.push_back({r->scaled_load(), r->*field});
     if (varying(series, &Parameters::fmax).size() < 3) return std::string();
-    const Proportion fit = fit_proportion(points);
+    const Proportion fit = master_fit(series, field, 1);
     return text_of(fit.factor) + ", scatter " + text_of(100 * fit.scatter) + " %";
   };
   const auto at_five = [](const Series& series,

@@ -9,6 +9,16 @@
 
 namespace study {
 
+Proportion master_fit(const Series& series, double Result::*displacement, double beta) {
+  std::vector<Point> points;
+  for (const Result* r : series) {
+    const double load =
+        r->scaled_load() * (r->mass + r->wall_mass) / (beta * r->mass + r->wall_mass);
+    points.push_back({load, r->*displacement});
+  }
+  return fit_proportion(points);
+}
+
 namespace {
 
 std::vector<Point> points_of(const Series& series, double Parameters::*parameter,
@@ -21,16 +31,6 @@ std::vector<Point> points_of(const Series& series, double Parameters::*parameter
 /// A law through fewer points than four says nothing.
 PowerLaw law_of(const Series& series, double Parameters::*parameter, double Result::*value) {
   return series.size() < 4 ? PowerLaw{} : fit_power_law(points_of(series, parameter, value));
-}
-
-Proportion master_fit(const Series& series, double Result::*displacement, double beta) {
-  std::vector<Point> points;
-  for (const Result* r : series) {
-    const double load =
-        r->scaled_load() * (r->mass + r->wall_mass) / (beta * r->mass + r->wall_mass);
-    points.push_back({load, r->*displacement});
-  }
-  return fit_proportion(points);
 }
 
 /// beta shows in runs with different walls only.

@@ -81,6 +81,10 @@ Estimate over_samples(const ShapeSummary& shape, const auto& value_of) {
 Series master_series(const std::vector<Result>& results, const std::string& shape,
                      std::size_t seed);
 
+/// C of a series: the displacement over (mg)^2 / [(m_w + beta m) fmax nu^2], the paper's load where
+/// beta = 1.
+Proportion master_fit(const Series& series, double Result::*displacement, double beta);
+
 /// The run of the sets with these parameters, if it is done.
 const Result* find(const std::vector<Result>& results, const std::string& set,
                    const std::string& shape, std::size_t seed, double Parameters::*parameter,
