@@ -10,6 +10,38 @@
 
 namespace ratcheting {
 
+/// f_g over the acceleration a of the wall: a constant thrust, less what it takes to accelerate the
+/// grains that move along, f_g = thrust - mass a. nan if that cannot be told. SI units.
+struct CarriedGrains {
+  double thrust = std::nan("");     ///< [N]
+  double mass = std::nan("");       ///< [kg]
+  double explained = std::nan("");  ///< share of the variance of f_g, 1 if the two say all of it
+};
+
+/// By least squares over the steps first..last.
+inline CarriedGrains carried_grains(const std::vector<double>& t, const std::vector<double>& v,
+                                    const std::vector<double>& f_g, std::size_t first,
+                                    std::size_t last) {
+  const std::size_t begin = std::max<std::size_t>(first, 1);
+  if (last < begin + 2) return {};
+  const auto acceleration = [&](std::size_t k) { return (v[k] - v[k - 1]) / (t[k] - t[k - 1]); };
+  const double n = double(last - begin + 1);
+  double a = 0, f = 0;
+  for (std::size_t k = begin; k <= last; ++k) {
+    a += acceleration(k) / n;
+    f += f_g[k] / n;
+  }
+  double aa = 0, af = 0, ff = 0;
+  for (std::size_t k = begin; k <= last; ++k) {
+    const double da = acceleration(k) - a, df = f_g[k] - f;
+    aa += da * da;
+    af += da * df;
+    ff += df * df;
+  }
+  if (!(aa > 0 && ff > 0)) return {};
+  return {f - af / aa * a, -af / aa, af * af / (aa * ff)};
+}
+
 /// The way out within a period, from where the falling force is the weight of the grains: above the
 /// active thrust, and so low that what moves before is no active motion. SI units.
 struct ActivePhase {
@@ -21,6 +53,7 @@ struct ActivePhase {
   double peak = 0;    ///< time of the largest x
   double v_out = 0;   ///< largest outward speed on the way there
   double v_in = 0;    ///< largest inward speed after it
+  CarriedGrains carried;  ///< from onset to peak
 };
 
 /// How long before its minimum f is at the weight [s]; at most half a period, 0 if f is never
@@ -59,6 +92,7 @@ inline ActivePhase active_phase(const std::vector<double>& t, const std::vector<
     ++moving;
   }
   phase.thrust = moving > 0 ? phase.thrust / double(moving) : std::nan("");
+  phase.carried = carried_grains(t, v, f_g, onset + 1, peak);
   return phase;
 }
 

@@ -17,7 +17,9 @@ Json to_json(const Period& period) {
           {"dx_active", period.active.dx},
           {"v_max_active", period.active.v_out},
           {"v_max_passive", period.active.v_in},
-          {"f_g_active", period.active.thrust}};
+          {"f_g_active", period.active.thrust},
+          {"steady_thrust", period.active.carried.thrust},
+          {"carried_mass", period.active.carried.mass}};
 }
 
 Json to_json(const SolverTotals& t, double size) {

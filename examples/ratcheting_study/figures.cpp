@@ -8,6 +8,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <map>
+#include <stdexcept>
 #include <string_view>
 
 #include "moreau/io/csv.hpp"
@@ -102,7 +103,8 @@ void write_series(const fs::path& folder, const std::vector<Result>& results,
   if (at.empty()) return;
   moreau::CsvWriter file(data_file(folder, set, shape.shape),
                          {"value", "dx_max", "dx_spread", "v_max", "v_spread", "rate",
-                          "rate_spread", "thrust_over_weight", "constant", "samples", "dx_active"});
+                          "rate_spread", "thrust_over_weight", "constant", "samples", "dx_active",
+                          "active_spread", "early_rate_box", "early_spread"});
   for (const auto& entry : at) {
     const Series& runs = entry.second;
     const auto of = [&](const auto& field) {
@@ -115,20 +117,23 @@ void write_series(const fs::path& folder, const std::vector<Result>& results,
     const Estimate v = of([](const Result& r) { return r.v_max; });
     const Estimate rate = of([](const Result& r) { return r.rate; });
     const Estimate thrust = of([](const Result& r) { return r.thrust / r.weight; });
+    const Estimate early = of([](const Result& r) { return r.early_rate(&Jam::rho_box); });
     const Estimate constant = of([](const Result& r) { return r.constant; });
     file.row(six(entry.first), six(dx.mean), six(dx.spread), six(v.mean), six(v.spread),
              six(rate.mean), six(rate.spread), six(thrust.mean), six(constant.mean), dx.samples,
-             six(active.mean));
+             six(active.mean), six(active.spread), six(early.mean), six(early.spread));
   }
   file.close();
 }
 
 /// One line per run: what was varied (1 frequency, 2 force, 3 gravity, 4 wall mass), load,
-/// displacement, and the closed form's with beta = 1/3 and with the fitted beta.
+/// displacement; the closed form's with beta = 1/3, with the fitted beta, and with thrust and beta
+/// of the force on the wall.
 void write_master(const fs::path& folder, const std::vector<Result>& results,
                   const ShapeSummary& shape) {
-  moreau::CsvWriter file(data_file(folder, "master", shape.shape),
-                         {"varied", "load", "dx_max", "predicted_third", "predicted", "dx_active"});
+  moreau::CsvWriter file(
+      data_file(folder, "master", shape.shape),
+      {"varied", "load", "dx_max", "predicted_third", "predicted", "dx_active", "flight"});
   for (const SampleSummary& sample : shape.samples)
     for (const Result* r : master_series(results, shape.shape, sample.seed)) {
       const auto& sets = r->c.sets;
@@ -138,7 +143,8 @@ void write_master(const fs::path& folder, const std::vector<Result>& results,
                                                       : 4;
       file.row(double(varied), six(r->scaled_load()), six(r->dx_max),
                six(sine_displacement(r->push(), 1.0 / 3)),
-               six(sine_displacement(r->push(), sample.prediction.beta)), six(r->dx_active));
+               six(sine_displacement(r->push(), sample.prediction.beta)), six(r->dx_active),
+               six(r->flight_displacement()));
     }
   file.close();
 }
@@ -203,6 +209,13 @@ void add_values(const ShapeSummary& s, Values& values) {
   add("dx_frequency_exponent", [](const Sample& x) { return x.whole.frequency.exponent; });
   add("dx_frequency_prefactor", [](const Sample& x) { return x.whole.frequency.prefactor; });
   add("active_frequency_exponent", [](const Sample& x) { return x.active.frequency.exponent; });
+  add("active_frequency_prefactor", [](const Sample& x) { return x.active.frequency.prefactor; });
+  add("active_fmax_exponent", [](const Sample& x) { return x.active.fmax.exponent; });
+  add("active_fmax_prefactor", [](const Sample& x) { return x.active.fmax.prefactor; });
+  add("active_gravity_exponent", [](const Sample& x) { return x.active.gravity.exponent; });
+  add("active_gravity_prefactor", [](const Sample& x) { return x.active.gravity.prefactor; });
+  add("active_wall_beta", [](const Sample& x) { return x.active.wall_share.beta; });
+  add("active_C", [](const Sample& x) { return x.active.master.factor; });
   add("v_frequency_exponent", [](const Sample& x) { return x.v_frequency.exponent; });
   add("v_frequency_prefactor", [](const Sample& x) { return x.v_frequency.prefactor; });
   add("dx_fmax_exponent", [](const Sample& x) { return x.whole.fmax.exponent; });
@@ -213,10 +226,10 @@ void add_values(const ShapeSummary& s, Values& values) {
   add("C_scatter", [](const Sample& x) { return x.whole.master.scatter; });
   add("beta", [](const Sample& x) { return x.prediction.beta; });
   add("wall_beta", [](const Sample& x) { return x.whole.wall_share.beta; });
-  add("nu_c", [](const Sample& x) { return x.branches.nu_c; });
-  add("rate_prefactor", [](const Sample& x) { return x.branches.prefactor; });
-  add("single_nu_c", [](const Sample& x) { return x.single.nu_c; });
-  add("single_prefactor", [](const Sample& x) { return x.single.prefactor; });
+  add("nu_c", [](const Sample& x) { return x.rate.branches.nu_c; });
+  add("rate_prefactor", [](const Sample& x) { return x.rate.branches.prefactor; });
+  add("single_nu_c", [](const Sample& x) { return x.rate.single.nu_c; });
+  add("single_prefactor", [](const Sample& x) { return x.rate.single.prefactor; });
   add("loop_distance", [](const Sample& x) { return x.loop_distance; });
   for (const Sample& sample : s.samples) {
     if (sample.seed != 1 || sample.base == nullptr) continue;
@@ -226,6 +239,7 @@ void add_values(const ShapeSummary& s, Values& values) {
     values.add("active_xx_" + s.shape, b.active_xx);
     values.add("active_zz_" + s.shape, b.active_zz);
     values.add("length_" + s.shape, sample.base->length);
+    values.add("load_" + s.shape, sample.base->scaled_load());
     values.add("height_" + s.shape, sample.base->height);
     const Parameters& p = sample.base->c.parameters;
     values.add("mass_ratio_" + s.shape, p.wall_mass_ratio);
@@ -314,19 +328,32 @@ void write_figure_data(const Places& places, const std::vector<Result>& results,
   values.write(places.results / "data" / "values.csv");
 }
 
-std::vector<std::string> draw_figures(const fs::path& folder,
+std::vector<std::string> draw_figures(const fs::path& folder, const fs::path& scripts,
+                                      const std::vector<Result>& results,
                                       const std::vector<std::string>& names) {
+  if (!fs::exists(scripts / "style.gp"))
+    throw std::invalid_argument("--plots: " + scripts.string() + " has no style.gp");
   fs::create_directories(folder / "figures");
   std::vector<std::string> missing;
   for (const Figure& figure : figures()) {
     const std::string name = figure.name;
     if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
+    const bool has_runs = std::any_of(results.begin(), results.end(), [&](const Result& r) {
+      return std::any_of(figure.sets.begin(), figure.sets.end(),
+                         [&](const std::string& set) { return r.c.sets.contains(set); });
+    });
+    if (!has_runs) continue;
     for (const char* format : {"png", "svg"}) {
-      const std::string command = "gnuplot -e \"data='" + (folder / "data").string() +
-                                  "'; format='" + format + "'; out='" +
-                                  (folder / "figures" / (name + "." + format)).string() + "'\" '" +
-                                  STUDY_PLOTS + "/" + name + ".gp' 2>&1";
-      if (std::system(command.c_str()) != 0) missing.push_back(name + "." + format);
+      const fs::path log = folder / "figures" / (name + "." + format + ".log");
+      const std::string command =
+          "gnuplot -e \"data='" + (folder / "data").string() + "'; format='" + format + "'; out='" +
+          (folder / "figures" / (name + "." + format)).string() + "'\" '" +
+          (scripts / (name + ".gp")).string() + "' >'" + log.string() + "' 2>&1";
+      if (std::system(command.c_str()) == 0) {
+        fs::remove(log);
+      } else {
+        missing.push_back(name + "." + format + ", see " + log.string());
+      }
     }
   }
   return missing;

@@ -25,10 +25,14 @@ const std::vector<Figure>& figures();
 void write_figure_data(const Places& places, const std::vector<Result>& results,
                        const std::vector<ShapeSummary>& shapes);
 
-/// Draws figures/NAME.png and .svg below the folder.
-/// @param names nothing: all
-/// @returns those that gnuplot could not draw; all of them, if there is no gnuplot
+/// Draws figures/NAME.png and .svg below the folder: those of whose series there are runs.
+/// @param scripts folder of NAME.gp
+/// @param names   nothing: all
+/// @returns those that gnuplot could not draw, with what it said; all, if there is no gnuplot
+/// @throws std::invalid_argument if there are no scripts
 std::vector<std::string> draw_figures(const std::filesystem::path& folder,
+                                      const std::filesystem::path& scripts,
+                                      const std::vector<Result>& results,
                                       const std::vector<std::string>& names);
 
 }  // namespace study

@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> figures;
   bool list = false, report_only = false, no_report = false;
   std::size_t jobs = std::max(1u, std::thread::hardware_concurrency());
-  std::string output = "ratcheting-study", results, program;
+  std::string output = "ratcheting-study", results, program, plots = STUDY_PLOTS;
 
   study::Places places() const { return {output, results}; }
 };
@@ -46,21 +46,23 @@ void add_sets_of_figures(Options& o) {
       o.selection.sets.insert(o.selection.sets.end(), figure.sets.begin(), figure.sets.end());
 }
 
-void report(const Options& o, const std::vector<study::Case>& plan) {
+/// @returns whether all that is kept was read
+bool report(const Options& o, const std::vector<study::Case>& plan) {
   const fs::path folder = o.results;
   fs::create_directories(folder);
-  const std::vector<study::Result> results = study::read_results(o.places(), plan);
+  const auto [results, unread] = study::read_results(o.places(), plan);
   std::vector<study::ShapeSummary> shapes;
   for (const char* shape : {"polyhedron", "polygon", "sphere", "disk"})
     shapes.push_back(study::summarize(results, shape));
   study::write_figure_data(o.places(), results, shapes);
-  const auto missing = study::draw_figures(folder, o.figures);
+  const auto missing = study::draw_figures(folder, o.plots, results, o.figures);
   for (const std::string& figure : missing) std::printf("not drawn: %s\n", figure.c_str());
   study::write_cases(folder, results);
   study::write_wall_clock(folder, results);
   study::write_report(folder, o.plan, plan, results, shapes);
   std::printf("%zu of %zu cases are done; report and figures: %s\n", results.size(), plan.size(),
               (folder / "report.md").c_str());
+  return unread == 0;
 }
 
 int run(Options& o) {
@@ -79,8 +81,14 @@ int run(Options& o) {
                 summary.skipped, summary.busy, summary.failed.size());
     for (const std::string& failure : summary.failed) std::printf("  %s\n", failure.c_str());
   }
-  if (!o.no_report && !summary.interrupted) report(o, plan);
-  return summary.interrupted ? 130 : summary.failed.empty() ? 0 : 1;
+  if (summary.interrupted) {
+    std::printf(
+        "interrupted: %s; the same command goes on, --report-only reports what is done\n",
+        summary.lost.empty() ? "nothing was running" : (summary.lost + " will run again").c_str());
+    return 130;
+  }
+  const bool read = o.no_report || report(o, plan);
+  return summary.failed.empty() && read ? 0 : 1;
 }
 
 void add_options(CLI::App& app, Options& o) {
@@ -93,7 +101,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--seed", o.selection.seeds, "only these samples");
   app.add_option("--case", o.selection.numbers,
                  "only the cases of these numbers, without a report: for job arrays")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 100000));
   std::vector<std::string> names;
   for (const study::Figure& figure : study::figures()) names.emplace_back(figure.name);
   app.add_option("--figure", o.figures, "only the series that these figures need, and the figures")
@@ -109,6 +117,7 @@ void add_options(CLI::App& app, Options& o) {
       "goes on without OUTPUT; OUTPUT/results");
   app.add_option("--program", o.program,
                  "the program that runs a case; `ratcheting` beside this one");
+  app.add_option("--plots", o.plots, "folder of the figures' scripts");
 }
 
 }  // namespace

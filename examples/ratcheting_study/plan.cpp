@@ -194,6 +194,20 @@ std::vector<Case> paper_plan() {
   tight("polygon", fmax, {2000, 4000, 10000});
   tight("polygon", g, {2.5, 5, 20});
   tight("polygon", wall, {0.1, 1, 2, 4});
+  for (const std::size_t seed : {2u, 3u})
+    for (const char* shape : angular)
+      plan.add("reading", shape, seed,
+               [](Parameters& p) { p.size_reading = moreau::SizeReading::circumradius; });
+  // In the plane 1200 grains make a box more than three times as long as in space. So few make one
+  // of the same length and, with this ratio, of the same H/L; the force keeps fmax/mg.
+  for (std::size_t seed = 1; seed <= 10; ++seed)
+    for (const auto& [shape, grains] : {std::pair{"polygon", 94}, std::pair{"disk", 111}})
+      plan.add("same-length", shape, seed, [&](Parameters& p) {
+        p.grains = std::size_t(grains);
+        p.fmax = p.fmax * double(grains) / 1200;
+        p.box_ratio = 0.9;
+        p.tolerance = 1e-5;
+      });
   return std::move(plan).cases();
 }
 

@@ -16,7 +16,8 @@ namespace study {
 /// cases.csv: parameters and results of every run that is done.
 void write_cases(const std::filesystem::path& folder, const std::vector<Result>& results);
 
-/// wall_clock.csv and wall_clock.md: seconds of every run and per series.
+/// wall_clock.csv and wall_clock.md: seconds of every run and per series. What the results do not
+/// know is taken from the wall_clock.csv that is there.
 void write_wall_clock(const std::filesystem::path& folder, const std::vector<Result>& results);
 
 /// report.md, with the figures of draw_figures.

@@ -99,6 +99,12 @@ void summarize_wall(Result& r) {
   r.dx_active = mean(periods, [](const Period& p) { return p.active.dx; });
   r.creep = mean(periods, [](const Period& p) { return p.active.creep; });
   r.thrust = mean(periods, [](const Period& p) { return p.active.thrust; });
+  const auto carried = [&](double ratcheting::CarriedGrains::*field) {
+    return mean(periods, [=](const Period& p) { return p.active.carried.*field; });
+  };
+  r.steady_thrust = carried(&ratcheting::CarriedGrains::thrust) / r.weight;
+  r.carried_share = carried(&ratcheting::CarriedGrains::mass) / r.mass;
+  r.explained = carried(&ratcheting::CarriedGrains::explained);
   r.contracting = 0;
   for (const Period& p : periods) r.contracting += p.jam_after < p.jam_before;
   r.constant = r.dx_max / r.scaled_load();
@@ -114,6 +120,11 @@ void summarize_packing(const Table& packing, Result& r) {
   r.box_final = packing["rho_box"].back();
   r.rate = r.compaction_per_period = none;
   if (r.periods.empty()) return;
+  const auto add_jam = [&](double t, double x) {
+    r.jams.push_back({t, x, inner(t), value_at(packing, "rho_box", t)});
+  };
+  for (const ratcheting::Period& period : r.periods) add_jam(period.start, period.jam_before);
+  add_jam(r.periods.back().finish, r.periods.back().jam_after);
   const double begin = r.periods.front().start, end = r.periods.back().finish;
   r.rate = (inner(end) - inner(begin)) / r.rho_0 / (end - begin);
   r.compaction_per_period = r.rate / p.frequency;
@@ -130,6 +141,13 @@ bool is_in_portrait(const Case& c) {
 Push Result::push() const {
   const Parameters& p = c.parameters;
   return {thrust, p.fmin, p.fmax, p.frequency, mass, wall_mass};
+}
+
+double Result::flight_displacement() const {
+  if (!(std::isfinite(steady_thrust) && wall_mass + carried_share * mass > 0)) return none;
+  Push flight = push();
+  flight.thrust = steady_thrust * weight;
+  return sine_displacement(flight, carried_share);
 }
 
 double Result::scaled_load() const {

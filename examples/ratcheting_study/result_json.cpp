@@ -33,6 +33,9 @@ void describe(Some<ratcheting::Period> auto& p, const auto& field) {
   field("v_max_active", p.active.v_out);
   field("v_max_passive", p.active.v_in);
   field("f_g_active", p.active.thrust);
+  field("steady_thrust", p.active.carried.thrust);
+  field("carried_mass", p.active.carried.mass);
+  field("explained", p.active.carried.explained);
 }
 
 void describe(Some<Point> auto& p, const auto& field) {
@@ -57,10 +60,11 @@ void describe(Some<Facts> auto& f, const auto& field) {
   field("roll_agreement", f.roll_agreement);
 }
 
-void describe(Some<WallClock> auto& c, const auto& field) {
-  field("prepare", c.prepare);
-  field("vibrate", c.vibrate);
-  field("median_ms", c.median_ms);
+void describe(Some<Jam> auto& j, const auto& field) {
+  field("t", j.t);
+  field("x", j.x);
+  field("rho_inner", j.rho_inner);
+  field("rho_box", j.rho_box);
 }
 
 void describe(Some<Behaviour> auto& b, const auto& field) {
@@ -83,7 +87,6 @@ void describe(Some<Behaviour> auto& b, const auto& field) {
 
 void describe(Some<Result> auto& r, const auto& field) {
   field("facts", r.facts);
-  field("wall_clock", r.clock);
   field("mass", r.mass);
   field("wall_mass", r.wall_mass);
   field("length", r.length);
@@ -96,6 +99,9 @@ void describe(Some<Result> auto& r, const auto& field) {
   field("dx_active", r.dx_active);
   field("creep", r.creep);
   field("thrust", r.thrust);
+  field("steady_thrust", r.steady_thrust);
+  field("carried_share", r.carried_share);
+  field("explained", r.explained);
   field("net_contraction", r.net_contraction);
   field("contracting", r.contracting);
   field("rho_initial", r.rho_initial);
@@ -108,6 +114,7 @@ void describe(Some<Result> auto& r, const auto& field) {
   field("C", r.constant);
   field("behaviour", r.behaviour);
   field("periods", r.periods);
+  field("jams", r.jams);
   field("loop", r.loop);
 }
 

@@ -150,9 +150,12 @@ class Runner {
     const double done = cost_of_all_ - cost_left_;
     char text[96];
     if (done <= 0) return "";
-    std::snprintf(text, sizeof text, "%.0f %% in %.0f min, about %.0f min left",
-                  100 * done / cost_of_all_, seconds_since(begin_) / 60,
-                  seconds_since(begin_) / done * std::max(0.0, cost_left_) / 60);
+    const double begun = seconds_since(begin_), left = begun / done * std::max(0.0, cost_left_);
+    const bool minutes = begun + left > 300;
+    const double unit = minutes ? 60 : 1;
+    std::snprintf(text, sizeof text, "%.0f %% in %.0f %s, about %.0f %s left",
+                  100 * done / cost_of_all_, begun / unit, minutes ? "min" : "s", left / unit,
+                  minutes ? "min" : "s");
     return text;
   }
 
@@ -168,7 +171,10 @@ class Runner {
   }
 
   void abandon() {
-    for (const Running& r : running_) kill(r.process, SIGKILL);
+    for (const Running& r : running_) {
+      kill(r.process, SIGKILL);
+      summary_.lost += (summary_.lost.empty() ? "" : ", ") + r.c->name;
+    }
     while (!running_.empty()) {
       if (const auto ending = ended_child())
         std::erase_if(running_, [&](const Running& r) { return r.process == ending->process; });

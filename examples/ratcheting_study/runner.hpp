@@ -29,6 +29,7 @@ struct RunSummary {
   std::size_t ran = 0, skipped = 0, busy = 0;  ///< busy: another study runs it
   std::vector<std::string> failed;             ///< name: what happened
   bool interrupted = false;
+  std::string lost;  ///< names of the cases that an interrupt cost
 };
 
 /// Runs what is not done, in order, and tells progress on standard output.

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -31,7 +32,15 @@ fs::path file_of(const Places& places, const Case& c) {
   return places.results / "runs" / (c.name + ".json");
 }
 
-/// @returns nothing without a file, or if it is of a run with other parameters
+/// Says once of each file why it does not count.
+void tell_unread(const fs::path& path, const std::string& why) {
+  static std::set<std::string> told;
+  if (told.insert(path.string()).second)
+    std::fprintf(stderr, "not read: %s %s; the case counts as not done\n", path.c_str(),
+                 why.c_str());
+}
+
+/// @returns nothing without a file, or if it is none of a run with these parameters, which is told
 std::optional<Result> read_kept(const Places& places, const Case& c) {
   const fs::path path = file_of(places, c);
   if (!fs::exists(path)) return std::nullopt;
@@ -39,12 +48,12 @@ std::optional<Result> read_kept(const Places& places, const Case& c) {
     std::ifstream file(path);
     const Json json = Json::parse(file);
     if (!json.at("parameters").is_object()) throw std::runtime_error("parameters: no object");
-    if (!has_parameters(json["parameters"], c)) return std::nullopt;
-    return result_of(json, c);
+    if (has_parameters(json["parameters"], c)) return result_of(json, c);
+    tell_unread(path, "is of a run with other parameters");
   } catch (const std::exception& error) {
-    throw std::runtime_error(path.string() + " is no result of a run (" + error.what() +
-                             "); without it the case runs again");
+    tell_unread(path, std::string("is no result of a run (") + error.what() + ")");
   }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -65,26 +74,31 @@ bool is_done(const Places& places, const Case& c) {
   return has_folder(places, c) || read_kept(places, c).has_value();
 }
 
-void keep(const Places& places, const Case& c) {
+WallClock keep(const Places& places, const Case& c) {
   const fs::path path = file_of(places, c);
-  const std::string text = json_text(measure(folder_of(places, c), c));
+  const Result result = measure(folder_of(places, c), c);
+  const std::string text = json_text(result);
   std::ifstream before(path, std::ios::binary);
-  if (std::string(std::istreambuf_iterator<char>(before), {}) == text) return;
-  fs::create_directories(path.parent_path());
-  moreau::write_atomically(path, text);
+  if (std::string(std::istreambuf_iterator<char>(before), {}) != text) {
+    fs::create_directories(path.parent_path());
+    moreau::write_atomically(path, text);
+  }
+  return *result.clock;
 }
 
-std::vector<Result> read_results(const Places& places, const std::vector<Case>& plan) {
-  std::vector<Result> results;
+Kept read_results(const Places& places, const std::vector<Case>& plan) {
+  Kept kept;
   for (const Case& c : plan) {
-    if (has_folder(places, c)) keep(places, c);
-    if (auto result = read_kept(places, c))
-      results.push_back(std::move(*result));
-    else if (fs::exists(file_of(places, c)))
-      std::fprintf(stderr, "not read: %s is of a run with other parameters\n",
-                   file_of(places, c).c_str());
+    std::optional<WallClock> clock;
+    if (has_folder(places, c)) clock = keep(places, c);
+    if (auto result = read_kept(places, c)) {
+      kept.results.push_back(std::move(*result));
+      kept.results.back().clock = clock;
+    } else {
+      kept.unread += fs::exists(file_of(places, c));
+    }
   }
-  return results;
+  return kept;
 }
 
 }  // namespace study

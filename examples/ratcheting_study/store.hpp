@@ -6,6 +6,7 @@
 // done by this file, and the report is the same.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -25,17 +26,24 @@ std::filesystem::path folder_of(const Places& places, const Case& c);
 /// Whether there is a folder of a complete run with the case's parameters.
 bool has_folder(const Places& places, const Case& c);
 
-/// Whether there is such a folder, or a file with the case's parameters.
-/// @throws std::runtime_error naming the file if it is none of a run
+/// Whether there is such a folder, or a file with the case's parameters. A file that is none of
+/// such a run does not count, and that is told once on the error output.
 bool is_done(const Places& places, const Case& c);
 
 /// Measures the run in a case's folder and keeps the result.
+/// @returns what it took, which is not kept
 /// @throws std::runtime_error if a file of the run cannot be read, std::system_error if the result
 ///         cannot be written
-void keep(const Places& places, const Case& c);
+WallClock keep(const Places& places, const Case& c);
 
-/// All that is done, in the order of the plan, from the files; what has a folder is measured anew.
-/// @throws std::runtime_error, std::system_error as is_done() and keep()
-std::vector<Result> read_results(const Places& places, const std::vector<Case>& plan);
+struct Kept {
+  std::vector<Result> results;
+  std::size_t unread = 0;  ///< files that do not count
+};
+
+/// All that is done, in the order of the plan, from the files; what has a folder is measured anew
+/// and has a clock.
+/// @throws std::runtime_error, std::system_error as keep()
+Kept read_results(const Places& places, const std::vector<Case>& plan);
 
 }  // namespace study

@@ -73,17 +73,21 @@ Scaling scaling_of(const std::vector<Result>& results, const std::string& shape,
 /// The closed form with each run's own thrust, against the displacement without creep.
 void predict_displacements(const Series& all, SampleSummary& sample) {
   std::vector<Pushed> pushed;
-  std::vector<Point> third, over_frequency;
+  std::vector<Point> third, walls, flights, over_frequency;
   for (const Result* r : all) {
     const double predicted = sine_displacement(r->push(), 1.0 / 3);
     pushed.push_back({r->push(), r->dx_active});
     third.push_back({predicted, r->dx_active});
+    walls.push_back({sine_displacement(r->push(), sample.active.wall_share.beta), r->dx_active});
+    flights.push_back({r->flight_displacement(), r->dx_active});
     if (r->c.sets.contains("frequencies"))
       over_frequency.push_back({r->c.parameters.frequency, predicted});
   }
   if (pushed.size() < 4) return;
   if (walls_differ(all)) sample.prediction = fit_moving_share(pushed);
   sample.prediction_third = fit_proportion(third);
+  sample.prediction_walls = fit_proportion(walls);
+  sample.flight = fit_proportion(flights);
   if (over_frequency.size() >= 4) sample.predicted_frequency = fit_power_law(over_frequency);
 }
 
@@ -97,22 +101,33 @@ double scaled_loop_distance(const Result& slow, const Result& fast) {
   return loop_distance(scaled(slow), scaled(fast));
 }
 
-void fit_compaction_rates(const Series& frequencies, SampleSummary& sample) {
-  const std::vector<Point> rates = points_of(frequencies, &Parameters::frequency, &Result::rate);
-  for (const Point& p : rates) sample.negative_rates += !(p.y > 0);
-  if (rates.size() < 6) return;
-  sample.branches = fit_compaction(rates, two_branches);
-  sample.single = fit_compaction(rates, single_form);
-  sample.slopes = slopes_about(rates, sample.branches.nu_c);
+CompactionLaws compaction_laws(const std::vector<Point>& rates) {
+  CompactionLaws laws;
+  for (const Point& p : rates) laws.negative += !(p.y > 0);
+  if (rates.size() < 6) return laws;
+  laws.branches = fit_compaction(rates, two_branches);
+  laws.single = fit_compaction(rates, single_form);
+  laws.slopes = slopes_about(rates, laws.branches.nu_c);
+  for (PowerLaw* slope : {&laws.slopes.below, &laws.slopes.above})
+    if (slope->points < 4) *slope = {};
   // What the branches have to beat.
   std::vector<Point> one, law;
-  sample.rate_law = fit_power_law(rates);
+  laws.law = fit_power_law(rates);
   for (const Point& p : rates) {
     one.push_back({1, p.y});
-    law.push_back({std::pow(p.x, sample.rate_law.exponent), p.y});
+    law.push_back({std::pow(p.x, laws.law.exponent), p.y});
   }
-  sample.rate_scatter = fit_proportion(one).scatter;
-  sample.rate_law_scatter = fit_proportion(law).scatter;
+  laws.scatter_about_one = fit_proportion(one).scatter;
+  laws.scatter_about_law = fit_proportion(law).scatter;
+  return laws;
+}
+
+void fit_compaction_rates(const Series& frequencies, SampleSummary& sample) {
+  sample.rate = compaction_laws(points_of(frequencies, &Parameters::frequency, &Result::rate));
+  std::vector<Point> early;
+  for (const Result* r : frequencies)
+    early.push_back({r->c.parameters.frequency, r->early_rate(&Jam::rho_box)});
+  sample.early = compaction_laws(early);
 }
 
 /// What the closed form says of the speed of the way back, in which the wall passes its start.
@@ -138,6 +153,7 @@ SampleSummary summarize_sample(const std::vector<Result>& results, const std::st
   sample.seed = seed;
   const Series frequencies = series_of(results, "frequencies", shape, seed);
   sample.frequencies = frequencies;
+  sample.walls = series_of(results, "wall-mass", shape, seed, &Parameters::wall_mass_ratio);
   sample.base = find(results, "frequencies", shape, seed, &Parameters::frequency, 5);
   const Result* ten = find(results, "frequencies", shape, seed, &Parameters::frequency, 10);
   if (sample.base != nullptr) sample.behaviour = sample.base->behaviour;

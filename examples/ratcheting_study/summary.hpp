@@ -32,27 +32,35 @@ struct Scaling {
   double paper_wall_scatter = std::nan("");  ///< over the wall masses alone, with m + m_w
 };
 
+/// What is fitted to a rate of compaction over the frequency.
+struct CompactionLaws {
+  CompactionFit branches, single;
+  Slopes slopes;  ///< below and above the nu_c of the branches
+  PowerLaw law;   ///< the rival of the branches: one power law
+  double scatter_about_one = std::nan(""),
+         scatter_about_law = std::nan("");  ///< rms ln: about one value, about that law
+  std::size_t negative = 0;                 ///< frequencies without compaction: not in the fits
+};
+
 /// The fits to one sample's runs. Fits to fewer points than they need are nan.
 struct SampleSummary {
   std::size_t seed = 0;
   const Result* base = nullptr;  ///< the baseline, 5 Hz and 6 kN
   Behaviour behaviour;           ///< of the baseline
-  Series frequencies;            ///< by rising frequency
+  Series frequencies, walls;     ///< by rising frequency, by rising mass of the wall
   Scaling whole, active;         ///< of dx_max; of dx_active, the displacement without creep
   PowerLaw v_frequency;
   double loop_distance = std::nan("");  ///< scaled phase portraits at 5 and 10 Hz
   MovingShare prediction;               ///< dx_active with the measured thrust, beta fitted
   Proportion prediction_third;          ///< with the measured thrust and beta = 1/3
   PowerLaw predicted_frequency;         ///< of that prediction
+  Proportion prediction_walls;          ///< with the beta of active.wall_share
+  Proportion flight;                    ///< dx_active over Result::flight_displacement()
   /// Of the speed of the way back by the closed form, where the wall is again at its start and
   /// where it jams; its thrust is that which explains the way out, beta = 1/3.
   PowerLaw speed_at_start, speed_at_jam;
-  CompactionFit branches, single;
-  Slopes slopes;      ///< below and above the nu_c of the branches
-  PowerLaw rate_law;  ///< the rival of the branches: one power law
-  double rate_scatter = std::nan(""),
-         rate_law_scatter = std::nan("");  ///< rms ln: about one value, about that law
-  std::size_t negative_rates = 0;          ///< frequencies without compaction: not in the fits
+  CompactionLaws rate;   ///< of the inner volume over the whole run, as the paper's
+  CompactionLaws early;  ///< of the whole box over the first second
 
   /// A value of the run at a frequency; nan if it is not done.
   double at(double frequency, const auto& value_of) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -39,6 +40,22 @@ std::string joined(const std::set<std::string>& words) {
   return all;
 }
 
+/// What an earlier report told of runs whose folders may be gone; nothing without the file.
+std::map<std::string, WallClock> read_wall_clock(const std::filesystem::path& path) {
+  std::map<std::string, WallClock> clocks;
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    char name[128];
+    WallClock clock;
+    if (std::sscanf(line.c_str(), "%*[^,],%127[^,],%lf,%lf,%*[^,],%lf", name, &clock.prepare,
+                    &clock.vibrate, &clock.median_ms) == 4)
+      clocks[name] = clock;
+  }
+  return clocks;
+}
+
 }  // namespace
 
 void write_cases(const std::filesystem::path& folder, const std::vector<Result>& results) {
@@ -48,7 +65,9 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
       "periods,dx_max,dx_spread,dx_active,creep,v_max,delay,thrust_over_weight,net_contraction,"
       "contracting,"
       "rho_initial,rho_0,rho_final,rho_box_initial,rho_box_final,rate,compaction_per_period,C,"
-      "dx_over_closed_form_third,steps,capped_steps,mean_sweeps,worst_residual,mean_overlap_over_d,"
+      "dx_over_closed_form_third,steady_thrust_over_weight,carried_share,explained,"
+      "dx_over_flight,early_rate_inner,early_rate_box,steps,capped_steps,mean_sweeps,worst_"
+      "residual,mean_overlap_over_d,"
       "max_overlap_over_d\n";
   for (const Result& r : results) {
     const Parameters& p = r.c.parameters;
@@ -64,7 +83,9 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
          << r.delay << r.thrust / r.weight << r.net_contraction << double(r.contracting)
          << r.rho_initial << r.rho_0 << r.rho_final << r.box_initial << r.box_final << r.rate
          << r.compaction_per_period << r.constant
-         << r.dx_active / sine_displacement(r.push(), 1.0 / 3);
+         << r.dx_active / sine_displacement(r.push(), 1.0 / 3) << r.steady_thrust << r.carried_share
+         << r.explained << r.dx_active / r.flight_displacement() << r.early_rate(&Jam::rho_inner)
+         << r.early_rate(&Jam::rho_box);
     const Facts& f = r.facts;
     line << double(f.steps) << double(f.capped_steps) << f.mean_sweeps << f.worst_residual
          << f.mean_overlap << f.max_overlap;
@@ -74,17 +95,23 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
 }
 
 void write_wall_clock(const std::filesystem::path& folder, const std::vector<Result>& results) {
+  const std::map<std::string, WallClock> told = read_wall_clock(folder / "wall_clock.csv");
   std::string csv = "case,name,prepare,vibrate,steps,median_ms_per_step\n";
   std::map<std::pair<std::string, std::string>, std::pair<double, std::size_t>> of_series;
   double all = 0, steps = 0;
+  std::size_t known = 0;
   for (const Result& r : results) {
+    const auto before = told.find(r.c.name);
+    if (!r.clock && before == told.end()) continue;
+    const WallClock clock = r.clock ? *r.clock : before->second;
     CsvLine line;
-    line << double(r.c.number) << r.c.name << r.clock.prepare << r.clock.vibrate
-         << double(r.facts.steps) << r.clock.median_ms;
+    line << double(r.c.number) << r.c.name << clock.prepare << clock.vibrate
+         << double(r.facts.steps) << clock.median_ms;
     csv += std::move(line).end();
-    const double seconds = r.clock.prepare + r.clock.vibrate;
+    const double seconds = clock.prepare + clock.vibrate;
     all += seconds;
     steps += double(r.facts.steps);
+    ++known;
     for (const std::string& set : r.c.sets) {
       auto& [sum, runs] =
           of_series[{set, r.c.parameters.shape + ", seed " + std::to_string(r.c.parameters.seed)}];
@@ -94,8 +121,9 @@ void write_wall_clock(const std::filesystem::path& folder, const std::vector<Res
   }
   moreau::write_atomically(folder / "wall_clock.csv", csv);
   std::string text = "# Wall clock\n\nSeconds of one process each, preparation and vibration. " +
-                     std::to_string(results.size()) + " runs, " + text_of(all / 60, 4) +
-                     " min in all, " + text_of(1e3 * all / steps, 3) +
+                     std::to_string(known) + " runs (of " + std::to_string(results.size() - known) +
+                     " it is not known), " + text_of(all / 60, 4) + " min in all, " +
+                     text_of(1e3 * all / steps, 3) +
                      " ms per step of the vibration. A run in several series counts in each.\n\n"
                      "| series | sample | runs | min |\n|---|---|---|---|\n";
   for (const auto& [key, value] : of_series)

@@ -118,7 +118,7 @@ Cell contraction_cell(const ShapeSummary& s) {
     if (sample.base == nullptr || sample.base->periods.empty()) continue;
     const std::size_t n = sample.base->periods.size(), falls = sample.base->contracting;
     cell.value += (cell.value.empty() ? "" : "; ") + std::to_string(falls) + " of " +
-                  std::to_string(n) + ", " + text_of(100 * sample.behaviour.early_share, 2) +
+                  std::to_string(n) + ", " + text_of(100 * sample.behaviour.early_share) +
                   " % by 0.1 s";
     cell.holds = cell.holds.value_or(true) && 4 * falls >= 3 * n;
   }
@@ -145,9 +145,13 @@ Cell loop_cell(const ShapeSummary& s) {
       over_samples(s, [](const Sample& x) { return of_base(x, &Result::thrust); });
   const Estimate passive = value(&Behaviour::passive_force);
   const Estimate rise = value(&Behaviour::active_slope), fall = value(&Behaviour::passive_slope);
+  const Estimate share = over_samples(s, [](const Sample& x) {
+    return x.behaviour.active_slope * of_base(x, &Result::dx_active) / of_base(x, &Result::thrust);
+  });
   if (active.samples == 0) return {};
   return {"f_g " + text_of(active.mean) + " N out, " + text_of(passive.mean) + " N in; slopes " +
-              text_of(1e-3 * rise.mean) + ", " + text_of(1e-3 * fall.mean) + " N/mm",
+              text_of(1e-3 * rise.mean) + ", " + text_of(1e-3 * fall.mean) +
+              " N/mm; on the way out it rises by " + text_of(share, 2) + " times its mean",
           rise.mean > 0 && fall.mean < 0 && passive.mean > active.mean &&
               std::abs(fall.mean) > rise.mean};
 }
@@ -159,8 +163,14 @@ Cell stress_cell(const ShapeSummary& s) {
   const double jx = value(&Behaviour::jammed_xx), jz = value(&Behaviour::jammed_zz);
   const double ax = value(&Behaviour::active_xx), az = value(&Behaviour::active_zz);
   if (!std::isfinite(jx)) return {};
-  return {"jammed " + text_of(jx) + ", " + text_of(jz) + " kPa; active " + text_of(ax) + ", " +
-              text_of(az) + " kPa",
+  const auto ratio = [&](double Behaviour::*xx, double Behaviour::*zz) {
+    return text_of(
+        over_samples(s, [=](const Sample& x) { return x.behaviour.*xx / (x.behaviour.*zz); }));
+  };
+  return {"jammed " + text_of(jx) + ", " + text_of(jz) + " kPa, ratio " +
+              ratio(&Behaviour::jammed_xx, &Behaviour::jammed_zz) + "; active " + text_of(ax) +
+              ", " + text_of(az) + " kPa, ratio " +
+              ratio(&Behaviour::active_xx, &Behaviour::active_zz),
           jx > jz && az > ax};
 }
 
@@ -174,10 +184,10 @@ Cell roll_cell(const ShapeSummary& s) {
   const double agreement = first->base->facts.roll_agreement;
   if (std::isfinite(agreement))
     value += "; at the largest speed " + text_of(100 * agreement, 2) + " % of the cells turn alike";
-  const bool clockwise = roll.mean < 0;
-  return {value + (clockwise ? "; clockwise, counter-clockwise with the wall at the left"
-                             : "; counter-clockwise, clockwise with the wall at the left"),
-          within(agreement, 0.75, 1)};
+  const char* sense = std::abs(roll.mean) <= roll.spread ? "; no sense of its own within the spread"
+                      : roll.mean < 0 ? "; clockwise, counter-clockwise with the wall at the left"
+                                      : "; counter-clockwise, clockwise with the wall at the left";
+  return {value + sense, within(agreement, 0.75, 1)};
 }
 
 Cell rho_x_cell(const ShapeSummary& s) {
@@ -208,11 +218,15 @@ void compare_dimensions(const Shapes& shapes, Row& r, bool more,
                         const std::function<double(const Sample&)>& value) {
   for (std::size_t k = 0; k + 1 < shapes.size(); k += 2) {
     if (r.cells[k].value.empty() || r.cells[k + 1].value.empty()) continue;
-    const double space = over_samples(shapes[k], value).mean,
-                 plane = over_samples(shapes[k + 1], value).mean;
+    const Estimate space = over_samples(shapes[k], value),
+                   plane = over_samples(shapes[k + 1], value);
     Cell& cell = r.cells[k + 1];
-    cell.value += plane > space ? "; above 3D" : "; below 3D";
-    cell.holds = cell.holds.value_or(true) && (plane > space) == more;
+    const double by = plane.mean - space.mean, spread = std::hypot(plane.spread, space.spread);
+    const bool told_apart = !(std::abs(by) <= spread);  // one sample has no spread
+    cell.value += told_apart ? by > 0 ? "; above 3D" : "; below 3D"
+                             : "; not told apart from 3D by the spread";
+    if (std::isnan(spread)) cell.value += " (one sample)";
+    cell.holds = cell.holds.value_or(true) && told_apart && (by > 0) == more;
   }
 }
 
@@ -299,7 +313,7 @@ void judge_scaling(const Shapes& shapes, Rows& rows) {
                             double low, double high, const Law& law) {
     rows.push_back(row(shapes, quantity, paper, accepted, [=](const ShapeSummary& s) {
       Cell cell = ranged(
-          s, [=](const Sample& x) { return law(x).exponent; }, low, high);
+          s, [=](const Sample& x) { return law(x).exponent; }, low, high, 4);
       const Estimate error =
           over_samples(s, [=](const Sample& x) { return law(x).exponent_error; });
       if (!cell.value.empty()) cell.value += ", fit ± " + text_of(error.mean, 1);
@@ -373,64 +387,86 @@ void judge_constant(const Shapes& shapes, Rows& rows) {
 }
 
 /// Frequencies at which the packing loosened have no place in the fits; their number is told.
-void tell_negative_rates(const Shapes& shapes, Row& r) {
+void tell_negative_rates(const Shapes& shapes, Row& r, CompactionLaws Sample::*of) {
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     std::size_t negative = 0;
-    for (const Sample& sample : shapes[k].samples) negative += sample.negative_rates;
+    for (const Sample& sample : shapes[k].samples) negative += (sample.*of).negative;
     if (!r.cells[k].value.empty() && negative > 0)
       r.cells[k].value += "; without " + std::to_string(negative) + " where ρ fell";
   }
 }
 
-void judge_compaction(const Shapes& shapes, Rows& rows) {
+/// Row 18 of one rate over the frequency.
+void judge_rate_law(const Shapes& shapes, Rows& rows, const std::string& which,
+                    CompactionLaws Sample::*of) {
   const auto add = [&](const char* quantity, const char* paper, const char* accepted, double low,
-                       double high, const std::function<double(const Sample&)>& value) {
-    rows.push_back(row(shapes, quantity, paper, accepted,
-                       [=](const ShapeSummary& s) { return ranged(s, value, low, high); }));
+                       double high, const std::function<double(const CompactionLaws&)>& value) {
+    rows.push_back(
+        row(shapes, "18 " + which + quantity, paper, accepted, [=](const ShapeSummary& s) {
+          return ranged(
+              s, [=](const Sample& x) { return value(x.*of); }, low, high);
+        }));
   };
-  add("18 ν_c [Hz], two branches", "10", "7–14; the branches fit better than one power law", 7, 14,
-      [](const Sample& x) { return x.branches.nu_c; });
+  add("ν_c [Hz], two branches", "10", "7–14; the branches fit better than one power law", 7, 14,
+      [](const CompactionLaws& x) { return x.branches.nu_c; });
   Row& branches = rows.back();
-  tell_negative_rates(shapes, branches);
+  tell_negative_rates(shapes, branches, of);
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    const Estimate gain = over_samples(
-        shapes[k], [](const Sample& x) { return x.rate_law_scatter - x.branches.scatter; });
+    const Estimate gain = over_samples(shapes[k], [=](const Sample& x) {
+      return (x.*of).scatter_about_law - (x.*of).branches.scatter;
+    });
     if (branches.cells[k].holds && !(gain.mean > 0)) branches.cells[k].holds = false;
   }
-  rows.push_back(
-      row(shapes, "18 rms of ln(rate) about the branches; about one power law; about one value",
-          "–", "–", [](const ShapeSummary& s) {
-            const auto value = [&](const auto& of) { return text_of(over_samples(s, of).mean, 2); };
-            const std::string first = value([](const Sample& x) { return x.branches.scatter; });
-            if (first.empty()) return Cell{};
-            return Cell{first + "; " + value([](const Sample& x) { return x.rate_law_scatter; }) +
-                            "; " + value([](const Sample& x) { return x.rate_scatter; }),
-                        std::nullopt};
-          }));
-  rows.push_back(row(shapes, "18 1e4 Δρ_1/ρ0 per period at 2; 5; 10; 20; 60 Hz",
-                     "50 below ν_c, falling as ν⁻² above", "–", [](const ShapeSummary& s) {
-                       Cell cell;
-                       for (const double nu : {2.0, 5.0, 10.0, 20.0, 60.0}) {
-                         const Estimate e = over_samples(s, [=](const Sample& x) {
-                           return x.at(
-                               nu, [](const Result& r) { return 1e4 * r.compaction_per_period; });
-                         });
-                         cell.value += (cell.value.empty() ? "" : "; ") +
-                                       (e.samples > 0 ? text_of(e.mean, 2) : "–");
-                       }
-                       return cell;
-                     }));
-  add("18 slope below ν_c", "1", "1 ± 0.3", 0.7, 1.3,
-      [](const Sample& x) { return x.slopes.below.exponent; });
-  add("18 slope above ν_c", "−1", "−1 ± 0.3", -1.3, -0.7,
-      [](const Sample& x) { return x.slopes.above.exponent; });
-  add("18 Δρ_max/ρ0, two branches", "0.005", "×2", 0.0025, 0.01,
-      [](const Sample& x) { return x.branches.prefactor; });
-  add("18 Δρ_max/ρ0, single form", "0.005", "×2", 0.0025, 0.01,
-      [](const Sample& x) { return x.single.prefactor; });
+  rows.push_back(row(
+      shapes,
+      "18 " + which + "rms of ln(rate) about the branches; about one power law; about one value",
+      "–", "–", [=](const ShapeSummary& s) {
+        const auto value = [&](const std::function<double(const CompactionLaws&)>& field) {
+          return text_of(over_samples(s, [&](const Sample& x) { return field(x.*of); }).mean, 2);
+        };
+        const std::string first = value([](const CompactionLaws& x) { return x.branches.scatter; });
+        if (first.empty()) return Cell{};
+        return Cell{first + "; " +
+                        value([](const CompactionLaws& x) { return x.scatter_about_law; }) + "; " +
+                        value([](const CompactionLaws& x) { return x.scatter_about_one; }),
+                    std::nullopt};
+      }));
+  add("slope below ν_c", "1", "1 ± 0.3, by four frequencies at least", 0.7, 1.3,
+      [](const CompactionLaws& x) { return x.slopes.below.exponent; });
+  add("slope above ν_c", "−1", "−1 ± 0.3, by four frequencies at least", -1.3, -0.7,
+      [](const CompactionLaws& x) { return x.slopes.above.exponent; });
+}
+
+void judge_compaction(const Shapes& shapes, Rows& rows) {
+  judge_rate_law(shapes, rows, "", &Sample::rate);
+  const auto prefactor = [&](const char* quantity, CompactionFit CompactionLaws::*form) {
+    rows.push_back(row(shapes, quantity, "0.005", "×2", [=](const ShapeSummary& s) {
+      return ranged(
+          s, [=](const Sample& x) { return (x.rate.*form).prefactor; }, 0.0025, 0.01);
+    }));
+  };
+  prefactor("18 Δρ_max/ρ0, two branches", &CompactionLaws::branches);
+  prefactor("18 Δρ_max/ρ0, single form", &CompactionLaws::single);
   rows.push_back(row(shapes, "18 ν_c [Hz], single form", "10", "–", [](const ShapeSummary& s) {
-    return told(s, [](const Sample& x) { return x.single.nu_c; });
+    return told(s, [](const Sample& x) { return x.rate.single.nu_c; });
   }));
+  const auto over_frequency = [&](const char* quantity, const char* paper,
+                                  const std::function<double(const Result&)>& value) {
+    rows.push_back(row(shapes, quantity, paper, "–", [=](const ShapeSummary& s) {
+      Cell cell;
+      for (const double nu : {2.0, 5.0, 10.0, 20.0, 60.0}) {
+        const Estimate e = over_samples(s, [=](const Sample& x) { return x.at(nu, value); });
+        cell.value += (cell.value.empty() ? "" : "; ") + (e.samples > 0 ? text_of(e.mean, 2) : "–");
+      }
+      return cell;
+    }));
+  };
+  over_frequency("18 1e4 Δρ_1/ρ0 per period at 2; 5; 10; 20; 60 Hz",
+                 "50 below ν_c, falling as ν⁻² above",
+                 [](const Result& r) { return 1e4 * r.compaction_per_period; });
+  over_frequency("18 whole box, first second: rate at 2; 5; 10; 20; 60 Hz [1e-3/s]", "–",
+                 [](const Result& r) { return 1e3 * r.early_rate(&Jam::rho_box); });
+  judge_rate_law(shapes, rows, "whole box, first second: ", &Sample::early);
 }
 
 }  // namespace

@@ -17,6 +17,11 @@ inline std::optional<bool> within(double value, double low, double high) {
   return value >= low && value <= high;
 }
 
+/// As it stands behind a value.
+inline const char* mark(const std::optional<bool>& holds) {
+  return holds ? *holds ? " **✓**" : " **✗**" : "";
+}
+
 /// To so many significant digits; empty if it is not finite.
 inline std::string text_of(double value, int digits = 3) {
   if (!std::isfinite(value)) return "";

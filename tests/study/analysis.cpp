@@ -11,6 +11,7 @@
 #include "../../examples/ratcheting_study/compaction_fit.hpp"
 #include "../../examples/ratcheting_study/loop_distance.hpp"
 #include "../../examples/ratcheting_study/power_law.hpp"
+#include "../../examples/ratcheting_study/result.hpp"
 #include "../../examples/ratcheting_study/wording.hpp"
 
 using namespace study;
@@ -197,4 +198,41 @@ TEST_CASE("the active phase begins where the falling force is the weight, creep 
   CHECK(phase.creep == doctest::Approx(0.2));
   CHECK(phase.dx == doctest::Approx(1));
   CHECK(phase.thrust == doctest::Approx(7));
+}
+
+TEST_CASE("thrust and carried grains are found in the force of a wall that carries some") {
+  // M x'' = F - f with M = m_w + carried; the wall itself feels f_g = F - carried x''.
+  const double wall = 14, carried = 9, thrust = 80, h = 2e-4, omega = 2 * std::numbers::pi * 5;
+  const auto force = [&](double time) { return 3000 * (1 - std::cos(omega * time)); };
+  std::vector<double> t, x, v, f_g;
+  double time = -std::acos(1 - thrust / 3000) / omega, speed = 0, place = 0;
+  do {
+    const double a = (thrust - force(time + h / 2)) / (wall + carried);
+    time += h, speed += h * a, place += h * speed;
+    t.push_back(time), x.push_back(place), v.push_back(speed), f_g.push_back(thrust - carried * a);
+  } while (speed > 0);
+  const ActivePhase phase = active_phase(t, x, v, f_g, t.front(), t.front(), t.back());
+  CHECK(phase.carried.thrust == doctest::Approx(thrust).epsilon(1e-9));
+  CHECK(phase.carried.mass == doctest::Approx(carried).epsilon(1e-9));
+  CHECK(phase.carried.explained == doctest::Approx(1).epsilon(1e-9));
+  // And they say how far it went.
+  const Push p{thrust, 0, 6000, 5, 28, wall};
+  CHECK(sine_displacement(p, carried / 28) == doctest::Approx(phase.dx).epsilon(0.02));
+  CHECK(std::isnan(ratcheting::carried_grains(t, v, f_g, 4, 5).mass));
+}
+
+TEST_CASE("rates of the first second: one window for all frequencies") {
+  Result r{};
+  CHECK(std::isnan(r.early_rate(&Jam::rho_inner)));
+  // 1 Hz: the first period, late as it is; 5 Hz in five seconds: until the jam before 1 s.
+  r.jams = {{0.75, 0, 0.50, 0.60}, {1.75, 0, 0.52, 0.63}, {2.75, 0, 0.53, 0.64}};
+  CHECK(r.early_rate(&Jam::rho_inner) == doctest::Approx(0.04));
+  CHECK(r.early_rate(&Jam::rho_box) == doctest::Approx(0.05));
+  r.jams.clear();
+  for (int k = 0; k < 25; ++k) {
+    const double t = 0.15 + 0.2 * k;
+    r.jams.push_back({t, 0, t < 1 ? 0.5 * (1 + 0.1 * (t - 0.15)) : 0.9, 0.6});
+  }
+  CHECK(r.early_rate(&Jam::rho_inner) == doctest::Approx(0.1));
+  CHECK(r.early_rate(&Jam::rho_box) == 0);
 }

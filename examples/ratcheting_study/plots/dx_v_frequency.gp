@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Largest displacement and largest passive speed over the frequency, with fits and the paper's
-# slopes; +: displacement from where the falling force is the weight.
+# Largest displacement and largest passive speed over the frequency. +: displacement from where the
+# falling force is the weight, without creep, and its law. The paper's lines: C for grains with
+# corners; of the speed its slope alone.
 width = 1600; height = 750
 load system("dirname '".ARG0."'")."/style.gp"
 set multiplot layout 1, 2 margins 0.06, 0.99, 0.1, 0.97 spacing 0.07, 0
@@ -9,22 +10,23 @@ set xrange [0.8:75]
 set autoscale yfix
 set format y "10^{%L}"
 set xlabel "ν  [Hz]"
-set key bottom left
-set ylabel "Δx_{max}  [mm]"
-law(name, shape, x) = number(name."_prefactor", shape) * x**number(name."_exponent", shape)
+set key bottom left font ",12" Left reverse
 do for [name in "dx v"] {
-  column = name eq "dx" ? 2 : 4
-  set ylabel (name eq "dx" ? "Δx_{max}  [mm]" : "v_{max}, passive  [mm/s]")
+  is_way = name eq "dx"
+  column = is_way ? 2 : 4
+  set ylabel (is_way ? "Δx_{max}  [mm]" : "v_{max}, passive  [mm/s]")
   commands = ""
   do for [shape in shapes] {
     if (has("frequencies", shape)) {
-      p = number(name."_frequency_prefactor", shape); e = number(name."_frequency_exponent", shape)
-      commands = commands.sprintf("file_of('frequencies', '%s') using 1:(mm($%d)):(mm(below(%d, %d))):(mm(above(%d, %d))) skip 1 with yerrorbars pointtype %d linecolor rgb '%s' title '%s%s', ", shape, column, column, column + 1, column, column + 1, point_of(shape), color_of(shape), title_of(shape), (known(e) ? sprintf(": ν^{%.2f}", e) : "").(name eq "dx" && known(number("active_frequency_exponent", shape)) ? sprintf(", + ν^{%.2f}", number("active_frequency_exponent", shape)) : ""))
-      if (name eq "dx") { commands = commands.sprintf("file_of('frequencies', '%s') using 1:(mm($11)) skip 1 with points pointtype 1 linecolor rgb '%s' notitle, ", shape, color_of(shape)) }
-      if (known(e)) { commands = commands.sprintf("mm(%g * x**%g) with lines linewidth 0.8 linecolor rgb '%s' notitle, ", p, e, color_of(shape)) }
+      law = is_way ? "active" : "v"
+      p = number(law."_frequency_prefactor", shape); e = number(law."_frequency_exponent", shape); all = number("dx_frequency_exponent", shape)
+      title = title_of(shape).(!known(e) ? "" : is_way ? sprintf(": ν^{%.2f}, + ν^{%.2f}", all, e) : sprintf(": ν^{%.2f}", e))
+      file = file_of("frequencies", shape)
+      commands = commands.points_of(file, "$1", column, 1e3, point_of(shape), color_of(shape), title).bars_of(file, "$1", column, column + 1, 1e3, color_of(shape))
+      if (is_way) { commands = commands.points_of(file, "$1", 11, 1e3, 1, color_of(shape), "") }
+      if (known(e)) { commands = commands.law_of(1e3 * p, e, "x", color_of(shape)) }
     }
   }
-  guide = name eq "dx" ? "20. * x**(-2)" : "700. * x**(-1)"
-  eval "plot ".commands.guide." with lines dashtype 2 linecolor rgb grey title '".(name eq "dx" ? "+: without creep; " : "")."paper: slope ".(name eq "dx" ? "ν^{-2}" : "ν^{-1}")."'"
+  eval "plot ".commands.(is_way ? papers_of("(5 / x)**2") : "700. / x with lines dashtype 2 linecolor rgb grey title 'paper: slope ν^{-1}', ")." NaN notitle"
 }
 unset multiplot

@@ -3,7 +3,8 @@
 # middle quarter of the box in 3D. The driven wall is on the right.
 width = 1600; height = 950
 load system("dirname '".ARG0."'")."/style.gp"
-set multiplot layout 2, 4 columnsfirst margins 0.01, 0.99, 0.01, 0.92 spacing 0.01, 0.08
+set multiplot layout 2, 4 columnsfirst margins 0.01, 0.99, 0.035, 0.92 spacing 0.01, 0.08
+set label 9 "widths are relative to the mean force of each panel: the stresses above tell how much more the jammed grains bear; the driven wall is on the right" at screen 0.5, 0.015 center textcolor rgb grey font ",12"
 unset key
 unset tics
 unset grid

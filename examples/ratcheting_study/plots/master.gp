@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Every run at the baseline box: displacement over scaled load. Lines: C of the fit and of the
-# paper; crosses: the closed form from each run's own active thrust.
+# paper; crosses: the closed form with thrust and carried mass of each run's flights, and with each
+# run's mean force and one beta.
 width = 1500; height = 1150
 load system("dirname '".ARG0."'")."/style.gp"
 set multiplot layout 2, 2 margins 0.07, 0.98, 0.07, 0.95 spacing 0.08, 0.14
@@ -8,7 +9,7 @@ set logscale xy
 set format "10^{%L}"
 set xlabel "(mg)^2 / [(m + m_w) f_{max} ν^2]  [mm]"
 set ylabel "Δx_{max}  [mm]"
-set key top left font ",12"
+set key bottom right font ",12" Left reverse
 varied = "frequency force gravity wall_mass"
 do for [shape in shapes] {
   if (!has("master", shape)) {
@@ -16,15 +17,16 @@ do for [shape in shapes] {
     continue
   }
   set title title_of(shape)
-  c = number("C", shape); beta = number("beta", shape)
+  c = number("active_C", shape); all = number("C", shape); beta = number("beta", shape)
   commands = ""
   do for [k = 1:4] {
     symbol = word("8 6 4 12", k) + 0
     commands = commands.sprintf("file_of('master', '%s') using ($1 == %d ? mm($2) : NaN):(mm($3)) skip 1 with points pointtype %d linecolor rgb '%s' title '%s', ", shape, k, symbol, color_of(shape), k == 4 ? "wall mass" : word(varied, k))
   }
   commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($6)) skip 1 with points pointtype 1 linecolor rgb '%s' title 'without creep', ", shape, color_of(shape))
-  if (known(beta)) { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($5)) skip 1 with points pointtype 2 pointsize 0.7 linecolor rgb 'black' title 'closed form, β = %.2f', ", shape, beta) } else { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($4)) skip 1 with points pointtype 2 pointsize 0.7 linecolor rgb 'black' title 'closed form, β = 1/3', ", shape) }
-  if (known(c)) { commands = commands.sprintf("%g * x with lines linecolor rgb '%s' title 'C = %.3f', ", c, color_of(shape), c) }
+  if (known(beta)) { commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($5)) skip 1 with points pointtype 2 pointsize 0.6 linecolor rgb grey title 'closed form, one β = %.2f', ", shape, beta) }
+  commands = commands.sprintf("file_of('master', '%s') using (mm($2)):(mm($7)) skip 1 with points pointtype 2 pointsize 0.8 linecolor rgb 'black' title 'closed form, F and β of each flight', ", shape)
+  if (known(c)) { commands = commands.sprintf("%g * x with lines linecolor rgb '%s' title 'C = %.3f without creep, %.3f with it', ", c, color_of(shape), c, all) }
   paper = shape eq "polyhedron" || shape eq "sphere" ? 0.01 : 0.05
   eval "plot ".commands.sprintf("%g * x with lines dashtype 2 linecolor rgb grey title 'paper: C = %g'", paper, paper)
 }

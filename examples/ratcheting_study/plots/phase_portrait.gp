@@ -9,23 +9,22 @@ do for [shape in shapes] {
     set multiplot next
     continue
   }
-  set title title_of(shape)
+  set title title_of(shape) font ",15"
   set key above horizontal maxrows 1
   set xrange [*:*]
   set yrange [*:*]
   stats file_of("loop5", shape) using 1 skip 1 nooutput
-  set xtics tics_over(mm(STATS_max - STATS_min))
+  set xtics 2 * tics_over(mm(STATS_max - STATS_min))
   set xlabel "x − x_j  [mm]"
   set ylabel (shape eq "polyhedron" ? "v  [mm/s]" : "")
-  plot file_of("loop5", shape) using (mm($1)):(mm($2)) skip 1 with lines linecolor rgb blue title "5 Hz", \
-       file_of("loop10", shape) using (mm($1)):(mm($2)) skip 1 with lines linecolor rgb red title "10 Hz"
+  loops = has("loop10", shape) ? "5 10" : "5"
+  plot for [nu in loops] file_of("loop".nu, shape) using (mm($1)):(mm($2)) skip 1 with lines linecolor rgb (nu eq "5" ? blue : red) title nu." Hz"
   distance = number("loop_distance", shape)
   set title (known(distance) ? sprintf("largest distance %.0f %%", 100 * distance) : "") font ",13"
   unset key
-  set xtics tics_over(25 * mm(STATS_max - STATS_min))
+  set xtics 2 * tics_over(25 * mm(STATS_max - STATS_min))
   set xlabel "(x − x_j) ν²  [mm/s²]"
   set ylabel (shape eq "polyhedron" ? "v ν  [mm/s²]" : "")
-  plot file_of("loop5", shape) using (mm($3)):(mm($4)) skip 1 with lines linecolor rgb blue, \
-       file_of("loop10", shape) using (mm($3)):(mm($4)) skip 1 with lines linecolor rgb red
+  plot for [nu in loops] file_of("loop".nu, shape) using (mm($3)):(mm($4)) skip 1 with lines linecolor rgb (nu eq "5" ? blue : red)
 }
 unset multiplot

@@ -13,11 +13,11 @@ do for [shape in "polyhedron polygon"] {
     set multiplot next
     continue
   }
-  set title title_of(shape)
+  set title title_of(shape) offset 0, 1
   set xlabel "ν  [Hz]"
   set ylabel "compaction rate  [1/s]"
   plot for [k = 1:3] "< sort -t, -g -k1,1 -k2,2 '".file_of("relaxation", shape)."'" using ($1 == k ? $2 : NaN):4 with linespoints pointtype 4 + k linecolor rgb word(blue." ".red." ".green, k) title condition(k)
-  unset title
+  set title title_of(shape).", scaled"
   set xlabel "ν √(d/g)"
   set ylabel "compaction rate × √(d/g)"
   plot for [k = 1:3] "< sort -t, -g -k1,1 -k2,2 '".file_of("relaxation", shape)."'" using ($1 == k ? $3 : NaN):5 with linespoints pointtype 4 + k linecolor rgb word(blue." ".red." ".green, k) title condition(k)

@@ -15,4 +15,4 @@ do for [shape in shapes] {
     }
   }
 }
-if (strlen(commands) > 0) { eval "plot ".commands." NaN notitle" } else { plot [1:100] [0:1] NaN title "no run yet" }
+eval "plot ".commands." NaN notitle"

@@ -28,11 +28,17 @@ green = "#2e7d4f"
 orange = "#d07a00"
 grey = "#7a7a7a"
 mm(x) = 1e3 * x
-error(x) = x == x ? x : 0  # a spread that is not known is not drawn
-# A bar on a logarithmic axis, as long below as above, of the value and spread in these columns.
-spread_of(k) = valid(k) ? column(k) : 0
-below(k, spread) = column(k) / (1 + spread_of(spread) / column(k))
-above(k, spread) = column(k) + spread_of(spread)
+# A bar on a logarithmic axis, as long below as above, of the value and spread in these columns; none
+# (NaN) where the spread is not known.
+below(k, spread) = valid(spread) ? column(k) / (1 + column(spread) / column(k)) : NaN
+above(k, spread) = valid(spread) ? column(k) + column(spread) : NaN
+# Commands for eval: points of column k over the expression x, times unit, with their bars.
+points_of(file, x, k, unit, symbol, color, title) = sprintf("'%s' using (%s):(%g * column(%d)) skip 1 with points pointtype %d linecolor rgb '%s' %s, ", file, x, unit, k, symbol, color, title eq "" ? "notitle" : "title '".title."'")
+bars_of(file, x, k, spread, unit, color) = sprintf("'%s' using (%s):(%g * below(%d, %d)):(0):(%g * (above(%d, %d) - below(%d, %d))) skip 1 with vectors nohead linewidth 0.9 linecolor rgb '%s' notitle, ", file, x, unit, k, spread, unit, k, spread, k, spread, color)
+law_of(factor, exponent, x, color) = sprintf("%g * (%s)**%g with lines linewidth 0.8 linecolor rgb '%s' notitle, ", factor, x, exponent, color)
+# The paper's C times the load of grains with corners at the baseline, mm, and its law over x.
+paper_of(shape, c, law) = known(number("load", shape)) ? sprintf("%g * (%s) with lines dashtype %d linecolor rgb grey title 'paper, %s: C = %g', ", 1e3 * c * number("load", shape), law, shape eq "polyhedron" ? 2 : 4, shape eq "polyhedron" ? "3D" : "2D", c) : ""
+papers_of(law) = paper_of("polyhedron", 0.01, law).paper_of("polygon", 0.05, law)
 kN(f) = 1e-3 * f
 shapes = "polyhedron polygon sphere disk"
 title_of(shape) = shape eq "polyhedron" ? "3D, polyhedra" : shape eq "polygon" ? "2D, polygons" : shape eq "sphere" ? "3D, spheres" : "2D, disks"
