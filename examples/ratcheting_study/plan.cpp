@@ -200,7 +200,7 @@ std::vector<Case> paper_plan() {
                [](Parameters& p) { p.size_reading = moreau::SizeReading::circumradius; });
   // In the plane 1200 grains make a box more than three times as long as in space. So few make one
   // of the same length and, with this ratio, of the same H/L; the force keeps fmax/mg.
-  for (std::size_t seed = 1; seed <= 10; ++seed)
+  for (std::size_t seed = 1; seed <= 20; ++seed)
     for (const auto& [shape, grains] : {std::pair{"polygon", 94}, std::pair{"disk", 111}})
       plan.add("same-length", shape, seed, [&](Parameters& p) {
         p.grains = std::size_t(grains);

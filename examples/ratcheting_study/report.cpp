@@ -384,7 +384,8 @@ std::string same_length(const std::vector<Result>& results) {
       for (const Result* r : runs) values.push_back(value(*r));
       Estimate e = estimate(values);
       e.spread /= std::sqrt(double(e.samples));
-      return e.samples > 1   ? text_of(e.mean) + " ± " + text_of(e.spread, 2)
+      const bool spreads = e.spread > 1e-9 * std::abs(e.mean);
+      return spreads         ? text_of(e.mean) + " ± " + text_of(e.spread, 2)
              : e.samples > 0 ? text_of(e.mean)
                              : "–";
     };

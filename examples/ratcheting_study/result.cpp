@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "result.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -132,8 +133,10 @@ void summarize_packing(const Table& packing, Result& r) {
 
 /// Phase portraits are of 5 and 10 Hz.
 bool is_in_portrait(const Case& c) {
-  return c.sets.contains("frequencies") &&
-         (c.parameters.frequency == 5 || c.parameters.frequency == 10);
+  const bool in_series = std::any_of(c.sets.begin(), c.sets.end(), [](const std::string& set) {
+    return set == "frequencies" || set == "uncorrected" || set == "fine" || set == "tight";
+  });
+  return in_series && (c.parameters.frequency == 5 || c.parameters.frequency == 10);
 }
 
 }  // namespace

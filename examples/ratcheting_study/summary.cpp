@@ -9,6 +9,16 @@
 
 namespace study {
 
+double scaled_loop_distance(const Result& slow, const Result& fast) {
+  const auto scaled = [&](const Result& r) {
+    const double nu = r.c.parameters.frequency;
+    std::vector<Point> loop = r.loop;
+    for (Point& p : loop) p = {p.x * nu * nu, p.y * nu};
+    return loop;
+  };
+  return loop_distance(scaled(slow), scaled(fast));
+}
+
 Proportion master_fit(const Series& series, double Result::*displacement, double beta) {
   std::vector<Point> points;
   for (const Result* r : series) {
@@ -89,16 +99,6 @@ void predict_displacements(const Series& all, SampleSummary& sample) {
   sample.prediction_walls = fit_proportion(walls);
   sample.flight = fit_proportion(flights);
   if (over_frequency.size() >= 4) sample.predicted_frequency = fit_power_law(over_frequency);
-}
-
-double scaled_loop_distance(const Result& slow, const Result& fast) {
-  const auto scaled = [&](const Result& r) {
-    const double nu = r.c.parameters.frequency;
-    std::vector<Point> loop = r.loop;
-    for (Point& p : loop) p = {p.x * nu * nu, p.y * nu};
-    return loop;
-  };
-  return loop_distance(scaled(slow), scaled(fast));
 }
 
 CompactionLaws compaction_laws(const std::vector<Point>& rates) {

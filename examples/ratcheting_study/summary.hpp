@@ -89,6 +89,9 @@ Estimate over_samples(const ShapeSummary& shape, const auto& value_of) {
 Series master_series(const std::vector<Result>& results, const std::string& shape,
                      std::size_t seed);
 
+/// How far the phase portraits of a slower and a faster run are apart when scaled, x nu^2 and v nu.
+double scaled_loop_distance(const Result& slow, const Result& fast);
+
 /// C of a series: the displacement over (mg)^2 / [(m_w + beta m) fmax nu^2], the paper's load where
 /// beta = 1.
 Proportion master_fit(const Series& series, double Result::*displacement, double beta);
