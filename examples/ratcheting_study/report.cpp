@@ -266,6 +266,27 @@ std::string elsewhere(const std::string& set, const std::string& title,
       if (r->c.parameters.frequency == 20) return text_of(r->creep / r->dx_max, 2);
     return std::string();
   });
+  line("14 scaled phase portraits at 5 and 10 Hz, apart by", [&](const Series& s) {
+    const Series only = varying(s, &Parameters::frequency);
+    const auto at = [&](double nu) {
+      const auto run = std::find_if(only.begin(), only.end(), [=](const Result* r) {
+        return r->c.parameters.frequency == nu && !r->loop.empty();
+      });
+      return run == only.end() ? nullptr : *run;
+    };
+    const Result *five = at(5), *ten = at(10);
+    if (five == nullptr || ten == nullptr) return std::string();
+    const double distance = 100 * scaled_loop_distance(*five, *ten);
+    return text_of(distance) + " %" + mark(within(distance, 0, 15));
+  });
+  line("18 rate, whole box, first second, at 2; 5; 10; 20; 60 Hz [1e-3/s]", [&](const Series& s) {
+    std::string rates;
+    for (const double nu : {2.0, 5.0, 10.0, 20.0, 60.0})
+      for (const Result* r : varying(s, &Parameters::frequency))
+        if (r->c.parameters.frequency == nu)
+          rates += (rates.empty() ? "" : "; ") + text_of(1e3 * r->early_rate(&Jam::rho_box), 2);
+    return rates;
+  });
   line("15 exponent of Δx_max over ν",
        [&](const Series& s) { return law(s, &Result::dx_max, -2.1, -1.9); });
   line("15 the same from where f falls below mg",
