@@ -10,7 +10,7 @@ set yrange [2e-4:1]
 set format y "10^{%L}"
 set xlabel "ν  [Hz]"
 set ylabel "compaction rate  [1/s]"
-set key top left font ",12" Left reverse
+set key top left font ",12" Left reverse spacing 1.4
 branches(nu, a, c) = nu < c ? a * nu : a * c * c / nu
 single(nu, a, c) = a * nu * (1 + exp(-(nu / c - 1)**2)) / (1 + (nu / c)**2)
 do for [shape in shapes] {

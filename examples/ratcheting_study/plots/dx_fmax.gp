@@ -6,7 +6,7 @@ load system("dirname '".ARG0."'")."/style.gp"
 set logscale xy
 set xlabel "f_{max}  [kN]"
 set ylabel "Δx_{max}  [mm]"
-set key bottom left font ",12" Left reverse
+set key bottom left font ",12" Left reverse spacing 1.4
 commands = ""
 do for [shape in shapes] {
   if (has("fmax", shape)) {

@@ -6,7 +6,7 @@ load system("dirname '".ARG0."'")."/style.gp"
 set logscale xy
 set xlabel "g  [m/s²]"
 set ylabel "Δx_{max}  [mm]"
-set key top left font ",12" Left reverse
+set key top left font ",12" Left reverse spacing 1.4
 commands = ""
 do for [shape in shapes] {
   if (has("gravity", shape)) {

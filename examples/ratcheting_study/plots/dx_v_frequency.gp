@@ -10,7 +10,7 @@ set xrange [0.8:75]
 set autoscale yfix
 set format y "10^{%L}"
 set xlabel "ν  [Hz]"
-set key bottom left font ",12" Left reverse
+set key bottom left font ",12" Left reverse spacing 1.4
 do for [name in "dx v"] {
   is_way = name eq "dx"
   column = is_way ? 2 : 4

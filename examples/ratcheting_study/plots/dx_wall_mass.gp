@@ -9,7 +9,7 @@ set yrange [0:2]
 set xtics (0.1, 0.2, 0.5, 1, 2, 4)
 set xlabel "m_w / m"
 set ylabel "Δx (m + m_w), over that at m_w = m/2"
-set key top right
+set key top right font ",12" Left reverse
 commands = ""
 do for [shape in shapes] {
   if (has("wall-mass", shape)) {
