@@ -126,14 +126,16 @@ void write_series(const fs::path& folder, const std::vector<Result>& results,
   file.close();
 }
 
+constexpr double smallest_size = 0.025;  // of the baseline's grains, d [m]
+
 /// One line per run: what was varied (1 frequency, 2 force, 3 gravity, 4 wall mass), load,
 /// displacement; the closed form's with beta = 1/3, with the fitted beta, and with thrust and beta
-/// of the force on the wall.
+/// of the force on the wall; those two, over the way out without creep against d.
 void write_master(const fs::path& folder, const std::vector<Result>& results,
                   const ShapeSummary& shape) {
-  moreau::CsvWriter file(
-      data_file(folder, "master", shape.shape),
-      {"varied", "load", "dx_max", "predicted_third", "predicted", "dx_active", "flight"});
+  moreau::CsvWriter file(data_file(folder, "master", shape.shape),
+                         {"varied", "load", "dx_max", "predicted_third", "predicted", "dx_active",
+                          "flight", "way_over_d", "steady_thrust_over_weight", "carried_share"});
   for (const SampleSummary& sample : shape.samples)
     for (const Result* r : master_series(results, shape.shape, sample.seed)) {
       const auto& sets = r->c.sets;
@@ -144,7 +146,8 @@ void write_master(const fs::path& folder, const std::vector<Result>& results,
       file.row(double(varied), six(r->scaled_load()), six(r->dx_max),
                six(sine_displacement(r->push(), 1.0 / 3)),
                six(sine_displacement(r->push(), sample.prediction.beta)), six(r->dx_active),
-               six(r->flight_displacement()));
+               six(r->flight_displacement()), six(r->dx_active / smallest_size),
+               six(r->steady_thrust), six(r->carried_share));
     }
   file.close();
 }
@@ -308,6 +311,10 @@ const std::vector<Figure>& figures() {
       {"master",
        "Largest displacement over the scaled load, with C and with the closed form from the "
        "measured thrust (paper, fig. 15)",
+       {"frequencies", "fmax", "gravity", "wall-mass"}},
+      {"flight",
+       "Thrust of the grains and mass that they add to the wall while it moves out, over the way "
+       "out",
        {"frequencies", "fmax", "gravity", "wall-mass"}},
       {"compaction_rate",
        "Compaction rate over the frequency with both forms (paper, fig. 16)",
