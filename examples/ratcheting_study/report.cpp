@@ -239,8 +239,7 @@ std::string elsewhere(const std::string& set, const std::string& title,
   const auto master = [](const Series& series, double Result::*field) {
     if (varying(series, &Parameters::fmax).size() < 3) return std::string();
     const Proportion fit = master_fit(series, field, 1);
-    const Parameters& p = series.front()->c.parameters;
-    const double paper = p.shape == "polygon" || p.shape == "disk" ? 0.05 : 0.01;
+    const double paper = paper_constant(series.front()->c.parameters.shape);
     return text_of(fit.factor) + mark(within(fit.factor, paper / 3, 3 * paper)) + ", scatter " +
            text_of(100 * fit.scatter) + " %" + mark(within(fit.scatter, 0, 0.2));
   };
@@ -384,7 +383,7 @@ std::string prediction(const Shapes& shapes) {
 }
 
 /// The plane in a box as long as that of space.
-std::string same_length(const std::vector<Result>& results) {
+std::string same_length(const std::vector<Result>& results, const Shapes& shapes) {
   std::string text =
       "1200 grains make a box more than three times as long in the plane as in space, and the gap "
       "of 1 cm above them is as much smaller against it. The third and the sixth line are plane "
@@ -394,12 +393,7 @@ std::string same_length(const std::vector<Result>& results) {
       "| | samples | L [m] | H/L | rate [1/s] | whole box, first second [1/s] | x_j − x_j' [mm] | "
       "C | C without creep | F/mg | β | jammed σxx/σzz |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  const auto line = [&](const char* shape, const char* set, const char* name) {
-    Series runs;
-    for (const Result& r : results)
-      if (r.c.sets.contains(set) && r.c.parameters.shape == shape &&
-          r.c.parameters.frequency == 5 && r.c.parameters.fmax == 5 * double(r.c.parameters.grains))
-        if (r.c.parameters.gravity == Parameters{}.gravity) runs.push_back(&r);
+  const auto line = [&](const std::string& name, const Series& runs) {
     const auto of = [&](const std::function<double(const Result&)>& value) {
       std::vector<double> values;
       for (const Result* r : runs) values.push_back(value(*r));
@@ -410,7 +404,7 @@ std::string same_length(const std::vector<Result>& results) {
              : e.samples > 0 ? text_of(e.mean)
                              : "–";
     };
-    text += std::string("| ") + name + " | " + std::to_string(runs.size()) + " | " +
+    text += "| " + name + " | " + std::to_string(runs.size()) + " | " +
             of([](const Result& r) { return r.length; }) + " | " +
             of([](const Result& r) { return r.height / r.length; }) + " | " +
             of([](const Result& r) { return r.rate; }) + " | " +
@@ -423,12 +417,17 @@ std::string same_length(const std::vector<Result>& results) {
             of([](const Result& r) { return r.behaviour.jammed_xx / r.behaviour.jammed_zz; }) +
             " |\n";
   };
-  line("polyhedron", "fmax", "3D, polyhedra");
-  line("polygon", "fmax", "2D, polygons");
-  line("polygon", "same-length", "2D, polygons, box as in 3D");
-  line("sphere", "fmax", "3D, spheres");
-  line("disk", "fmax", "2D, disks");
-  line("disk", "same-length", "2D, disks, box as in 3D");
+  for (const ShapeSummary& shape : shapes) {
+    Series bases, short_boxes;
+    for (const Sample& sample : shape.samples)
+      if (sample.base != nullptr) bases.push_back(sample.base);
+    line(title_of(shape.shape), bases);
+    if (!is_plane(shape.shape)) continue;
+    for (const Result& r : results)
+      if (r.c.sets.contains("same-length") && r.c.parameters.shape == shape.shape)
+        short_boxes.push_back(&r);
+    line(title_of(shape.shape) + ", box as in 3D", short_boxes);
+  }
   return text;
 }
 
@@ -528,7 +527,7 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       completeness(plan, results) + "\n## Against the paper\n\n" +
       verdict_table(judge(results, shapes), shapes) + "\n## A closed form for C\n\n" +
       prediction(shapes) + "\n## Space and plane in boxes of one length\n\n" +
-      same_length(results) + "\n## The speed of the way back\n\n" + passive_speed(shapes) +
+      same_length(results, shapes) + "\n## The speed of the way back\n\n" + passive_speed(shapes) +
       "\n## Parameters that the paper leaves open\n\n" + open_parameters(results) +
       "\n## Numerics\n\n" + numerics(results) + "\n" +
       elsewhere("uncorrected", "without correction", results, shapes) + "\n" +

@@ -38,10 +38,14 @@ std::vector<Point> points_of(const Series& series, double Parameters::*parameter
   return points;
 }
 
+// Of a sample's runs, so that one that is not yet through is not held against the others.
+constexpr std::size_t enough_frequencies = 8;  ///< of twelve
+constexpr std::size_t enough_runs = 10;        ///< of some twenty of the master curve
+
 /// A law through fewer points than four says nothing; and one over the frequency through a few of
 /// its twelve, as a sample has them that is not yet through, is another law than the others'.
 PowerLaw law_of(const Series& series, double Parameters::*parameter, double Result::*value) {
-  const std::size_t enough = parameter == &Parameters::frequency ? 8 : 4;
+  const std::size_t enough = parameter == &Parameters::frequency ? enough_frequencies : 4;
   return series.size() < enough ? PowerLaw{} : fit_power_law(points_of(series, parameter, value));
 }
 
@@ -74,7 +78,7 @@ Scaling scaling_of(const std::vector<Result>& results, const std::string& shape,
   scaling.fmax = law("fmax", &Parameters::fmax);
   scaling.gravity = law("gravity", &Parameters::gravity);
   const Series all = master_series(results, shape, seed);
-  if (all.size() >= 10) scaling.master = master_fit(all, displacement, 1);
+  if (all.size() >= enough_runs) scaling.master = master_fit(all, displacement, 1);
   scaling.master_share = best_master(all, displacement);
   const Series walls = series_of(results, "wall-mass", shape, seed, &Parameters::wall_mass_ratio);
   scaling.wall_share = best_master(walls, displacement);
@@ -95,18 +99,19 @@ void predict_displacements(const Series& all, SampleSummary& sample) {
     if (r->c.sets.contains("frequencies"))
       over_frequency.push_back({r->c.parameters.frequency, predicted});
   }
-  if (pushed.size() < 10) return;
+  if (pushed.size() < enough_runs) return;
   if (walls_differ(all)) sample.prediction = fit_moving_share(pushed);
   sample.prediction_third = fit_proportion(third);
   sample.prediction_walls = fit_proportion(walls);
   sample.flight = fit_proportion(flights);
-  if (over_frequency.size() >= 8) sample.predicted_frequency = fit_power_law(over_frequency);
+  if (over_frequency.size() >= enough_frequencies)
+    sample.predicted_frequency = fit_power_law(over_frequency);
 }
 
 CompactionLaws compaction_laws(const std::vector<Point>& rates) {
   CompactionLaws laws;
   for (const Point& p : rates) laws.negative += !(p.y > 0);
-  if (rates.size() < 8) return laws;
+  if (rates.size() < enough_frequencies) return laws;
   laws.branches = fit_compaction(rates, two_branches);
   laws.single = fit_compaction(rates, single_form);
   laws.slopes = slopes_about(rates, laws.branches.nu_c);
@@ -144,7 +149,7 @@ void predict_returns(const Series& frequencies, SampleSummary& sample) {
     at_start.push_back({nu, returning_speed(push, 0, beta)});
     at_jam.push_back({nu, returning_speed(push, inward, beta)});
   }
-  if (at_start.size() < 8) return;
+  if (at_start.size() < enough_frequencies) return;
   sample.speed_at_start = fit_power_law(at_start);
   sample.speed_at_jam = fit_power_law(at_jam);
 }

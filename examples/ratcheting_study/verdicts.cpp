@@ -13,7 +13,7 @@ namespace {
 using Sample = SampleSummary;
 
 bool plane(const ShapeSummary& s) {
-  return s.shape == "polygon" || s.shape == "disk";
+  return is_plane(s.shape);
 }
 
 /// The lowest sample that has a baseline.
@@ -366,7 +366,7 @@ void judge_constant(const Shapes& shapes, Rows& rows) {
     const auto constant = [=](const Sample& x) { return (x.*of).master.factor; };
     rows.push_back(row(shapes, "17 C" + name + ", with m + m_w", "0.01 (3D), 0.05 (2D)",
                        "×3; C(2D) > C(3D)", [=](const ShapeSummary& s) {
-                         const double paper = plane(s) ? 0.05 : 0.01;
+                         const double paper = paper_constant(s.shape);
                          return ranged(s, constant, paper / 3, 3 * paper);
                        }));
     compare_dimensions(shapes, rows.back(), true, constant);

@@ -17,6 +17,14 @@ inline std::optional<bool> within(double value, double low, double high) {
   return value >= low && value <= high;
 }
 
+inline bool is_plane(const std::string& shape) {
+  return shape == "polygon" || shape == "disk";
+}
+/// The paper's C of row 17, for grains with corners.
+inline double paper_constant(const std::string& shape) {
+  return is_plane(shape) ? 0.05 : 0.01;
+}
+
 /// As it stands behind a value.
 inline const char* mark(const std::optional<bool>& holds) {
   return holds ? *holds ? " **✓**" : " **✗**" : "";

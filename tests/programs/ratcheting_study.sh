@@ -68,7 +68,7 @@ for table in cases.csv report.md data/values.csv runs/polygon-s1-5Hz.json; do
 done
 if command -v gnuplot >/dev/null; then
   for name in x_t one_period velocity_field f_g_x force_chains rho_t rho_x phase_portrait \
-    dx_v_frequency dx_fmax master compaction_rate; do
+    dx_v_frequency dx_fmax master flight compaction_rate; do
     [ -s "$folder/a/results/figures/$name.png" ] || fail "no figure $name"
   done
   [ -e "$folder/a/results/figures/rho_log_t.png" ] && fail "a figure of runs that the plan has not"
