@@ -457,19 +457,28 @@ std::string passive_speed(const Shapes& shapes) {
 
 std::string relaxation(const std::vector<Result>& results, const Shapes& shapes) {
   std::string text =
-      "| shape | | √(g/d) [1/s] | ν_c [Hz] | ν_c √(d/g) | mg/fmax |\n|---|---|---|---|---|---|\n";
+      "| shape | | √(g/d) [1/s] | ν_c [Hz] | rms of ln(rate) about the branches; about one power "
+      "law | ν_c [Hz], whole box, first second | rms | mg/fmax |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  const auto fit = [](const std::vector<Point>& rates) {
+    const CompactionLaws laws = compaction_laws(rates);
+    return text_of(laws.branches.nu_c) + (laws.branches.at_edge ? ", at the edge" : "") + " | " +
+           text_of(laws.branches.scatter, 2) + "; " + text_of(laws.scatter_about_law, 2) + " | ";
+  };
   for (const ShapeSummary& shape : shapes) {
     std::map<std::pair<double, double>, Series> conditions;
     for (const Result* r : series_of(results, "relaxation", shape.shape, 1))
       conditions[{r->c.parameters.gravity, r->c.parameters.size_scale}].push_back(r);
     for (const auto& [condition, series] : conditions) {
-      std::vector<Point> rates;
-      for (const Result* r : series) rates.push_back({r->c.parameters.frequency, r->rate});
-      const CompactionFit fit = fit_compaction(rates, two_branches);
-      const double unit = std::sqrt(condition.first / (0.025 * condition.second));
+      std::vector<Point> rates, early;
+      for (const Result* r : series) {
+        rates.push_back({r->c.parameters.frequency, r->rate});
+        early.push_back({r->c.parameters.frequency, r->early_rate(&Jam::rho_box)});
+      }
       text += "| " + shape.shape + " | g = " + text_of(condition.first) + " m/s², sizes × " +
-              text_of(condition.second) + " | " + text_of(unit) + " | " + text_of(fit.nu_c) +
-              (fit.at_edge ? ", at the edge" : "") + " | " + text_of(fit.nu_c / unit) + " | " +
+              text_of(condition.second) + " | " +
+              text_of(std::sqrt(condition.first / (0.025 * condition.second))) + " | " +
+              fit(rates) + fit(early) +
               text_of(series.front()->weight / series.front()->c.parameters.fmax) + " |\n";
     }
   }
@@ -536,7 +545,8 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       states(results) +
       "\n## What sets ν_c\n\nForce and gap stay as they are. Were they scaled with weight and "
       "size, "
-      "ν_c would go with √(g/d) by dimensions alone.\n\n" +
+      "ν_c would go with √(g/d) by dimensions alone. A ν_c is one where the branches fit better "
+      "than one power law.\n\n" +
       relaxation(results, shapes) + "\n## Where the paper contradicts itself\n\n" +
       contradictions(shapes) + "\n## Figures\n";
   for (const Figure& figure : figures())

@@ -108,6 +108,8 @@ void predict_displacements(const Series& all, SampleSummary& sample) {
     sample.predicted_frequency = fit_power_law(over_frequency);
 }
 
+}  // namespace
+
 CompactionLaws compaction_laws(const std::vector<Point>& rates) {
   CompactionLaws laws;
   for (const Point& p : rates) laws.negative += !(p.y > 0);
@@ -128,6 +130,8 @@ CompactionLaws compaction_laws(const std::vector<Point>& rates) {
   laws.scatter_about_law = fit_proportion(law).scatter;
   return laws;
 }
+
+namespace {
 
 void fit_compaction_rates(const Series& frequencies, SampleSummary& sample) {
   sample.rate = compaction_laws(points_of(frequencies, &Parameters::frequency, &Result::rate));

@@ -42,6 +42,9 @@ struct CompactionLaws {
   std::size_t negative = 0;                 ///< frequencies without compaction: not in the fits
 };
 
+/// The laws of these rates over their frequencies; nan for fewer frequencies than they need.
+CompactionLaws compaction_laws(const std::vector<Point>& rates);
+
 /// The fits to one sample's runs. Fits to fewer points than they need are nan.
 struct SampleSummary {
   std::size_t seed = 0;

@@ -5,7 +5,7 @@ load system("dirname '".ARG0."'")."/style.gp"
 set multiplot layout 2, 2 columnsfirst margins 0.08, 0.98, 0.07, 0.93 spacing 0.09, 0.17
 set logscale xy
 set format y "10^{%L}"
-set key above horizontal maxrows 1
+set key bottom left reverse Left samplen 2
 condition(k) = k == 1 ? "baseline" : k == 2 ? "g = 2.5 m/s²" : "sizes × 1.5"
 do for [shape in "polyhedron polygon"] {
   if (!has("relaxation", shape)) {
