@@ -3,6 +3,7 @@
 width = 900; height = 750
 load system("dirname '".ARG0."'")."/style.gp"
 set logscale x
+set xrange [0.5:*]
 set xlabel "periods"
 set ylabel "ρ − ρ(first maximum of f), inner volume"
 set key top left
