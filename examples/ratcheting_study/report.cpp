@@ -460,8 +460,8 @@ std::string relaxation(const std::vector<Result>& results, const Shapes& shapes)
       "| shape | | √(g/d) [1/s] | ν_c [Hz] | rms of ln(rate) about the branches; about one power "
       "law | ν_c [Hz], whole box, first second | rms | mg/fmax |\n"
       "|---|---|---|---|---|---|---|---|\n";
-  const auto fit = [](const std::vector<Point>& rates) {
-    const CompactionLaws laws = compaction_laws(rates);
+  const auto cells = [](const CompactionLaws& laws) -> std::string {
+    if (std::isnan(laws.branches.scatter)) return " |  | ";
     return text_of(laws.branches.nu_c) + (laws.branches.at_edge ? ", at the edge" : "") + " | " +
            text_of(laws.branches.scatter, 2) + "; " + text_of(laws.scatter_about_law, 2) + " | ";
   };
@@ -469,18 +469,12 @@ std::string relaxation(const std::vector<Result>& results, const Shapes& shapes)
     std::map<std::pair<double, double>, Series> conditions;
     for (const Result* r : series_of(results, "relaxation", shape.shape, 1))
       conditions[{r->c.parameters.gravity, r->c.parameters.size_scale}].push_back(r);
-    for (const auto& [condition, series] : conditions) {
-      std::vector<Point> rates, early;
-      for (const Result* r : series) {
-        rates.push_back({r->c.parameters.frequency, r->rate});
-        early.push_back({r->c.parameters.frequency, r->early_rate(&Jam::rho_box)});
-      }
+    for (const auto& [condition, series] : conditions)
       text += "| " + shape.shape + " | g = " + text_of(condition.first) + " m/s², sizes × " +
               text_of(condition.second) + " | " +
               text_of(std::sqrt(condition.first / (0.025 * condition.second))) + " | " +
-              fit(rates) + fit(early) +
+              cells(compaction_of_run(series)) + cells(early_compaction(series)) +
               text_of(series.front()->weight / series.front()->c.parameters.fmax) + " |\n";
-    }
   }
   return text;
 }
@@ -545,8 +539,8 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       states(results) +
       "\n## What sets ν_c\n\nForce and gap stay as they are. Were they scaled with weight and "
       "size, "
-      "ν_c would go with √(g/d) by dimensions alone. A ν_c is one where the branches fit better "
-      "than one power law.\n\n" +
+      "ν_c would go with √(g/d) by dimensions alone. A ν_c counts where the branches fit "
+      "better, with the smaller rms, than one power law.\n\n" +
       relaxation(results, shapes) + "\n## Where the paper contradicts itself\n\n" +
       contradictions(shapes) + "\n## Figures\n";
   for (const Figure& figure : figures())

@@ -108,8 +108,7 @@ void predict_displacements(const Series& all, SampleSummary& sample) {
     sample.predicted_frequency = fit_power_law(over_frequency);
 }
 
-}  // namespace
-
+/// nan for fewer frequencies than they need.
 CompactionLaws compaction_laws(const std::vector<Point>& rates) {
   CompactionLaws laws;
   for (const Point& p : rates) laws.negative += !(p.y > 0);
@@ -131,15 +130,20 @@ CompactionLaws compaction_laws(const std::vector<Point>& rates) {
   return laws;
 }
 
-namespace {
+}  // namespace
 
-void fit_compaction_rates(const Series& frequencies, SampleSummary& sample) {
-  sample.rate = compaction_laws(points_of(frequencies, &Parameters::frequency, &Result::rate));
-  std::vector<Point> early;
-  for (const Result* r : frequencies)
-    early.push_back({r->c.parameters.frequency, r->early_rate(&Jam::rho_box)});
-  sample.early = compaction_laws(early);
+CompactionLaws compaction_of_run(const Series& frequencies) {
+  return compaction_laws(points_of(frequencies, &Parameters::frequency, &Result::rate));
 }
+
+CompactionLaws early_compaction(const Series& frequencies) {
+  std::vector<Point> rates;
+  for (const Result* r : frequencies)
+    rates.push_back({r->c.parameters.frequency, r->early_rate(&Jam::rho_box)});
+  return compaction_laws(rates);
+}
+
+namespace {
 
 /// What the closed form says of the speed of the way back, in which the wall passes its start.
 void predict_returns(const Series& frequencies, SampleSummary& sample) {
@@ -175,7 +179,8 @@ SampleSummary summarize_sample(const std::vector<Result>& results, const std::st
   sample.v_frequency = law_of(frequencies, &Parameters::frequency, &Result::v_max);
   predict_displacements(master_series(results, shape, seed), sample);
   predict_returns(frequencies, sample);
-  fit_compaction_rates(frequencies, sample);
+  sample.rate = compaction_of_run(frequencies);
+  sample.early = early_compaction(frequencies);
   return sample;
 }
 

@@ -42,8 +42,10 @@ struct CompactionLaws {
   std::size_t negative = 0;                 ///< frequencies without compaction: not in the fits
 };
 
-/// The laws of these rates over their frequencies; nan for fewer frequencies than they need.
-CompactionLaws compaction_laws(const std::vector<Point>& rates);
+/// Of the inner volume over the whole run; of the whole box over the first second. The fits to
+/// fewer frequencies than they need are nan.
+CompactionLaws compaction_of_run(const Series& frequencies);
+CompactionLaws early_compaction(const Series& frequencies);
 
 /// The fits to one sample's runs. Fits to fewer points than they need are nan.
 struct SampleSummary {
