@@ -233,7 +233,6 @@ void add_values(const ShapeSummary& s, Values& values) {
   add("rate_prefactor", [](const Sample& x) { return x.rate.branches.prefactor; });
   add("single_nu_c", [](const Sample& x) { return x.rate.single.nu_c; });
   add("single_prefactor", [](const Sample& x) { return x.rate.single.prefactor; });
-  add("loop_distance", [](const Sample& x) { return x.loop_distance; });
   for (const Sample& sample : s.samples) {
     if (sample.seed != 1 || sample.base == nullptr) continue;
     const Behaviour& b = sample.behaviour;
@@ -248,12 +247,12 @@ void add_values(const ShapeSummary& s, Values& values) {
     values.add("mass_ratio_" + s.shape, p.wall_mass_ratio);
     values.add("roll_" + s.shape, sample.base->facts.roll);
     values.add("roll_strength_" + s.shape, sample.base->facts.roll_strength);
+    values.add("loop_distance_" + s.shape, sample.loop_distance);  // of the loops that are drawn
   }
 }
 
-void write_shape(const Places& places, const std::vector<Result>& results,
+void write_shape(const fs::path& folder, const std::vector<Result>& results,
                  const ShapeSummary& shape) {
-  const fs::path& folder = places.results;
   for (const double frequency : {5.0, 10.0}) {
     const Result* r =
         find(results, "frequencies", shape.shape, 1, &Parameters::frequency, frequency);
@@ -261,7 +260,7 @@ void write_shape(const Places& places, const std::vector<Result>& results,
     write_loop(folder, *r);
     if (frequency != 5) continue;
     write_events(folder, *r);
-    if (has_folder(places, r->c)) write_baseline(folder_of(places, r->c), folder, *r);
+    if (!r->folder.empty()) write_baseline(r->folder, folder, *r);
   }
   write_series(folder, results, shape, "frequencies", &Parameters::frequency);
   write_series(folder, results, shape, "fmax", &Parameters::fmax);
@@ -270,8 +269,8 @@ void write_shape(const Places& places, const std::vector<Result>& results,
   write_master(folder, results, shape);
   write_relaxation(folder, results, shape);
   for (const Result& r : results)
-    if (r.c.sets.contains("long") && r.c.parameters.shape == shape.shape && has_folder(places, r.c))
-      write_long(folder_of(places, r.c), folder, r);
+    if (r.c.sets.contains("long") && r.c.parameters.shape == shape.shape && !r.folder.empty())
+      write_long(r.folder, folder, r);
 }
 
 }  // namespace
@@ -324,15 +323,15 @@ const std::vector<Figure>& figures() {
   return all;
 }
 
-void write_figure_data(const Places& places, const std::vector<Result>& results,
+void write_figure_data(const fs::path& folder, const std::vector<Result>& results,
                        const std::vector<ShapeSummary>& shapes) {
-  fs::create_directories(places.results / "data");
+  fs::create_directories(folder / "data");
   Values values;
   for (const ShapeSummary& shape : shapes) {
-    write_shape(places, results, shape);
+    write_shape(folder, results, shape);
     add_values(shape, values);
   }
-  values.write(places.results / "data" / "values.csv");
+  values.write(folder / "data" / "values.csv");
 }
 
 std::vector<std::string> draw_figures(const fs::path& folder, const fs::path& scripts,

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "result.hpp"
-#include "store.hpp"
 #include "summary.hpp"
 
 namespace study {
@@ -22,7 +21,7 @@ const std::vector<Figure>& figures();
 
 /// Writes data/*.csv below the folder of the results: what every figure draws. What shows a run's
 /// own files stays as it is where its folder is gone.
-void write_figure_data(const Places& places, const std::vector<Result>& results,
+void write_figure_data(const std::filesystem::path& folder, const std::vector<Result>& results,
                        const std::vector<ShapeSummary>& shapes);
 
 /// Draws figures/NAME.png and .svg below the folder: those of whose series there are runs.

@@ -54,7 +54,7 @@ bool report(const Options& o, const std::vector<study::Case>& plan) {
   std::vector<study::ShapeSummary> shapes;
   for (const char* shape : {"polyhedron", "polygon", "sphere", "disk"})
     shapes.push_back(study::summarize(results, shape));
-  study::write_figure_data(o.places(), results, shapes);
+  study::write_figure_data(folder, results, shapes);
   const auto missing = study::draw_figures(folder, o.plots, results, o.figures);
   for (const std::string& figure : missing) std::printf("not drawn: %s\n", figure.c_str());
   study::write_cases(folder, results);
@@ -67,6 +67,11 @@ bool report(const Options& o, const std::vector<study::Case>& plan) {
 
 int run(Options& o) {
   const std::vector<study::Case> plan = study::make_plan(o.plan);
+  const study::Selection& s = o.selection;
+  if (o.report_only &&
+      !(s.sets.empty() && s.shapes.empty() && s.seeds.empty() && s.numbers.empty()))
+    throw std::invalid_argument(
+        "--report-only: --set, --shape, --seed and --case choose what runs; the report is of all");
   add_sets_of_figures(o);
   const std::vector<study::Case> cases = study::select(plan, o.selection);
   if (o.list) {

@@ -208,6 +208,27 @@ std::vector<Case> paper_plan() {
         p.box_ratio = 0.9;
         p.tolerance = 1e-5;
       });
+  // Does what creeps out against a force that never falls below the thrust creep by the tolerance?
+  for (const char* shape : {"polygon", "disk"})
+    plan.add("states", shape, 1, [](Parameters& p) {
+      p.fmin = 400;
+      p.tolerance = 1e-5;
+    });
+  tight("disk", nu, {5, 10, 20, 60, 2});
+  tight("disk", fmax, {2000, 4000, 10000});
+  tight("disk", g, {2.5, 5, 20});
+  tight("disk", wall, {0.1, 1, 2, 4});
+  // In space half the step leaves as little creep at 20 Hz as a tenth of the tolerance, for less.
+  const auto half = [&](double Parameters::*field, Numbers values) {
+    for (const double value : values)
+      plan.add("half", "polyhedron", 1, [&](Parameters& p) {
+        p.step = 1e-4;
+        p.*field = value;
+      });
+  };
+  half(g, {9.81, 2.5, 5, 20});
+  half(nu, {20, 60, 10, 2});
+  half(fmax, {2000, 4000, 10000});
   return std::move(plan).cases();
 }
 

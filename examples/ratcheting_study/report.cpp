@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "moreau/io/output_file.hpp"
 
@@ -174,13 +175,14 @@ std::string states(const std::vector<Result>& results) {
       "fmin above the active thrust: the wall must not move out (less than 1 % of its way without "
       "fmin); fmax below the passive thrust: it is not pushed back to where it started; fmax below "
       "the active thrust: it only moves out.\n\n"
-      "| shape | fmin [N] | fmax [N] | Δx_max [mm] | x at the end [mm] | f_a/mg | |\n"
-      "|---|---|---|---|---|---|---|\n";
+      "| shape | tolerance | fmin [N] | fmax [N] | Δx_max [mm] | x at the end [mm] | f_a/mg | |\n"
+      "|---|---|---|---|---|---|---|---|\n";
   for (const Result& r : results) {
     if (!r.c.sets.contains("states") || r.periods.empty()) continue;
     const std::optional<bool> holds = holds_state(r, results);
-    text += "| " + r.c.parameters.shape + " | " + text_of(r.c.parameters.fmin, 5) + " | " +
-            text_of(r.c.parameters.fmax, 5) + " | " + text_of(1e3 * r.dx_max) + " | " +
+    const Parameters& p = r.c.parameters;
+    text += "| " + p.shape + " | " + text_of(p.tolerance) + " | " + text_of(p.fmin, 5) + " | " +
+            text_of(p.fmax, 5) + " | " + text_of(1e3 * r.dx_max) + " | " +
             text_of(1e3 * r.periods.back().jam_after) + " | " + text_of(r.thrust / r.weight) +
             " |" + mark(holds) + " |\n";
   }
@@ -254,11 +256,15 @@ std::string elsewhere(const std::string& set, const std::string& title,
   });
   line("7 periods in which x_j falls, 5 Hz", [&](const Series& s) {
     return at_five(s, [](const Result& r) {
-      return std::to_string(r.contracting) + " of " + std::to_string(r.periods.size());
+      return std::to_string(r.contracting) + " of " + std::to_string(r.periods.size()) +
+             mark(4 * r.contracting >= 3 * r.periods.size());
     });
   });
   line("13 compaction rate at 5 Hz [1/s]", [&](const Series& s) {
-    return at_five(s, [](const Result& r) { return text_of(r.rate); });
+    return at_five(s, [](const Result& r) {
+      return text_of(r.rate) +
+             (is_plane(r.c.parameters.shape) ? "" : mark(within(r.rate, 0.0125, 0.05)));
+    });
   });
   line("8 creep / Δx_max at 20 Hz", [&](const Series& s) {
     for (const Result* r : s)
@@ -462,21 +468,49 @@ std::string relaxation(const std::vector<Result>& results, const Shapes& shapes)
       "|---|---|---|---|---|---|---|---|\n";
   const auto cells = [](const CompactionLaws& laws) -> std::string {
     if (std::isnan(laws.branches.scatter)) return " |  | ";
-    return text_of(laws.branches.nu_c) + (laws.branches.at_edge ? ", at the edge" : "") + " | " +
+    const bool counts = laws.branches.scatter < laws.scatter_about_law;
+    return (counts ? "" : "(") + text_of(laws.branches.nu_c) +
+           (laws.branches.at_edge ? ", at the edge" : "") + (counts ? "" : ")") + " | " +
            text_of(laws.branches.scatter, 2) + "; " + text_of(laws.scatter_about_law, 2) + " | ";
+  };
+  std::set<double> frequencies;
+  const auto line = [&](const std::string& shape, const std::string& condition, double scale,
+                        const Series& series) {
+    text += "| " + shape + " | " + condition + " | " + text_of(scale) + " | " +
+            cells(compaction_of_run(series)) + cells(early_compaction(series)) +
+            text_of(series.front()->weight / series.front()->c.parameters.fmax) + " |\n";
   };
   for (const ShapeSummary& shape : shapes) {
     std::map<std::pair<double, double>, Series> conditions;
     for (const Result* r : series_of(results, "relaxation", shape.shape, 1))
       conditions[{r->c.parameters.gravity, r->c.parameters.size_scale}].push_back(r);
-    for (const auto& [condition, series] : conditions)
-      text += "| " + shape.shape + " | g = " + text_of(condition.first) + " m/s², sizes × " +
-              text_of(condition.second) + " | " +
-              text_of(std::sqrt(condition.first / (0.025 * condition.second))) + " | " +
-              cells(compaction_of_run(series)) + cells(early_compaction(series)) +
-              text_of(series.front()->weight / series.front()->c.parameters.fmax) + " |\n";
+    for (const auto& [condition, series] : conditions) {
+      line(shape.shape,
+           "g = " + text_of(condition.first) + " m/s², sizes × " + text_of(condition.second),
+           std::sqrt(condition.first / (0.025 * condition.second)), series);
+      for (const Result* r : series) frequencies.insert(r->c.parameters.frequency);
+    }
+    if (conditions.empty()) continue;
+    // What the other samples of the baseline give at the same frequencies.
+    for (const SampleSummary& sample : shape.samples) {
+      Series same;
+      for (const Result* r : sample.frequencies)
+        if (frequencies.contains(r->c.parameters.frequency)) same.push_back(r);
+      if (sample.seed != 1 && same.size() == frequencies.size())
+        line(shape.shape, "the baseline, sample " + std::to_string(sample.seed),
+             std::sqrt(Parameters{}.gravity / 0.025), same);
+    }
   }
-  return text;
+  if (frequencies.size() < 3) return text;
+  const auto nu_c_of_law = [&](double exponent) {
+    std::vector<Point> rates;
+    for (const double nu : frequencies) rates.push_back({nu, std::pow(nu, exponent)});
+    return text_of(fit_compaction(rates, two_branches).nu_c);
+  };
+  return text + "\nAt these frequencies the two branches would put ν_c to " + nu_c_of_law(0) +
+         " Hz for a rate that does not depend on ν, to " + nu_c_of_law(-0.3) +
+         " Hz for one that goes as ν^−0.3: without a maximum in the data ν_c is of the "
+         "frequencies.\n";
 }
 
 std::string contradictions(const Shapes& shapes) {
@@ -534,13 +568,14 @@ void write_report(const std::filesystem::path& folder, const std::string& plan_n
       "\n## Parameters that the paper leaves open\n\n" + open_parameters(results) +
       "\n## Numerics\n\n" + numerics(results) + "\n" +
       elsewhere("uncorrected", "without correction", results, shapes) + "\n" +
+      elsewhere("half", "step 1e-4 s", results, shapes) + "\n" +
       elsewhere("fine", "step 5e-5 s", results, shapes) + "\n" +
       elsewhere("tight", "tolerance 1e-5", results, shapes) + "\n## Other states\n\n" +
       states(results) +
       "\n## What sets ν_c\n\nForce and gap stay as they are. Were they scaled with weight and "
       "size, "
       "ν_c would go with √(g/d) by dimensions alone. A ν_c counts where the branches fit "
-      "better, with the smaller rms, than one power law.\n\n" +
+      "better, with the smaller rms, than one power law; else it is in brackets.\n\n" +
       relaxation(results, shapes) + "\n## Where the paper contradicts itself\n\n" +
       contradictions(shapes) + "\n## Figures\n";
   for (const Figure& figure : figures())

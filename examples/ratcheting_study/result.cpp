@@ -6,6 +6,8 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "active_phase.hpp"
 
@@ -65,6 +67,34 @@ WallClock read_clock(const nlohmann::json& json) {
   const auto& seconds = json.at("wall_clock_seconds");
   return {seconds.value("prepare", 0.0), seconds.value("vibrate", 0.0),
           json.at("solver").at("median_ms_total")};
+}
+
+/// @throws std::runtime_error if a table misses a step, ends early or goes back in time
+void require_complete(const Tables& run, const Result& r) {
+  const Parameters& p = r.c.parameters;
+  const auto fail = [&](const char* file, const std::string& what) {
+    throw std::runtime_error((r.folder / file).string() + " " + what);
+  };
+  if (run.wall.rows() != r.facts.steps)
+    fail("wall.csv", "has " + std::to_string(run.wall.rows()) + " rows for " +
+                         std::to_string(r.facts.steps) + " steps");
+  for (const char* column : {"t", "f", "x", "v", "f_g"})
+    for (const double value : run.wall[column])
+      if (!std::isfinite(value))
+        fail("wall.csv", std::string("has a value in ") + column + " that is no number");
+  const auto require_time = [&](const Table& table, const char* file) {
+    const std::vector<double>& t = table["t"];
+    if (t.empty() || !(std::abs(t.back() - p.duration) < 0.002 * p.duration))
+      fail(file, "does not end at " + std::to_string(p.duration) + " s");
+    if (std::adjacent_find(t.begin(), t.end(), [](double a, double b) { return !(a < b); }) !=
+        t.end())
+      fail(file, "has times that do not rise");
+  };
+  require_time(run.wall, "wall.csv");
+  require_time(run.state, "state.csv");
+  require_time(run.packing, "packing.csv");
+  for (const char* file : {"velocity_field.csv", "chains_active.csv", "chains_jammed.csv"})
+    if (std::filesystem::exists(r.folder / file)) Table(r.folder / file);
 }
 
 /// The active phase of every period.
@@ -161,12 +191,14 @@ double Result::scaled_load() const {
 Result measure(const std::filesystem::path& folder, const Case& c) {
   Result r{};
   r.c = c;
+  r.folder = folder;
   const double frequency = c.parameters.frequency;
   std::ifstream file(folder / "run.json");
   const auto json = nlohmann::json::parse(file);
   const Tables run{Table(folder / "wall.csv"), Table(folder / "state.csv"),
                    Table(folder / "packing.csv")};
   r.facts = read_facts(json);
+  require_complete(run, r);
   r.clock = read_clock(json);
   r.mass = json.at("sample").at("mass");
   r.wall_mass = json.at("sample").at("wall_mass");

@@ -29,6 +29,7 @@ struct Result {
   Case c;
   Facts facts;
   std::optional<WallClock> clock;  ///< no part of what is kept
+  std::filesystem::path folder;    ///< of the run's files, if they are there; no part of it either
   double mass, wall_mass, length, height;
   double weight;  ///< m g [N]
 
@@ -69,7 +70,8 @@ inline double Result::early_rate(double Jam::*rho) const {
 }
 
 /// Measures a complete run.
-/// @throws std::runtime_error if a file of the run cannot be read
+/// @throws std::runtime_error if a file of the run cannot be read, or is not of the steps and the
+///         duration that run.json tells
 Result measure(const std::filesystem::path& folder, const Case& c);
 
 }  // namespace study

@@ -105,7 +105,9 @@ class Runner {
       return;
     }
     const fs::path folder = partial(options_.places, c);
-    fs::remove_all(folder);
+    if (fs::remove_all(folder) > 0)
+      std::printf("case %zu %s: an earlier start did not finish it; it begins anew\n", c.number,
+                  c.name.c_str());
     fs::create_directories(folder);
     const fs::path packing =
         options_.places.output / "packings" / (packing_name(c.parameters) + ".snapshot");
@@ -128,10 +130,7 @@ class Runner {
     if (ending.well) {
       fs::remove_all(to);
       fs::rename(from, to);
-      if (has_folder(options_.places, c))
-        keep(options_.places, c);
-      else
-        problem = "its run.json tells of another case";
+      problem = keep(options_.places, c);
     }
     if (problem.empty()) {
       ++summary_.ran;
@@ -139,7 +138,7 @@ class Runner {
                   left().c_str());
     } else {
       std::printf("case %zu %s: %s, see %s; the next start runs it again\n", c.number,
-                  c.name.c_str(), problem.c_str(), (from / "log.txt").c_str());
+                  c.name.c_str(), problem.c_str(), ((ending.well ? to : from) / "log.txt").c_str());
       summary_.failed.push_back(c.name + ": " + problem);
     }
     std::fflush(stdout);

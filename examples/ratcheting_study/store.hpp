@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "plan.hpp"
@@ -23,27 +24,24 @@ struct Places {
 /// Where the files of a case are.
 std::filesystem::path folder_of(const Places& places, const Case& c);
 
-/// Whether there is a folder of a complete run with the case's parameters.
-bool has_folder(const Places& places, const Case& c);
-
-/// Whether there is such a folder, or a file with the case's parameters. A file that is none of
-/// such a run does not count, and that is told once on the error output.
+/// Whether there is a file with the case's parameters, or the folder of a complete run with them.
+/// What is no such file or has damaged ones does not count, and that is told once on the error
+/// output.
 bool is_done(const Places& places, const Case& c);
 
 /// Measures the run in a case's folder and keeps the result.
-/// @returns what it took, which is not kept
-/// @throws std::runtime_error if a file of the run cannot be read, std::system_error if the result
-///         cannot be written
-WallClock keep(const Places& places, const Case& c);
+/// @returns what is wrong with the folder; nothing then is kept. Empty if nothing is
+/// @throws std::system_error if the result cannot be written
+std::string keep(const Places& places, const Case& c);
 
 struct Kept {
   std::vector<Result> results;
-  std::size_t unread = 0;  ///< files that do not count
+  std::size_t unread = 0;  ///< files and folders that do not count
 };
 
 /// All that is done, in the order of the plan, from the files; what has a folder is measured anew
-/// and has a clock.
-/// @throws std::runtime_error, std::system_error as keep()
+/// and has a clock. What was kept of a run whose folder is damaged stays as it is.
+/// @throws std::system_error as keep()
 Kept read_results(const Places& places, const std::vector<Case>& plan);
 
 }  // namespace study

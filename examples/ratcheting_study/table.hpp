@@ -15,7 +15,8 @@ namespace study {
 
 class Table {
  public:
-  /// @throws std::runtime_error naming the file if it cannot be read
+  /// @throws std::runtime_error naming the file, and the line that has not one number for every
+  ///         column or no end
   explicit Table(const std::filesystem::path& path) : path_(path) {
     std::ifstream file(path);
     std::string line;
@@ -26,14 +27,11 @@ class Table {
       at = end + 1;
     }
     columns_.resize(names_.size());
-    while (std::getline(file, line)) {
-      const char* text = line.c_str();
-      for (std::vector<double>& column : columns_) {
-        char* end = nullptr;
-        column.push_back(std::strtod(text, &end));
-        text = *end == ',' ? end + 1 : end;
-      }
-    }
+    while (std::getline(file, line))
+      if (file.eof() || !add_row(line))
+        throw std::runtime_error(path.string() + ": line " + std::to_string(rows() + 2) + ", '" +
+                                 line.substr(0, 40) + "', is not " + std::to_string(names_.size()) +
+                                 " numbers");
   }
 
   std::size_t rows() const { return columns_.front().size(); }
@@ -45,6 +43,21 @@ class Table {
   }
 
  private:
+  /// @returns whether the line is one number for every column
+  bool add_row(const std::string& line) {
+    std::vector<double> values;
+    for (const char* text = line.c_str();; ++text) {
+      char* end = nullptr;
+      values.push_back(std::strtod(text, &end));
+      if (end == text || (*end != ',' && *end != '\0')) return false;
+      text = end;
+      if (*end == '\0') break;
+    }
+    if (values.size() != columns_.size()) return false;
+    for (std::size_t k = 0; k < values.size(); ++k) columns_[k].push_back(values[k]);
+    return true;
+  }
+
   std::filesystem::path path_;
   std::vector<std::string> names_;
   std::vector<std::vector<double>> columns_;

@@ -175,19 +175,21 @@ Cell stress_cell(const ShapeSummary& s) {
 }
 
 Cell roll_cell(const ShapeSummary& s) {
-  const Sample* first = first_of(s);
   const Estimate roll = over_samples(s, [](const Sample& x) { return x.behaviour.roll; });
   const Estimate strength =
       over_samples(s, [](const Sample& x) { return x.behaviour.roll_strength; });
-  if (first == nullptr || roll.samples == 0) return {};
+  const Estimate agreement = over_samples(s, [](const Sample& x) {
+    return 100 * (x.base == nullptr ? std::nan("") : x.base->facts.roll_agreement);
+  });
+  if (roll.samples == 0) return {};
   std::string value = text_of(roll, 2) + " rad/s, strength " + text_of(strength.mean, 2);
-  const double agreement = first->base->facts.roll_agreement;
-  if (std::isfinite(agreement))
-    value += "; at the largest speed " + text_of(100 * agreement, 2) + " % of the cells turn alike";
-  const char* sense = std::abs(roll.mean) <= roll.spread ? "; no sense of its own within the spread"
+  if (agreement.samples > 0)
+    value += "; at the largest speed " + text_of(agreement, 2) + " % of the cells turn alike";
+  const bool undecided = std::abs(roll.mean) <= roll.spread || !(roll.mean * strength.mean > 0);
+  const char* sense = undecided       ? "; no sense of its own within the spread"
                       : roll.mean < 0 ? "; clockwise, counter-clockwise with the wall at the left"
                                       : "; counter-clockwise, clockwise with the wall at the left";
-  return {value + sense, within(agreement, 0.75, 1)};
+  return {value + sense, within(agreement.mean, 75, 100)};
 }
 
 Cell rho_x_cell(const ShapeSummary& s) {

@@ -74,6 +74,30 @@ if command -v gnuplot >/dev/null; then
   [ -e "$folder/a/results/figures/rho_log_t.png" ] && fail "a figure of runs that the plan has not"
 fi
 
+# A damaged run is named, and leaves what was kept of it as it is; without that it is not done.
+run=$folder/b/cases/polygon-s1-5Hz
+cp -r "$run" "$folder/intact"
+cp -r "$folder/b/results" "$folder/reported"
+for damage in 'head -c 20000 wall.csv >x; mv x wall.csv' 'sed -i "9s/.*/a,b/" wall.csv' 'rm wall.csv' \
+  'sed -i "\$d" wall.csv' 'sed -i "20,\$d" packing.csv' 'sed -i "9s/^[^,]*/0/" state.csv' \
+  'printf 1,2 >>chains_active.csv' 'sed -i "9s/,[^,]*/,nan/" wall.csv'; do
+  rm -r "$run"
+  cp -r "$folder/intact" "$run"
+  (cd "$run" && eval "$damage")
+  study --figure x_t --output "$folder/b" --report-only >"$folder/damaged.log" 2>&1
+  [ $? = 1 ] || fail "$damage: no failure"
+  grep -qF "$run is damaged" "$folder/damaged.log" || fail "$damage: $(cat "$folder/damaged.log")"
+  diff -r --brief "$folder/reported/runs" "$folder/b/results/runs" || fail "$damage: another result is kept"
+  diff --brief "$folder/reported/cases.csv" "$folder/b/results/cases.csv" || fail "$damage: another table"
+done
+rm "$folder/b/results/runs/polygon-s1-5Hz.json"
+study --list --output "$folder/b" 2>/dev/null | grep -q "done polygon-s1-5Hz " && fail "a damaged run counts as done"
+study --shape polygon --output "$folder/b" >"$folder/again.log" 2>&1 || fail "start with a damaged run"
+grep -q "^1 ran" "$folder/again.log" || fail "a damaged run did not run again"
+diff -r --brief --exclude 'wall_clock.*' "$folder/reported" "$folder/b/results" || fail "another report after a damaged run"
+study --seed 1 --report-only --output "$folder/b" >/dev/null 2>&1
+[ $? = 2 ] || fail "a report of one sample was promised"
+
 # What is kept of the runs is enough: without their folders nothing runs, and all is the same bytes.
 cp -r "$folder/a/results" "$folder/kept"
 rm -r "$folder/a/cases"
