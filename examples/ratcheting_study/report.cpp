@@ -167,24 +167,27 @@ std::optional<bool> holds_state(const Result& r, const std::vector<Result>& resu
   if (base == nullptr || base == &r) return std::nullopt;
   if (p.fmin > base->thrust) return r.dx_max < 0.01 * base->dx_max;
   if (p.fmax < base->thrust) return r.periods.back().jam_after > 0;
+  if (p.fmax < base->c.parameters.fmax && r.rest_share) return *r.rest_share < 0.05;
   return std::nullopt;
 }
 
 std::string states(const std::vector<Result>& results) {
   std::string text =
       "fmin above the active thrust: the wall must not move out (less than 1 % of its way without "
-      "fmin); fmax below the passive thrust: it is not pushed back to where it started; fmax below "
-      "the active thrust: it only moves out.\n\n"
-      "| shape | tolerance | fmin [N] | fmax [N] | Δx_max [mm] | x at the end [mm] | f_a/mg | |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "fmin); fmax below the passive thrust: it never jams (is at rest, slower than a hundredth of "
+      "its largest speed, for less than 5 % of the period); fmax below the active thrust: it only "
+      "moves out.\n\n"
+      "| shape | tolerance | fmin [N] | fmax [N] | Δx_max [mm] | x at the end [mm] | at rest [%] | "
+      "f_a/mg | |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const Result& r : results) {
     if (!r.c.sets.contains("states") || r.periods.empty()) continue;
     const std::optional<bool> holds = holds_state(r, results);
     const Parameters& p = r.c.parameters;
     text += "| " + p.shape + " | " + text_of(p.tolerance) + " | " + text_of(p.fmin, 5) + " | " +
             text_of(p.fmax, 5) + " | " + text_of(1e3 * r.dx_max) + " | " +
-            text_of(1e3 * r.periods.back().jam_after) + " | " + text_of(r.thrust / r.weight) +
-            " |" + mark(holds) + " |\n";
+            text_of(1e3 * r.periods.back().jam_after) + " | " +
+            text_of(100 * r.rest_share.value_or(std::nan("")), 2) + " | " +
+            text_of(r.thrust / r.weight) + " |" + mark(holds) + " |\n";
   }
   return text;
 }

@@ -141,6 +141,21 @@ void summarize_wall(Result& r) {
   r.constant = r.dx_max / r.scaled_load();
 }
 
+/// @returns see Result::rest_share
+double rest_share(const Table& wall, const std::vector<ratcheting::Period>& periods) {
+  const std::vector<double>&t = wall["t"], &v = wall["v"];
+  return mean(periods, [&](const ratcheting::Period& p) {
+    std::vector<double> speeds;
+    for (std::size_t k = 0; k < t.size(); ++k)
+      if (t[k] >= p.start && t[k] <= p.finish) speeds.push_back(std::abs(v[k]));
+    if (speeds.empty()) return none;
+    const double rest = 0.01 * *std::max_element(speeds.begin(), speeds.end());
+    const auto resting =
+        std::count_if(speeds.begin(), speeds.end(), [=](double speed) { return speed < rest; });
+    return double(resting) / double(speeds.size());
+  });
+}
+
 void summarize_packing(const Table& packing, Result& r) {
   const Parameters& p = r.c.parameters;
   const auto inner = [&](double t) { return value_at(packing, "rho_inner", t); };
@@ -211,6 +226,8 @@ Result measure(const std::filesystem::path& folder, const Case& c) {
   }
   find_active(run.wall, r);
   summarize_wall(r);
+  if (const double share = rest_share(run.wall, r.periods); std::isfinite(share))
+    r.rest_share = share;
   summarize_packing(run.packing, r);
   r.behaviour = behaviour_of(run, r.periods, frequency);
   if (is_in_portrait(c)) r.loop = mean_loop(run.wall, r.periods);

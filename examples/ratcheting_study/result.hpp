@@ -41,13 +41,16 @@ struct Result {
   double dx_active, creep, thrust;          ///< see ActivePhase; thrust: f_a [N]
   double steady_thrust, carried_share;      ///< see CarriedGrains; of the weight, of the mass [-]
   double explained;                         ///< [-]
-  double net_contraction;                   ///< (first x_j - last x_j') per period [m]
-  std::size_t contracting;                  ///< periods with x_j' < x_j
-  double rho_initial, rho_0, rho_final;     ///< inner; rho_0 at 0.2 s [-]
-  double box_initial, box_final;            ///< of the whole box [-]
-  double rate;                              ///< d rho / (rho_0 dt) from jam to jam [1/s]
-  double compaction_per_period;             ///< the same per period [-]
-  double constant;                          ///< C of row 17, with m + m_w
+  /// Share of a period in which the wall is at rest, |v| below a hundredth of its largest: none
+  /// where it never jams. Mean; nothing in what an earlier version kept [-].
+  std::optional<double> rest_share;
+  double net_contraction;                ///< (first x_j - last x_j') per period [m]
+  std::size_t contracting;               ///< periods with x_j' < x_j
+  double rho_initial, rho_0, rho_final;  ///< inner; rho_0 at 0.2 s [-]
+  double box_initial, box_final;         ///< of the whole box [-]
+  double rate;                           ///< d rho / (rho_0 dt) from jam to jam [1/s]
+  double compaction_per_period;          ///< the same per period [-]
+  double constant;                       ///< C of row 17, with m + m_w
   Behaviour behaviour;
   std::vector<Point> loop;  ///< see mean_loop(); only where a phase portrait shows it
 

@@ -102,6 +102,7 @@ void describe(Some<Result> auto& r, const auto& field) {
   field("steady_thrust", r.steady_thrust);
   field("carried_share", r.carried_share);
   field("explained", r.explained);
+  field("rest_share", r.rest_share);
   field("net_contraction", r.net_contraction);
   field("contracting", r.contracting);
   field("rho_initial", r.rho_initial);
@@ -181,10 +182,15 @@ template <class T>
 void read(const Json& json, std::optional<T>& value) {
   if (!json.is_null()) value = json.get<T>();
 }
+template <class T>
+constexpr bool is_optional = false;
+template <class T>
+constexpr bool is_optional<std::optional<T>> = true;
 template <Described T>
 void read(const Json& json, T& value) {
   describe(value, [&](const char* name, auto& member) {
     try {
+      if (is_optional<std::remove_cvref_t<decltype(member)>> && !json.contains(name)) return;
       read(json.at(name), member);
     } catch (const std::exception& error) {
       throw std::runtime_error(std::string(name) + ": " + error.what());
