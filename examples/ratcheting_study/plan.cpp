@@ -227,8 +227,7 @@ std::vector<Case> paper_plan() {
       });
   };
   half(g, {9.81, 2.5, 5, 20});
-  half(nu, {20, 60, 10, 2});
-  half(fmax, {2000, 4000, 10000});
+  half(nu, {20, 60});
   return std::move(plan).cases();
 }
 
