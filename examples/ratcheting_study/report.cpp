@@ -219,8 +219,8 @@ Series varying(const Series& series, double Parameters::*parameter) {
   return kept;
 }
 
-/// Rows 7, 8, 13 and 15, and of a set that varies more than the frequency 16 and 17, from the runs
-/// of another set.
+/// Rows 7, 8, 13 and 15, and 16 and 17 of a set that varies what they are of, from the runs of
+/// another set.
 std::string elsewhere(const std::string& set, const std::string& title,
                       const std::vector<Result>& results, const Shapes& shapes) {
   std::string text = header(title, shapes);
@@ -254,9 +254,11 @@ std::string elsewhere(const std::string& set, const std::string& title,
       if (r->c.parameters.frequency == 5) return f(*r);
     return std::string();
   };
-  const bool varies_more = std::any_of(results.begin(), results.end(), [&](const Result& r) {
-    return r.c.sets.contains(set) && r.c.parameters.fmax != Parameters{}.fmax;
-  });
+  const auto varies = [&](double Parameters::*parameter) {
+    return std::any_of(results.begin(), results.end(), [&](const Result& r) {
+      return r.c.sets.contains(set) && r.c.parameters.*parameter != Parameters{}.*parameter;
+    });
+  };
   line("7 periods in which x_j falls, 5 Hz", [&](const Series& s) {
     return at_five(s, [](const Result& r) {
       return std::to_string(r.contracting) + " of " + std::to_string(r.periods.size()) +
@@ -301,16 +303,15 @@ std::string elsewhere(const std::string& set, const std::string& title,
        [&](const Series& s) { return law(s, &Result::dx_active, -2.1, -1.9); });
   line("15 exponent of v_max over ν",
        [&](const Series& s) { return law(s, &Result::v_max, -1.1, -0.9); });
-  if (!varies_more) return text;
-  line("16 exponent of Δx_max over fmax",
-       [&](const Series& s) { return law(s, &Result::dx_max, -1.1, -0.9, &Parameters::fmax); });
-  line("16 the same from where f falls below mg",
-       [&](const Series& s) { return law(s, &Result::dx_active, -1.1, -0.9, &Parameters::fmax); });
-  line("16 exponent of Δx_max over g",
-       [&](const Series& s) { return law(s, &Result::dx_max, 1.85, 2.15, &Parameters::gravity); });
-  line("16 the same from where f falls below mg", [&](const Series& s) {
-    return law(s, &Result::dx_active, 1.85, 2.15, &Parameters::gravity);
-  });
+  const auto both = [&](const char* name, double low, double high, double Parameters::*parameter) {
+    if (!varies(parameter)) return;
+    line(name, [&](const Series& s) { return law(s, &Result::dx_max, low, high, parameter); });
+    line("16 the same from where f falls below mg",
+         [&](const Series& s) { return law(s, &Result::dx_active, low, high, parameter); });
+  };
+  both("16 exponent of Δx_max over fmax", -1.1, -0.9, &Parameters::fmax);
+  both("16 exponent of Δx_max over g", 1.85, 2.15, &Parameters::gravity);
+  if (!varies(&Parameters::fmax)) return text;
   line("17 C of all", [&](const Series& s) { return master(s, &Result::dx_max); });
   line("17 the same from where f falls below mg",
        [&](const Series& s) { return master(s, &Result::dx_active); });
