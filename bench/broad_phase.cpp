@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "moreau/detect/all_pairs.hpp"
-#include "moreau/detect/cell_grid.hpp"
-#include "moreau/detect/sweep_and_prune.hpp"
+#include "moreau/detect/broad/all_pairs.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
+#include "moreau/detect/broad/sweep_and_prune.hpp"
 
 namespace {
 

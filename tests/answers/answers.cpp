@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "moreau/detect/all_pairs.hpp"
-#include "moreau/detect/cell_grid.hpp"
+#include "moreau/detect/broad/all_pairs.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"

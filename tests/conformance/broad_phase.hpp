@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "moreau/detect/all_pairs.hpp"
+#include "moreau/detect/broad/all_pairs.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
 namespace conformance {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "moreau/detect/cell_grid.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"

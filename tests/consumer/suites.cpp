@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The suites of the installed library, each for one model of its concept.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
-#include "moreau/detect/cell_grid.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/broad_phase.hpp"
 
-#include "moreau/detect/cell_grid.hpp"
-#include "moreau/detect/sweep_and_prune.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
+#include "moreau/detect/broad/sweep_and_prune.hpp"
 
 using moreau::CellGrid;
 using moreau::Space;

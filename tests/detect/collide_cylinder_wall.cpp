@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/detect/collide_cylinder_wall.hpp"
+#include "moreau/detect/pairs/collide_cylinder_wall.hpp"
 
 #include <cmath>
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Some of the combinations that long/matrix_*.cpp have all of. Rolling resistance and adhesion are
 // among the quick cases of the validation.
-#include "moreau/detect/all_pairs.hpp"
+#include "moreau/detect/broad/all_pairs.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"

@@ -14,16 +14,16 @@
 // its own namespace.
 #pragma once
 
-#include "moreau/detect/collide_convex.hpp"
-#include "moreau/detect/collide_half_space.hpp"
-#include "moreau/detect/collide_one_of.hpp"
-#include "moreau/detect/collide_polygons.hpp"
-#include "moreau/detect/collide_polyhedra.hpp"
-#include "moreau/detect/collide_rounded.hpp"
-#include "moreau/detect/collide_segment_polytope.hpp"
-#include "moreau/detect/collide_segments.hpp"
-#include "moreau/detect/collide_sphere_polytope.hpp"
-#include "moreau/detect/collide_spheres.hpp"
+#include "moreau/detect/convex/collide_convex.hpp"
+#include "moreau/detect/pairs/collide_half_space.hpp"
+#include "moreau/detect/pairs/collide_one_of.hpp"
+#include "moreau/detect/pairs/collide_polygons.hpp"
+#include "moreau/detect/pairs/collide_polyhedra.hpp"
+#include "moreau/detect/pairs/collide_rounded.hpp"
+#include "moreau/detect/pairs/collide_segment_polytope.hpp"
+#include "moreau/detect/pairs/collide_segments.hpp"
+#include "moreau/detect/pairs/collide_sphere_polytope.hpp"
+#include "moreau/detect/pairs/collide_spheres.hpp"
 #include "moreau/detect/reduce.hpp"
 
 namespace moreau {

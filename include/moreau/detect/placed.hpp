@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "moreau/detect/rows.hpp"
+#include "moreau/core/rows.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/one_of.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 #include "moreau/measure/pair_forces.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/core/periodic_cell.hpp"
 
 namespace moreau {
 

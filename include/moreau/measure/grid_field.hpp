@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {

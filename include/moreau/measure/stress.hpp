@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {

@@ -16,14 +16,14 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/state.hpp"
+#include "moreau/detect/broad/periodic_images.hpp"
+#include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
-#include "moreau/detect/collide_cylinder_wall.hpp"
-#include "moreau/detect/image_pairs.hpp"
-#include "moreau/detect/periodic_cell.hpp"
+#include "moreau/detect/pairs/collide_cylinder_wall.hpp"
 #include "moreau/detect/reduce.hpp"
-#include "moreau/detect/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
@@ -285,7 +285,7 @@ class ContactDetector {
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
-  ImagePairs<S> images_;
+  PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;  // of the second of each pair to the first; none in an open cell
   std::vector<PairCache<S>> caches_, old_caches_;

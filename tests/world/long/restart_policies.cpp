@@ -2,7 +2,7 @@
 // Restarts with every kind of memory that a law, a shape or a boundary has.
 #include <doctest/doctest.h>
 
-#include "moreau/detect/cell_grid.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/hertz_mindlin.hpp"

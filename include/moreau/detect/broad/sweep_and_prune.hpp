@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "moreau/detect/broad/detail/sort_pairs.hpp"
+#include "moreau/detect/broad_phase.hpp"
+
+namespace moreau {
+
+/// Sorts the boxes along the axis on which they spread most and compares each with those that begin
+/// before it ends. Good up to some thousand boxes, and for any mixture of sizes.
+template <class S>
+class SweepAndPrune {
+ public:
+  using Scalar = typename S::Scalar;
+
+  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
+  void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
+    pairs.clear();
+    if (boxes.empty()) return;
+    sort_along(widest_axis(boxes), boxes);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const Entry& entry = order_[i];
+      const Aabb<S>& box = boxes[entry.index];
+      for (std::size_t j = i + 1; j < order_.size() && order_[j].lower <= entry.upper; ++j) {
+        const std::uint32_t other = order_[j].index;
+        if (box.overlaps(boxes[other]))
+          pairs.push_back({std::min(entry.index, other), std::max(entry.index, other)});
+      }
+    }
+    sorter_.sort(pairs, boxes.size());
+  }
+
+ private:
+  struct Entry {
+    Scalar lower, upper;
+    std::uint32_t index;
+  };
+
+  static Eigen::Index widest_axis(std::span<const Aabb<S>> boxes) {
+    using Vector = typename S::Vector;
+    Vector mean = Vector::Zero(), square = Vector::Zero();
+    const Vector origin = boxes[0].lower;
+    for (const Aabb<S>& box : boxes) {
+      const Vector center = (box.lower - origin + box.upper - origin) / 2;
+      mean += center;
+      square += center.cwiseAbs2();
+    }
+    const auto count = static_cast<Scalar>(boxes.size());
+    Eigen::Index axis = 0;
+    (square / count - (mean / count).cwiseAbs2()).maxCoeff(&axis);
+    return axis;
+  }
+
+  void sort_along(Eigen::Index axis, std::span<const Aabb<S>> boxes) {
+    order_.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      order_.push_back({boxes[i].lower[axis], boxes[i].upper[axis], static_cast<std::uint32_t>(i)});
+    std::sort(order_.begin(), order_.end(), [](const Entry& a, const Entry& b) {
+      return a.lower != b.lower ? a.lower < b.lower : a.index < b.index;
+    });
+  }
+
+  std::vector<Entry> order_;
+  detail::PairSorter sorter_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// Depth of two convex shapes that overlap, known by their support alone: the origin's distance from
+// the surface of C = B - A. A polytope of points of C grows where its face is nearest to the origin
+// until C reaches no farther there (the expanding polytope algorithm, van den Bergen 2001).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "moreau/core/space.hpp"
+
+namespace moreau::detail {
+
+/// A point of C, and the point of A that it belongs to.
+template <class Vector>
+struct ExtremePoint {
+  Vector point, on_a;
+};
+
+/// A face of the polytope; of the nearest to the origin, minus its offset is about the gap.
+template <class Vector>
+struct NearestFace {
+  Vector outward;                  ///< unit
+  typename Vector::Scalar offset;  ///< of its plane from the origin [m]
+  Vector on_a;                     ///< the point of A below the origin's foot
+};
+
+/// So many points that only curved surfaces at the end of their digits need them.
+inline constexpr int most_points = 1000;
+
+/// In the plane: a ring of points, counter-clockwise.
+template <std::floating_point T, class Reach>
+class ExpandingPolygon {
+ public:
+  using Vector = typename Space<2, T>::Vector;
+  using Face = NearestFace<Vector>;
+
+  /// @param reach    reach(n) -> the ExtremePoint of C with the largest n . point
+  /// @param precise  differences of no account [m]
+  ExpandingPolygon(const Reach& reach, T precise) : precise_(precise) {
+    for (int k = 0; k < 3; ++k) {
+      const T angle = T(2.0943951) * static_cast<T>(k);
+      ring_.push_back(reach(Vector(std::cos(angle), std::sin(angle))));
+    }
+    while (true) {
+      const std::size_t at = nearest_side();
+      const Face nearest = face(at);
+      const auto next = reach(nearest.outward);
+      if (!(nearest.outward.dot(next.point) - nearest.offset > precise) ||
+          ring_.size() >= most_points)
+        return;
+      ring_.insert(ring_.begin() + static_cast<std::ptrdiff_t>(at) + 1, next);
+    }
+  }
+  Face nearest() const { return face(nearest_side()); }
+  std::size_t size() const { return ring_.size(); }
+  /// Face k; infinitely far if it is too short to have a direction.
+  Face face(std::size_t k) const {
+    const auto& p = ring_[k];
+    const auto& q = ring_[(k + 1) % ring_.size()];
+    const Vector along = q.point - p.point;
+    const T length = along.norm();
+    if (!(length > precise_))
+      return {Vector::UnitX(), std::numeric_limits<T>::infinity(), Vector::Zero()};
+    const Vector outward = Vector(along.y(), -along.x()) / length;
+    const T t = std::clamp(-p.point.dot(along) / (length * length), T(0), T(1));
+    return {outward, outward.dot(p.point), p.on_a + t * (q.on_a - p.on_a)};
+  }
+
+ private:
+  std::size_t nearest_side() const {
+    std::size_t best = 0;
+    T least = std::numeric_limits<T>::infinity();
+    for (std::size_t k = 0; k < ring_.size(); ++k)
+      if (const T offset = face(k).offset; offset < least) {
+        least = offset;
+        best = k;
+      }
+    return best;
+  }
+
+  std::vector<ExtremePoint<Vector>> ring_;
+  const T precise_;
+};
+
+/// In space: triangles, counter-clockwise from outside.
+template <std::floating_point T, class Reach>
+class ExpandingPolytope {
+ public:
+  using Vector = typename Space<3, T>::Vector;
+
+  ExpandingPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {
+    start();
+    while (grow()) {
+    }
+  }
+  NearestFace<Vector> nearest() const { return face(nearest_face()); }
+  std::size_t size() const { return faces_.size(); }
+  /// Face f; infinitely far if it is too thin to have a direction.
+  NearestFace<Vector> face(std::size_t f) const {
+    const Face& face = faces_[f];
+    if (!(face.offset < std::numeric_limits<T>::infinity()))
+      return {face.outward, face.offset, points_[face.corner[0]].on_a};
+    const auto& [i, j, k] = face.corner;
+    const Vector foot = face.offset * face.outward;
+    const Vector p = points_[i].point - foot, q = points_[j].point - foot;
+    const Vector r = points_[k].point - foot;
+    std::array<T, 3> weight{face.outward.dot(q.cross(r)), face.outward.dot(r.cross(p)),
+                            face.outward.dot(p.cross(q))};
+    T sum = 0;
+    for (T& w : weight) sum += w = std::max(w, T(0));
+    return {
+        face.outward, face.offset,
+        (weight[0] * points_[i].on_a + weight[1] * points_[j].on_a + weight[2] * points_[k].on_a) /
+            sum};
+  }
+
+ private:
+  struct Face {
+    std::array<std::size_t, 3> corner;
+    Vector outward;
+    T offset;
+  };
+
+  /// Four points that are not in a plane.
+  void start() {
+    points_ = {reach_(Vector::UnitX()), reach_(Vector(-Vector::UnitX()))};
+    const Vector along = points_[1].point - points_[0].point;
+    const Vector across = Space<3, T>::contact_frame(along.normalized()).col(1);
+    add_farther(across, points_[0].point);
+    const Vector normal = along.cross(points_[2].point - points_[0].point).normalized();
+    add_farther(normal, points_[0].point);
+    const bool is_above = normal.dot(points_[3].point - points_[0].point) > T(0);
+    const std::array<std::size_t, 4> v =
+        is_above ? std::array<std::size_t, 4>{0, 1, 2, 3} : std::array<std::size_t, 4>{0, 2, 1, 3};
+    add_face(v[0], v[2], v[1]);
+    add_face(v[0], v[1], v[3]);
+    add_face(v[1], v[2], v[3]);
+    add_face(v[2], v[0], v[3]);
+  }
+  void add_farther(const Vector& direction, const Vector& from) {
+    const auto one = reach_(direction), other = reach_(Vector(-direction));
+    const bool take_one = direction.dot(one.point - from) >= direction.dot(from - other.point);
+    points_.push_back(take_one ? one : other);
+  }
+  void add_face(std::size_t i, std::size_t j, std::size_t k) {
+    const Vector normal =
+        (points_[j].point - points_[i].point).cross(points_[k].point - points_[i].point);
+    const T length = normal.norm();
+    // A sliver is never the nearest, and hides behind none.
+    if (!(length > precise_ * precise_)) {
+      faces_.push_back({{i, j, k}, Vector::Zero(), std::numeric_limits<T>::infinity()});
+      return;
+    }
+    const Vector outward = normal / length;
+    faces_.push_back({{i, j, k}, outward, outward.dot(points_[i].point)});
+  }
+  std::size_t nearest_face() const {
+    std::size_t best = 0;
+    for (std::size_t f = 1; f < faces_.size(); ++f)
+      if (faces_[f].offset < faces_[best].offset) best = f;
+    return best;
+  }
+  bool grow() {
+    const std::size_t nearest = nearest_face();
+    const Face& face = faces_[nearest];
+    const auto next = reach_(face.outward);
+    if (!(face.outward.dot(next.point) - face.offset > precise_) || points_.size() >= most_points)
+      return false;
+    points_.push_back(next);
+    mark_visible(nearest, next.point);
+    rim_.clear();
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (!is_visible_[f]) {
+        faces_[kept++] = faces_[f];
+        continue;
+      }
+      for (std::size_t k = 0; k < 3; ++k)
+        toggle({faces_[f].corner[k], faces_[f].corner[(k + 1) % 3]});
+    }
+    faces_.resize(kept);
+    for (const auto& [i, j] : rim_) add_face(i, j, points_.size() - 1);
+    return true;
+  }
+  /// From one face on to its neighbours, so that rounding opens no second hole.
+  void mark_visible(std::size_t from, const Vector& point) {
+    is_visible_.assign(faces_.size(), false);
+    is_visible_[from] = true;
+    stack_ = {from};
+    while (!stack_.empty()) {
+      const auto corner = faces_[stack_.back()].corner;
+      stack_.pop_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t f = face_with(corner[(k + 1) % 3], corner[k]);
+        if (f == faces_.size() || is_visible_[f]) continue;
+        if (!(faces_[f].outward.dot(point) > faces_[f].offset)) continue;
+        is_visible_[f] = true;
+        stack_.push_back(f);
+      }
+    }
+  }
+  /// The face with this edge.
+  std::size_t face_with(std::size_t i, std::size_t j) const {
+    std::size_t f = 0;
+    for (; f < faces_.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (faces_[f].corner[k] == i && faces_[f].corner[(k + 1) % 3] == j) return f;
+    return f;
+  }
+  /// An edge of two visible faces is inside; what is left is the rim.
+  void toggle(const std::array<std::size_t, 2>& edge) {
+    const auto reverse =
+        std::find(rim_.begin(), rim_.end(), std::array<std::size_t, 2>{edge[1], edge[0]});
+    if (reverse == rim_.end())
+      rim_.push_back(edge);
+    else
+      rim_.erase(reverse);
+  }
+
+  const Reach& reach_;
+  const T precise_;
+  std::vector<ExtremePoint<Vector>> points_;
+  std::vector<Face> faces_;
+  std::vector<std::array<std::size_t, 2>> rim_;
+  std::vector<bool> is_visible_;
+  std::vector<std::size_t> stack_;
+};
+
+/// The polytope of points of C, grown until C reaches no farther than `precise` beyond its nearest
+/// face. As it lies within C, only its faces nearer than a known depth can hide a smaller one.
+template <std::floating_point T, class Reach>
+ExpandingPolygon<T, Reach> epa(Space<2, T>, const Reach& reach, T precise) {
+  return {reach, precise};
+}
+template <std::floating_point T, class Reach>
+ExpandingPolytope<T, Reach> epa(Space<3, T>, const Reach& reach, T precise) {
+  return {reach, precise};
+}
+
+}  // namespace moreau::detail

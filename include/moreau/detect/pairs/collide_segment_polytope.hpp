@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Segment, the core of a capsule, against polyhedron or polygon. The axis is that of two convex
+// shapes (collide_convex.hpp), exact as both are flat; the points of contact are where the segment
+// lies above the face that looks at it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "moreau/detect/convex/collide_convex.hpp"
+#include "moreau/detect/manifold.hpp"
+#include "moreau/detect/pair_cache.hpp"
+#include "moreau/detect/pairs/collide_polygons.hpp"
+#include "moreau/detect/placed.hpp"
+#include "moreau/detect/polytope/contact_class.hpp"
+#include "moreau/detect/polytope/edge_overlap.hpp"
+#include "moreau/detect/polytope/make_manifold.hpp"
+#include "moreau/detect/tolerance.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// The part of a segment above a face of a polyhedron, seen along the normal: fractions of the
+/// segment from vertex 0, and the edges of the face where it leaves.
+template <std::floating_point T>
+class SegmentOnFace {
+ public:
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+
+  SegmentOnFace(const Placed<Segment<S>>& a, const Placed<Polyhedron<T>>& b, std::uint32_t face,
+                const Vector& normal, T near)
+      : a_(a), b_(b), face_(face), normal_(normal), offset_(b.center() - a.center()) {
+    const auto loop = b.shape().face(face);
+    for (std::size_t k = 0; k < loop.size() && !is_empty(); ++k) {
+      const Vector from = b.vertices()[loop[k]] + offset_;
+      const Vector along = b.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] + offset_ - from;
+      const Vector inward = along.cross(normal).normalized();
+      cut(inward.dot(a.vertex(0) - from), inward.dot(a.vertex(1) - from), near, k);
+    }
+    steepness_ = b.normals()[face].dot(normal);
+    if (!(steepness_ < T(-0.1))) ends_[0].fraction = T(2);
+  }
+  /// Calls use(ManifoldPoint) for each end of that part; once if they coincide.
+  template <class Use>
+  void for_each_corner(T near, Use&& use) const {
+    if (is_empty()) return;
+    use(point(0));
+    if ((ends_[1].fraction - ends_[0].fraction) * T(2) * a_.radius() > near) use(point(1));
+  }
+
+ private:
+  static constexpr std::size_t none = ~std::size_t{0};
+  struct End {
+    T fraction;
+    std::size_t edge;
+  };
+
+  bool is_empty() const { return ends_[0].fraction > ends_[1].fraction; }
+  /// @param from,to  heights of the two vertices above an edge's line, > 0 inside [m]
+  void cut(T from, T to, T near, std::size_t edge) {
+    if (from >= -near && to >= -near) return;
+    const T fraction = from / (from - to);
+    if (from < -near && to < -near)
+      ends_[0].fraction = T(2);
+    else if (from < -near && fraction > ends_[0].fraction)
+      ends_[0] = {fraction, edge};
+    else if (to < -near && fraction < ends_[1].fraction)
+      ends_[1] = {fraction, edge};
+  }
+  ManifoldPoint<S> point(std::size_t i) const {
+    const Vector x = (T(2) * ends_[i].fraction - T(1)) * a_.half();
+    const T gap = (b_.offset(face_) - b_.normals()[face_].dot(x - offset_)) / steepness_;
+    const FeatureKey key = ends_[i].edge == none
+                               ? FeatureKey(FeatureKey::Kind::vertex_face, i, face_)
+                               : FeatureKey(FeatureKey::Kind::edge_edge, 0,
+                                            b_.shape().face_edges(face_)[ends_[i].edge]);
+    return {a_.center() + (x + gap / 2 * normal_), gap, key};
+  }
+
+  const Placed<Segment<S>>& a_;
+  const Placed<Polyhedron<T>>& b_;
+  const std::size_t face_;
+  const Vector normal_, offset_;
+  T steepness_ = 0;
+  std::array<End, 2> ends_{End{T(0), none}, End{T(1), none}};
+};
+
+/// Adds the points of contact within the margin.
+/// @returns whether a face takes part, its own side for the segment in the plane
+template <std::floating_point T>
+bool add_corners(const Placed<Segment<Space<3, T>>>& a, const Placed<Polyhedron<T>>& b,
+                 const SignedDistance<Space<3, T>>& found, T margin, T near,
+                 Manifold<Space<3, T>>& out) {
+  using Vector = typename Space<3, T>::Vector;
+  const Vector towards_a = -found.normal;
+  const auto face = facing_face(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
+                                towards_a, margin - found.gap);
+  SegmentOnFace<T>(a, b, face, found.normal, near).for_each_corner(near, [&](const auto& corner) {
+    if (corner.gap <= margin) out.points.push_back(corner);
+  });
+  return (b.normals()[face] - towards_a).norm() < DetectionTolerance<T>::aligned;
+}
+template <std::floating_point T>
+bool add_corners(const Placed<Segment<Space<2, T>>>& a, const Placed<Polygon<T>>& b,
+                 const SignedDistance<Space<2, T>>& found, T margin, T near,
+                 Manifold<Space<2, T>>& out) {
+  using Vector = typename Space<2, T>::Vector;
+  constexpr T aligned = DetectionTolerance<T>::aligned;
+  const Vector towards_a = -found.normal, offset = b.center() - a.center();
+  const auto edge = facing_edge(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
+                                towards_a, margin - found.gap);
+  EdgeOverlap<T>(a, 0, b, edge, offset, found.normal, near)
+      .for_each_corner([&](const auto& corner) {
+        if (corner.gap <= margin) out.points.push_back(corner);
+      });
+  return (b.normals()[edge] - towards_a).norm() < aligned ||
+         std::abs(found.normal.dot(a.half())) < aligned * a.radius();
+}
+
+/// The point of contact where no face takes part: of an end or the inside of the segment, and the
+/// vertex of the polytope that is nearest.
+template <class ShapeT>
+ManifoldPoint<SpaceOf<ShapeT>> witness_point(const Placed<Segment<SpaceOf<ShapeT>>>& a,
+                                             const Placed<ShapeT>& b,
+                                             const SignedDistance<SpaceOf<ShapeT>>& found) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  using Kind = FeatureKey::Kind;
+  const T along = (found.witness_a - a.center()).dot(a.half()) / a.half().squaredNorm();
+  const bool is_end = std::abs(along) > T(1) - DetectionTolerance<T>::coincident;
+  return {(found.witness_a + found.witness_b) / 2, found.gap,
+          FeatureKey(is_end ? Kind::vertex_vertex : Kind::edge_vertex, is_end && along > 0 ? 1 : 0,
+                     b.vertices().farthest(-found.normal).index)};
+}
+
+/// Of two points along the segment.
+template <std::floating_point T>
+constexpr ContactClass class_of_edge(Space<2, T>, bool) {
+  return ContactClass::edge_edge;
+}
+template <std::floating_point T>
+constexpr ContactClass class_of_edge(Space<3, T>, bool has_face) {
+  return has_face ? ContactClass::edge_face : ContactClass::edge_edge;
+}
+
+}  // namespace detail
+
+/// Two points where the segment lies along a face, one else.
+/// @param margin  pairs up to this gap are in contact [m], >= 0
+/// @param out     filled if the pair is in contact, left alone otherwise
+/// @returns whether the signed gap is at most the margin
+template <class ShapeT>
+requires Polytope<ShapeT>
+bool collide(const Placed<Segment<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b,
+             typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out,
+             PairCache<SpaceOf<ShapeT>>&) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  MOREAU_ASSERT(margin >= 0);
+  const T size = a.radius() + b.radius(), reach = size + margin;
+  if ((b.center() - a.center()).squaredNorm() > reach * reach) return false;
+  const auto found = detail::ConvexPair<Segment<S>, ShapeT>(a, b).distance(margin);
+  if (!(found.gap <= margin)) return false;
+  out.clear();
+  out.normal = found.normal;
+  out.gap = found.gap;
+  const T rounding = size * DetectionTolerance<T>::rounding;
+  const bool has_face = detail::add_corners(a, b, found, margin + rounding,
+                                            size * DetectionTolerance<T>::coincident, out);
+  T deepest = std::numeric_limits<T>::infinity();
+  for (const auto& point : out.points) deepest = std::min(deepest, point.gap);
+  const bool is_degenerate = !has_face && out.points.size() == 1 &&
+                             out.points[0].feature.kind() != FeatureKey::Kind::edge_edge;
+  if (is_degenerate) out.points.clear();
+  if (is_degenerate || !(deepest <= found.gap + T(64) * rounding))
+    out.points.push_back(detail::witness_point(a, b, found));
+  out.sort();
+  out.contact_class = out.points.size() == 1 ? detail::class_of_point(out.points[0].feature)
+                                             : detail::class_of_edge(S{}, has_face);
+  return true;
+}
+
+}  // namespace moreau

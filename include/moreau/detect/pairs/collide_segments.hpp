@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Segment against segment and ball against segment: the cores of capsules.
+#pragma once
+
+#include <cmath>
+
+#include "moreau/detect/manifold.hpp"
+#include "moreau/detect/pair_cache.hpp"
+#include "moreau/detect/placed.hpp"
+#include "moreau/detect/polytope/contact_class.hpp"
+#include "moreau/detect/polytope/segment_axis.hpp"
+
+namespace moreau {
+
+/// Signed distance of a ball from a segment. A centre on the segment is given a normal across it.
+template <class S>
+SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  const Vector offset = a.center() - b.center();
+  const T t = std::clamp(offset.dot(b.half()) / b.half().squaredNorm(), T(-1), T(1));
+  const Vector apart = t * b.half() - offset;
+  const T between = apart.stableNorm();
+  const Vector normal = between > T(0) ? Vector(apart / between)
+                                       : Vector(S::contact_frame(b.half().normalized()).col(1));
+  const Vector witness = a.center() + a.radius() * normal;
+  return {between - a.radius(), normal, witness, witness + (between - a.radius()) * normal};
+}
+
+/// One contact point.
+/// @param margin  pairs up to this gap are in contact [m], >= 0
+/// @param out     filled if the pair is in contact, left alone otherwise
+/// @returns whether the signed gap is at most the margin
+template <class S>
+bool collide(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,
+             Manifold<S>& out, PairCache<S>&) {
+  using Kind = FeatureKey::Kind;
+  MOREAU_ASSERT(margin >= 0);
+  const SignedDistance<S> found = distance(a, b);
+  if (!(found.gap <= margin)) return false;
+  out.clear();
+  out.normal = found.normal;
+  out.gap = found.gap;
+  const auto along = (a.center() - b.center()).dot(b.half()), end = b.half().squaredNorm();
+  const FeatureKey feature = std::abs(along) < end
+                                 ? FeatureKey(Kind::vertex_edge, 0, 0)
+                                 : FeatureKey(Kind::vertex_vertex, 0, along < 0 ? 0 : 1);
+  out.contact_class = detail::class_of_point(feature);
+  out.points.push_back({(found.witness_a + found.witness_b) / 2, found.gap, feature});
+  return true;
+}
+
+/// Signed distance of two segments; < 0 where they cross in the plane, 0 where they meet in
+/// space.
+template <class S>
+SignedDistance<S> distance(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b) {
+  using Vector = typename S::Vector;
+  const detail::SegmentPair<S> pair(a, b);
+  const detail::SegmentAxis<S> axis = detail::segment_axis(pair);
+  const Vector witness = a.center() + axis.s * pair.half_a;
+  return {axis.gap, axis.normal, witness, witness + axis.gap * axis.normal};
+}
+
+namespace detail {
+
+/// The ends of one that lie beside the other, each with its own distance from it.
+template <class S>
+void add_ends(const SegmentPair<S>& pair, const SegmentAxis<S>& axis,
+              const typename S::Vector& center, typename S::Scalar margin, Manifold<S>& out) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  const T near = pair.size * DetectionTolerance<T>::coincident;
+  const auto add = [&](T s, T t, FeatureKey key) {
+    if (std::abs(s) > T(1) + near / pair.half_a.norm()) return;
+    if (std::abs(t) > T(1) + near / pair.half_b.norm()) return;
+    const Vector apart = pair.apart(s, t);
+    const T height = axis.normal.dot(apart), gap = height < T(0) ? height : apart.norm();
+    if (!(gap <= margin + pair.size * DetectionTolerance<T>::rounding)) return;
+    const Vector position = center + (s * pair.half_a + apart / 2);
+    for (const auto& point : out.points)
+      if ((point.position - position).squaredNorm() <= near * near) return;
+    out.points.push_back({position, gap, key});
+  };
+  for (const std::size_t v : {0U, 1U}) {
+    const T end = v == 0 ? T(-1) : T(1);
+    add(end, pair.project_on_b(end), FeatureKey(FeatureKey::Kind::vertex_edge, v, 0));
+  }
+  for (const std::size_t v : {0U, 1U}) {
+    const T end = v == 0 ? T(-1) : T(1);
+    add(pair.project_on_a(end), end, FeatureKey(FeatureKey::Kind::edge_vertex, 0, v));
+  }
+}
+
+/// The feature of a where its point at s is, an end or what is between them.
+template <std::floating_point T>
+bool is_end(T s) {
+  return std::abs(s) >= T(1);
+}
+
+template <class S>
+FeatureKey feature_of(const SegmentAxis<S>& axis) {
+  using Kind = FeatureKey::Kind;
+  const bool end_a = is_end(axis.s), end_b = is_end(axis.t);
+  const Kind kind = end_a && end_b ? Kind::vertex_vertex
+                    : end_a        ? Kind::vertex_edge
+                    : end_b        ? Kind::edge_vertex
+                                   : Kind::edge_edge;
+  return FeatureKey(kind, end_a && axis.s > 0 ? 1 : 0, end_b && axis.t > 0 ? 1 : 0);
+}
+
+}  // namespace detail
+
+/// The ends of each beside the other that are within the margin, so two points where one lies along
+/// the other; and the nearest points, if those are not among them.
+/// @param margin  pairs up to this gap are in contact [m], >= 0
+/// @param out     filled if the pair is in contact, left alone otherwise
+/// @returns whether the signed gap is at most the margin
+template <class S>
+bool collide(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,
+             Manifold<S>& out, PairCache<S>&) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  MOREAU_ASSERT(margin >= 0);
+  const detail::SegmentPair<S> pair(a, b);
+  const T reach = pair.size + margin;
+  if (pair.offset.squaredNorm() > reach * reach) return false;
+  const detail::SegmentAxis<S> axis = detail::segment_axis(pair);
+  if (!(axis.gap <= margin)) return false;
+  out.clear();
+  out.normal = axis.normal;
+  out.gap = axis.gap;
+  detail::add_ends(pair, axis, a.center(), margin, out);
+  T deepest = std::numeric_limits<T>::infinity();
+  for (const auto& point : out.points) deepest = std::min(deepest, point.gap);
+  const T rounding = pair.size * DetectionTolerance<T>::rounding;
+  if (!(deepest <= axis.gap + T(64) * rounding)) {
+    const Vector middle = axis.s * pair.half_a + axis.gap / 2 * axis.normal;
+    out.points.push_back({a.center() + middle, axis.gap, detail::feature_of(axis)});
+  }
+  out.sort();
+  out.contact_class = out.points.size() == 1 ? detail::class_of_point(out.points[0].feature)
+                                             : ContactClass::edge_edge;
+  return true;
+}
+
+}  // namespace moreau

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The nearest features of two polyhedra that are apart, by comparing all that can be nearest: the
+// last resort where edges or faces are so parallel that the distance algorithm ends on rounding.
+//
+// Let n be a unit vector along which the shapes are separated by s, and d a distance of two of
+// their points. The nearest points are no farther apart than d, so along n neither lies more than
+// d - s below its shape's top: features without a vertex up there are out. What is compared are
+// distances between points of the shapes, so that none can be too small.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "moreau/detect/polytope/detail/nearest_axis.hpp"
+#include "moreau/detect/polytope/projection.hpp"
+#include "moreau/detect/polytope/segment_axis.hpp"
+
+namespace moreau::detail {
+
+template <std::floating_point T>
+class NearestFeatures {
+ public:
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+  using Shape = Placed<Polyhedron<T>>;
+  using Edge = typename Polyhedron<T>::Edge;
+
+  /// @param direction  unit, from a to b
+  /// @param slab       d - s [m], with what rounding may add
+  NearestFeatures(const PolyhedronPair<T>& pair, const Vector& direction, T slab)
+      : pair_(pair),
+        high_a_(find_high(pair.a, direction, slab)),
+        high_b_(find_high(pair.b, -direction, slab)) {
+    axis_.gap = std::numeric_limits<T>::infinity();
+    compare_edges();
+    compare_faces(pair.a, high_a_, pair.b, high_b_, pair.offset, T(1));
+    compare_faces(pair.b, high_b_, pair.a, high_a_, Vector(-pair.offset), T(-1));
+  }
+  const Axis<S>& axis() const { return axis_; }
+
+ private:
+  static std::vector<bool> find_high(const Shape& shape, const Vector& up, T slab) {
+    std::vector<bool> is_high(shape.vertices().size());
+    const T lowest = shape.vertices().reach(up) - slab;
+    for (std::size_t v = 0; v < is_high.size(); ++v)
+      is_high[v] = up.dot(shape.vertices()[v]) >= lowest;
+    return is_high;
+  }
+  static bool is_high(const Edge& edge, const std::vector<bool>& high) {
+    return high[edge.vertex[0]] || high[edge.vertex[1]];
+  }
+
+  void compare_edges() {
+    const auto edges_a = pair_.a.shape().edges(), edges_b = pair_.b.shape().edges();
+    for (std::uint32_t i = 0; i < edges_a.size(); ++i) {
+      if (!is_high(edges_a[i], high_a_)) continue;
+      for (std::uint32_t j = 0; j < edges_b.size(); ++j)
+        if (is_high(edges_b[j], high_b_)) compare(edges_a[i], i, edges_b[j], j);
+    }
+  }
+  void compare(const Edge& edge_a, std::uint32_t i, const Edge& edge_b, std::uint32_t j) {
+    const Vector p = pair_.a.vertices()[edge_a.vertex[0]], q = pair_.a.vertices()[edge_a.vertex[1]];
+    const Vector v = pair_.b.vertices()[edge_b.vertex[0]], w = pair_.b.vertices()[edge_b.vertex[1]];
+    const SegmentPair<S> segments((q - p) / 2, (w - v) / 2, pair_.offset + (v - p + (w - q)) / 2);
+    SegmentAxis<S> nearest = nearest_points(segments);
+    if (!(nearest.gap < axis_.gap)) return;
+    const bool end_a = std::abs(nearest.s) >= T(1), end_b = std::abs(nearest.t) >= T(1);
+    const std::uint32_t a = edge_a.vertex[nearest.s < T(0) ? 0 : 1],
+                        b = edge_b.vertex[nearest.t < T(0) ? 0 : 1];
+    if (end_a || end_b) {
+      const AxisKind kind = !end_a   ? AxisKind::edge_vertex
+                            : !end_b ? AxisKind::vertex_edge
+                                     : AxisKind::vertices;
+      measure_nearest(pair_, kind, end_a ? a : i, end_b ? b : j, axis_);
+      return;
+    }
+    nearest.normal = segments.apart(nearest.s, nearest.t) / nearest.gap;
+    refine(segments, nearest);
+    axis_ = {nearest.normal, nearest.gap, AxisKind::edges, i, j};
+  }
+  /// The vertices of one over the faces of the other.
+  /// @param sign  1 if the faces are a's
+  void compare_faces(const Shape& own, const std::vector<bool>& high_own, const Shape& other,
+                     const std::vector<bool>& high_other, const Vector& offset, T sign) {
+    for (std::uint32_t f = 0; f < own.normals().size(); ++f) {
+      const auto loop = own.shape().face(f);
+      if (std::none_of(loop.begin(), loop.end(), [&](auto v) { return high_own[v]; })) continue;
+      for (std::uint32_t v = 0; v < high_other.size(); ++v) {
+        if (!high_other[v]) continue;
+        const Vector x = other.vertices()[v] + offset;
+        const T height = height_above(own, f, x);
+        if (!(height >= T(0) && height < axis_.gap && projects_onto(own, f, x))) continue;
+        const Vector normal = sign * own.normals()[f];
+        axis_ = sign > T(0) ? Axis<S>{normal, height, AxisKind::face_a, f, v}
+                            : Axis<S>{normal, height, AxisKind::face_b, v, f};
+      }
+    }
+  }
+
+  const PolyhedronPair<T>& pair_;
+  const std::vector<bool> high_a_, high_b_;
+  Axis<S> axis_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include "moreau/detect/placed.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+namespace moreau::detail {
+
+/// Whether the foot of the perpendicular from the point, relative to the centre, is within the
+/// edge, at least the clearance, given as its square [m^2], from its ends.
+template <std::floating_point T>
+bool projects_within(const Placed<Polygon<T>>& shape, std::size_t edge,
+                     const typename Space<2, T>::Vector& x, T clearance2) {
+  using Vector = typename Space<2, T>::Vector;
+  const std::size_t next = edge + 1 < shape.vertices().size() ? edge + 1 : 0;
+  const Vector from = shape.vertices()[edge];
+  const Vector along = shape.vertices()[next] - from;
+  const T t = along.dot(x - from), length2 = along.squaredNorm();
+  const T inside = std::min(t, length2 - t);  // the distance from the nearer end times the length
+  return inside >= T(0) && inside * inside >= clearance2 * length2;
+}
+
+/// Whether the foot of the perpendicular from the point, relative to the centre, is
+/// within the face, at least the clearance, given as its square [m^2], from its rim.
+template <std::floating_point T>
+bool projects_within(const Placed<Polyhedron<T>>& shape, std::size_t face,
+                     const typename Space<3, T>::Vector& x, T clearance2) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto loop = shape.shape().face(face);
+  const Vector normal = shape.normals()[face];
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Vector from = shape.vertices()[loop[k]];
+    const Vector along = shape.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] - from;
+    const T inside = normal.cross(along).dot(x - from);  // its distance times the edge's length
+    if (inside < T(0) || inside * inside < clearance2 * along.squaredNorm()) return false;
+  }
+  return true;
+}
+
+/// Whether the foot of the perpendicular from the point, relative to the centre, is within the edge
+/// or face, at least the clearance [m] from its ends or rim.
+template <class ShapeT>
+bool projects_onto(const Placed<ShapeT>& shape, std::size_t face,
+                   const typename Placed<ShapeT>::Vector& x,
+                   typename Placed<ShapeT>::Scalar clearance = 0) {
+  return projects_within(shape, face, x, clearance * clearance);
+}
+
+}  // namespace moreau::detail
