@@ -8,7 +8,7 @@
 #include <span>
 #include <tuple>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"

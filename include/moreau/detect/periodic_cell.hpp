@@ -8,8 +8,8 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/state.hpp"
 
 namespace moreau {
 

@@ -17,9 +17,9 @@
 #include <cstddef>
 #include <span>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/integrate/spin.hpp"
 
 namespace moreau {

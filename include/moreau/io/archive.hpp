@@ -3,7 +3,7 @@
 // made of, number by number; an archive writes them, reads them, or only notes their kinds. So
 // reading cannot disagree with writing.
 //
-// Numbers have the bytes of the machine. A class takes part as core/state.hpp says.
+// Numbers have the bytes of the machine. A class takes part as core/serialize.hpp says.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@
 #include <variant>
 #include <vector>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/io/crc64.hpp"
 
 namespace moreau::detail {
@@ -58,7 +58,7 @@ template <class X>
 auto members(X& x) {
   constexpr std::size_t count = std::is_aggregate_v<X> ? member_count<X>() : 0;
   static_assert(count > 0,
-                "a class that is to be written to a file needs core/state.hpp's state()");
+                "a class that is to be written to a file needs core/serialize.hpp's state()");
   if constexpr (count == 0) {
     return std::tuple<>();
   } else if constexpr (count == 1) {

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/io/output_file.hpp"
 
 namespace moreau {

@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {

@@ -15,7 +15,7 @@
 #include <concepts>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/regularized.hpp"
 
 namespace moreau {

@@ -7,7 +7,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 
 namespace moreau {
 

@@ -21,7 +21,7 @@
 
 #include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {

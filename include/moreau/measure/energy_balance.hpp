@@ -21,10 +21,10 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/state.hpp"
 
 namespace moreau {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 
 namespace moreau {
 
@@ -62,7 +62,7 @@ struct FaceTopology {
 
   /// Of no surface: to be read into.
   FaceTopology() = default;
-  auto state() { return std::tie(faces); }  ///< the rest follows; see core/state.hpp
+  auto state() { return std::tie(faces); }  ///< the rest follows; see core/serialize.hpp
 
   /// @param vertex_count number of vertices; each must be in three faces at least
   /// @param face_list    vertices of each face, counter-clockwise from outside

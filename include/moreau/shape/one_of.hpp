@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 
 namespace moreau {

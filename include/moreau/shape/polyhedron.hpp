@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/face_plane.hpp"

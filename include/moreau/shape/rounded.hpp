@@ -4,7 +4,7 @@
 #include <cmath>
 #include <concepts>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/rounded_moments.hpp"
 #include "moreau/shape/vertices.hpp"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/solve/report.hpp"
-#include "moreau/solve/residual.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/solve/measure_residual.hpp"
+#include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/sweep_change.hpp"
 
 namespace moreau {

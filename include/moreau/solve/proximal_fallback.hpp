@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/friction_problem.hpp"
-#include "moreau/solve/gather_problem.hpp"
+#include "moreau/solve/gathered_problem.hpp"
+#include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_solver.hpp"
-#include "moreau/solve/report.hpp"
-#include "moreau/solve/residual.hpp"
+#include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 

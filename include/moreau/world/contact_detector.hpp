@@ -16,7 +16,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/collide_cylinder_wall.hpp"

@@ -16,14 +16,14 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/detect/periodic_cell.hpp"
 #include "moreau/detect/reduce.hpp"
 #include "moreau/detect/sweep_and_prune.hpp"
-#include "moreau/integrate/bodies.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
