@@ -41,8 +41,10 @@ class StudySolver : public moreau::ParallelGaussSeidel {
   }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_, plain_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() {
+    return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_, plain_);
+  }
 
   moreau::NonlinearGaussSeidel reference() const {
     moreau::GaussSeidelOptions plain;

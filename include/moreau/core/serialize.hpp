@@ -1,44 +1,47 @@
 // SPDX-License-Identifier: MIT
-// What an object is made of, for those who write it to a file and read it back (io/archive.hpp).
+// How a class takes part in serialization: writing an object to a file and reading it back
+// (io/archive.hpp).
 //
-// An aggregate of up to eight members, such as Pose, is made of these. A class with private members
-// names them once, for both directions:
+// An aggregate of up to eight members, such as Pose, needs no code. A class with private members
+// lists them once, for both directions:
 //
 //     private:
-//      friend struct StateAccess;
-//      auto state() { return std::tie(radius_); }
+//      friend struct SerializationAccess;
+//      auto serialized_members() { return std::tie(radius_); }
 //
-// and may have restored(), which is called when they have been read, makes what follows from them,
-// and throws if there is no such object. A class without a public default constructor has a private
-// one, whose object is only there to be read into.
+// A class may also have deserialized(). It is called after the members have been read, computes the
+// members that follow from them, and throws if the members describe no valid object. A class
+// without a public default constructor has a private one: its object is only read into.
 #pragma once
 
-#include <tuple>  // for those who include this
+#include <tuple>  // for the classes that include this header
 
 namespace moreau {
 
-/// The one friend of classes that can be written to a file.
-struct StateAccess {
-  /// Whether X lists its members by state().
+/// The one friend that a serializable class declares.
+struct SerializationAccess {
+  /// Whether X has serialized_members().
   template <class X>
-  static constexpr bool has_state() {
-    if constexpr (requires(X & x) { x.state(); }) {
-      using Owner = decltype(owner(&X::state));
-      static_assert(sizeof(X) == sizeof(Owner), "state(): it is a base's, which lacks members");
+  static constexpr bool is_serializable() {
+    if constexpr (requires(X & x) { x.serialized_members(); }) {
+      using Owner = decltype(owner(&X::serialized_members));
+      static_assert(
+          sizeof(X) == sizeof(Owner),
+          "serialized_members() is inherited from a base that lacks members of the class");
       return true;
     } else {
       return false;
     }
   }
-  /// References to all that x is made of.
+  /// References to all serialized members of x.
   template <class X>
-  static auto state(X& x) {
-    return x.state();
+  static auto serialized_members(X& x) {
+    return x.serialized_members();
   }
-  /// Lets x make what follows from its members; its exception if there is no such object.
+  /// Calls deserialized() if X has it; passes its exception on if the members are not valid.
   template <class X>
-  static void restored(X& x) {
-    if constexpr (requires { x.restored(); }) x.restored();
+  static void deserialized(X& x) {
+    if constexpr (requires { x.deserialized(); }) x.deserialized();
   }
   /// An object to be read into.
   template <class X>
@@ -47,8 +50,8 @@ struct StateAccess {
   }
 
  private:
-  template <class Owner, class State>
-  static Owner owner(State (Owner::*)());
+  template <class Owner, class Members>
+  static Owner owner(Members (Owner::*)());
 };
 
 }  // namespace moreau

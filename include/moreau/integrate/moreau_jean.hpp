@@ -92,8 +92,8 @@ class MoreauJean {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(theta_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(theta_); }
 
   double theta_ = 0.5;
 };

@@ -206,8 +206,8 @@ class PvdSeries {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(lines_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(lines_); }
 
   std::filesystem::path path_;
   std::string lines_;

@@ -73,8 +73,8 @@ class Frictionless {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(restitution_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(restitution_); }
 
   T restitution_;
 };

@@ -74,8 +74,8 @@ class LinearSpringDashpot {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(stiffness_, tangential_, friction_, damping_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(stiffness_, tangential_, friction_, damping_); }
 
   T stiffness_, tangential_, friction_, damping_;
 };

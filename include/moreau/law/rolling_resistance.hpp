@@ -139,8 +139,8 @@ class RollingResistance {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(point_, rolling_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(point_, rolling_); }
 
   /// D of a vector of D + A rows: 3 = 2 + 1, 6 = 3 + 3.
   template <class Vector>

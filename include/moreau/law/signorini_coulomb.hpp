@@ -219,8 +219,8 @@ class SignoriniCoulomb {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(friction_, restitution_, static_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(friction_, restitution_, static_); }
 
   T friction_, restitution_, static_;
 };

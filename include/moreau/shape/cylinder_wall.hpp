@@ -36,9 +36,9 @@ class CylinderWall {
   Scalar radius() const { return radius_; }      ///< [m]
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   CylinderWall() = default;
-  auto state() { return std::tie(axis_, radius_); }
+  auto serialized_members() { return std::tie(axis_, radius_); }
 
   Angular axis_ = Angular::Zero();
   Scalar radius_ = 0;

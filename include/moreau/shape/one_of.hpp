@@ -73,11 +73,11 @@ requires(sizeof...(Shapes) > 0 &&
   }
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   OneOf()
       : held_(std::in_place_index<0>,
-              StateAccess::blank<std::tuple_element_t<0, std::tuple<Shapes...>>>()) {}
-  auto state() { return std::tie(held_); }
+              SerializationAccess::blank<std::tuple_element_t<0, std::tuple<Shapes...>>>()) {}
+  auto serialized_members() { return std::tie(held_); }
 
   std::variant<Shapes...> held_;
 };

@@ -65,9 +65,9 @@ class Sphere {
   }
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   Sphere() = default;
-  auto state() { return std::tie(radius_); }
+  auto serialized_members() { return std::tie(radius_); }
 
   Scalar radius_ = 0;
 };

@@ -80,8 +80,8 @@ class TeamGaussSeidel {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(options_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_); }
 
   template <class Operator, class Law>
   SolveReport attempt(Operator& op, std::span<const Law> laws,

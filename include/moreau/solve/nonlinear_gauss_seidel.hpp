@@ -128,8 +128,8 @@ class NonlinearGaussSeidel {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(options_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_); }
 
   /// The change of one contact's impulse that solves its local problem.
   template <class Operator, class Law>

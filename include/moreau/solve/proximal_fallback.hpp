@@ -72,8 +72,8 @@ class ProximalFallback {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(first_, max_seconds_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(first_, max_seconds_); }
 
   template <class Operator, class Law>
   void polish(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,

@@ -151,8 +151,10 @@ class ContactDetector {
   std::size_t touching_count() const { return touching_; }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_); }
+  friend struct SerializationAccess;
+  auto serialized_members() {
+    return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_);
+  }
 
   struct Grain {
     BodyId body;

@@ -65,8 +65,8 @@ class ForceDynamics {
   }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(integrator_, loads_, memory_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(integrator_, loads_, memory_); }
 
   static ContactMotion<S> motion_of(const Bodies<S>& bodies, const Contact<S>& contact,
                                     Scalar elapsed) {

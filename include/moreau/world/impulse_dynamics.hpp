@@ -119,8 +119,8 @@ class ImpulseDynamics {
   }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(solver_, correction_, integrator_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(solver_, correction_, integrator_); }
 
   static constexpr bool stateful = StatefulLaw<Law, S>;
 

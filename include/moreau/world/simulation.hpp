@@ -315,12 +315,12 @@ class Simulation {
     tolerances.check("Simulation");
   }
 
-  friend struct StateAccess;
-  auto state() {
+  friend struct SerializationAccess;
+  auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
                     contacts_, detector_);
   }
-  void restored() {
+  void deserialized() {
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), materials_.laws().size()),
             "Simulation", "bodies", bodies().size(), "must be those that all else is of");
