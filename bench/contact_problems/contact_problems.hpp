@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/io/friction_file.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/concepts.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <tuple>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
@@ -41,8 +41,10 @@ class StudySolver : public moreau::ParallelGaussSeidel {
   }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_, plain_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() {
+    return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_, plain_);
+  }
 
   moreau::NonlinearGaussSeidel reference() const {
     moreau::GaussSeidelOptions plain;

@@ -53,7 +53,7 @@ struct SolverTotals {
     ms_total += report.ms_total;
     ms_of_step.push_back(report.ms_total);
   }
-  auto state() {  ///< see moreau/core/state.hpp
+  auto serialized_members() {  ///< see moreau/core/serialize.hpp
     return std::tie(steps, capped, most_sweeps, sweeps, residual, worst_residual, pairs, points,
                     max_overlap, mean_overlap, mean_overlap_first, mean_overlap_last, dissipation,
                     correction_work, correction_travel, correction_drift, ms_detect, ms_solve,

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"

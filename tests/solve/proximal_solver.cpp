@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/instances/friction_problems.hpp"
-#include "moreau/solve/gather_problem.hpp"
+#include "moreau/solve/gathered_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 using namespace moreau;

@@ -12,7 +12,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
-#include "moreau/solve/report.hpp"
+#include "moreau/solve/solve_report.hpp"
 
 namespace archetypes {
 

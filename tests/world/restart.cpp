@@ -47,8 +47,8 @@ class Tally {
   int count() const { return count_; }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(count_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(count_); }
 
   int count_ = 0;
 };

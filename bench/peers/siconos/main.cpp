@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "moreau/solve/coloured_gauss_seidel.hpp"
-#include "moreau/solve/gather_problem.hpp"
+#include "moreau/solve/gathered_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 #include "contact_problems/contact_problems.hpp"

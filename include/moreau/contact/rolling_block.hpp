@@ -6,7 +6,7 @@
 //     W = [P  C; C^T  Q],          P the LocalBlock of the point, C (D x A), Q (A x A).
 #pragma once
 
-#include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/local_block.hpp"
 
 namespace moreau {
 

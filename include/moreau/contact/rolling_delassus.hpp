@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/rolling_block.hpp"
 

@@ -26,7 +26,7 @@ struct Id {
 
   /// The position in the array of what it counts.
   constexpr std::size_t index() const { return value; }
-  auto state() { return std::tie(value); }  ///< see core/state.hpp
+  auto serialized_members() { return std::tie(value); }  ///< see core/serialize.hpp
   friend constexpr auto operator<=>(const Id&, const Id&) = default;
   friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
 };

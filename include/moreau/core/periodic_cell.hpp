@@ -8,8 +8,8 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -97,8 +97,8 @@ class PeriodicCell {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(lower_, length_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(lower_, length_); }
 
   Vector lower_ = Vector::Zero(), length_ = Vector::Zero();
 };

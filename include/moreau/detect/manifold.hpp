@@ -64,7 +64,7 @@ struct FeatureKey {
                               Kind::vertex_vertex, Kind::edge_vertex, Kind::vertex_edge};
     return FeatureKey(other[value >> 56], b(), a());
   }
-  auto state() { return std::tie(value); }  ///< see core/state.hpp
+  auto serialized_members() { return std::tie(value); }  ///< see core/serialize.hpp
   friend constexpr auto operator<=>(const FeatureKey&, const FeatureKey&) = default;
 };
 

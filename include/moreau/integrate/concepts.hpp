@@ -4,7 +4,7 @@
 #include <concepts>
 #include <span>
 
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/body/bodies.hpp"
 
 namespace moreau {
 

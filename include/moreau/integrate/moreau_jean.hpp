@@ -17,9 +17,9 @@
 #include <cstddef>
 #include <span>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/integrate/spin.hpp"
 
 namespace moreau {
@@ -92,8 +92,8 @@ class MoreauJean {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(theta_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(theta_); }
 
   double theta_ = 0.5;
 };

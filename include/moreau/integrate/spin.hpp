@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/body/bodies.hpp"
 
 namespace moreau::detail {
 

@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <span>
 
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/body/bodies.hpp"
 #include "moreau/integrate/spin.hpp"
 
 namespace moreau {

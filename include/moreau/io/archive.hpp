@@ -3,7 +3,7 @@
 // made of, number by number; an archive writes them, reads them, or only notes their kinds. So
 // reading cannot disagree with writing.
 //
-// Numbers have the bytes of the machine. A class takes part as core/state.hpp says.
+// Numbers have the bytes of the machine. A class takes part as core/serialize.hpp says.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@
 #include <variant>
 #include <vector>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/io/crc64.hpp"
 
 namespace moreau::detail {
@@ -57,8 +57,9 @@ constexpr std::size_t member_count() {
 template <class X>
 auto members(X& x) {
   constexpr std::size_t count = std::is_aggregate_v<X> ? member_count<X>() : 0;
-  static_assert(count > 0,
-                "a class that is to be written to a file needs core/state.hpp's state()");
+  static_assert(
+      count > 0,
+      "a class that is to be written to a file needs core/serialize.hpp's serialized_members()");
   if constexpr (count == 0) {
     return std::tuple<>();
   } else if constexpr (count == 1) {
@@ -134,8 +135,9 @@ void transfer(Archive& archive, X& x) {
     archive.choice(x);
   } else if constexpr (RandomEngine<X>) {
     archive.text(x);
-  } else if constexpr (StateAccess::has_state<X>()) {
-    std::apply([&](auto&... part) { (transfer(archive, part), ...); }, StateAccess::state(x));
+  } else if constexpr (SerializationAccess::is_serializable<X>()) {
+    std::apply([&](auto&... part) { (transfer(archive, part), ...); },
+               SerializationAccess::serialized_members(x));
     archive.done(x);
   } else if constexpr (!std::is_empty_v<X>) {
     std::apply([&](auto&... part) { (transfer(archive, part), ...); }, members(x));
@@ -210,7 +212,7 @@ class ArchiveReader {
     using Item = typename List::value_type;
     items.clear();
     for (std::size_t more = count(); more > 0; --more) {
-      items.push_back(StateAccess::blank<Item>());
+      items.push_back(SerializationAccess::blank<Item>());
       transfer(*this, items.back());
     }
   }
@@ -234,13 +236,13 @@ class ArchiveReader {
   }
   template <class X>
   void done(X& x) {
-    StateAccess::restored(x);
+    SerializationAccess::deserialized(x);
   }
 
  private:
   template <class X>
   static X blank() {
-    return StateAccess::blank<X>();
+    return SerializationAccess::blank<X>();
   }
   /// Of what follows, each of a byte at least.
   std::size_t count() {
@@ -267,7 +269,7 @@ class ArchiveOutline {
   void extent(const auto&) { kinds_ += 'm'; }
   template <class List>
   void list(List&) {
-    auto item = StateAccess::blank<typename List::value_type>();
+    auto item = SerializationAccess::blank<typename List::value_type>();
     kinds_ += '[';
     transfer(*this, item);
     kinds_ += ']';
@@ -275,7 +277,7 @@ class ArchiveOutline {
   template <class... Kinds>
   void choice(std::variant<Kinds...>&) {
     const auto note = [&]<class Kind>(std::in_place_type_t<Kind>) {
-      Kind kind = StateAccess::blank<Kind>();
+      Kind kind = SerializationAccess::blank<Kind>();
       kinds_ += '|';
       transfer(*this, kind);
     };

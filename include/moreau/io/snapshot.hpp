@@ -194,7 +194,7 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
 
 /// The state of a simulation as bytes: the same bytes if and only if the state has the same bits.
 /// @param more whatever else belongs to the run: numbers, strings, vectors, generators of random
-///             numbers, classes that core/state.hpp describes
+///             numbers, classes that core/serialize.hpp describes
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
                      const More&... more) {

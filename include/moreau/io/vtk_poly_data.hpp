@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/io/output_file.hpp"
 
 namespace moreau {
@@ -206,8 +206,8 @@ class PvdSeries {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(lines_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(lines_); }
 
   std::filesystem::path path_;
   std::string lines_;

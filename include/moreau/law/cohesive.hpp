@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
@@ -56,8 +56,8 @@ class Cohesive : public Law {
   { return Cohesive(Law::variant(k), adhesion_, range_); }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(static_cast<Law&>(*this), adhesion_, range_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(static_cast<Law&>(*this), adhesion_, range_); }
 
   Scalar adhesion_, range_;
 };

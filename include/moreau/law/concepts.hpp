@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "moreau/contact/lane_problem.hpp"
-#include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/lane_block.hpp"
+#include "moreau/contact/local_block.hpp"
 #include "moreau/contact/rolling_block.hpp"
 
 namespace moreau {

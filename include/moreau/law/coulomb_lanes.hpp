@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "moreau/contact/lane_problem.hpp"
+#include "moreau/contact/lane_block.hpp"
 
 namespace moreau::detail {
 

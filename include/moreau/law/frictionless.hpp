@@ -7,10 +7,10 @@
 #include <concepts>
 #include <limits>
 
-#include "moreau/contact/lane_problem.hpp"
-#include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/lane_block.hpp"
+#include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 
 namespace moreau {
 
@@ -73,8 +73,8 @@ class Frictionless {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(restitution_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(restitution_); }
 
   T restitution_;
 };

@@ -17,7 +17,7 @@
 #include <concepts>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/regularized.hpp"
 
 namespace moreau {
@@ -90,8 +90,8 @@ class HertzMindlin {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(young_, shear_, friction_, damping_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(young_, shear_, friction_, damping_); }
 
   T young_, shear_, friction_, damping_;
 };

@@ -15,7 +15,7 @@
 #include <concepts>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/regularized.hpp"
 
 namespace moreau {
@@ -74,8 +74,8 @@ class LinearSpringDashpot {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(stiffness_, tangential_, friction_, damping_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(stiffness_, tangential_, friction_, damping_); }
 
   T stiffness_, tangential_, friction_, damping_;
 };

@@ -7,7 +7,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 
 namespace moreau {
 
@@ -64,9 +64,9 @@ class Materials : public MaterialPairs {
     require(b.index() < count(), function, "b", b, "must be the id of a material");
   }
 
-  friend struct StateAccess;
-  auto state() { return std::tie(count_, laws_); }
-  void restored() const {
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(count_, laws_); }
+  void deserialized() const {
     require(count_ > 0 && laws_.size() / count_ == count_ && laws_.size() % count_ == 0,
             "Materials", "count", count_, "must be > 0, with a law for every pair");
   }

@@ -21,7 +21,7 @@
 
 #include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
@@ -139,8 +139,8 @@ class RollingResistance {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(point_, rolling_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(point_, rolling_); }
 
   /// D of a vector of D + A rows: 3 = 2 + 1, 6 = 3 + 3.
   template <class Vector>

@@ -19,10 +19,10 @@
 #include <cstddef>
 #include <limits>
 
-#include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/state.hpp"
 #include "moreau/law/coulomb_lanes.hpp"
 
 namespace moreau {
@@ -219,8 +219,8 @@ class SignoriniCoulomb {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(friction_, restitution_, static_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(friction_, restitution_, static_); }
 
   T friction_, restitution_, static_;
 };

@@ -21,10 +21,10 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {
@@ -94,8 +94,8 @@ class EnergyBalance {
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(terms_, positions_, kinetic_, start_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(terms_, positions_, kinetic_, start_); }
 
   /// The part of a vector along the axes of the body that have a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/state.hpp"
 
 namespace moreau {
 
@@ -36,9 +36,9 @@ class CylinderWall {
   Scalar radius() const { return radius_; }      ///< [m]
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   CylinderWall() = default;
-  auto state() { return std::tie(axis_, radius_); }
+  auto serialized_members() { return std::tie(axis_, radius_); }
 
   Angular axis_ = Angular::Zero();
   Scalar radius_ = 0;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 
 namespace moreau {
 
@@ -33,9 +33,9 @@ class IndexLists {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(begins_, items_); }
-  void restored() const {
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(begins_, items_); }
+  void deserialized() const {
     require(!begins_.empty() && begins_.front() == 0 && begins_.back() == items_.size() &&
                 std::is_sorted(begins_.begin(), begins_.end()),
             "IndexLists", "begins", begins_.size(), "of them must rise to the number of items");
@@ -62,7 +62,9 @@ struct FaceTopology {
 
   /// Of no surface: to be read into.
   FaceTopology() = default;
-  auto state() { return std::tie(faces); }  ///< the rest follows; see core/state.hpp
+  auto serialized_members() {
+    return std::tie(faces);
+  }  ///< the rest follows; see core/serialize.hpp
 
   /// @param vertex_count number of vertices; each must be in three faces at least
   /// @param face_list    vertices of each face, counter-clockwise from outside

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 
 namespace moreau {
@@ -73,11 +73,11 @@ requires(sizeof...(Shapes) > 0 &&
   }
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   OneOf()
       : held_(std::in_place_index<0>,
-              StateAccess::blank<std::tuple_element_t<0, std::tuple<Shapes...>>>()) {}
-  auto state() { return std::tie(held_); }
+              SerializationAccess::blank<std::tuple_element_t<0, std::tuple<Shapes...>>>()) {}
+  auto serialized_members() { return std::tie(held_); }
 
   std::variant<Shapes...> held_;
 };

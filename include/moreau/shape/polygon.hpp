@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/moments.hpp"
@@ -88,13 +88,13 @@ class Polygon {
   }
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   Polygon() = default;
-  auto state() {
+  auto serialized_members() {
     return std::tie(vertices_, face_normals_, face_offsets_, centroid_of_input_, circumradius_,
                     inradius_, normal_spacing_, moments_);
   }
-  void restored() const {
+  void deserialized() const {
     const Eigen::Index count = vertices_.rows();
     require(count >= 3 && face_normals_.rows() == count && face_offsets_.size() == count, "Polygon",
             "vertices", count, "must be 3 at least, with as many edges");

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/face_plane.hpp"
@@ -108,14 +108,14 @@ class Polyhedron {
   Polyhedron scaled(T factor) const;
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   Polyhedron() = default;
-  auto state() {
+  auto serialized_members() {
     return std::tie(topology_, vertices_, face_normals_, face_offsets_, centroid_of_input_,
                     circumradius_, inradius_, normal_spacing_, moments_);
   }
   /// What follows from the faces.
-  void restored() {
+  void deserialized() {
     std::vector<std::vector<std::uint32_t>> faces;
     for (std::size_t f = 0; f < topology_.faces.size(); ++f)
       faces.emplace_back(topology_.faces[f].begin(), topology_.faces[f].end());

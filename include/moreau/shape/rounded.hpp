@@ -4,7 +4,7 @@
 #include <cmath>
 #include <concepts>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/rounded_moments.hpp"
 #include "moreau/shape/vertices.hpp"
@@ -102,9 +102,9 @@ class Rounded {
   }
 
  private:
-  friend struct StateAccess;
-  Rounded() : core_(StateAccess::blank<Core>()) {}
-  auto state() { return std::tie(core_, radius_, core_position_, moments_); }
+  friend struct SerializationAccess;
+  Rounded() : core_(SerializationAccess::blank<Core>()) {}
+  auto serialized_members() { return std::tie(core_, radius_, core_position_, moments_); }
 
   Core core_;
   Scalar radius_ = 0;

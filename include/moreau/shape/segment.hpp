@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/vertices.hpp"
 
@@ -48,9 +48,9 @@ class Segment {
   }
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   Segment() = default;
-  auto state() { return std::tie(half_length_); }
+  auto serialized_members() { return std::tie(half_length_); }
 
   Scalar half_length_ = 0;
 };

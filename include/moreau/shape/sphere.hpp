@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/vertices.hpp"
 
@@ -65,9 +65,9 @@ class Sphere {
   }
 
  private:
-  friend struct StateAccess;
+  friend struct SerializationAccess;
   Sphere() = default;
-  auto state() { return std::tie(radius_); }
+  auto serialized_members() { return std::tie(radius_); }
 
   Scalar radius_ = 0;
 };

@@ -21,12 +21,12 @@
 #include <limits>
 #include <span>
 
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured_sweeps.hpp"
+#include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
-#include "moreau/solve/report.hpp"
-#include "moreau/solve/residual.hpp"
+#include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/team.hpp"
 
 namespace moreau {
@@ -80,8 +80,8 @@ class TeamGaussSeidel {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(options_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_); }
 
   template <class Operator, class Law>
   SolveReport attempt(Operator& op, std::span<const Law> laws,

@@ -7,10 +7,10 @@
 #include <span>
 #include <type_traits>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/rolling_delassus.hpp"
 #include "moreau/law/concepts.hpp"
-#include "moreau/solve/report.hpp"
+#include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 

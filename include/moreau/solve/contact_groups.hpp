@@ -25,8 +25,8 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/lane_problem.hpp"
-#include "moreau/law/lanes.hpp"
+#include "moreau/contact/lane_block.hpp"
+#include "moreau/law/law_lanes.hpp"
 #include "moreau/solve/pair_colouring.hpp"
 
 namespace moreau::detail {

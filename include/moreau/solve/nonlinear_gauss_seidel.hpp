@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/solve/report.hpp"
-#include "moreau/solve/residual.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/solve/measure_residual.hpp"
+#include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/sweep_change.hpp"
 
 namespace moreau {
@@ -128,8 +128,8 @@ class NonlinearGaussSeidel {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(options_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_); }
 
   /// The change of one contact's impulse that solves its local problem.
   template <class Operator, class Law>

@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/friction_problem.hpp"
-#include "moreau/solve/gather_problem.hpp"
+#include "moreau/solve/gathered_problem.hpp"
+#include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_solver.hpp"
-#include "moreau/solve/report.hpp"
-#include "moreau/solve/residual.hpp"
+#include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 
@@ -72,8 +72,8 @@ class ProximalFallback {
   }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(first_, max_seconds_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(first_, max_seconds_); }
 
   template <class Operator, class Law>
   void polish(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,

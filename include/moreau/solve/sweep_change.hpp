@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "moreau/solve/report.hpp"
+#include "moreau/solve/solve_report.hpp"
 
 namespace moreau::detail {
 

@@ -9,11 +9,11 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
@@ -131,11 +131,11 @@ class Assembly {
   };
   struct Drum {
     BodyId body;
-    CylinderWall<S> shape = StateAccess::blank<CylinderWall<S>>();
+    CylinderWall<S> shape = SerializationAccess::blank<CylinderWall<S>>();
   };
 
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(shapes_, grains_, walls_, drums_, bodies_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(shapes_, grains_, walls_, drums_, bodies_); }
 
   std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
   std::vector<Grain> grains_;

@@ -17,7 +17,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -151,8 +151,10 @@ class ContactDetector {
   std::size_t touching_count() const { return touching_; }
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_); }
+  friend struct SerializationAccess;
+  auto serialized_members() {
+    return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_);
+  }
 
   struct Grain {
     BodyId body;

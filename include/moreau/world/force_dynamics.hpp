@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/warm_start.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/world/step_report.hpp"
@@ -65,8 +65,8 @@ class ForceDynamics {
   }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(integrator_, loads_, memory_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(integrator_, loads_, memory_); }
 
   static ContactMotion<S> motion_of(const Bodies<S>& bodies, const Contact<S>& contact,
                                     Scalar elapsed) {

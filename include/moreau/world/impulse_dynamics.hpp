@@ -11,10 +11,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/warm_start.hpp"
-#include "moreau/core/state.hpp"
-#include "moreau/integrate/bodies.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/solve/concepts.hpp"
@@ -119,8 +119,8 @@ class ImpulseDynamics {
   }
 
  private:
-  friend struct moreau::StateAccess;
-  auto state() { return std::tie(solver_, correction_, integrator_); }
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(solver_, correction_, integrator_); }
 
   static constexpr bool stateful = StatefulLaw<Law, S>;
 

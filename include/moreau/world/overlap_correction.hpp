@@ -16,9 +16,9 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 
 namespace moreau {
 
@@ -87,8 +87,8 @@ class OverlapCorrection {
   const Options& options() const { return options_; }  ///< as given
 
  private:
-  friend struct StateAccess;
-  auto state() { return std::tie(options_, shifts_); }
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_, shifts_); }
 
   /// First-order change of the gap of a contact under the present shifts [m].
   Scalar closing(const BodyDelassus<S>& op, std::size_t c, const Contact<S>& contact) const {

@@ -16,14 +16,14 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
-#include "moreau/core/state.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/reduce.hpp"
-#include "moreau/integrate/bodies.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
@@ -315,12 +315,12 @@ class Simulation {
     tolerances.check("Simulation");
   }
 
-  friend struct StateAccess;
-  auto state() {
+  friend struct SerializationAccess;
+  auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
                     contacts_, detector_);
   }
-  void restored() {
+  void deserialized() {
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), materials_.laws().size()),
             "Simulation", "bodies", bodies().size(), "must be those that all else is of");

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/solve/report.hpp"
+#include "moreau/solve/solve_report.hpp"
 #include "moreau/world/overlap_correction.hpp"
 
 namespace moreau {

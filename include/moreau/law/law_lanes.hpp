@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "moreau/contact/lane_problem.hpp"
+#include "moreau/contact/lane_block.hpp"
 #include "moreau/law/concepts.hpp"
 
 namespace moreau::detail {

@@ -17,17 +17,11 @@
 #include <span>
 #include <vector>
 
+#include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/local_block.hpp"
 
 namespace moreau {
-
-/// M^-1/2 of one body in world axes: symmetric, zero where its motion is prescribed.
-template <class S>
-struct MobilityRoot {
-  typename S::Matrix linear;    ///< D x D [kg^-1/2]
-  typename S::Inertia angular;  ///< A x A [kg^-1/2 m^-1]
-};
 
 /// The operator for bodies that touch at points; model of what NonlinearGaussSeidel sweeps over.
 template <class S>

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "moreau/law/concepts.hpp"
-#include "moreau/solve/report.hpp"
+#include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 

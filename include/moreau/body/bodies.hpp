@@ -11,7 +11,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "moreau/contact/delassus.hpp"
+#include "moreau/body/mobility.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
 

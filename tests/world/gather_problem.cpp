@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/world/contact_problem.hpp"
+#include "moreau/world/gather_problem.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "moreau/contact/local_problem.hpp"
+#include "moreau/contact/local_block.hpp"
 #include "moreau/core/wide.hpp"
 
 namespace moreau {

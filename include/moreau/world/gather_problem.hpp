@@ -5,7 +5,7 @@
 #pragma once
 
 #include "moreau/core/error.hpp"
-#include "moreau/solve/gather_problem.hpp"
+#include "moreau/solve/gathered_problem.hpp"
 #include "moreau/world/simulation.hpp"
 
 namespace moreau {
