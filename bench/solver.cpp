@@ -3,7 +3,8 @@
 // time per contact point and sweep. Making a problem is not timed. Every solution starts from the
 // warm start that the step had, or from zero where there is none. The residual is that of
 // SolveReport for all. "converged" is 0 where the cap came first, and the time then that of the
-// cap, or where the impulses leave too much of the approach over; see SolveReport::left_over.
+// cap, or where the impulses leave too much of the approach over; see
+// SolveReport::relative_approach.
 #include <benchmark/benchmark.h>
 #include <cstddef>
 #include <cstdint>
@@ -41,18 +42,16 @@ void count(benchmark::State& state, std::size_t points, const auto& report) {
 template <class Solver, class S>
 void solve_step(benchmark::State& state, const StepProblem<S>& problem, const Solver& solver) {
   typename Solver::template Workspace<BodyDelassus<S>, Law> workspace;
-  BodyDelassus<S> op = problem.op;
+  ContactProblem<BodyDelassus<S>, Law> step = problem.problem;
   std::vector<typename S::Vector> impulses;
   SolveReport report;
   for (auto _ : state) {
     impulses = problem.guess;
-    op.clear();
-    report = solver.solve(op, std::span<const Law>(problem.laws),
-                          std::span<const std::uint32_t>(problem.law_of), std::span(impulses),
-                          workspace);
+    step.delassus.clear();
+    report = solver.solve(step, std::span(impulses), workspace);
   }
-  count(state, op.size(), report);
-  state.counters["left_over"] = report.left_over;
+  count(state, step.size(), report);
+  state.counters["relative_approach"] = report.relative_approach;
 }
 
 template <class Solver, class S>

@@ -31,16 +31,13 @@ struct Keeping : ratcheting::StudySolver {
   using StudySolver::StudySolver;
 
   template <class Operator, class L>
-  SolveReport solve(Operator& op, std::span<const L> laws, std::span<const std::uint32_t> law_of,
+  SolveReport solve(ContactProblem<Operator, L>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, L>& workspace) const {
     using S = typename Operator::Space;
-    if (StepProblem<S>* const problem = std::exchange(wanted<S>, nullptr))
-      *problem = {op,
-                  {laws.begin(), laws.end()},
-                  {law_of.begin(), law_of.end()},
-                  {impulses.begin(), impulses.end()}};
-    return StudySolver::solve(op, laws, law_of, impulses, workspace);
+    if (StepProblem<S>* const step = std::exchange(wanted<S>, nullptr))
+      *step = {problem, {impulses.begin(), impulses.end()}};
+    return StudySolver::solve(problem, impulses, workspace);
   }
 };
 

@@ -19,6 +19,7 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/solve/contact_problem.hpp"
 
 namespace contact_problems {
 
@@ -28,9 +29,7 @@ using Law = SignoriniCoulomb<double>;
 /// The problem of one step, as a solver gets it.
 template <class S>
 struct StepProblem {
-  BodyDelassus<S> op;
-  std::vector<Law> laws;
-  std::vector<std::uint32_t> law_of;
+  ContactProblem<BodyDelassus<S>, Law> problem;
   std::vector<typename S::Vector> guess;  ///< the warm start
 };
 

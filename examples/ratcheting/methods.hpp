@@ -31,13 +31,12 @@ class StudySolver : public moreau::ParallelGaussSeidel {
       : ParallelGaussSeidel(options, threads), cold_(cold), plain_(plain) {}
 
   template <class Operator, class Law>
-  moreau::SolveReport solve(Operator& op, std::span<const Law> laws,
-                            std::span<const std::uint32_t> law_of,
+  moreau::SolveReport solve(moreau::ContactProblem<Operator, Law>& problem,
                             std::span<typename Operator::Vector> impulses,
                             Workspace<Operator, Law>& workspace) const {
     if (cold_) std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
-    if (plain_) return reference().solve(op, laws, law_of, impulses);
-    return ParallelGaussSeidel::solve(op, laws, law_of, impulses, workspace);
+    if (plain_) return reference().solve(problem, impulses);
+    return ParallelGaussSeidel::solve(problem, impulses, workspace);
   }
 
  private:

@@ -65,7 +65,8 @@ std::string completeness(const std::vector<Case>& plan, const std::vector<Result
   return text + "\nOf " + std::to_string(steps) + " steps " + std::to_string(capped) +
          " did not converge: the cap of sweeps was met first, or more than a tenth of the approach "
          "that "
-         "the step would bring was left over (SolveReport::left_over; a heavy wall that is jammed "
+         "the step would bring was left over (SolveReport::relative_approach; a heavy wall that is "
+         "jammed "
          "has "
          "little of it). All others met the stopping test.\n";
 }

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 namespace solve_test {
@@ -93,20 +95,24 @@ struct Assembly {
     op.assemble(contacts, roots, free);
   }
 
+  /// A copy as a solver gets it.
+  ContactProblem<BodyDelassus<S>, Law> problem() const { return {op, laws, law_of}; }
+
   template <class Solver, class L>
   SolveReport solve(const Solver& solver, const std::vector<L>& table,
                     std::vector<Vector>& impulses) {
     impulses.resize(op.size(), Vector::Zero());
     typename Solver::template Workspace<BodyDelassus<S>, L> workspace;
-    return solver.solve(op, std::span<const L>(table), std::span<const std::uint32_t>(law_of),
-                        std::span(impulses), workspace);
+    ContactProblem<BodyDelassus<S>, L> problem{std::move(op), table, law_of};
+    const SolveReport report = solver.solve(problem, std::span(impulses), workspace);
+    op = std::move(problem.delassus);
+    return report;
   }
   SolveReport measure(const std::vector<Vector>& impulses) {
     op.clear();
     for (std::size_t c = 0; c < op.size(); ++c) op.apply(c, impulses[c]);
     SolveReport report;
-    measure_residual(op, std::span<const Law>(laws), std::span<const std::uint32_t>(law_of),
-                     std::span<const Vector>(impulses), report);
+    measure_residual(problem(), std::span<const Vector>(impulses), report);
     return report;
   }
 };

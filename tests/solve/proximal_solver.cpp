@@ -147,20 +147,17 @@ TEST_CASE_TEMPLATE("the problem of a step, gathered, has the step's solution", S
     for (double& x : free[i]) x = unit(random);
   }
   std::vector<Contact<S>> contacts;
-  std::vector<std::uint32_t> law_of;
+  using Law = SignoriniCoulomb<double>;
+  ContactProblem<BodyDelassus<S>, Law> step{{}, {Law(0.2), Law(0.7)}, {}};
   for (std::uint32_t i = 0; i < 40; ++i) {
     const typename S::Vector n = vector().normalized();
-    law_of.push_back(i % 2);
+    step.law_of.push_back(i % 2);
     contacts.push_back({i % bodies, (7 * i + 3) % bodies, i % 2, 0., S::contact_frame(n),
                         n + 0.3 * vector(), -n + 0.3 * vector()});
   }
-  BodyDelassus<S> op;
-  op.assemble(contacts, roots, free);
-  using Law = SignoriniCoulomb<double>;
-  const std::vector<Law> laws{Law(0.2), Law(0.7)};
-  const std::span<const Law> table(laws);
-  op.offset_normal(11, std::numeric_limits<double>::infinity());
-  const auto gathered = gather_problem(op, table, std::span<const std::uint32_t>(law_of));
+  step.delassus.assemble(contacts, roots, free);
+  step.delassus.offset_normal(11, std::numeric_limits<double>::infinity());
+  const auto gathered = gather_problem(step);
   CHECK(gathered.contacts.size() == 39);
   CHECK(gathered.contacts[11] == 12);
 
@@ -168,9 +165,7 @@ TEST_CASE_TEMPLATE("the problem of a step, gathered, has the step's solution", S
   options.tolerance = 1e-11;
   options.max_sweeps = 50000;
   std::vector<typename S::Vector> impulses(contacts.size(), S::Vector::Zero());
-  CHECK(NonlinearGaussSeidel(options)
-            .solve(op, table, std::span<const std::uint32_t>(law_of), std::span(impulses))
-            .converged);
+  CHECK(NonlinearGaussSeidel(options).solve(step, std::span(impulses)).converged);
   Eigen::VectorXd r(S::dim * 39);
   for (std::size_t k = 0; k < 39; ++k)
     r.template segment<S::dim>(S::dim * Eigen::Index(k)) = impulses[gathered.contacts[k]];

@@ -51,8 +51,8 @@ TEST_CASE_TEMPLATE("a heavy body that no floor holds shares the lanes of its par
           problem.solve(NonlinearGaussSeidel(options), problem.laws, swept);
       const SolveReport report =
           problem.solve(ColouredGaussSeidel(fast<S>(1e-8)), problem.laws, impulses);
-      CHECK(report.converged ==
-            (report.residual <= 1e-8 && report.left_over <= SolveReport::most_left_over));
+      CHECK(report.converged == (report.residual <= 1e-8 &&
+                                 report.relative_approach <= SolveReport::max_relative_approach));
       CHECK(problem.measure(impulses).residual == report.residual);
       if (reference.converged) CHECK(report.converged);
       solved += reference.converged;
@@ -112,11 +112,10 @@ TEST_CASE_TEMPLATE("equal input gives equal bits, with fresh or used buffers", S
   ColouredGaussSeidel::Workspace<BodyDelassus<S>, Law> used;
   std::vector<typename S::Vector> impulses, again, scratch(other.op.size(), S::Vector::Zero());
   problem.solve(solver, problem.laws, impulses);
-  solver.solve(other.op, std::span<const Law>(other.laws),
-               std::span<const std::uint32_t>(other.law_of), std::span(scratch), used);
+  auto first = other.problem(), second = problem.problem();
+  solver.solve(first, std::span(scratch), used);
   again.resize(problem.op.size(), S::Vector::Zero());
-  solver.solve(problem.op, std::span<const Law>(problem.laws),
-               std::span<const std::uint32_t>(problem.law_of), std::span(again), used);
+  solver.solve(second, std::span(again), used);
   for (std::size_t c = 0; c < impulses.size(); ++c) CHECK(impulses[c] == again[c]);
 }
 
@@ -181,21 +180,19 @@ TEST_CASE_TEMPLATE("sweeps go on while approach is left over", SolverT, Nonlinea
   roots[0].linear.setZero();
   roots[0].angular.setZero();
   free[0].setZero();
-  BodyDelassus<S> op;
-  op.assemble(contacts, roots, free);
-  const std::vector<SignoriniCoulomb<double>> laws(1, SignoriniCoulomb<double>(0.3));
-  const std::vector<std::uint32_t> law_of(height, 0);
+  ContactProblem<BodyDelassus<S>, SignoriniCoulomb<double>> problem;
+  problem.delassus.assemble(contacts, roots, free);
+  problem.laws.assign(1, SignoriniCoulomb<double>(0.3));
+  problem.law_of.assign(height, 0);
   std::vector<S::Vector> impulses(height, S::Vector::Zero());
   typename SolverT::Options options;
   options.tolerance = 1e-3;
   options.stop_test = StopTest::qm16;
   options.max_sweeps = 200000;
   typename SolverT::template Workspace<BodyDelassus<S>, SignoriniCoulomb<double>> workspace;
-  const SolveReport report = SolverT(options).solve(
-      op, std::span<const SignoriniCoulomb<double>>(laws), std::span<const std::uint32_t>(law_of),
-      std::span(impulses), workspace);
+  const SolveReport report = SolverT(options).solve(problem, std::span(impulses), workspace);
   CHECK(report.converged);
-  CHECK(report.left_over <= SolveReport::most_left_over);
+  CHECK(report.relative_approach <= SolveReport::max_relative_approach);
 }
 
 TEST_CASE_TEMPLATE("friction beyond all measure hides no approach", S, Space<2>, Space<3>) {
@@ -206,7 +203,7 @@ TEST_CASE_TEMPLATE("friction beyond all measure hides no approach", S, Space<2>,
     std::vector<typename S::Vector> impulses;
     const SolveReport report =
         problem.solve(ColouredGaussSeidel(fast<S>(tolerance)), steep, impulses);
-    CHECK((!report.converged || report.left_over <= SolveReport::most_left_over));
+    CHECK((!report.converged || report.relative_approach <= SolveReport::max_relative_approach));
     CHECK(report.converged == !report.capped);
   }
 }

@@ -12,6 +12,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace archetypes {
@@ -77,8 +78,7 @@ struct MinimalSolver {
   template <class Operator, class Law>
   struct Workspace {};
   template <class Operator, class Law>
-  moreau::SolveReport solve(Operator& op, std::span<const Law> laws,
-                            std::span<const std::uint32_t> law_of,
+  moreau::SolveReport solve(moreau::ContactProblem<Operator, Law>& problem,
                             std::span<typename Operator::Vector> impulses,
                             Workspace<Operator, Law>& workspace) const;
 };

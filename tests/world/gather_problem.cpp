@@ -31,7 +31,7 @@ TEST_CASE_TEMPLATE("a step's problem is solved by the step's impulses, and by an
   for (int k = 0; k < 400; ++k) world.step(5e-4);
   REQUIRE(world.contacts().size() > 0);
 
-  const auto gathered = contact_problem(world);  // matrices, and which contact is which
+  const auto gathered = gather_problem(world);  // matrices, and which contact is which
   Eigen::VectorXd impulses;
   const ProblemReport report = ProximalSolver().solve(gathered.problem, impulses);
 

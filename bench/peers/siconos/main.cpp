@@ -120,9 +120,7 @@ void contest(const std::string& name, const Problem& problem) {
 }
 
 void contest(const std::string& name, const Step& step, const std::vector<S::Vector>& start) {
-  const std::span<const Law> laws(step.laws);
-  const std::span<const std::uint32_t> law_of(step.law_of);
-  const auto gathered = gather_problem(step.op, laws, law_of);
+  const auto gathered = gather_problem(step.problem);
   const auto gather = [&](const std::vector<S::Vector>& impulses) {
     Eigen::VectorXd all(3 * gathered.problem.size());
     for (std::size_t k = 0; k < gathered.contacts.size(); ++k)
@@ -132,11 +130,11 @@ void contest(const std::string& name, const Step& step, const std::vector<S::Vec
   contest(name, gathered.problem, gather(start), [&](Table& table, double asked) {
     const auto enter = [&]<class Solver>(const char* solver_name, const Solver& solver) {
       typename Solver::template Workspace<BodyDelassus<S>, Law> workspace;
-      BodyDelassus<S> op = step.op;
+      ContactProblem<BodyDelassus<S>, Law> problem = step.problem;
       table.enter(titled(solver_name, asked), [&](Eigen::VectorXd& result) {
         std::vector<S::Vector> impulses = start;
-        op.clear();
-        const SolveReport report = solver.solve(op, laws, law_of, std::span(impulses), workspace);
+        problem.delassus.clear();
+        const SolveReport report = solver.solve(problem, std::span(impulses), workspace);
         result = gather(impulses);
         return Ending{report.sweeps, report.converged};
       });

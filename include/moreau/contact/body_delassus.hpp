@@ -32,8 +32,8 @@ class BodyDelassus {
   using Vector = typename S::Vector;
   /// Generalized velocity padded to whole SIMD lanes; the padding stays zero.
   static constexpr int width = (S::dofs + 3) / 4 * 4;
-  using Wide = Eigen::Matrix<Scalar, width, 1>;
-  using WideRows = Eigen::Matrix<Scalar, width, S::dim>;
+  using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
+  using PaddedRows = Eigen::Matrix<Scalar, width, S::dim>;
 
   /// Builds the rows and blocks, and the free relative velocities; no impulse acts yet.
   /// @param contacts in: the points, frames, levers; out: the tangents turned, see LocalBlock
@@ -44,7 +44,7 @@ class BodyDelassus {
                 std::span<const typename S::Twist> free) {
     constexpr int tangents = S::dim - 1;
     rows_.resize(contacts.size());
-    scaled_.assign(roots.size(), Wide::Zero());
+    scaled_.assign(roots.size(), PaddedTwist::Zero());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       Contact<S>& contact = contacts[c];
       Row& row = rows_[c];
@@ -70,9 +70,9 @@ class BodyDelassus {
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return {rows_[c].a, rows_[c].b}; }
   /// Scaled rows of a contact at its body a, (J M^-1/2)^T, width x D: a column for each axis of the
   /// frame [kg^-1/2]. What an impulse does to a is minus these times it.
-  const WideRows& rows_a(std::size_t c) const { return rows_[c].ja; }
+  const PaddedRows& rows_a(std::size_t c) const { return rows_[c].ja; }
   /// The same of body b, to which the impulse does these times it.
-  const WideRows& rows_b(std::size_t c) const { return rows_[c].jb; }
+  const PaddedRows& rows_b(std::size_t c) const { return rows_[c].jb; }
   /// Relative velocity without any impulse, with the law's offset, in the contact's frame [m/s].
   const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
   /// Adds to the free normal velocity of a contact, > 0 separates [m/s].
@@ -100,7 +100,7 @@ class BodyDelassus {
     scaled_[body].template segment<S::angular_dim>(S::dim) += change;
   }
   /// Undoes all impulses: every body back at its free velocity.
-  void clear() { scaled_.assign(scaled_.size(), Wide::Zero()); }
+  void clear() { scaled_.assign(scaled_.size(), PaddedTwist::Zero()); }
   /// M^1/2 (V - V_free) of a body, D + A numbers, world axes [kg^1/2 m/s].
   auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
 
@@ -113,7 +113,7 @@ class BodyDelassus {
 
  private:
   struct Row {
-    WideRows ja, jb;
+    PaddedRows ja, jb;
     LocalBlock<S> block;
     Vector free;
     std::uint32_t a, b;
@@ -122,9 +122,9 @@ class BodyDelassus {
   static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
     return twist.template head<S::dim>() + S::spin(twist.template tail<S::angular_dim>(), lever);
   }
-  static WideRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
-                              const MobilityRoot<S>& root) {
-    WideRows rows = WideRows::Zero();
+  static PaddedRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
+                                const MobilityRoot<S>& root) {
+    PaddedRows rows = PaddedRows::Zero();
     for (int k = 0; k < S::dim; ++k) {
       const Vector axis = frame.col(k);
       const Vector push = root.linear * axis;
@@ -155,7 +155,7 @@ class BodyDelassus {
   }
 
   std::vector<Row> rows_;
-  std::vector<Wide> scaled_;
+  std::vector<PaddedTwist> scaled_;
 };
 
 }  // namespace moreau

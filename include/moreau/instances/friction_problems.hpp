@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The solver of problems that are given by their matrices, compiled once for a program: include
-// this in every unit that solves such; one of them defines MOREAU_INSTANTIATE before. Without that
-// one, the linker misses what the others rely on.
+// ProximalSolver, compiled once for a program. Include this header in every unit that solves
+// friction problems. Exactly one unit defines MOREAU_INSTANTIATE before; without it the program
+// does not link.
 #pragma once
 
+#include "moreau/instances/instance.hpp"
 #include "moreau/solve/proximal_solver.hpp"
-
-#ifdef MOREAU_INSTANTIATE
-#define MOREAU_INSTANCE template
-#else
-#define MOREAU_INSTANCE extern template
-#endif
 
 namespace moreau {
 /// @cond instances
-
 MOREAU_INSTANCE ProblemReport ProximalSolver::solve(const FrictionProblem<Space<2>>&,
                                                     Eigen::VectorXd&) const;
 MOREAU_INSTANCE ProblemReport ProximalSolver::solve(const FrictionProblem<Space<3>>&,
                                                     Eigen::VectorXd&) const;
-
 /// @endcond
 }  // namespace moreau
-
-#undef MOREAU_INSTANCE

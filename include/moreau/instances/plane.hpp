@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: MIT
-// What takes long to compile of the usual worlds in the plane, compiled once for a program: disks
-// and polygons in double under Signorini–Coulomb, with the default integrator, broad phase and
-// solver. Include it in every unit; one of them defines MOREAU_INSTANTIATE before. Without that
-// one, the linker misses what the others rely on. Other worlds of the same law share the solver
-// too.
+// The usual worlds in the plane, compiled once for a program: disks and polygons in double under
+// Signorini-Coulomb, with the default integrator, broad phase and solver. Include this header in
+// every unit of the program. Exactly one unit defines MOREAU_INSTANTIATE before; without it the
+// program does not link. Other worlds of the same law share the solver.
 #pragma once
 
+#include "moreau/instances/instance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"
 
-#ifdef MOREAU_INSTANTIATE
-#define MOREAU_INSTANCE template
-#else
-#define MOREAU_INSTANCE extern template
-#endif
-
 namespace moreau {
 /// @cond instances
-
-MOREAU_INSTANCE class Polygon<double>;
-MOREAU_INSTANCE class ContactDetector<Polygon<double>, SweepAndPrune<Space<2>>>;
-MOREAU_INSTANCE class ContactDetector<Sphere<Space<2>>, SweepAndPrune<Space<2>>>;
-MOREAU_INSTANCE class detail::ImpulseDynamics<Space<2>, SignoriniCoulomb<double>, MoreauJean,
-                                              ColouredGaussSeidel>;
-
-MOREAU_INSTANCE StepReport Simulation<Polygon<double>, SignoriniCoulomb<double>>::step(double);
-MOREAU_INSTANCE StepReport Simulation<Sphere<Space<2>>, SignoriniCoulomb<double>>::step(double);
-
+MOREAU_WORLD_INSTANCES(Space<2>, Polygon<double>)
 /// @endcond
 }  // namespace moreau
-
-#undef MOREAU_INSTANCE

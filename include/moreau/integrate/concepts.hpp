@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The requirements on a time integrator.
 #pragma once
 
 #include <concepts>
@@ -8,15 +9,18 @@
 
 namespace moreau {
 
-/// Moves the bodies through one step in three parts, around the solution of the contacts.
+/// Moves the bodies through one step in three parts:
 ///
-/// - predict_configuration(bodies, momentum, h): to where contacts are detected; fills the angular
-///   momentum of every body at the start of the step [kg m^2/s].
-/// - free_velocity(bodies, gravity, momentum, free, h): velocities at the end without contacts.
-/// - advance_configuration(bodies, after, h): to the end of the step with the velocities `after`.
+/// - predict_configuration(bodies, momentum, h): moves the bodies to the configuration in which
+///   contacts are detected; fills the angular momentum of every body at the start of the step
+///   [kg m^2/s]
+/// - free_velocity(bodies, gravity, momentum, free, h): fills the velocities at the end of the step
+///   without contacts
+/// - advance_configuration(bodies, after, h): moves the bodies to the end of the step with the
+///   velocities `after` the contact impulses
 ///
-/// h is the step [s], gravity an acceleration [m/s^2]; momentum, free and after have one entry per
-/// body, velocities are (v, w) [m/s, rad/s]. All in world axes.
+/// h is the step [s], gravity an acceleration [m/s^2]. momentum, free and after have one entry per
+/// body; velocities are (v, w) [m/s, rad/s]. All are in world axes.
 template <class I, class S>
 concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
                                      std::span<typename S::Angular> momentum,
@@ -28,14 +32,15 @@ concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
   integrator.advance_configuration(bodies, after, step);
 };
 
-/// Moves the bodies under contact forces, in two parts around their evaluation.
+/// Moves the bodies under contact forces in two parts:
 ///
-/// - predict_configuration(bodies, loads, gravity, h): to where contacts are detected and forces
-///   evaluated, under the loads of the step before.
-/// - advance_configuration(bodies, loads, gravity, h): to the end of the step under the new loads.
+/// - predict_configuration(bodies, loads, gravity, h): moves the bodies to the configuration in
+///   which contacts are detected and forces evaluated, under the loads of the step before
+/// - advance_configuration(bodies, loads, gravity, h): advances the velocities to the end of the
+///   step under the new loads
 ///
-/// A load is (force [N], torque about the centre [N m]) of the contacts on a body, world axes;
-/// one per body. h is the step [s], gravity an acceleration [m/s^2].
+/// A load is the (force [N], torque about the centre [N m]) of all contacts on a body, in world
+/// axes; there is one per body. h is the step [s], gravity an acceleration [m/s^2].
 template <class I, class S>
 concept ForceIntegrator = requires(const I integrator, Bodies<S> bodies,
                                    std::span<const typename S::Twist> loads,
@@ -44,7 +49,7 @@ concept ForceIntegrator = requires(const I integrator, Bodies<S> bodies,
   integrator.advance_configuration(bodies, loads, gravity, step);
 };
 
-/// Either kind: impulses for set-valued laws, forces for regularized ones.
+/// An integrator of impulses, for set-valued laws, or of forces, for regularized laws.
 template <class I, class S>
 concept TimeIntegrator = ImpulseIntegrator<I, S> || ForceIntegrator<I, S>;
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Moreau-Jean time stepping: velocities jump once per step, at a configuration in between.
+// Moreau-Jean time stepping. Velocities jump once per step, at a configuration within the step:
 //
-//   q_m = q_i + h (1 - theta) v_i      contacts are detected here
+//   q_m = q_i + h (1 - theta) v_i      detection configuration
 //   v_free = v_i + h M^-1 F
 //   v_{i+1} = v_free + M^-1 J^T r      r from the contact problem
 //   q_{i+1} = q_m + h theta v_{i+1}
 //
-// Rotations keep the angular momentum L to rounding: with I_m = I(q_m) the contacts see
-// w = I_m^-1 (L_i + h tau), and w_{i+1} solves I(exp(h theta w) q_m) w = L_{i+1} by Newton, so the
-// gyroscopic terms are implicit (in the plane it is I w = L).
+// Without forces the angular momentum L is conserved to rounding. With I_m = I(q_m) the free
+// angular velocity is w = I_m^-1 (L_i + h tau), and w_{i+1} solves I(exp(h theta w) q_m) w =
+// L_{i+1} by Newton's method, so that the gyroscopic terms are implicit (in the plane, I w = L).
 #pragma once
 
 #include <Eigen/LU>
@@ -20,25 +20,27 @@
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/integrate/spin.hpp"
 
 namespace moreau {
 
-/// Moreau's and Jean's theta scheme; the header has its equations. Model of ImpulseIntegrator, for
-/// set-valued laws. Source: M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235, but for the
-/// rotations.
+/// The theta scheme of Moreau and Jean; the head of this file has its equations. Model of
+/// ImpulseIntegrator, for set-valued laws. Source of all but the rotations: M. Jean, Comput.
+/// Methods Appl. Mech. Engrg. 177 (1999) 235.
 class MoreauJean {
  public:
   /// theta = 1/2.
   MoreauJean() = default;
-  /// @param theta in [1/2, 1] [-]: 1/2 is second order and keeps energy, 1 is fully implicit
+  /// @param theta in [1/2, 1] [-]: 1/2 is second order and conserves energy, 1 is fully implicit
   /// @throws std::invalid_argument for a theta outside [1/2, 1]
   explicit MoreauJean(double theta) : theta_(theta) {
     require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
   }
   double theta() const { return theta_; }  ///< in [1/2, 1] [-]
 
-  /// Angular momentum of every body, then the move to the detection configuration.
+  /// Computes the angular momentum of every body and moves the bodies to the detection
+  /// configuration.
   /// @param momentum out: L_i about the centre, one per body, world axes [kg m^2/s]
   /// @param step     [s]
   template <class S>
@@ -46,13 +48,12 @@ class MoreauJean {
                              typename S::Scalar step) const {
     const auto h = step * static_cast<typename S::Scalar>(1 - theta_);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      momentum[i] = bodies.inertia(i, bodies.pose[i].rotation) *
-                    bodies.velocity[i].template tail<S::angular_dim>();
+      momentum[i] = bodies.inertia(i, bodies.pose[i].rotation) * angular<S>(bodies.velocity[i]);
       detail::move(bodies.pose[i], bodies.velocity[i], h);
     }
   }
 
-  /// Velocities at the end of the step if nothing touched.
+  /// Computes the velocities at the end of the step without contacts.
   /// @param gravity  world axes [m/s^2]
   /// @param momentum in: L_i, out: L_i + h tau, one per body, world axes [kg m^2/s]
   /// @param free     out: (v, w), one per body, world axes [m/s, rad/s]
@@ -63,16 +64,15 @@ class MoreauJean {
                      typename S::Scalar step) const {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       free[i] = bodies.velocity[i];
-      free[i].template head<S::dim>() +=
-          detail::kick<S>(bodies, i, S::Vector::Zero(), gravity, step);
+      linear<S>(free[i]) += detail::kick<S>(bodies, i, S::Vector::Zero(), gravity, step);
       if (!bodies.rotates(i)) continue;
-      momentum[i] += step * bodies.force[i].template tail<S::angular_dim>();
+      momentum[i] += step * angular<S>(bodies.force[i]);
       const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
-      free[i].template tail<S::angular_dim>() = inverse * momentum[i];
+      angular<S>(free[i]) = inverse * momentum[i];
     }
   }
 
-  /// From the velocities that the contacts leave to the end of the step.
+  /// Moves the bodies to the end of the step.
   /// @param after (v, w) after the contact impulses, at the detection configuration, one per body,
   ///              world axes [m/s, rad/s]
   /// @param step  [s]
@@ -83,8 +83,8 @@ class MoreauJean {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       bodies.velocity[i] = after[i];
       if (bodies.rotates(i)) {
-        const typename S::Angular spin = after[i].template tail<S::angular_dim>();
-        bodies.velocity[i].template tail<S::angular_dim>() = detail::spin_after<S>(
+        const typename S::Angular spin = angular<S>(after[i]);
+        angular<S>(bodies.velocity[i]) = detail::spin_after<S>(
             bodies, i, bodies.inertia(i, bodies.pose[i].rotation) * spin, spin, h);
       }
       detail::move(bodies.pose[i], bodies.velocity[i], h);

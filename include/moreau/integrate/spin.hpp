@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Free rotation with implicit gyroscopic terms, so that angular momentum is kept to rounding.
+// The motion of one body in a step. Gyroscopic terms are implicit, so that a free body conserves
+// its angular momentum to rounding.
 #pragma once
 
 #include <Eigen/LU>
@@ -8,20 +9,21 @@
 #include <limits>
 
 #include "moreau/body/bodies.hpp"
+#include "moreau/core/twist.hpp"
 
 namespace moreau::detail {
 
-/// x + h v, exp(h w) q.
+/// Moves a body at constant velocity: x + h v, exp(h w) q.
 template <class S>
 void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
-  pose.position += h * velocity.template head<S::dim>();
-  pose.rotation =
-      S::normalized(S::exp(h * velocity.template tail<S::angular_dim>()) * pose.rotation);
+  pose.position += h * linear<S>(velocity);
+  pose.rotation = S::normalized(S::exp(h * angular<S>(velocity)) * pose.rotation);
 }
 
-/// The w with I(exp(h w) q) w = L, by Newton; d(I(q) w) along a rotation is S::gyroscopic_jacobian.
+/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method; the derivative
+/// of I(q) w along a rotation is S::gyroscopic_jacobian.
 /// @param momentum L [kg m^2/s], world axes
-/// @param start    any spin nearby [rad/s]
+/// @param start    start of the iteration [rad/s]
 /// @param h        [s]
 template <class S>
 typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
@@ -41,7 +43,8 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
   return w;
 }
 
-/// h M^-1 F of the forces at the centre: gravity, what is set on the body, and `load`.
+/// Change of velocity h M^-1 F [m/s] by the forces on the centre of mass: gravity, the external
+/// force and `load` [N].
 template <class S>
 typename S::Vector kick(const Bodies<S>& bodies, std::size_t i, const typename S::Vector& load,
                         const typename S::Vector& gravity, typename S::Scalar h) {

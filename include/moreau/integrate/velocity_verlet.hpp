@@ -4,10 +4,10 @@
 //   v_{i+1/2} = v_i + h/2 M^-1 F_i         q_{i+1} = q_i + h v_{i+1/2}
 //   F_{i+1} from q_{i+1}, v_{i+1/2}        v_{i+1} = v_{i+1/2} + h/2 M^-1 F_{i+1}
 //
-// Rotations the same with the angular momentum L in place of v: w at the half step solves
-// I(q_{i+1/2}) w = L_{i+1/2}, which keeps L to rounding. Second order in h; stable for
-// h < 2 / (largest eigenfrequency) and in practice accurate from a twentieth of a contact's
-// duration on (L. Verlet, Phys. Rev. 159 (1967) 98; P. A. Cundall and O. D. L. Strack,
+// Rotations use the angular momentum L in place of v: w at the half step solves
+// I(q_{i+1/2}) w = L_{i+1/2}, which conserves L to rounding without forces. Second order in h;
+// stable for h < 2 / (largest eigenfrequency), accurate in practice for h up to a twentieth of the
+// duration of a contact (L. Verlet, Phys. Rev. 159 (1967) 98; P. A. Cundall and O. D. L. Strack,
 // Geotechnique 29 (1979) 47).
 #pragma once
 
@@ -15,15 +15,16 @@
 #include <span>
 
 #include "moreau/body/bodies.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/integrate/spin.hpp"
 
 namespace moreau {
 
-/// Velocity Verlet; the header has its equations and their source. Model of ForceIntegrator, for
-/// regularized laws.
+/// Velocity Verlet; the head of this file has its equations and their source. Model of
+/// ForceIntegrator, for regularized laws.
 class VelocityVerlet {
  public:
-  /// Half a kick by the forces at hand, then the move to the end of the step.
+  /// Advances the velocities by half a step and moves the bodies to the end of the step.
   /// @param loads   contact force [N] and torque about the centre [N m] of every body, world axes
   /// @param gravity world axes [m/s^2]
   /// @param step    [s]
@@ -33,37 +34,37 @@ class VelocityVerlet {
     using Twist = typename S::Twist;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       Twist middle = bodies.velocity[i];
-      middle.template head<S::dim>() += detail::kick(
-          bodies, i, typename S::Vector(loads[i].template head<S::dim>()), gravity, step / 2);
+      linear<S>(middle) +=
+          detail::kick(bodies, i, typename S::Vector(linear<S>(loads[i])), gravity, step / 2);
       if (!bodies.rotates(i)) {
         detail::move(bodies.pose[i], middle, step);
         bodies.velocity[i] = middle;
         continue;
       }
-      const typename S::Angular spin = middle.template tail<S::angular_dim>();
+      const typename S::Angular spin = angular<S>(middle);
       const typename S::Angular momentum = bodies.inertia(i, bodies.pose[i].rotation) * spin +
                                            step / 2 * torque(bodies, i, loads[i]);
-      middle.template tail<S::angular_dim>() =
-          detail::spin_after(bodies, i, momentum, spin, step / 2);
+      angular<S>(middle) = detail::spin_after(bodies, i, momentum, spin, step / 2);
       detail::move(bodies.pose[i], middle, step);
       bodies.velocity[i] = middle;
       const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
-      bodies.velocity[i].template tail<S::angular_dim>() = inverse * momentum;
+      angular<S>(bodies.velocity[i]) = inverse * momentum;
     }
   }
 
-  /// The other half of the kick, by the forces of the new configuration.
-  /// @param loads   those there, as in predict_configuration()
+  /// Advances the velocities by the other half of the step, with the forces of the new
+  /// configuration.
+  /// @param loads   in the new configuration, as in predict_configuration()
   /// @param gravity world axes [m/s^2]
   /// @param step    [s]
   template <class S>
   void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> loads,
                              const typename S::Vector& gravity, typename S::Scalar step) const {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      bodies.velocity[i].template head<S::dim>() += detail::kick(
-          bodies, i, typename S::Vector(loads[i].template head<S::dim>()), gravity, step / 2);
+      linear<S>(bodies.velocity[i]) +=
+          detail::kick(bodies, i, typename S::Vector(linear<S>(loads[i])), gravity, step / 2);
       if (bodies.rotates(i))
-        bodies.velocity[i].template tail<S::angular_dim>() +=
+        angular<S>(bodies.velocity[i]) +=
             step / 2 *
             (bodies.inertia(i, bodies.pose[i].rotation).inverse() * torque(bodies, i, loads[i]));
     }
@@ -73,7 +74,7 @@ class VelocityVerlet {
   template <class S>
   static typename S::Angular torque(const Bodies<S>& bodies, std::size_t i,
                                     const typename S::Twist& load) {
-    return bodies.force[i].template tail<S::angular_dim>() + load.template tail<S::angular_dim>();
+    return angular<S>(bodies.force[i]) + angular<S>(load);
   }
 };
 

@@ -11,32 +11,16 @@
 
 namespace moreau {
 
-/// Numbers the pairs of materials, whatever the laws between them.
-class MaterialPairs {
- public:
-  /// Of so many materials.
-  explicit MaterialPairs(std::size_t count) : count_(count) {}
-
-  /// Number of materials.
-  std::size_t count() const { return count_; }
-  /// Position of the pair's law in Materials::laws(); both materials must exist, which is not
-  /// checked.
-  std::size_t law_index(MaterialId a, MaterialId b) const { return a.index() * count_ + b.index(); }
-
- protected:
-  std::size_t count_;  ///< of materials
-};
-
-/// Maps a pair of materials to the law between them. Symmetric; a frictionless wall is a material
-/// of its own, so no code has to ask whether a body is a wall.
+/// Maps a pair of materials to the law between them; symmetric. A wall with another law, for
+/// example without friction, has a material of its own.
 template <class Law>
-class Materials : public MaterialPairs {
+class Materials {
  public:
   /// @param count    number of materials, at least 1
   /// @param fallback the law of every pair until set() says otherwise
   /// @throws std::invalid_argument if count is 0 or above 65535
-  explicit Materials(std::size_t count, const Law& fallback = Law{}) : MaterialPairs(count) {
-    // An id of a law has 32 bits.
+  explicit Materials(std::size_t count, const Law& fallback = Law{}) : count_(count) {
+    // The index of a law has 32 bits.
     require(count > 0 && count <= 65535, "Materials", "count", count, "must lie in [1, 65535]");
     laws_.assign(count * count, fallback);
   }
@@ -49,8 +33,11 @@ class Materials : public MaterialPairs {
     laws_[law_index(b, a)] = law;
   }
 
-  /// The law between two materials. Where it is asked for at every contact, laws()[law_index(a, b)]
-  /// is it without a check.
+  /// Number of materials.
+  std::size_t count() const { return count_; }
+  /// Index into laws() of the law between two materials that exist, which is not checked.
+  std::size_t law_index(MaterialId a, MaterialId b) const { return a.index() * count_ + b.index(); }
+  /// The law between two materials. laws()[law_index(a, b)] is the same without a check.
   /// @throws std::invalid_argument for a material that does not exist
   const Law& operator()(MaterialId a, MaterialId b) const {
     require_pair(a, b, "Materials::operator()");
@@ -71,6 +58,7 @@ class Materials : public MaterialPairs {
             "Materials", "count", count_, "must be > 0, with a law for every pair");
   }
 
+  std::size_t count_;  ///< number of materials
   std::vector<Law> laws_;
 };
 

@@ -24,9 +24,10 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured_sweeps.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/solve_report.hpp"
+#include "moreau/solve/stop_test.hpp"
 #include "moreau/solve/team.hpp"
 
 namespace moreau {
@@ -64,17 +65,17 @@ class TeamGaussSeidel {
   /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve. Sizes are
   /// not checked.
   template <class Operator, class Law>
-  SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
+  SolveReport solve(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& sweeps) const {
     detail::drop_if_not_finite(impulses);
-    SolveReport report = attempt(op, laws, law_of, impulses, sweeps, options_.accelerate);
-    if (!options_.accelerate || report.left_over <= 1) return report;
+    SolveReport report = attempt(problem, impulses, sweeps, options_.accelerate);
+    if (!options_.accelerate || report.relative_approach <= 1) return report;
     // Worse than no impulses at all: driven away, by the warm start or by acceleration. Once more
     // without either.
     const int wasted = report.sweeps;
     std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
-    report = attempt(op, laws, law_of, impulses, sweeps, false);
+    report = attempt(problem, impulses, sweeps, false);
     report.sweeps += wasted;
     return report;
   }
@@ -84,15 +85,14 @@ class TeamGaussSeidel {
   auto serialized_members() { return std::tie(options_); }
 
   template <class Operator, class Law>
-  SolveReport attempt(Operator& op, std::span<const Law> laws,
-                      std::span<const std::uint32_t> law_of,
+  SolveReport attempt(ContactProblem<Operator, Law>& problem,
                       std::span<typename Operator::Vector> impulses,
                       Workspace<Operator, Law>& sweeps, bool accelerate) const {
     SolveReport report;
-    if (op.size() == 0) return report;
+    if (problem.size() == 0) return report;
     report.converged = false;
-    detail::apply_alone<Operator>(op, impulses);
-    sweeps.start(op, laws, law_of, impulses, accelerate);
+    detail::set_impulses<Operator>(problem.delassus, impulses);
+    sweeps.start(problem, impulses, accelerate);
     double believed = 3 * options_.tolerance;  // change per sweep at which the residual may be met
     double least = std::numeric_limits<double>::infinity();
     int unchecked = 0;
@@ -108,11 +108,11 @@ class TeamGaussSeidel {
       const double change = std::max(report.quad_dv, report.quad_dvr);
       if (options_.stop_test == StopTest::qm16) {
         report.converged = passes_qm16(report, options_.tolerance);
-        if (report.converged) certify(op, laws, law_of, impulses, sweeps, report);
-        report.converged = report.converged && is_closed(report);
+        if (report.converged) certify(problem, impulses, sweeps, report);
+        report.converged = report.converged && detail::is_closed(report);
       } else if (report.quad_dv <= believed || ++unchecked == most_unchecked) {
         unchecked = 0;
-        certify(op, laws, law_of, impulses, sweeps, report);
+        certify(problem, impulses, sweeps, report);
         report.converged = is_solved(report);
         believed = report.quad_dv * options_.tolerance / report.residual;
       }
@@ -125,7 +125,7 @@ class TeamGaussSeidel {
       }
     }
     if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.go_back();
-    if (!report.converged) certify(op, laws, law_of, impulses, sweeps, report);
+    if (!report.converged) certify(problem, impulses, sweeps, report);
     if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
     report.capped = !report.converged;
     return report;
@@ -138,24 +138,19 @@ class TeamGaussSeidel {
   /// what it was: acceleration can drive away.
   static constexpr double kept = 0.5, astray = 1e3;
 
-  static bool is_closed(const SolveReport& report) {
-    return report.left_over <= SolveReport::most_left_over;
-  }
   bool is_solved(const SolveReport& report) const {
-    return report.residual <= options_.tolerance && is_closed(report);
+    return report.residual <= options_.tolerance && detail::is_closed(report);
   }
 
   /// The residual of the impulses as they are, with velocities made from them alone.
   template <class Operator, class Law>
-  static void certify(Operator& op, std::span<const Law> laws,
-                      std::span<const std::uint32_t> law_of,
+  static void certify(ContactProblem<Operator, Law>& problem,
                       std::span<typename Operator::Vector> impulses,
                       Workspace<Operator, Law>& sweeps, SolveReport& report) {
     sweeps.unpack(impulses);
-    detail::apply_alone<Operator>(op, impulses);
-    sweeps.load_velocities(op);
-    measure_residual(op, laws, law_of, std::span<const typename Operator::Vector>(impulses),
-                     report);
+    detail::set_impulses<Operator>(problem.delassus, impulses);
+    sweeps.load_velocities(problem.delassus);
+    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report);
   }
 
   Options options_;

@@ -32,11 +32,11 @@ class ColouredSweeps {
   using Vector = typename LaneBlock<S>::Vector;
   using Impulse = typename Operator::Vector;
 
-  /// @param op carries the velocities that the impulses make
-  void start(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-             std::span<const Impulse> impulses, bool accelerate) {
-    groups_.build(op, laws, law_of, impulses);
-    load_velocities(op);
+  /// @param problem its operator carries the velocities that the impulses make
+  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+             bool accelerate) {
+    groups_.build(problem, impulses);
+    load_velocities(problem.delassus);
     accelerate_ = accelerate;
     momentum_ = Momentum();
     patience_ = Patience();

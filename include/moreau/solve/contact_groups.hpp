@@ -27,6 +27,7 @@
 
 #include "moreau/contact/lane_block.hpp"
 #include "moreau/law/law_lanes.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/pair_colouring.hpp"
 
 namespace moreau::detail {
@@ -76,10 +77,10 @@ class ContactGroups {
   /// bodies that do not move, so that groups of one colour never write the same row.
   std::size_t rows() const { return body_count_ + pairs.size(); }
 
-  /// @param op       rows and blocks of all contacts; contacts of one pair follow one another
-  /// @param impulses the first guess; pairs that carry one come first within their colour
-  void build(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-             std::span<const Impulse> impulses) {
+  /// @param problem  contacts of one pair of bodies follow one another
+  /// @param impulses the warm start; pairs with an impulse come first within their colour
+  void build(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses) {
+    const Operator& op = problem.delassus;
     body_count_ = op.body_count();
     find_pairs(op);
     colouring_.assign(bodies_, moves_);
@@ -95,7 +96,7 @@ class ContactGroups {
       while (!alone && end < order_.size() && end - k < lanes &&
              (order_[end].key & kind_mask) == kind)
         ++end;
-      pack(op, laws, law_of, impulses, std::span(order_).subspan(k, end - k));
+      pack(problem, impulses, std::span(order_).subspan(k, end - k));
       k = end;
     }
   }
@@ -189,8 +190,9 @@ class ContactGroups {
     return impulses[c][0] > 0 || op.free_velocity(c)[0] < 0;
   }
 
-  void pack(const Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-            std::span<const Impulse> impulses, std::span<const Ordered> members) {
+  void pack(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+            std::span<const Ordered> members) {
+    const Operator& op = problem.delassus;
     Pairs group;
     group.first = static_cast<std::uint32_t>(points.size());
     group.count = group.awake = 0;
@@ -219,7 +221,7 @@ class ContactGroups {
           contact_of_[p * lanes + lane] = c;
           LocalBlock<S> block = op.block(c);
           if (group.hub != Hub::none) make_heavier(block, op, c, group.hub, together);
-          set(points[p++], lane, op, block, laws[law_of[c]], impulses[c], c);
+          set(points[p++], lane, op, block, problem.law(c), impulses[c], c);
         }
     }
     pairs.push_back(group);

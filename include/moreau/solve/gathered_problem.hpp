@@ -14,6 +14,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/friction_problem.hpp"
 
 namespace moreau {
@@ -25,11 +26,11 @@ concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
 };
 
-/// A problem and where its contacts come from.
+/// The contact problem of a step as matrices.
 template <class S>
 struct GatheredProblem {
-  FrictionProblem<S> problem;         ///< its matrices
-  std::vector<std::size_t> contacts;  ///< index, in the step, of each contact of the problem
+  FrictionProblem<S> problem;         ///< in double
+  std::vector<std::size_t> contacts;  ///< of each contact of the problem, its index in the step
 };
 
 namespace detail {
@@ -49,17 +50,15 @@ void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
 
 /// W = J M^-1 J^T over the contacts of a step that can act in it, each in its own frame. Contacts
 /// that a law switches off (their free velocity is infinite) are left out.
-/// @param op     the operator of the step, e.g. BodyDelassus
-/// @param laws   the table of laws, which know their friction()
-/// @param law_of one per contact: its entry in the table
+/// @param step its laws have friction()
 /// @returns a GatheredProblem in double
-/// @throws std::invalid_argument if law_of has another size than the operator
+/// @throws std::invalid_argument if step.law_of has another size than the operator
 template <class Operator, class Law>
-auto gather_problem(const Operator& op, std::span<const Law> laws,
-                    std::span<const std::uint32_t> law_of) {
+auto gather_problem(const ContactProblem<Operator, Law>& step) {
   constexpr int rows = Operator::Space::dim;
   using S = Space<rows>;  // in double, whatever the step has
-  require(law_of.size() == op.size(), "gather_problem", "law_of.size()", law_of.size(),
+  const Operator& op = step.delassus;
+  require(step.law_of.size() == op.size(), "gather_problem", "law_of.size()", step.law_of.size(),
           "must be the number of contacts");
   GatheredProblem<S> gathered;
   for (std::size_t c = 0; c < op.size(); ++c)
@@ -76,7 +75,7 @@ auto gather_problem(const Operator& op, std::span<const Law> laws,
   std::vector<std::vector<Touch>> touches(op.body_count());
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::size_t c = contacts[std::size_t(k)];
-    problem.friction[k] = double(laws[law_of[c]].friction());
+    problem.friction[k] = double(step.law(c).friction());
     problem.free_velocity.template segment<rows>(rows * k) =
         op.free_velocity(c).template cast<double>();
     touches[op.bodies(c)[0]].push_back({k, -op.rows_a(c).template cast<double>()});

@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: MIT
-// How far impulses and velocities are from solving the contact problem.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 
 #include "moreau/law/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 
-/// One pass over all contacts: the natural-map residual and the separate violations of the law.
-/// Fills residual, worst_* and wrong_sign_dissipation of the report.
-/// @param op       the operator, carrying the velocities that the impulses make
-/// @param laws     the table of laws
-/// @param law_of   one per contact: its entry in the table
+/// How far impulses and velocities are from solving the contact problem: the natural-map residual
+/// and the separate violations of the laws, in one pass over all contacts.
+/// @param problem  its operator carries the velocities of the impulses
 /// @param impulses one per contact, in its frame, normal first [N s]
-/// @param report   the rest of it stays, worst_gap among it; residual and left_over are infinite
-///                 where velocities or impulses are not finite
+/// @param report   out: residual, relative_approach, worst_velocity, worst_cone,
+///                 worst_complementarity, wrong_sign_dissipation. The first two are infinite if
+///                 velocities or impulses are not finite. Its other fields are not changed
 template <class Operator, class Law>
-void measure_residual(const Operator& op, std::span<const Law> laws,
-                      std::span<const std::uint32_t> law_of,
+void measure_residual(const ContactProblem<Operator, Law>& problem,
                       std::span<const typename Operator::Vector> impulses, SolveReport& report) {
   using Vector = typename Operator::Vector;
+  const Operator& op = problem.delassus;
   double trace = 0, map = 0, norm = 0, approach = 0, closing = 0;
   report.worst_velocity = report.worst_cone = report.worst_complementarity = 0;
   report.wrong_sign_dissipation = 0;
@@ -46,7 +44,7 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
     const Vector scaled = r * to_velocity;
     const double left = std::min(0.0, double(u[0]));
     closing += left * left;
-    map += double(detail::natural_map(laws[law_of[c]], u, scaled, to_velocity).squaredNorm());
+    map += double(detail::natural_map(problem.law(c), u, scaled, to_velocity).squaredNorm());
     norm += double(scaled.squaredNorm());
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
     const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));
@@ -55,17 +53,17 @@ void measure_residual(const Operator& op, std::span<const Law> laws,
         std::max(report.worst_complementarity, std::abs(double(u[0] * r[0])));
     report.wrong_sign_dissipation += std::max(0.0, power);
     report.worst_cone =
-        std::max(report.worst_cone, double(laws[law_of[c]].natural_map(still, r).norm()));
+        std::max(report.worst_cone, double(problem.law(c).natural_map(still, r).norm()));
   }
   report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
-  // Impulses so large that the velocities are lost in their rounding leave nothing to be read. The
-  // map of an approach without impulse is 1/mu of it, where mu is large and there is some slip.
+  // The map has the rounding of r at least: impulses so large that the velocities vanish in it show
+  // nothing else. Beside the map stands the approach velocity, because with large mu the map of an
+  // approach with slip and without impulse is only 1/mu of the approach.
   const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
-  const double left = std::max(map + rounding * rounding * norm, closing);
-  report.left_over = approach > 0 ? std::sqrt(left / approach) : 0;
+  const double remaining = std::max(map + rounding * rounding * norm, closing);
+  report.relative_approach = approach > 0 ? std::sqrt(remaining / approach) : 0;
   if (std::isfinite(map) && std::isfinite(norm)) return;
-  // Not a number, or beyond all numbers: no solution.
-  report.residual = report.left_over = std::numeric_limits<double>::infinity();
+  report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
 }
 
 }  // namespace moreau

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A solver of a step's contacts for problems on which sweeps stall: slender stacks, walls of many
-// courses, wedges. Sweeps first; where they do not reach the tolerance, the proximal point method
-// on the matrices of the step, from what they reached on. It factorizes matrices of all contacts
-// that push, so it is one for hundreds of bodies, not for tens of thousands.
+// A solver for contact problems on which sweeps stall: slender stacks, walls of many courses,
+// wedges. Sweeps come first. If they do not reach the tolerance, the proximal point method goes on
+// from their result, on the matrices of the step. It factorizes matrices of all contacts with an
+// impulse: use it for hundreds of bodies, not for tens of thousands.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,17 +17,18 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/friction_problem.hpp"
 #include "moreau/solve/gathered_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_solver.hpp"
 #include "moreau/solve/solve_report.hpp"
+#include "moreau/solve/stop_test.hpp"
 
 namespace moreau {
 
-/// Sweeps, and where these stall the proximal point method; the header says for what.
-/// @tparam First solves what it can; its options give tolerance and stopping test
+/// Sweeps, then the proximal point method if they stall.
+/// @tparam First solver of the sweeps; its options give tolerance and stopping test
 template <class First = ColouredGaussSeidel>
 class ProximalFallback {
  public:
@@ -37,12 +38,13 @@ class ProximalFallback {
   requires CoulombLaw<Law, typename Operator::Space>
   struct Workspace {
     typename First::template Workspace<Operator, Law> first;  ///< of the sweeps
-    std::vector<typename Operator::Vector> swept;  ///< what they reached, contact frames [N s]
+    std::vector<typename Operator::Vector>
+        swept;  ///< result of the sweeps, in contact frames [N s]
   };
 
   /// @param options     of the sweeps
-  /// @param max_seconds for the rest of a step, after which the best that was found is returned
-  ///                    [s]; a finite one makes results depend on the machine
+  /// @param max_seconds time of the proximal point method in one step [s], after which its best
+  ///                    result is returned; a finite time makes results depend on the machine
   /// @throws std::invalid_argument as First does, or for a time that is not positive
   explicit ProximalFallback(const Options& options = {},
                             double max_seconds = ProximalOptions{}.max_seconds)
@@ -52,22 +54,22 @@ class ProximalFallback {
 
   const Options& options() const { return first_.options(); }  ///< of the sweeps, as given
 
-  /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve. Sweeps
-  /// count those of both methods; where the second was needed, convergence is that of the residual,
-  /// whatever the stopping test.
+  /// Solves the contact problem, with the arguments of NonlinearGaussSeidel::solve. The report
+  /// counts the sweeps of both methods. If the second was needed, convergence is that of the
+  /// residual, whatever the stopping test.
   template <class Operator, class Law>
-  SolveReport solve(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
+  SolveReport solve(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
-    SolveReport report = first_.solve(op, laws, law_of, impulses, workspace.first);
+    SolveReport report = first_.solve(problem, impulses, workspace.first);
     if (report.converged) return report;
     workspace.swept.assign(impulses.begin(), impulses.end());
     SolveReport polished = report;
-    polish(op, laws, law_of, impulses, polished);
+    polish(problem, impulses, polished);
     if (is_nearer(polished, report)) return polished;
     report.sweeps = polished.sweeps;
     std::copy(workspace.swept.begin(), workspace.swept.end(), impulses.begin());
-    detail::apply_alone<Operator>(op, impulses);
+    detail::set_impulses<Operator>(problem.delassus, impulses);
     return report;
   }
 
@@ -76,11 +78,11 @@ class ProximalFallback {
   auto serialized_members() { return std::tie(first_, max_seconds_); }
 
   template <class Operator, class Law>
-  void polish(Operator& op, std::span<const Law> laws, std::span<const std::uint32_t> law_of,
-              std::span<typename Operator::Vector> impulses, SolveReport& report) const {
+  void polish(ContactProblem<Operator, Law>& problem, std::span<typename Operator::Vector> impulses,
+              SolveReport& report) const {
     constexpr int rows = Operator::Space::dim;
     using Scalar = typename Operator::Scalar;
-    const auto gathered = gather_problem(op, laws, law_of);
+    const auto gathered = gather_problem(problem);
     Eigen::VectorXd r(rows * Eigen::Index(gathered.contacts.size()));
     for (std::size_t k = 0; k < gathered.contacts.size(); ++k)
       r.segment<rows>(rows * Eigen::Index(k)) =
@@ -94,23 +96,21 @@ class ProximalFallback {
       impulses[gathered.contacts[k]] =
           r.segment<rows>(rows * Eigen::Index(k)).template cast<Scalar>();
     report.sweeps += found.sweeps;
-    detail::apply_alone<Operator>(op, impulses);
-    measure_residual(op, laws, law_of, std::span<const typename Operator::Vector>(impulses),
-                     report);
-    report.converged =
-        report.residual <= tolerance() && report.left_over <= SolveReport::most_left_over;
+    detail::set_impulses<Operator>(problem.delassus, impulses);
+    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report);
+    report.converged = report.residual <= tolerance() && detail::is_closed(report);
     report.capped = !report.converged;
   }
 
-  /// By the residual among those that leave no approach over; it falls where impulses diverge.
+  /// Compares the residuals of two results that are closed, else their relative approach: the
+  /// residual also falls where impulses diverge.
   static bool is_nearer(const SolveReport& one, const SolveReport& other) {
-    constexpr double most = SolveReport::most_left_over;
-    if (one.left_over <= most && other.left_over <= most) return one.residual < other.residual;
-    return one.left_over < other.left_over;
+    if (detail::is_closed(one) && detail::is_closed(other)) return one.residual < other.residual;
+    return one.relative_approach < other.relative_approach;
   }
 
   double tolerance() const { return first_.options().tolerance; }
-  /// The residual of a step is relative to |r| alone, that of a problem to max(|b|, |r|, |u|).
+  /// SolveReport::residual is relative to |r|, natural_map_residual() to max(|b|, |r|, |u|).
   template <class S>
   double tolerance_for(const FrictionProblem<S>& problem, const Eigen::VectorXd& r) const {
     const double scaled = delassus_scale(problem) * r.norm();

@@ -3,36 +3,41 @@
 
 namespace moreau {
 
-/// How well one step's contact problem was solved. Always filled; not converging is no error.
+/// How well the contact problem of one step was solved. Always filled. A solver that does not
+/// converge is no error.
 struct SolveReport {
-  int sweeps = 0;         ///< passes over all contacts, those of a first try that failed included
+  int sweeps = 0;         ///< passes over all contacts, those of a first attempt included
   bool converged = true;  ///< the stopping test was met
-  /// Not converged: the cap on sweeps came before the stopping test and `most_left_over` were met.
+  /// Not converged: the cap on sweeps was reached before the stopping test was met with
+  /// relative_approach <= max_relative_approach.
   bool capped = false;
 
-  /// || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the mean of diag W is 1
-  /// [-]. Absolute where r = 0 [m/s].
+  /// Natural-map residual || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the
+  /// mean of diag W is 1 [-]. Absolute if r = 0 [m/s].
   double residual = 0;
-  /// The same map, or the approach that is left if that is larger, relative to the approach there
-  /// would be without impulses; root mean squares over the contacts [-]. Where impulses grow
-  /// without bound because there is no solution, or loads are still on their way through a long
-  /// chain, the residual is small and this is not: beyond `most_left_over` no solution counts as
-  /// converged, and sweeps go on. 0 where nothing approaches.
-  double left_over = 0;
-  static constexpr double most_left_over = 0.1;  ///< see left_over [-]
+  /// max(natural-map residual, remaining approach velocity) / approach velocity without impulses.
+  /// All three are root mean squares over the contacts [-]; 0 if nothing approaches.
+  ///
+  /// A solve is not converged while it is above max_relative_approach, however small the residual
+  /// is. Both differ in two cases: where the problem has no solution and the impulses grow without
+  /// bound, and where loads have not yet passed through a long chain of contacts.
+  double relative_approach = 0;
+  static constexpr double max_relative_approach = 0.1;  ///< bound on relative_approach [-]
 
-  // Of the last plain sweep, dv = W (change of r), means over the contacts with r != 0.
-  double quad_dv = 0;   ///< LMGC90: sqrt<|dv|^2> / sqrt<|W r|^2> [-]
-  double quad_dvr = 0;  ///< LMGC90: sqrt<|dv|^2 |r|^2> / <r . W r> [-]
+  // Measures of the last plain sweep by LMGC90: dv = W (change of r), means over the contacts with
+  // r != 0.
+  double quad_dv = 0;   ///< sqrt<|dv|^2> / sqrt<|W r|^2> [-]
+  double quad_dvr = 0;  ///< sqrt<|dv|^2 |r|^2> / <r . W r> [-]
   double maxm_dv = 0;   ///< quad_dv with the maximum in the numerator [-]
   double maxm_dvr = 0;  ///< quad_dvr with the maximum in the numerator [-]
 
-  double worst_velocity = 0;  ///< largest -(u_n + offset) > 0 [m/s]: approach left over
-  double worst_gap = 0;       ///< what that closes in a step beyond contact [m]; by Simulation
-  double worst_cone =
-      0;  ///< largest distance of r from what the law allows, by its own projection [N s]
-  double worst_complementarity = 0;   ///< largest |(u_n + offset) r_n| [J]
-  double wrong_sign_dissipation = 0;  ///< sum of positive u_t . r_t: friction that drives [J]
+  double worst_velocity = 0;  ///< largest remaining approach velocity -(u_n + offset) > 0 [m/s]
+  double worst_gap = 0;       ///< worst_velocity times the step [m]; set by Simulation
+  /// Largest distance of r from the impulses that the law allows, by the law's projection [N s].
+  double worst_cone = 0;
+  double worst_complementarity = 0;  ///< largest |(u_n + offset) r_n| [J]
+  /// Sum of the positive u_t . r_t: energy that friction adds instead of dissipating it [J].
+  double wrong_sign_dissipation = 0;
 };
 
 }  // namespace moreau

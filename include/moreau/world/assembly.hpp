@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a simulation is made of: shapes, bodies, and which body is a grain, a wall or a drum.
+// The shapes and bodies of a simulation, and which body is a grain, a wall or a cylinder.
 #pragma once
 
 #include <cmath>
@@ -20,8 +20,9 @@
 
 namespace moreau::detail {
 
-/// Shapes and bodies of a Simulation, numbered as they are added. Its functions take the name of
-/// the caller's for their exceptions, std::invalid_argument.
+/// Shapes and bodies of a Simulation, numbered in the order in which they are added. Its functions
+/// throw std::invalid_argument in the name of the public function that calls them, which they are
+/// given.
 template <ConvexShape ShapeT>
 class Assembly {
  public:
@@ -33,8 +34,9 @@ class Assembly {
     shapes_.push_back(shape);
     return ShapeId(shapes_.size() - 1);
   }
-  /// Adds a body at rest that no force moves; it is of no kind yet.
-  /// @param materials number of materials; `material` must be one of them
+  /// Adds a body at rest that no force moves. It is neither grain nor wall yet.
+  /// @param materials number of materials
+  /// @throws std::invalid_argument unless `material` is one of them
   BodyId add_body(const Pose<S>& pose, MaterialId material, std::size_t materials,
                   const char* function) {
     require(material.index() < materials, function, "material", material,
@@ -47,12 +49,14 @@ class Assembly {
     bodies_.set_mass(body.index(), mass.mass, mass.inertia);
     grains_.push_back({body, shape});
   }
-  /// Makes a body a half-space; its pose says where.
+  /// Makes a body a half-space, where its pose is.
   void set_wall(BodyId body) { walls_.push_back(body); }
   /// Makes a body the inside of a cylinder.
-  void set_drum(BodyId body, const CylinderWall<S>& shape) { drums_.push_back({body, shape}); }
+  void set_cylinder(BodyId body, const CylinderWall<S>& shape) {
+    cylinders_.push_back({body, shape});
+  }
 
-  /// Mass and inertia of a shape in use [kg, kg m^2], in its own frame.
+  /// Mass [kg] and inertia [kg m^2] of an added shape, in its own frame.
   /// @throws std::invalid_argument for an unknown shape, a density that is not finite or not
   ///         positive, a mass or an inertia that the scalar cannot hold, a centre of mass farther
   ///         from the origin than 1e-3 of the grain size
@@ -76,7 +80,7 @@ class Assembly {
   std::span<const BodyId> walls() const { return walls_; }
   std::size_t grain_count() const { return grains_.size(); }
   BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< not checked
-  /// Of the k-th grain, which is not checked.
+  /// Shape of the k-th grain; k is not checked.
   const ShapeT& shape_of_grain(std::size_t k) const { return shape(grains_[k].shape); }
 
   static void require_pose(const Pose<S>& pose, const char* function) {
@@ -106,22 +110,22 @@ class Assembly {
     }
   }
 
-  /// Whether it is one that can be: what was read from a file.
+  /// Whether its members agree with one another, after they were read from a file.
   bool is_valid(std::size_t materials) const {
     const auto exists = [&](BodyId body) { return body.index() < bodies_.size(); };
     bool valid = bodies_.are_valid(materials);
     for (const Grain& grain : grains_)
       valid = valid && exists(grain.body) && grain.shape.index() < shapes_.size();
     for (const BodyId wall : walls_) valid = valid && exists(wall);
-    for (const Drum& drum : drums_) valid = valid && exists(drum.body);
+    for (const Cylinder& cylinder : cylinders_) valid = valid && exists(cylinder.body);
     return valid;
   }
-  /// Makes all grains, walls and drums known to a detector.
+  /// Adds all grains, walls and cylinders to a detector.
   template <class Detector>
   void add_to(Detector& detector) const {
     for (const Grain& grain : grains_) detector.add_grain(grain.body, shape(grain.shape));
     for (const BodyId wall : walls_) detector.add_wall(wall, HalfSpace<S>(S::Vector::UnitX()));
-    for (const Drum& drum : drums_) detector.add_wall(drum.body, drum.shape);
+    for (const Cylinder& cylinder : cylinders_) detector.add_wall(cylinder.body, cylinder.shape);
   }
 
  private:
@@ -129,18 +133,18 @@ class Assembly {
     BodyId body;
     ShapeId shape;
   };
-  struct Drum {
+  struct Cylinder {
     BodyId body;
     CylinderWall<S> shape = SerializationAccess::blank<CylinderWall<S>>();
   };
 
   friend struct moreau::SerializationAccess;
-  auto serialized_members() { return std::tie(shapes_, grains_, walls_, drums_, bodies_); }
+  auto serialized_members() { return std::tie(shapes_, grains_, walls_, cylinders_, bodies_); }
 
   std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
   std::vector<Grain> grains_;
   std::vector<BodyId> walls_;
-  std::vector<Drum> drums_;
+  std::vector<Cylinder> cylinders_;
   Bodies<S> bodies_;
 };
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
-// From poses to contacts: place the shapes, find the pairs (kept over steps within a skin), collide
-// each pair, write its points down. Every buffer is kept; nothing is allocated once they have
-// grown.
+// From poses to contacts:
 //
-// In a periodic cell poses are never wrapped: each pair carries the whole cells that bring its
-// second grain as it lies next to its first. As grains do not jump, these stay the same for as long
-// as the list of pairs is kept.
+//   1. place the shapes
+//   2. find the pairs of grains; the list is kept over steps until a grain has moved by the skin
+//   3. collide each pair
+//   4. write its contact points to the list of the step
+//
+// All buffers are kept: there is no allocation once they are large enough.
+//
+// In a periodic cell poses are not wrapped. Each pair has a shift by whole cells that moves its
+// second grain next to its first. Grains do not jump, so the shift is valid for as long as the list
+// of pairs.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +21,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/merge_join.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
@@ -24,7 +30,6 @@
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
 #include "moreau/detect/reduce.hpp"
-#include "moreau/law/materials.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 
@@ -33,22 +38,22 @@ namespace moreau {
 /// The alert distance and the other lengths of detection.
 template <class T>
 struct DetectionLengths {
-  T margin;      ///< contacts enter at this gap, >= 0 [m]
-  T skin;        ///< the pair list outlives motions of this size, >= 0 [m]
-  T resolution;  ///< contact points closer together than this are one, >= 0 [m]
+  T margin;      ///< alert distance: largest gap of a contact, >= 0 [m]
+  T skin;        ///< the list of pairs stays valid for motions of this size, >= 0 [m]
+  T resolution;  ///< contact points closer together than this are merged, >= 0 [m]
 };
 
-/// Which points of a contact between two faces are kept.
+/// Which points of a contact between two faces are used.
 enum class ContactPoints {
-  few,  ///< 1, 2 or 3 of them (2D: 2), as in the paper: fewer unknowns per step
-  all,  ///< the whole polygon of contact: any pressure on it can be carried, blocks stand exactly
+  few,  ///< at most D of them: fewer unknowns per step
+  all,  ///< all vertices of the contact polygon: they carry any pressure on it, blocks stand
+        ///< exactly
 };
 
-/// From where the bodies stand to their contacts: pairs, manifolds, the list of the step. What it
-/// is given is not checked, but for the cell: Simulation does that. Arrays of bodies are
-/// indexed by BodyId::index().
+/// Detects the contacts of a simulation. It checks the periodic cell; Simulation checks all other
+/// arguments. Arrays of bodies are indexed by BodyId::index().
 /// @tparam ShapeT      of the grains
-/// @tparam BroadPhaseT a BroadPhase in its space
+/// @tparam BroadPhaseT a BroadPhase in the space of the shape
 template <class ShapeT, class BroadPhaseT>
 class ContactDetector {
  public:
@@ -56,24 +61,25 @@ class ContactDetector {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Takes up a grain; the shape must outlive the detector.
+  /// Adds a grain; the shape must outlive the detector.
   void add_grain(BodyId body, const ShapeT& shape) {
     grains_.push_back({body, &shape, Placed<ShapeT>(shape)});
     widest_ = std::max(widest_, width(shape));
     stale_ = true;
   }
-  /// Takes up a plane wall; the shape is copied, in body coordinates.
+  /// Adds a plane wall; the shape, in body coordinates, is copied.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
     walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
   }
-  /// Takes up a cylinder around the grains; the shape is copied, in body coordinates.
+  /// Adds a cylinder around the grains; the shape, in body coordinates, is copied.
   void add_wall(BodyId body, const CylinderWall<S>& shape) {
     cylinders_.push_back({body, shape, Placed<CylinderWall<S>>(shape)});
   }
-  /// Takes another cell; pairs are found anew. Walls are judged where place_walls() put them.
+  /// Sets the cell; the next find_pairs() finds all pairs anew. Walls are checked where the last
+  /// place_walls() put them.
   /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the cell is too short for the
-  ///         grains there are, or a wall bounds a periodic axis where it is placed
+  ///         grains, or a wall bounds a periodic axis
   void set_cell(const PeriodicCell<S>& cell, const DetectionLengths<Scalar>& lengths,
                 const char* function) {
     cell.require_room(widest_ + around(lengths), function);
@@ -84,12 +90,12 @@ class ContactDetector {
     stale_ = true;
   }
   const PeriodicCell<S>& cell() const { return cell_; }  ///< open unless set
-  /// The width that the cell must have twice, at least, with a grain of this shape [m].
+  /// Half the least width of a periodic cell with a grain of this shape [m].
   Scalar room_of(const ShapeT& shape, const DetectionLengths<Scalar>& lengths) const {
     return std::max(widest_, width(shape)) + around(lengths);
   }
 
-  /// Refreshes the world-frame shapes of grains and walls, and the boxes of grains.
+  /// Moves grains and walls to the poses of their bodies and computes the boxes of the grains.
   /// @param poses    one per body
   /// @param shape_of k -> shape of grain k, in the order they were added
   template <class ShapeOf>
@@ -103,34 +109,31 @@ class ContactDetector {
     }
     place_walls(poses);
   }
-  /// Moves the walls to where their bodies are.
+  /// Moves the walls to the poses of their bodies.
   /// @param poses one per body
   void place_walls(std::span<const Pose<S>> poses) {
     for (auto& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
     for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
   }
 
-  /// Which points of a contact between faces act from the next detect() on.
+  /// Sets which points of a contact between faces are used, from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
-  /// Pairs of grains whose boxes come within the margin, sorted; recomputed only when a box has
-  /// left its skin. After place().
+  /// Finds the pairs of grains whose boxes are within the margin, sorted. It keeps the list as long
+  /// as no box has moved by the skin. Call place() before.
   void find_pairs(const DetectionLengths<Scalar>& lengths);
 
-  /// Contact points of all pairs with a gap up to the margin, sorted by (a, b, feature), with zero
-  /// impulse. After find_pairs().
-  /// @param poses     one per body, those that place() was given
-  /// @param materials one per body
-  /// @param laws      numbers the law of each pair of materials: Contact::law
-  /// @param previous  contacts of the step before, sorted alike: the memory of the choice of points
-  /// @param out       filled anew; frames, levers and gaps as Contact says
+  /// Finds the contact points with a gap up to the margin, sorted by (a, b, feature), with zero
+  /// impulse and law 0. Call find_pairs() before.
+  /// @param poses     one per body, the same as for place()
+  /// @param previous  contacts of the step before: their points are preferred
+  /// @param out       replaced
   void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
-              std::span<const MaterialId> materials, const MaterialPairs& laws,
               const Contacts<S>& previous, Contacts<S>& out);
 
-  /// Takes the bodies anew, once their shapes have been read from a file; the pairs stay.
-  /// @param add_all adds grains and walls in the order in which they were added before
-  /// @throws std::invalid_argument if the pairs are not of the grains there are then
+  /// Replaces grains and walls after their shapes have been read from a file; keeps the pairs.
+  /// @param add_all adds grains and walls in the order in which they were added at first
+  /// @throws std::invalid_argument if a pair is not of these grains
   void rebuild(auto&& add_all) {
     const bool stale = stale_;
     grains_.clear();
@@ -143,10 +146,10 @@ class ContactDetector {
     valid = valid && shifts_.size() == (cell_.is_open() ? 0 : pairs_.size());
     for (const IndexPair& pair : pairs_)
       valid = valid && pair.first < pair.second && pair.second < grains_.size();
-    require(valid, "ContactDetector", "pairs", pairs_.size(), "must be of grains there are");
+    require(valid, "ContactDetector", "pairs", pairs_.size(), "must be of grains that exist");
   }
 
-  std::size_t pair_count() const { return pairs_.size(); }  ///< of boxes, without the walls
+  std::size_t pair_count() const { return pairs_.size(); }  ///< pairs of boxes, without walls
   /// Pairs with at least one contact point in the last detect().
   std::size_t touching_count() const { return touching_; }
 
@@ -168,7 +171,7 @@ class ContactDetector {
     Placed<WallShape> placed;
   };
 
-  /// Of a grain however it is turned [m].
+  /// Width of a grain in any orientation [m].
   static Scalar width(const ShapeT& shape) {
     if constexpr (requires { shape.circumradius(); }) {
       return 2 * shape.circumradius();
@@ -177,7 +180,7 @@ class ContactDetector {
       return 2 * box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
     }
   }
-  /// What find_pairs() keeps around a grain, on both sides together [m].
+  /// Width that find_pairs() adds to that of a grain, both sides together [m].
   static Scalar around(const DetectionLengths<Scalar>& lengths) {
     return lengths.margin + 2 * lengths.skin;
   }
@@ -185,7 +188,7 @@ class ContactDetector {
   static Aabb<S> moved(const Aabb<S>& box, const Vector& shift) {
     return {box.lower + shift, box.upper + shift};
   }
-  /// Where the grain's image is.
+  /// Moves a grain by a shift from the pose of its body.
   static void place(Grain& grain, std::span<const Pose<S>> poses, const Vector& shift) {
     Pose<S> pose = poses[grain.body.index()];
     pose.position += shift;
@@ -201,45 +204,33 @@ class ContactDetector {
     return wall.normal().dot(center) - wall.normal().cwiseAbs().dot(half) <= margin;
   }
 
-  /// Pairs that stay keep what their cache knows. Both lists are sorted.
+  /// Pairs that are in both lists keep their cache. Both lists are sorted.
   void carry_caches() {
     caches_.assign(pairs_.size(), PairCache<S>{});
-    for (std::size_t i = 0, j = 0; i < pairs_.size() && j < old_pairs_.size();) {
-      if (pairs_[i] < old_pairs_[j]) {
-        ++i;
-      } else if (old_pairs_[j] < pairs_[i]) {
-        ++j;
-      } else {
-        caches_[i++] = old_caches_[j++];
-      }
-    }
+    merge_join(pairs_, old_pairs_,
+               [&](std::size_t i, std::size_t j) { caches_[i] = old_caches_[j]; });
   }
 
-  void detect_in_cylinders(std::size_t k, Scalar margin, std::span<const MaterialId> materials,
-                           const MaterialPairs& laws, Contacts<S>& out) {
+  void detect_in_cylinders(std::size_t k, Scalar margin, Contacts<S>& out) {
     const Grain& a = grains_[k];
     for (const auto& wall : cylinders_) {
       if (!wall.placed.reaches(boxes_[k], margin)) continue;
-      touching_ += collide_each(a.placed, wall.placed, margin, manifold_,
-                                [&] { write(a, wall, materials, laws, out); });
+      touching_ +=
+          collide_each(a.placed, wall.placed, margin, manifold_, [&] { write(a, wall, out); });
     }
   }
 
-  void emit(const Grain& a, const auto& b, std::span<const MaterialId> materials,
-            const MaterialPairs& laws, const Contacts<S>& previous, Contacts<S>& out) {
+  void emit(const Grain& a, const auto& b, const Contacts<S>& previous, Contacts<S>& out) {
     ++touching_;
     keep_few(a.body.value, b.body.value, previous);
-    write(a, b, materials, laws, out);
+    write(a, b, out);
   }
 
-  /// The points of the manifold, seen from the centres of where the two are placed.
-  void write(const Grain& a, const auto& b, std::span<const MaterialId> materials,
-             const MaterialPairs& laws, Contacts<S>& out) {
+  /// Adds the points of the manifold, with levers from the centres of the placed shapes.
+  void write(const Grain& a, const auto& b, Contacts<S>& out) {
     const typename S::Matrix frame = S::contact_frame(manifold_.normal);
-    const auto law = static_cast<std::uint32_t>(
-        laws.law_index(materials[a.body.index()], materials[b.body.index()]));
     for (const ManifoldPoint<S>& point : manifold_.points) {
-      out.points.push_back({a.body.value, b.body.value, law, point.gap, frame,
+      out.points.push_back({a.body.value, b.body.value, 0, point.gap, frame,
                             point.position - a.placed.center(),
                             point.position - b.placed.center()});
       out.keys.push_back({a.body.value, b.body.value, point.feature});
@@ -247,7 +238,7 @@ class ContactDetector {
     }
   }
 
-  /// At most as many points as there are dimensions, the same as the step before where they do.
+  /// Reduces the manifold to D points, if possible those of the step before.
   void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
     if (kept_points_ == ContactPoints::all) return;
     kept_.clear();
@@ -262,7 +253,7 @@ class ContactDetector {
     reduce(manifold_, S::dim, std::span<const KeptPoint>(kept_), reduction_);
   }
 
-  /// Walls may carry lower ids than grains that came later; the order of the keys must not care.
+  /// Sorts by key: the id of a wall may be lower than that of a grain.
   void sort(Contacts<S>& out) {
     out.impulses.assign(out.size(), S::Vector::Zero());
     if (std::is_sorted(out.keys.begin(), out.keys.end())) return;
@@ -289,7 +280,7 @@ class ContactDetector {
   BroadPhaseT broad_phase_;
   PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
-  std::vector<Vector> shifts_;  // of the second of each pair to the first; none in an open cell
+  std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
   std::vector<PairCache<S>> caches_, old_caches_;
   Manifold<S> manifold_;
   ContactPoints kept_points_ = ContactPoints::few;
@@ -298,7 +289,7 @@ class ContactDetector {
   Contacts<S> scratch_;
   std::vector<std::uint32_t> order_;
   std::size_t touching_ = 0;
-  Scalar widest_ = 0;  // of the grains, however they turn [m]
+  Scalar widest_ = 0;  // width of the grains in any orientation [m]
   bool stale_ = true;
 };
 
@@ -326,8 +317,6 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>& lengths,
                                                   std::span<const Pose<S>> poses,
-                                                  std::span<const MaterialId> materials,
-                                                  const MaterialPairs& laws,
                                                   const Contacts<S>& previous, Contacts<S>& out) {
   out.clear();
   touching_ = 0;
@@ -347,16 +336,16 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
         continue;
       if (crosses) place(b, poses, shifts_[p]);
       if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
-        emit(a, b, materials, laws, previous, out);
+        emit(a, b, previous, out);
       if (crosses) place(b, poses, Vector::Zero());
     }
     for (const auto& wall : walls_) {
       if (!reaches(boxes_[k], wall.placed, lengths.margin)) continue;
       PairCache<S> none;
       if (collide(a.placed, wall.placed, lengths.margin, manifold_, none))
-        emit(a, wall, materials, laws, previous, out);
+        emit(a, wall, previous, out);
     }
-    if (!cylinders_.empty()) detect_in_cylinders(k, lengths.margin, materials, laws, out);
+    if (!cylinders_.empty()) detect_in_cylinders(k, lengths.margin, out);
   }
   sort(out);
 }

@@ -13,12 +13,12 @@
 
 namespace moreau {
 
-/// The integrator that goes with a law unless the user says otherwise: VelocityVerlet for a
-/// regularized law, MoreauJean for a set-valued one.
+/// The default integrator of a law: VelocityVerlet for a regularized law, MoreauJean for a
+/// set-valued law.
 template <class Law, class S>
 using DefaultIntegrator = std::conditional_t<RegularizedLaw<Law, S>, VelocityVerlet, MoreauJean>;
-/// The solver that does: none for a regularized law, ColouredGaussSeidel for a law of points,
-/// NonlinearGaussSeidel for one that rolls.
+/// The default solver of a law: none for a regularized law, ColouredGaussSeidel for a law of
+/// points, NonlinearGaussSeidel for a law with couples.
 template <class Law, class S>
 using DefaultSolver = std::conditional_t<
     RegularizedLaw<Law, S>, NoSolver,

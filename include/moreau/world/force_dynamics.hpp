@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The part of a step around the contacts, for laws that give forces (molecular dynamics):
-// predict -> (detect) -> forces -> advance.
+//
+//   1. predict the configuration at the end of the step; Simulation then detects the contacts
+//   2. evaluate the forces of the contacts
+//   3. advance the velocities to the end of the step
 #pragma once
 
 #include <cstddef>
@@ -12,13 +15,15 @@
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
+#include "moreau/world/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {
 
-/// Takes the solver's place where there is nothing to solve: under a regularized law.
+/// The solver of a Simulation under a regularized law, which leaves nothing to solve.
 struct NoSolver {};
 
 namespace detail {
@@ -32,7 +37,7 @@ class ForceDynamics {
 
   explicit ForceDynamics(const Integrator& integrator = Integrator{}) : integrator_(integrator) {}
 
-  /// Whether the forces at hand belong to the bodies as they are.
+  /// Whether the forces belong to the present configuration.
   bool is_ready(std::size_t bodies) const { return loads_.size() == bodies; }
   void forget() { loads_.clear(); }
 
@@ -40,19 +45,21 @@ class ForceDynamics {
     integrator_.predict_configuration(bodies, std::span<const Twist>(loads_), gravity, step);
   }
 
-  /// Forces of the contacts as the bodies stand; impulses become force x step.
-  /// @param elapsed time since the last evaluation [s]: how far tangential springs stretched
-  void evaluate(const Bodies<S>& bodies, const Materials<Law>& materials,
-                const Contacts<S>& previous, Contacts<S>& contacts, Scalar step, Scalar elapsed,
-                StepReport& report) {
+  /// Evaluates the forces of the contacts in the present configuration; writes force x step to the
+  /// impulses of the contacts.
+  /// @param elapsed time since the last evaluation [s], in which tangential springs stretched
+  /// @param report  out: warm_started; dissipation and friction are added to
+  void evaluate(const StepContext<S, Law>& context, Scalar elapsed, StepReport& report) {
+    const Bodies<S>& bodies = context.bodies;
+    Contacts<S>& contacts = context.contacts;
     loads_.assign(bodies.size(), Twist::Zero());
-    report.warm_started = carry(previous, contacts, memory_, next_);
+    report.warm_started = carry(context.previous, contacts, memory_, next_);
     memory_.swap(next_);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       const ContactMotion<S> motion = motion_of(bodies, contact, elapsed);
-      const Vector force = materials.laws()[contact.law].force(motion, memory_[c]);
-      contacts.impulses[c] = step * force;
+      const Vector force = context.materials.laws()[contact.law].force(motion, memory_[c]);
+      contacts.impulses[c] = context.step * force;
       report.dissipation -= double(contacts.impulses[c].dot(motion.velocity));
       report.friction -= double(contacts.impulses[c].template tail<S::dim - 1>().dot(
           motion.velocity.template tail<S::dim - 1>()));
@@ -60,8 +67,9 @@ class ForceDynamics {
     }
   }
 
-  void advance(Bodies<S>& bodies, const Vector& gravity, Scalar step) {
-    integrator_.advance_configuration(bodies, std::span<const Twist>(loads_), gravity, step);
+  void advance(const StepContext<S, Law>& context) {
+    integrator_.advance_configuration(context.bodies, std::span<const Twist>(loads_),
+                                      context.gravity, context.step);
   }
 
  private:
@@ -82,10 +90,10 @@ class ForceDynamics {
     return (bodies.axes(i).transpose() * n).cwiseAbs2().dot(bodies.inverse_mass[i]);
   }
   void apply(const Contact<S>& contact, const Vector& force) {
-    loads_[contact.b].template head<S::dim>() += force;
-    loads_[contact.b].template tail<S::angular_dim>() += S::moment(contact.lever_b, force);
-    loads_[contact.a].template head<S::dim>() -= force;
-    loads_[contact.a].template tail<S::angular_dim>() -= S::moment(contact.lever_a, force);
+    linear<S>(loads_[contact.b]) += force;
+    angular<S>(loads_[contact.b]) += S::moment(contact.lever_b, force);
+    linear<S>(loads_[contact.a]) -= force;
+    angular<S>(loads_[contact.a]) -= S::moment(contact.lever_a, force);
   }
 
   Integrator integrator_;

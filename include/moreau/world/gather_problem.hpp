@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The contact problem of a simulation's last step as matrices: to be written to a file
-// (io/fclib.hpp) or handed to another solver (solve/proximal_solver.hpp). Not in moreau.hpp: it
-// brings Eigen's sparse matrices.
+// The contact problem of the last step of a simulation as matrices, to write to a file
+// (io/fclib.hpp) or to pass to another solver (solve/proximal_solver.hpp). Not in moreau.hpp,
+// because it includes Eigen's sparse matrices.
 #pragma once
 
 #include "moreau/core/error.hpp"
@@ -10,22 +10,21 @@
 
 namespace moreau {
 
-/// The problem that the last step solved, in double: u = W r + b with what the law adds to b (gap
-/// over step, restitution). Its contacts are numbers into simulation.contacts(); those that could
-/// not act are left out. The impulses that solve it are those of simulation.contacts(), each in its
-/// contact's frame, normal first [N s]; under adhesion without the adhesion, whose impulse b has.
+/// The contact problem that the last step solved, in double: u = W r + b, where b contains the
+/// velocity offset of the law (gap over step, restitution) and the impulse of adhesion. Contacts
+/// that could not act in the step are left out. simulation.contacts().impulses solve the problem,
+/// each in the frame of its contact, normal first [N s]; under adhesion, without the adhesion.
 /// @param simulation with Coulomb's law, with adhesion or without
-/// @returns a GatheredProblem
+/// @returns a GatheredProblem, whose contacts are indices into simulation.contacts()
 /// @throws std::invalid_argument if the contacts were read from a snapshot and no step was made
 ///         since
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver>
-auto contact_problem(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation) requires
+auto gather_problem(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation) requires
     CoulombLaw<Law, SpaceOf<ShapeT>> {
-  return simulation.visit_contact_problem([&](const auto& op, auto laws, auto law_of) {
-    require(op.size() == simulation.contacts().size(), "contact_problem", "contacts",
-            simulation.contacts().size(), "must be those of a step made since they were read");
-    return gather_problem(op, laws, law_of);
-  });
+  require(simulation.contact_problem().size() == simulation.contacts().size(), "gather_problem",
+          "contacts", simulation.contacts().size(),
+          "must be those of a step made since they were read");
+  return gather_problem(simulation.contact_problem());
 }
 
 }  // namespace moreau

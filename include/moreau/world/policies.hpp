@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which policies go together, and in one line why others do not.
+// Which policies of a Simulation fit together, with an error of one line for each reason why not.
 #pragma once
 
 #include <concepts>
@@ -13,7 +13,7 @@
 
 namespace moreau::detail {
 
-/// Does not compile for policies of a Simulation that do not go together.
+/// Does not compile for policies that do not fit together.
 template <class S, class Law, class Integrator, class Broad, class Solver>
 struct Policies {
   static constexpr bool set_valued = SetValuedLaw<Law, S>;

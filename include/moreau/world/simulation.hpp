@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rigid grains and walls under contact dynamics. The shape decides the space: the same text runs
-// polyhedra and polygons.
-//
-// One step, data in one direction:
-//   predict_configuration -> detect -> impulses or forces of the contacts -> advance_configuration
-// The law decides which: impulse_dynamics.hpp for impulses, force_dynamics.hpp for forces.
+// Rigid grains and walls in contact. The shape decides whether they are in the plane or in space.
+// One step: predict the configuration, detect the contacts, assign their laws, compute their
+// impulses (impulse_dynamics.hpp) or forces (force_dynamics.hpp), advance the configuration.
 #pragma once
 
 #include <chrono>
@@ -28,13 +25,16 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/solve/concepts.hpp"
 #include "moreau/world/assembly.hpp"
+#include "moreau/world/assign_laws.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
 #include "moreau/world/force_dynamics.hpp"
 #include "moreau/world/impulse_dynamics.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/policies.hpp"
+#include "moreau/world/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 #include "moreau/world/tolerances.hpp"
 
@@ -153,7 +153,7 @@ class Simulation {
     pose.position = point;
     const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
     const CylinderWall<S> shape(axis, radius);
-    assembly_.set_drum(body, shape);
+    assembly_.set_cylinder(body, shape);
     detector_.add_wall(body, shape);
     return body;
   }
@@ -289,11 +289,10 @@ class Simulation {
     assembly_.require_body(body, "Simulation::contact_impulse");
     return contacts_.impulse_on(body.value);
   }
-  /// What the solver was given in the last step, for contact_problem() and solvers of one's own:
-  /// visitor(op, laws, law_of) with the operator u = op r + b of contacts(), the table of laws and
-  /// the entry of each contact in it.
-  decltype(auto) visit_contact_problem(auto&& visitor) const requires set_valued {
-    return dynamics_.visit_problem(materials_, visitor);
+  /// The contact problem that the last step solved, one row per contact of contacts(), for
+  /// gather_problem() and for solvers of one's own.
+  const ContactProblem<OperatorOf<Law, S>, Law>& contact_problem() const requires set_valued {
+    return dynamics_.problem();
   }
 
  private:
@@ -342,8 +341,8 @@ class Simulation {
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     detector_.find_pairs(lengths());
-    detector_.detect(lengths(), poses, std::span<const MaterialId>(assembly_.bodies().material),
-                     materials_, previous_, contacts_);
+    detector_.detect(lengths(), poses, previous_, contacts_);
+    assign_laws(assembly_.bodies(), materials_, contacts_);
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
@@ -368,13 +367,15 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");
   StepReport report;
+  const detail::StepContext<S, Law> context{assembly_.bodies(), gravity_,    materials_, previous_,
+                                            contacts_,          grain_size_, step};
   const auto start = Clock::now();
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {
     if (!dynamics_.is_ready(assembly_.bodies().size())) {
       detect(report);
-      dynamics_.evaluate(assembly_.bodies(), materials_, previous_, contacts_, step, 0, report);
+      dynamics_.evaluate(context, 0, report);
       report = {};
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
@@ -382,11 +383,10 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   detect(report);
   const auto detected = Clock::now();
   if constexpr (set_valued) {
-    dynamics_.advance(assembly_.bodies(), gravity_, materials_, previous_, contacts_, grain_size_,
-                      step, report);
+    dynamics_.advance(context, report);
   } else {
-    dynamics_.evaluate(assembly_.bodies(), materials_, previous_, contacts_, step, step, report);
-    dynamics_.advance(assembly_.bodies(), gravity_, step);
+    dynamics_.evaluate(context, step, report);
+    dynamics_.advance(context);
   }
   assembly_.require_finite("Simulation::step");
   time_ += step;

@@ -10,26 +10,26 @@
 
 namespace moreau {
 
-/// What one step did. In the plane, energies are per what the densities are per.
+/// Results of one step. In the plane, energies are per length if densities are.
 struct StepReport {
-  std::size_t candidate_pairs = 0;  ///< pairs of boxes that were looked at, without the walls
+  std::size_t candidate_pairs = 0;  ///< pairs of boxes within the margin, without walls
   std::size_t pairs = 0;            ///< pairs with at least one contact point
   std::size_t points = 0;           ///< contact points
-  std::size_t warm_started = 0;     ///< points that found their impulse of the step before
+  std::size_t warm_started = 0;     ///< points that were in contact in the step before
   double max_overlap = 0;           ///< deepest point as detected, >= 0 [m]
   double mean_overlap = 0;          ///< mean depth of the points with gap < 0, >= 0 [m]
-  /// Energy that the contact impulses and couples took out of the bodies [J]; < 0 where they gave,
-  /// as springs do.
+  /// Energy that the contact impulses and couples took from the bodies [J]; < 0 if they gave
+  /// energy, as springs do.
   double dissipation = 0;
-  double friction = 0;                 ///< of it, what the tangential impulses took [J]
-  double rolling = 0;                  ///< of it, what couples of rolling and twisting took [J]
+  double friction = 0;                 ///< part of it: by tangential impulses [J]
+  double rolling = 0;                  ///< part of it: by couples of rolling and twisting [J]
   SolveReport solve;                   ///< how well the contact problem was solved
-  OverlapCorrectionReport correction;  ///< what the overlap correction did
+  OverlapCorrectionReport correction;  ///< results of the overlap correction
   double ms_detect = 0;                ///< time for prediction and detection [ms]
   double ms_solve = 0;                 ///< for the contact problem, assembly and correction [ms]
   double ms_total = 0;                 ///< for the whole step [ms]
 
-  /// Adds the contacts' overlaps, from their gaps [m], to a report that has none.
+  /// Fills the overlaps from the gaps of the contacts [m].
   template <class S>
   void measure_overlaps(const Contacts<S>& contacts) {
     std::size_t overlapping = 0;

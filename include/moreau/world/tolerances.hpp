@@ -9,13 +9,13 @@ namespace moreau {
 
 /// Lengths that act as tolerances, each relative to the grain size [-].
 struct Tolerances {
-  /// Alert distance: a contact enters at this gap, > 0; times the grain size it must exceed what
-  /// two bodies approach in a step.
+  /// Alert distance, > 0: largest gap of a contact. Times the grain size it must exceed the
+  /// distance by which two bodies approach in a step.
   double margin = 0.02;
-  double skin = 0.05;        ///< the pair list is kept until a box has moved this far, >= 0
-  double resolution = 1e-3;  ///< contact points of a pair closer together than this are one, >= 0
+  double skin = 0.05;        ///< the list of pairs is kept until a box has moved this far, >= 0
+  double resolution = 1e-3;  ///< contact points closer together than this are merged, >= 0
 
-  /// Checks them.
+  /// Checks the ranges.
   /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if one of them is not finite or out
   ///         of range

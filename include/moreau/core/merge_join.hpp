@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace moreau {
+
+/// Calls found(i, j) for all i, j with left[i] == right[j], in ascending order, in one pass.
+/// @param left,right sequences with size() and [], each strictly ascending by <
+/// @returns how many pairs there are
+template <class Keys>
+std::size_t merge_join(const Keys& left, const Keys& right, const auto& found) {
+  std::size_t count = 0;
+  for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
+    if (left[i] < right[j]) {
+      ++i;
+    } else if (right[j] < left[i]) {
+      ++j;
+    } else {
+      found(i++, j++);
+      ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace moreau

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The contact problem of one step. At every contact c, in its own frame, normal first,
+//
+//     u = W r + b,        laws[law_of[c]] between u_c and r_c,
+//
+// with the relative velocities u [m/s], the impulses r [N s], the Delassus operator W [1/kg] and
+// the relative velocities b without any impulse [m/s].
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace moreau {
+
+/// What a ContactSolver solves; the head of this file has the equations. Kept from step to step, so
+/// that its memory is used again.
+/// @tparam Operator BodyDelassus, or RollingDelassus for a law with couples
+/// @tparam Law      a SetValuedLaw in the space of the operator
+template <class Operator, class Law>
+struct ContactProblem {
+  using Space = typename Operator::Space;
+  using Scalar = typename Operator::Scalar;
+  using Vector = typename Operator::Vector;  ///< one contact's rows of u, r and b
+
+  Operator delassus;                  ///< W and b; carries u under the impulses applied so far
+  std::vector<Law> laws;              ///< the table of laws
+  std::vector<std::uint32_t> law_of;  ///< one per contact: its entry in the table
+
+  std::size_t size() const { return delassus.size(); }  ///< contacts
+  /// The law of contact c < size(), which is not checked.
+  const Law& law(std::size_t c) const { return laws[law_of[c]]; }
+};
+
+namespace detail {
+
+/// Leaves the operator with the velocities of these impulses alone. Velocities that are made of
+/// many small changes carry the rounding of each; these do not.
+template <class Operator>
+void set_impulses(Operator& delassus, std::span<const typename Operator::Vector> impulses) {
+  delassus.clear();
+  for (std::size_t c = 0; c < delassus.size(); ++c)
+    if (!impulses[c].isZero(0)) delassus.apply(c, impulses[c]);
+}
+
+/// Sets the warm start to zero if the square of an impulse is not finite.
+template <class Vector>
+void drop_if_not_finite(std::span<Vector> impulses) {
+  const auto is_usable = [](const Vector& r) { return std::isfinite(r.squaredNorm()); };
+  if (!std::all_of(impulses.begin(), impulses.end(), is_usable))
+    std::fill(impulses.begin(), impulses.end(), Vector::Zero());
+}
+
+}  // namespace detail
+
+}  // namespace moreau

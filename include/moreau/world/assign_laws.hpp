@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/law/materials.hpp"
+
+namespace moreau {
+
+/// Gives every contact the law of the materials of its two bodies: fills Contact::law, an index
+/// into materials.laws().
+/// @param bodies all bodies of the contacts, with materials that exist; not checked
+template <class S, class Law>
+void assign_laws(const Bodies<S>& bodies, const Materials<Law>& materials, Contacts<S>& contacts) {
+  for (Contact<S>& contact : contacts.points)
+    contact.law = static_cast<std::uint32_t>(
+        materials.law_index(bodies.material[contact.a], bodies.material[contact.b]));
+}
+
+}  // namespace moreau

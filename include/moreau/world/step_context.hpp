@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/law/materials.hpp"
+
+namespace moreau::detail {
+
+/// What the stages of one step of a Simulation read and write.
+template <class S, class Law>
+struct StepContext {
+  Bodies<S>& bodies;
+  const typename S::Vector& gravity;  ///< world axes [m/s^2]
+  const Materials<Law>& materials;
+  const Contacts<S>& previous;    ///< contacts of the step before, with their impulses
+  Contacts<S>& contacts;          ///< contacts of this step
+  typename S::Scalar grain_size;  ///< length that tolerances are relative to [m]
+  typename S::Scalar step;        ///< h [s]
+};
+
+}  // namespace moreau::detail
