@@ -3,12 +3,14 @@
 #pragma once
 
 #include <limits>
+#include <tuple>
 
+#include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
 
-/// The set lower <= x <= upper [m], world axes; empty (and neutral under merge) as constructed.
+/// The set lower <= x <= upper [m] in world axes.
 template <class S>
 struct Aabb {
   using Scalar = typename S::Scalar;
@@ -19,28 +21,39 @@ struct Aabb {
   /// Largest coordinates [m].
   Vector upper = Vector::Constant(-std::numeric_limits<Scalar>::infinity());
 
-  /// Whether they have a point in common, be it one of the boundary.
+  Aabb() = default;  ///< empty: merge() makes it the box around what is merged
+  /// From the least and the largest coordinates [m].
+  Aabb(const VectorArgument<S>& least, const VectorArgument<S>& largest)
+      : lower(least), upper(largest) {}
+
+  /// Whether the two boxes share a point; a shared point of the boundary counts.
   bool overlaps(const Aabb& other) const {
     return (lower.array() <= other.upper.array()).all() &&
            (other.lower.array() <= upper.array()).all();
   }
-  /// Whether all points of the other are points of this one.
+  /// Whether every point of `other` lies in this box.
   bool contains(const Aabb& other) const {
     return (lower.array() <= other.lower.array()).all() &&
            (other.upper.array() <= upper.array()).all();
   }
+  /// Whether the point [m] lies in this box.
+  bool contains(const VectorArgument<S>& x) const {
+    return (lower.array() <= x.array()).all() && (x.array() <= upper.array()).all();
+  }
   /// Grows to hold the point [m].
-  void merge(const Vector& x) {
+  void merge(const VectorArgument<S>& x) {
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);
   }
-  /// Grown by the margin [m] on every side; shrunk by a negative one.
+  /// The box with every face moved outwards by the margin [m]; inwards if the margin is negative.
   Aabb inflated(Scalar margin) const {
     Aabb box = *this;
     box.lower.array() -= margin;
     box.upper.array() += margin;
     return box;
   }
+
+  auto state() { return std::tie(lower, upper); }  ///< see core/state.hpp
 };
 
 }  // namespace moreau

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <cassert>
-#include <concepts>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,13 +23,16 @@ namespace moreau {
 namespace detail {
 
 template <class Value>
-requires(!std::derived_from<Value, Eigen::EigenBase<Value>>) void print(std::ostream& out,
-                                                                        const Value& value) {
+void print(std::ostream& out, const Value& value) {
   out << value;
 }
 
-template <class Derived>
-void print(std::ostream& out, const Eigen::MatrixBase<Derived>& value) {
+/// An Eigen vector, or a class derived from one.
+template <class Matrix>
+requires requires {
+  typename Matrix::PlainMatrix;
+}
+void print(std::ostream& out, const Matrix& value) {
   static const Eigen::IOFormat row(9, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
   out << value.format(row);
 }

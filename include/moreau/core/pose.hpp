@@ -2,24 +2,36 @@
 // Where a body is: the position of its centre of mass and the rotation of its axes.
 #pragma once
 
+#include <tuple>
+
+#include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
 
-/// Maps body to world coordinates: x = position + rotation x_body. Lengths in metres.
+/// Maps body coordinates to world coordinates: x = position + rotation x_body. Lengths in metres.
 template <class S>
 struct Pose {
   using Vector = typename S::Vector;
+  using Rotation = typename S::Rotation;
 
-  Vector position = Vector::Zero();               ///< of the centre of mass, world axes [m]
-  typename S::Rotation rotation = S::identity();  ///< from body to world axes
+  Vector position = Vector::Zero();   ///< of the centre of mass, world axes [m]
+  Rotation rotation = S::identity();  ///< from body to world axes
+
+  Pose() = default;  ///< the origin, not rotated
+  /// @param origin   position of the centre of mass, world axes [m]
+  /// @param to_world rotation from body to world axes; in space a unit quaternion
+  Pose(const VectorArgument<S>& origin, const Rotation& to_world = S::identity())
+      : position(origin), rotation(to_world) {}
 
   /// World coordinates [m] of a point given in body coordinates [m].
-  Vector operator()(const Vector& x_body) const { return position + rotation * x_body; }
+  Vector operator()(const VectorArgument<S>& x_body) const { return position + rotation * x_body; }
   /// Body coordinates [m] of a point given in world coordinates [m].
-  Vector to_body(const Vector& x) const { return rotation.inverse() * (x - position); }
-  /// Whether no number in it is infinite or none.
+  Vector to_body(const VectorArgument<S>& x) const { return rotation.inverse() * (x - position); }
+  /// Whether all its numbers are finite.
   bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }
+
+  auto state() { return std::tie(position, rotation); }  ///< see core/state.hpp
 };
 
 }  // namespace moreau

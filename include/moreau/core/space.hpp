@@ -8,8 +8,8 @@
 //     torque of a force f at r                   lever(r)^T f
 //     Delassus block                             F^T (1/m + lever(r) I^-1 lever(r)^T) F
 //
-// Written so, the mechanics is the same text in both dimensions. This header (and the geometry of
-// single shapes) is the only place that knows which one it is.
+// The mechanics, written with lever(r), is the same text in both dimensions. Only this header and
+// the geometry of single shapes know the dimension.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,56 +18,83 @@
 #include <cmath>
 #include <concepts>
 
+#include "moreau/core/components.hpp"
+
 namespace moreau {
 
 /// Types and operations of a D-dimensional Euclidean space over T; specialised for D = 2 and 3.
 template <int Dim, std::floating_point T = double>
 struct Space;
 
+/// A Space<2, T> or Space<3, T>: what templates of both dimensions take as their argument.
+template <class S>
+concept EuclideanSpace = requires {
+  []<int Dim, class T>(Space<Dim, T>) {}(S{});
+};
+
+namespace detail {
+
+/// The types of a space. A = D(D-1)/2 numbers make an angular quantity.
+template <int Dim, class T, class RotationT>
+struct SpaceTypes {
+  using Scalar = T;
+  static constexpr int dim = Dim;                          ///< D
+  static constexpr int angular_dim = Dim * (Dim - 1) / 2;  ///< A
+  static constexpr int dofs = dim + angular_dim;           ///< D + A
+
+  using Vector = Eigen::Matrix<T, dim, 1>;
+  using Matrix = Eigen::Matrix<T, dim, dim>;
+  using Angular = Eigen::Matrix<T, angular_dim, 1>;
+  using Inertia = Eigen::Matrix<T, angular_dim, angular_dim>;
+  using Lever = Eigen::Matrix<T, dim, angular_dim>;
+  using Twist = Eigen::Matrix<T, dofs, 1>;  ///< (v, w), generalized velocity or force of a body
+  using Rotation = RotationT;
+  using VectorArgument = Components<dim, T>;           ///< of public functions
+  using AngularArgument = Components<angular_dim, T>;  ///< of public functions
+};
+
+}  // namespace detail
+
 /// The plane. Rotations are angles, positive from x to y; angular quantities are 1-vectors.
 template <std::floating_point T>
-struct Space<2, T> {
-  using Scalar = T;
-  static constexpr int dim = 2;          ///< D
-  static constexpr int angular_dim = 1;  ///< A
-  static constexpr int dofs = 3;         ///< D + A
-
-  using Vector = Eigen::Matrix<T, 2, 1>;
-  using Matrix = Eigen::Matrix<T, 2, 2>;
-  using Angular = Eigen::Matrix<T, 1, 1>;
-  using Inertia = Eigen::Matrix<T, 1, 1>;
-  using Lever = Eigen::Matrix<T, 2, 1>;
-  using Twist = Eigen::Matrix<T, 3, 1>;  ///< (v, w), generalized velocity or force of a body
-  using Rotation = Eigen::Rotation2D<T>;
+struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
+  using Types = detail::SpaceTypes<2, T, Eigen::Rotation2D<T>>;
+  using typename Types::Angular, typename Types::Inertia, typename Types::Lever;
+  using typename Types::Vector, typename Types::Matrix, typename Types::Rotation;
+  using typename Types::VectorArgument, typename Types::AngularArgument;
 
   /// The rotation by the angle w [rad].
-  static Rotation exp(const Angular& w) { return Rotation(w[0]); }
-  /// q, free of the drift that many small rotations leave: an angle has none.
+  static Rotation exp(const AngularArgument& w) { return Rotation(w[0]); }
+  /// q without the rounding errors of many small rotations: an angle has none of this kind.
   static Rotation normalized(const Rotation& q) { return q; }
   static Rotation identity() { return Rotation(T(0)); }  ///< no rotation
-  /// Whether no number in it is infinite or none.
+  /// Whether the angle is finite.
   static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }
-  /// Whether q is a rotation at all: in space, a quaternion of unit length.
+  /// Whether q is a rotation: every finite angle is one.
   static bool is_rotation(const Rotation& q) { return is_finite(q); }
   /// A x A, takes angular quantities from body to world axes: the identity in the plane.
   static Inertia adjoint(const Rotation&) { return Inertia::Ones(); }
-  /// A x A, a contact frame for angular quantities, which the plane has one axis for.
+  /// A x A, the contact frame of angular quantities, which have one axis in the plane.
   static Inertia angular_frame(const Matrix&) { return Inertia::Ones(); }
   /// D x A [m] with lever(r) w = the velocity [m/s] at r [m] of a rotation w [rad/s] about the
   /// origin.
-  static Lever lever(const Vector& r) { return Lever(-r.y(), r.x()); }
+  static Lever lever(const VectorArgument& r) { return Lever(-r.y(), r.x()); }
   /// lever(r) w without forming the matrix [m/s].
-  static Vector spin(const Angular& w, const Vector& r) { return {-w[0] * r.y(), w[0] * r.x()}; }
+  static Vector spin(const AngularArgument& w, const VectorArgument& r) {
+    return {-w[0] * r.y(), w[0] * r.x()};
+  }
   /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
-  static Angular moment(const Vector& r, const Vector& f) {
+  static Angular moment(const VectorArgument& r, const VectorArgument& f) {
     return Angular(r.x() * f.y() - r.y() * f.x());
   }
-  /// w x I w [N m] of an inertia I [kg m^2], w [rad/s]: none in the plane.
-  static Angular gyroscopic(const Inertia&, const Angular&) { return Angular::Zero(); }
-  /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]: none in the plane.
-  static Inertia gyroscopic_jacobian(const Inertia&, const Angular&) { return Inertia::Zero(); }
+  /// w x I w [N m] of an inertia I [kg m^2], w [rad/s]: zero in the plane.
+  static Angular gyroscopic(const Inertia&, const AngularArgument&) { return Angular::Zero(); }
+  /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]: zero in the plane.
+  static Inertia gyroscopic_jacobian(const Inertia&, const AngularArgument&) {
+    return Inertia::Zero();
+  }
   /// D x D, orthonormal, right-handed; columns: normal n, tangent t. n must be unit.
-  static Matrix contact_frame(const Vector& n) {
+  static Matrix contact_frame(const VectorArgument& n) {
     Matrix frame;
     frame << n.x(), -n.y(), n.y(), n.x();
     return frame;
@@ -77,22 +104,14 @@ struct Space<2, T> {
 /// Space. Rotations are unit quaternions; angular quantities are vectors in world axes unless
 /// a name ends in _body.
 template <std::floating_point T>
-struct Space<3, T> {
-  using Scalar = T;
-  static constexpr int dim = 3;          ///< D
-  static constexpr int angular_dim = 3;  ///< A
-  static constexpr int dofs = 6;         ///< D + A
-
-  using Vector = Eigen::Matrix<T, 3, 1>;
-  using Matrix = Eigen::Matrix<T, 3, 3>;
-  using Angular = Eigen::Matrix<T, 3, 1>;
-  using Inertia = Eigen::Matrix<T, 3, 3>;
-  using Lever = Eigen::Matrix<T, 3, 3>;
-  using Twist = Eigen::Matrix<T, 6, 1>;
-  using Rotation = Eigen::Quaternion<T>;
+struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
+  using Types = detail::SpaceTypes<3, T, Eigen::Quaternion<T>>;
+  using typename Types::Angular, typename Types::Inertia, typename Types::Lever;
+  using typename Types::Vector, typename Types::Matrix, typename Types::Rotation;
+  using typename Types::VectorArgument, typename Types::AngularArgument;
 
   /// The rotation by |w| [rad] about w.
-  static Rotation exp(const Angular& w) {
+  static Rotation exp(const AngularArgument& w) {
     const T half = w.norm() / T(2);
     // sin(x)/x by its series where the quotient would lose digits; the next term is x^4/120.
     const T sinc = half < T(1e-2) ? T(1) - half * half / T(6) * (T(1) - half * half / T(20))
@@ -102,37 +121,37 @@ struct Space<3, T> {
     q.vec() = (sinc / T(2)) * w;
     return q;
   }
-  /// q, free of the drift that many small rotations leave.
+  /// q without the rounding errors of many small rotations: of unit length.
   static Rotation normalized(const Rotation& q) { return q.normalized(); }
   static Rotation identity() { return Rotation::Identity(); }  ///< no rotation
-  /// Whether no number in it is infinite or none.
+  /// Whether all its numbers are finite.
   static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
-  /// Whether q is a rotation at all: of unit length.
+  /// Whether q is a rotation: a quaternion of unit length.
   static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
   /// A x A, takes angular quantities from body to world axes.
   static Inertia adjoint(const Rotation& q) { return q.toRotationMatrix(); }
   /// A x A, a contact frame for angular quantities: n, t, s.
   static Inertia angular_frame(const Matrix& frame) { return frame; }
   /// D x A [m] with lever(r) w = w x r.
-  static Lever lever(const Vector& r) {
+  static Lever lever(const VectorArgument& r) {
     Lever l;
     l << T(0), r.z(), -r.y(), -r.z(), T(0), r.x(), r.y(), -r.x(), T(0);
     return l;
   }
   /// lever(r) w without forming the matrix [m/s].
-  static Vector spin(const Angular& w, const Vector& r) { return w.cross(r); }
+  static Vector spin(const AngularArgument& w, const VectorArgument& r) { return w.cross(r); }
   /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
-  static Angular moment(const Vector& r, const Vector& f) { return r.cross(f); }
+  static Angular moment(const VectorArgument& r, const VectorArgument& f) { return r.cross(f); }
   /// w x I w [N m] of an inertia I [kg m^2], w [rad/s], both in the same axes.
-  static Angular gyroscopic(const Inertia& I, const Angular& w) { return w.cross(I * w); }
+  static Angular gyroscopic(const Inertia& I, const AngularArgument& w) { return w.cross(I * w); }
   /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]:
   /// d(I(q) w) = (lever(I w) - I lever(w)) dw, where lever(a) b = b x a.
-  static Inertia gyroscopic_jacobian(const Inertia& I, const Angular& w) {
+  static Inertia gyroscopic_jacobian(const Inertia& I, const AngularArgument& w) {
     return lever(I * w) - I * lever(w);
   }
   /// D x D, orthonormal, right-handed; columns: normal n, tangents t and s. n must be unit.
   /// Source: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).
-  static Matrix contact_frame(const Vector& n) {
+  static Matrix contact_frame(const VectorArgument& n) {
     const T sign = std::copysign(T(1), n.z());
     const T a = T(-1) / (sign + n.z());
     const T b = n.x() * n.y() * a;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -16,6 +17,15 @@ struct BodyMotion {
   typename S::Inertia inertia = S::Inertia::Zero();  ///< about the centre of mass [kg m^2]
   typename S::Vector position = S::Vector::Zero();   ///< of the centre of mass [m]
   typename S::Twist velocity = S::Twist::Zero();     ///< (v, w) [m/s, rad/s]
+
+  BodyMotion() = default;  ///< no mass, at rest at the origin
+  /// @param m       mass [kg]
+  /// @param about_x inertia, A x A, about the centre of mass [kg m^2]
+  /// @param x       position of the centre of mass [m]
+  /// @param v       twist (v, w) [m/s, rad/s]
+  BodyMotion(typename S::Scalar m, const typename S::Inertia& about_x, const VectorArgument<S>& x,
+             const Components<S::dofs, typename S::Scalar>& v)
+      : mass(m), inertia(about_x), position(x), velocity(v) {}
 };
 
 /// Kinetic energy of one body or of many, >= 0.
@@ -46,7 +56,7 @@ KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
 /// of the body.
 template <class S>
 Momentum<S> momentum(const BodyMotion<S>& body,
-                     const typename S::Vector& origin = S::Vector::Zero()) {
+                     const VectorArgument<S>& origin = S::Vector::Zero()) {
   const typename S::Vector linear = body.mass * body.velocity.template head<S::dim>();
   return {linear, body.inertia * body.velocity.template tail<S::angular_dim>() +
                       S::moment(body.position - origin, linear)};
@@ -72,7 +82,7 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
 /// @param origin    world axes [m]
 template <class S, class MotionOf>
 Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
-                     const typename S::Vector& origin = S::Vector::Zero()) {
+                     const VectorArgument<S>& origin = S::Vector::Zero()) {
   Momentum<S> sum;
   for (std::size_t k = 0; k < count; ++k) {
     const Momentum<S> part = momentum<S>(motion_of(k), origin);

@@ -63,7 +63,7 @@ class GridField {
   /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
   /// @param periodic the simulation's cell
   /// @throws std::invalid_argument for what is not finite, or a weight that is not positive
-  void add(const Vector& position, const Vector& value, Scalar weight = 1,
+  void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";
     require(position.allFinite(), self, "position", position, "must be finite");

@@ -43,9 +43,7 @@ typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scala
     const Vector point = cell.image_from(
         control_volume.lower, a_is_grain ? Vector(position_of(contact.a) + contact.lever_a)
                                          : Vector(position_of(contact.b) + contact.lever_b));
-    const bool inside = (control_volume.lower.array() <= point.array()).all() &&
-                        (point.array() <= control_volume.upper.array()).all();
-    if (!inside) continue;
+    if (!control_volume.contains(point)) continue;
     Vector branch = Vector::Zero();
     if (a_is_grain) branch += contact.lever_a;
     if (b_is_grain) branch -= contact.lever_b;

@@ -65,7 +65,8 @@ class VelocityField {
   /// @param velocity of its centre, world axes [m/s]
   /// @param periodic the simulation's cell
   /// @throws std::invalid_argument for what is not finite
-  void add(const Vector& position, const Vector& velocity, const PeriodicCell<S>& periodic = {}) {
+  void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
+           const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
     require(position.allFinite(), self, "position", position, "must be finite");
     require(velocity.allFinite(), self, "velocity", velocity, "must be finite");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "moreau/core/components.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
@@ -24,7 +25,7 @@ class CylinderWall {
   /// @param radius [m], > 0
   /// @throws std::invalid_argument if the axis is not finite or zero, or for a radius that is not
   ///         finite or not positive
-  CylinderWall(const Angular& axis, Scalar radius)
+  CylinderWall(const AngularArgument<S>& axis, Scalar radius)
       : axis_(axis.stableNormalized()), radius_(radius) {
     require(axis.allFinite(), "CylinderWall", "axis", axis, "must be finite");
     require(axis != Angular::Zero(), "CylinderWall", "axis", axis, "must not be zero");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -13,6 +14,14 @@ struct MassProperties {
   typename S::Scalar mass = 0;                       ///< [kg]
   typename S::Vector center = S::Vector::Zero();     ///< centre of mass in the shape's frame [m]
   typename S::Inertia inertia = S::Inertia::Zero();  ///< A x A, about the centre [kg m^2]
+
+  MassProperties() = default;  ///< no mass
+  /// @param m       mass [kg]
+  /// @param c       centre of mass in the shape's frame [m]
+  /// @param about_c inertia, A x A, about the centre [kg m^2]
+  MassProperties(typename S::Scalar m, const VectorArgument<S>& c,
+                 const typename S::Inertia& about_c)
+      : mass(m), center(c), inertia(about_c) {}
 };
 
 }  // namespace moreau

@@ -118,7 +118,8 @@ class Simulation {
   /// @returns its id
   /// @throws std::invalid_argument for a normal that is not unit within 1e-5, a point that is not
   ///         finite, an unknown material, a wall across a periodic axis
-  BodyId add_wall(const Vector& normal, const Vector& point, MaterialId material = MaterialId(0)) {
+  BodyId add_wall(const VectorArgument<S>& normal, const VectorArgument<S>& point,
+                  MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_wall";
     require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
     require(point.allFinite(), self, "point", point, "must be finite");
@@ -142,7 +143,7 @@ class Simulation {
   /// @throws std::invalid_argument for a point that is not finite, an axis that is not unit within
   ///         1e-5, a radius that is not finite or not positive, an unknown material, a cylinder
   ///         that bounds a periodic axis
-  BodyId add_cylinder(const Vector& point, const typename S::Angular& axis, Scalar radius,
+  BodyId add_cylinder(const VectorArgument<S>& point, const AngularArgument<S>& axis, Scalar radius,
                       MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_cylinder";
     require(point.allFinite(), self, "point", point, "must be finite");
@@ -193,7 +194,7 @@ class Simulation {
   /// set again. Where a body has no mass, as a wall, it moves nothing.
   /// @throws std::invalid_argument for a body that is not of this simulation or a force that is not
   ///         finite
-  void set_force(BodyId body, const Vector& force) {
+  void set_force(BodyId body, const VectorArgument<S>& force) {
     assembly_.require_body(body, "Simulation::set_force");
     require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
     assembly_.bodies().force[body.index()].template head<S::dim>() = force;
@@ -201,7 +202,7 @@ class Simulation {
   /// Velocity of the centre, world axes [m/s]. Where a body has no mass, as a wall, it is kept.
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
   ///         not finite
-  void set_velocity(BodyId body, const Vector& velocity) {
+  void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
     assembly_.require_body(body, "Simulation::set_velocity");
     require(velocity.allFinite(), "Simulation::set_velocity", "velocity", velocity,
             "must be finite");
@@ -211,7 +212,7 @@ class Simulation {
   /// y. A body without inertia, as a wall, keeps it.
   /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
   ///         finite
-  void set_spin(BodyId body, const typename S::Angular& spin) {
+  void set_spin(BodyId body, const AngularArgument<S>& spin) {
     assembly_.require_body(body, "Simulation::set_spin");
     require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
     assembly_.bodies().velocity[body.index()].template tail<S::angular_dim>() = spin;
@@ -227,7 +228,7 @@ class Simulation {
   }
   /// Acceleration of gravity, world axes [m/s^2]; acts on grains, not on walls. None until set.
   /// @throws std::invalid_argument for a vector that is not finite
-  void set_gravity(const Vector& gravity) {
+  void set_gravity(const VectorArgument<S>& gravity) {
     require(gravity.allFinite(), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
   }
