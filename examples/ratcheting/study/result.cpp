@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "active_phase.hpp"
+#include "../active_phase.hpp"
 
 namespace study {
 
@@ -100,10 +100,11 @@ void require_complete(const Tables& run, const Result& r) {
 /// The active phase of every period.
 void find_active(const Table& wall, Result& r) {
   const Parameters& p = r.c.parameters;
-  const double before = time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
+  const double before = ratcheting::time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
   for (ratcheting::Period& period : r.periods)
-    period.active = active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
-                                 period.force_minimum - before, period.finish);
+    period.active = ratcheting::active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"],
+                                             period.start, period.force_minimum - before,
+                                             period.finish);
 }
 
 /// Mean of a field over the periods that have it; nan without one.

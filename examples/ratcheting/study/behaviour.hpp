@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../ratcheting/periods.hpp"
+#include "../periods.hpp"
 #include "power_law.hpp"
 #include "table.hpp"
 

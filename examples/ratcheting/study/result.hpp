@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "../ratcheting/periods.hpp"
+#include "../periods.hpp"
 #include "behaviour.hpp"
 #include "closed_form.hpp"
 #include "facts.hpp"

@@ -3,7 +3,7 @@
 # Installs what is missing (Debian), builds the study and runs it. Without arguments the small plan;
 # with arguments they alone go to the program, whose default is the whole study.
 set -euo pipefail
-top=$(cd "$(dirname "$0")/../.." && pwd)
+top=$(cd "$(dirname "$0")/../../.." && pwd)
 "$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
 # The same instructions on all machines that have them: a run then has the same bits.
 instructions=-march=native

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "../ratcheting/parameters_json.hpp"
+#include "../parameters_json.hpp"
 #include "result.hpp"
 
 namespace study {

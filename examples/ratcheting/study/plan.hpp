@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "../ratcheting/parameters.hpp"
+#include "../parameters.hpp"
 
 namespace study {
 
