@@ -22,50 +22,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Six digits: what a figure can show.
-double six(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return std::strtod(text, nullptr);
-}
-
 fs::path data_file(const fs::path& folder, const std::string& name, const std::string& shape) {
   return folder / "data" / (name + "_" + shape + ".csv");
 }
 
-/// Some columns of a table, every `every`-th row.
-void copy_columns(const fs::path& from, const fs::path& to, const std::vector<std::string>& columns,
-                  std::size_t every = 1) {
-  const Table table(from);
-  std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
-  text += '\n';
-  char digits[32];
-  for (std::size_t row = 0; row < table.rows(); row += every) {
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      std::snprintf(digits, sizeof digits, k == 0 ? "%.6g" : ",%.6g", table[columns[k]][row]);
-      text += digits;
-    }
+/// The columns of a run's own tables, to six digits.
+void write_tables(const fs::path& folder, const Result& r) {
+  const Parameters& p = r.c.parameters;
+  for (const auto& [name, columns] : r.tables) {
+    std::string text;
+    for (const auto& column : columns) text += (text.empty() ? "" : ",") + column.first;
     text += '\n';
+    char digits[32];
+    for (std::size_t row = 0; row < columns.front().second.size(); ++row) {
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        std::snprintf(digits, sizeof digits, k == 0 ? "%.6g" : ",%.6g", columns[k].second[row]);
+        text += digits;
+      }
+      text += '\n';
+    }
+    const std::string file =
+        name == "long" ? name + std::to_string(std::lround(p.frequency)) : name;
+    moreau::write_atomically(data_file(folder, file, p.shape), text);
   }
-  moreau::write_atomically(to, text);
-}
-
-/// What is seen of one run, from its own files: trajectory, packing and pictures of the baseline.
-void write_baseline(const fs::path& run, const fs::path& folder, const Result& base) {
-  const std::string& shape = base.c.parameters.shape;
-  const auto file = [&](const char* name) { return data_file(folder, name, shape); };
-  copy_columns(run / "wall.csv", file("wall"), {"t", "f", "x", "v", "f_g"}, 2);
-  copy_columns(run / "packing.csv", file("packing"), {"t", "rho_inner", "rho_box"});
-  copy_columns(run / "state.csv", file("state"),
-               {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"});
-  if (fs::exists(run / "velocity_field.csv"))
-    copy_columns(run / "velocity_field.csv", file("velocity_field"),
-                 {"x", "z", "v_x", "v_z", "grains"});
-  for (const char* state : {"chains_active", "chains_jammed"})
-    if (fs::exists(run / (std::string(state) + ".csv")))
-      copy_columns(run / (std::string(state) + ".csv"), file(state),
-                   {"x_from", "z_from", "x_to", "z_to", "normal_force"});
 }
 
 /// When and where the wall jams, starts and turns.
@@ -169,24 +148,6 @@ void write_relaxation(const fs::path& folder, const std::vector<Result>& results
   file.close();
 }
 
-/// The solid fraction at the force maxima, each a twentieth of the periods so far after the last.
-void write_long(const fs::path& run, const fs::path& folder, const Result& r) {
-  const Parameters& p = r.c.parameters;
-  const Table packing(run / "packing.csv");
-  const int nu = static_cast<int>(std::lround(p.frequency));
-  moreau::CsvWriter file(data_file(folder, "long" + std::to_string(nu), p.shape),
-                         {"t", "periods", "rho_inner", "rho_box"});
-  double next = 0.75;
-  for (double period = 0.75; (period) / p.frequency <= p.duration; period += 1) {
-    if (period < next) continue;
-    next = 1.05 * period;
-    const double t = period / p.frequency;
-    file.row(six(t), period, six(value_at(packing, "rho_inner", t)),
-             six(value_at(packing, "rho_box", t)));
-  }
-  file.close();
-}
-
 /// Lines name,value that the scripts look up: NAME_shape.
 class Values {
  public:
@@ -258,9 +219,7 @@ void write_shape(const fs::path& folder, const std::vector<Result>& results,
         find(results, "frequencies", shape.shape, 1, &Parameters::frequency, frequency);
     if (r == nullptr) continue;
     write_loop(folder, *r);
-    if (frequency != 5) continue;
-    write_events(folder, *r);
-    if (!r->folder.empty()) write_baseline(r->folder, folder, *r);
+    if (frequency == 5) write_events(folder, *r);
   }
   write_series(folder, results, shape, "frequencies", &Parameters::frequency);
   write_series(folder, results, shape, "fmax", &Parameters::fmax);
@@ -269,8 +228,7 @@ void write_shape(const fs::path& folder, const std::vector<Result>& results,
   write_master(folder, results, shape);
   write_relaxation(folder, results, shape);
   for (const Result& r : results)
-    if (r.c.sets.contains("long") && r.c.parameters.shape == shape.shape && !r.folder.empty())
-      write_long(r.folder, folder, r);
+    if (r.c.parameters.shape == shape.shape) write_tables(folder, r);
 }
 
 }  // namespace

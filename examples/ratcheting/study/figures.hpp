@@ -19,8 +19,7 @@ struct Figure {
 };
 const std::vector<Figure>& figures();
 
-/// Writes data/*.csv below the folder of the results: what every figure draws. What shows a run's
-/// own files stays as it is where its folder is gone.
+/// Writes data/*.csv below the folder of the results: what every figure draws.
 void write_figure_data(const std::filesystem::path& folder, const std::vector<Result>& results,
                        const std::vector<ShapeSummary>& shapes);
 

@@ -31,8 +31,9 @@ struct Options {
 };
 
 void list_cases(const std::vector<study::Case>& cases, const study::Places& places) {
+  const auto table = study::RunTable::read(places.table());
   for (const study::Case& c : cases) {
-    std::printf("%4zu %s %-44s", c.number, study::is_done(places, c) ? "done" : "    ",
+    std::printf("%4zu %s %-44s", c.number, study::is_done(places, table, c) ? "done" : "    ",
                 c.name.c_str());
     for (const std::string& set : c.sets) std::printf(" %s", set.c_str());
     std::printf("\n");
@@ -118,8 +119,8 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--output", o.output, "folder of the runs, made if missing");
   app.add_option(
       "--results", o.results,
-      "folder of tables, figures and report, and of what is kept of every run: with it the study "
-      "goes on without OUTPUT; OUTPUT/results");
+      "folder of the table of the runs (runs.jsonl), figures and report: with it the study goes on "
+      "without OUTPUT; OUTPUT/results");
   app.add_option("--program", o.program,
                  "the program that runs a case; `ratcheting` beside this one");
   app.add_option("--plots", o.plots, "folder of the figures' scripts");

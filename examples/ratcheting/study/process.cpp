@@ -22,11 +22,21 @@ namespace {
 
 }  // namespace
 
+FileLock::FileLock(const std::filesystem::path& path)
+    : descriptor_(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail("cannot open " + path.string());
+}
+
+FileLock FileLock::wait(const std::filesystem::path& path) {
+  FileLock lock(path);
+  while (flock(lock.descriptor_, LOCK_EX) != 0)
+    if (errno != EINTR) fail("cannot lock " + path.string());
+  return lock;
+}
+
 std::optional<FileLock> FileLock::attempt(const std::filesystem::path& path) {
-  const int descriptor = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail("cannot open " + path.string());
-  FileLock lock(descriptor);
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return lock;
+  FileLock lock(path);
+  if (flock(lock.descriptor_, LOCK_EX | LOCK_NB) == 0) return lock;
   if (errno != EWOULDBLOCK) fail("cannot lock " + path.string());
   return std::nullopt;
 }

@@ -16,12 +16,15 @@ class FileLock {
   /// @returns nothing if another process holds it
   /// @throws std::system_error if the file cannot be made
   static std::optional<FileLock> attempt(const std::filesystem::path& path);
+  /// Returns when no other process holds it.
+  /// @throws std::system_error if the file cannot be made
+  static FileLock wait(const std::filesystem::path& path);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();
 
  private:
-  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  explicit FileLock(const std::filesystem::path& path);
   int descriptor_;
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "../active_phase.hpp"
 
@@ -70,10 +71,10 @@ WallClock read_clock(const nlohmann::json& json) {
 }
 
 /// @throws std::runtime_error if a table misses a step, ends early or goes back in time
-void require_complete(const Tables& run, const Result& r) {
+void require_complete(const std::filesystem::path& folder, const Tables& run, const Result& r) {
   const Parameters& p = r.c.parameters;
   const auto fail = [&](const char* file, const std::string& what) {
-    throw std::runtime_error((r.folder / file).string() + " " + what);
+    throw std::runtime_error((folder / file).string() + " " + what);
   };
   if (run.wall.rows() != r.facts.steps)
     fail("wall.csv", "has " + std::to_string(run.wall.rows()) + " rows for " +
@@ -94,7 +95,7 @@ void require_complete(const Tables& run, const Result& r) {
   require_time(run.state, "state.csv");
   require_time(run.packing, "packing.csv");
   for (const char* file : {"velocity_field.csv", "chains_active.csv", "chains_jammed.csv"})
-    if (std::filesystem::exists(r.folder / file)) Table(r.folder / file);
+    if (std::filesystem::exists(folder / file)) Table(folder / file);
 }
 
 /// The active phase of every period.
@@ -102,9 +103,9 @@ void find_active(const Table& wall, Result& r) {
   const Parameters& p = r.c.parameters;
   const double before = ratcheting::time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
   for (ratcheting::Period& period : r.periods)
-    period.active = ratcheting::active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"],
-                                             period.start, period.force_minimum - before,
-                                             period.finish);
+    period.active =
+        ratcheting::active_phase(wall["t"], wall["x"], wall["v"], wall["f_g"], period.start,
+                                 period.force_minimum - before, period.finish);
 }
 
 /// Mean of a field over the periods that have it; nan without one.
@@ -185,6 +186,56 @@ bool is_in_portrait(const Case& c) {
   return in_series && (c.parameters.frequency == 5 || c.parameters.frequency == 10);
 }
 
+/// Trajectory, fields and force chains are shown of the first sample at 5 Hz.
+bool is_baseline(const Case& c) {
+  return c.sets.contains("frequencies") && c.parameters.frequency == 5 && c.parameters.seed == 1;
+}
+
+/// Some columns, every `every`-th row.
+Columns columns_of(const Table& table, const std::vector<std::string>& names,
+                   std::size_t every = 1) {
+  Columns columns;
+  for (const std::string& name : names) {
+    std::vector<double>& values = columns.emplace_back(name, std::vector<double>()).second;
+    for (std::size_t row = 0; row < table.rows(); row += every)
+      values.push_back(six(table[name][row]));
+  }
+  return columns;
+}
+
+/// The course of one run: trajectory, packing, velocity field and force chains.
+void add_course(const std::filesystem::path& folder, const Tables& run, Result& r) {
+  r.tables.emplace_back("wall", columns_of(run.wall, {"t", "f", "x", "v", "f_g"}, 2));
+  r.tables.emplace_back("packing", columns_of(run.packing, {"t", "rho_inner", "rho_box"}));
+  r.tables.emplace_back("state", columns_of(run.state, {"t", "x", "stress_xx", "stress_zz", "roll",
+                                                        "roll_strength"}));
+  const auto add_file = [&](const std::string& name, const std::vector<std::string>& columns) {
+    const std::filesystem::path file = folder / (name + ".csv");
+    if (std::filesystem::exists(file))
+      r.tables.emplace_back(name, columns_of(Table(file), columns));
+  };
+  add_file("velocity_field", {"x", "z", "v_x", "v_z", "grains"});
+  for (const char* state : {"chains_active", "chains_jammed"})
+    add_file(state, {"x_from", "z_from", "x_to", "z_to", "normal_force"});
+}
+
+/// The solid fraction at the force maxima, each a twentieth of the periods so far after the last.
+void add_long(const Table& packing, Result& r) {
+  const Parameters& p = r.c.parameters;
+  Columns columns{{"t", {}}, {"periods", {}}, {"rho_inner", {}}, {"rho_box", {}}};
+  double next = 0.75;
+  for (double period = 0.75; period / p.frequency <= p.duration; period += 1) {
+    if (period < next) continue;
+    next = 1.05 * period;
+    const double t = period / p.frequency;
+    columns[0].second.push_back(six(t));
+    columns[1].second.push_back(period);
+    for (std::size_t k : {2u, 3u})
+      columns[k].second.push_back(six(value_at(packing, columns[k].first, t)));
+  }
+  r.tables.emplace_back("long", std::move(columns));
+}
+
 }  // namespace
 
 Push Result::push() const {
@@ -207,14 +258,13 @@ double Result::scaled_load() const {
 Result measure(const std::filesystem::path& folder, const Case& c) {
   Result r{};
   r.c = c;
-  r.folder = folder;
   const double frequency = c.parameters.frequency;
   std::ifstream file(folder / "run.json");
   const auto json = nlohmann::json::parse(file);
   const Tables run{Table(folder / "wall.csv"), Table(folder / "state.csv"),
                    Table(folder / "packing.csv")};
   r.facts = read_facts(json);
-  require_complete(run, r);
+  require_complete(folder, run, r);
   r.clock = read_clock(json);
   r.mass = json.at("sample").at("mass");
   r.wall_mass = json.at("sample").at("wall_mass");
@@ -232,6 +282,8 @@ Result measure(const std::filesystem::path& folder, const Case& c) {
   summarize_packing(run.packing, r);
   r.behaviour = behaviour_of(run, r.periods, frequency);
   if (is_in_portrait(c)) r.loop = mean_loop(run.wall, r.periods);
+  if (is_baseline(c)) add_course(folder, run, r);
+  if (c.sets.contains("long")) add_long(run.packing, r);
   return r;
 }
 

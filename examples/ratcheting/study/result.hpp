@@ -13,6 +13,7 @@
 #include "closed_form.hpp"
 #include "facts.hpp"
 #include "plan.hpp"
+#include "table.hpp"
 
 namespace study {
 
@@ -28,8 +29,7 @@ struct Jam {
 struct Result {
   Case c;
   Facts facts;
-  std::optional<WallClock> clock;  ///< no part of what is kept
-  std::filesystem::path folder;    ///< of the run's files, if they are there; no part of it either
+  std::optional<WallClock> clock;  ///< not in the table of the runs
   double mass, wall_mass, length, height;
   double weight;  ///< m g [N]
 
@@ -53,6 +53,9 @@ struct Result {
   double constant;                       ///< C of row 17, with m + m_w
   Behaviour behaviour;
   std::vector<Point> loop;  ///< see mean_loop(); only where a phase portrait shows it
+  /// Columns of the run's own tables, to six digits; only of runs whose course a figure shows: the
+  /// baseline's (wall, packing, state, velocity field, force chains) and the long ones'.
+  Named<Columns> tables;
 
   Push push() const;
   /// Rate of a solid fraction from the first jam to the last of the first second, or to the next

@@ -17,106 +17,58 @@ using ratcheting::Json;
 template <class T, class Of>
 concept Some = std::same_as<std::remove_const_t<T>, Of>;
 
+/// field(name, member) for every pair of arguments.
+void each(const auto& field, const char* name, auto& member, auto&&... others) {
+  field(name, member);
+  if constexpr (sizeof...(others) > 0) each(field, others...);
+}
+
 // What each part is made of, named once for both directions.
 
 void describe(Some<ratcheting::Period> auto& p, const auto& field) {
-  field("t_start", p.start);
-  field("t_finish", p.finish);
-  field("x_j", p.jam_before);
-  field("x_j_after", p.jam_after);
-  field("t_force_minimum", p.force_minimum);
-  field("dx_max", p.dx_max);
-  field("creep", p.active.creep);
-  field("dx_active", p.active.dx);
-  field("t_onset", p.active.onset);
-  field("t_peak", p.active.peak);
-  field("v_max_active", p.active.v_out);
-  field("v_max_passive", p.active.v_in);
-  field("f_g_active", p.active.thrust);
-  field("steady_thrust", p.active.carried.thrust);
-  field("carried_mass", p.active.carried.mass);
-  field("explained", p.active.carried.explained);
+  each(field, "t_start", p.start, "t_finish", p.finish, "x_j", p.jam_before, "x_j_after",
+       p.jam_after, "t_force_minimum", p.force_minimum, "dx_max", p.dx_max, "creep", p.active.creep,
+       "dx_active", p.active.dx, "t_onset", p.active.onset, "t_peak", p.active.peak, "v_max_active",
+       p.active.v_out, "v_max_passive", p.active.v_in, "f_g_active", p.active.thrust,
+       "steady_thrust", p.active.carried.thrust, "carried_mass", p.active.carried.mass, "explained",
+       p.active.carried.explained);
 }
 
 void describe(Some<Point> auto& p, const auto& field) {
-  field("x", p.x);
-  field("v", p.y);
+  each(field, "x", p.x, "v", p.y);
 }
 
 void describe(Some<Facts> auto& f, const auto& field) {
-  field("versions", f.versions);
-  field("settled", f.settled);
-  field("vertices", f.vertices);
-  field("faces", f.faces);
-  field("circumradii", f.circumradii);
-  field("steps", f.steps);
-  field("capped_steps", f.capped_steps);
-  field("mean_sweeps", f.mean_sweeps);
-  field("worst_residual", f.worst_residual);
-  field("mean_overlap_over_d", f.mean_overlap);
-  field("max_overlap_over_d", f.max_overlap);
-  field("roll", f.roll);
-  field("roll_strength", f.roll_strength);
-  field("roll_agreement", f.roll_agreement);
+  each(field, "versions", f.versions, "settled", f.settled, "vertices", f.vertices, "faces",
+       f.faces, "circumradii", f.circumradii, "steps", f.steps, "capped_steps", f.capped_steps,
+       "mean_sweeps", f.mean_sweeps, "worst_residual", f.worst_residual, "mean_overlap_over_d",
+       f.mean_overlap, "max_overlap_over_d", f.max_overlap, "roll", f.roll, "roll_strength",
+       f.roll_strength, "roll_agreement", f.roll_agreement);
 }
 
 void describe(Some<Jam> auto& j, const auto& field) {
-  field("t", j.t);
-  field("x", j.x);
-  field("rho_inner", j.rho_inner);
-  field("rho_box", j.rho_box);
+  each(field, "t", j.t, "x", j.x, "rho_inner", j.rho_inner, "rho_box", j.rho_box);
 }
 
 void describe(Some<Behaviour> auto& b, const auto& field) {
-  field("early_share", b.early_share);
-  field("onset_lead", b.onset_lead);
-  field("passive_force", b.passive_force);
-  field("active_slope", b.active_slope);
-  field("passive_slope", b.passive_slope);
-  field("loop_work", b.loop_work);
-  field("jammed_xx", b.jammed_xx);
-  field("jammed_zz", b.jammed_zz);
-  field("active_xx", b.active_xx);
-  field("active_zz", b.active_zz);
-  field("roll", b.roll);
-  field("roll_strength", b.roll_strength);
-  field("rho_extension", b.rho_extension);
-  field("rho_contraction", b.rho_contraction);
-  field("box_extension", b.box_extension);
+  each(field, "early_share", b.early_share, "onset_lead", b.onset_lead, "passive_force",
+       b.passive_force, "active_slope", b.active_slope, "passive_slope", b.passive_slope,
+       "loop_work", b.loop_work, "jammed_xx", b.jammed_xx, "jammed_zz", b.jammed_zz, "active_xx",
+       b.active_xx, "active_zz", b.active_zz, "roll", b.roll, "roll_strength", b.roll_strength,
+       "rho_extension", b.rho_extension, "rho_contraction", b.rho_contraction, "box_extension",
+       b.box_extension);
 }
 
 void describe(Some<Result> auto& r, const auto& field) {
-  field("facts", r.facts);
-  field("mass", r.mass);
-  field("wall_mass", r.wall_mass);
-  field("length", r.length);
-  field("height", r.height);
-  field("weight", r.weight);
-  field("dx_max", r.dx_max);
-  field("dx_spread", r.dx_spread);
-  field("v_max", r.v_max);
-  field("delay", r.delay);
-  field("dx_active", r.dx_active);
-  field("creep", r.creep);
-  field("thrust", r.thrust);
-  field("steady_thrust", r.steady_thrust);
-  field("carried_share", r.carried_share);
-  field("explained", r.explained);
-  field("rest_share", r.rest_share);
-  field("net_contraction", r.net_contraction);
-  field("contracting", r.contracting);
-  field("rho_initial", r.rho_initial);
-  field("rho_0", r.rho_0);
-  field("rho_final", r.rho_final);
-  field("rho_box_initial", r.box_initial);
-  field("rho_box_final", r.box_final);
-  field("rate", r.rate);
-  field("compaction_per_period", r.compaction_per_period);
-  field("C", r.constant);
-  field("behaviour", r.behaviour);
-  field("periods", r.periods);
-  field("jams", r.jams);
-  field("loop", r.loop);
+  each(field, "facts", r.facts, "mass", r.mass, "wall_mass", r.wall_mass, "length", r.length,
+       "height", r.height, "weight", r.weight, "dx_max", r.dx_max, "dx_spread", r.dx_spread,
+       "v_max", r.v_max, "delay", r.delay, "dx_active", r.dx_active, "creep", r.creep, "thrust",
+       r.thrust, "steady_thrust", r.steady_thrust, "carried_share", r.carried_share, "explained",
+       r.explained, "rest_share", r.rest_share, "net_contraction", r.net_contraction, "contracting",
+       r.contracting, "rho_initial", r.rho_initial, "rho_0", r.rho_0, "rho_final", r.rho_final,
+       "rho_box_initial", r.box_initial, "rho_box_final", r.box_final, "rate", r.rate,
+       "compaction_per_period", r.compaction_per_period, "C", r.constant, "behaviour", r.behaviour,
+       "periods", r.periods, "jams", r.jams, "loop", r.loop, "tables", r.tables);
 }
 
 template <class T>
@@ -132,11 +84,14 @@ Json json_of(const T& value);
 template <Described T>
 Json json_of(const std::vector<T>& rows);
 template <class T>
+Json json_of(const Named<T>& values);
+template <class T>
 void read(const Json& json, std::optional<T>& value);
 template <Described T>
 void read(const Json& json, T& value);
 template <Described T>
 void read(const Json& json, std::vector<T>& rows);
+void read(const Json& json, Named<Columns>& tables);
 
 template <class T>
 Json json_of(const T& value) {
@@ -159,6 +114,12 @@ Json json_of(const std::vector<T>& rows) {
   for (const T& row : rows)
     describe(row,
              [&](const char* name, const auto& member) { json[name].push_back(json_of(member)); });
+  return json;
+}
+template <class T>
+Json json_of(const Named<T>& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = json_of(value);
   return json;
 }
 
@@ -205,14 +166,25 @@ void read(const Json& json, std::vector<T>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k)
     describe(rows[k], [&](const char* name, auto& member) { read(json.at(name).at(k), member); });
 }
+void read(const Json& json, Named<Columns>& tables) {
+  require(json.is_object(), "no tables");
+  for (const auto& [name, table] : json.items()) {
+    require(table.is_object() && !table.empty(), "no columns");
+    Columns& columns = tables.emplace_back(name, Columns()).second;
+    for (const auto& [head, column] : table.items()) {
+      std::vector<double>& values = columns.emplace_back(head, std::vector<double>()).second;
+      for (const Json& value : column) read(value, values.emplace_back());
+      require(values.size() == columns.front().second.size(), "columns differ in length");
+    }
+  }
+}
 
 }  // namespace
 
-std::string json_text(const Result& r) {
-  Json json = json_of(r);
-  std::string text = "{\n\"parameters\": " + ratcheting::to_json(r.c.parameters).dump();
-  for (const auto& [name, value] : json.items()) text += ",\n\"" + name + "\": " + value.dump();
-  return text + "\n}\n";
+std::string json_line(const Result& r) {
+  Json json{{"name", r.c.name}, {"parameters", ratcheting::to_json(r.c.parameters)}};
+  json.update(json_of(r));
+  return json.dump();
 }
 
 Result result_of(const Json& json, const Case& c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A result as JSON, and back to the same bits.
+// A result as a line of the table of the runs (run_table.hpp), and back to the same bits.
 #pragma once
 
 #include <string>
@@ -9,10 +9,11 @@
 
 namespace study {
 
-/// All of a result, a line per name, with the parameters that decide it. nan is null.
-std::string json_text(const Result& r);
+/// A JSON object on one line: the name of the case, its parameters, all of the result but the wall
+/// clock. nan is null.
+std::string json_line(const Result& r);
 
-/// @returns the result of case c
+/// The result of a case from the parsed line.
 /// @throws std::runtime_error naming what is missing or of another kind
 Result result_of(const ratcheting::Json& json, const Case& c);
 

@@ -52,8 +52,9 @@ class Runner {
  public:
   Runner(const std::vector<Case>& cases, const RunOptions& options)
       : options_(options), begin_(Clock::now()), told_(begin_) {
+    const RunTable table = RunTable::read(options.places.table());
     for (const Case& c : cases)
-      if (is_done(options.places, c)) {
+      if (is_done(options.places, table, c)) {
         ++summary_.skipped;
       } else {
         waiting_.push_back(&c);
@@ -99,7 +100,8 @@ class Runner {
       std::printf("case %zu %s: another study runs it\n", c.number, c.name.c_str());
       return;
     }
-    if (is_done(options_.places, c)) {  // by another study, since the first look
+    if (is_done(options_.places, RunTable::read(options_.places.table()),
+                c)) {  // by another study, since the first look
       ++summary_.skipped;
       cost_left_ -= cost_of(c);
       return;

@@ -4,8 +4,8 @@
 // A case's folder is complete or absent: the run writes into NAME.partial, which gets its name when
 // the run has ended well. So the study can be stopped at any moment, kill -9 included, and goes on
 // where it was. The processes die with the study; a lock per case keeps two studies with one
-// output folder, such as the tasks of a job array, from running the same case. What the tables need
-// of a run is kept when it has ended (store.hpp).
+// output folder, such as the tasks of a job array, from running the same case. When a run has
+// ended, it is added to the table of the runs (store.hpp).
 #pragma once
 
 #include <cstddef>

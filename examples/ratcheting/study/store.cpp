@@ -3,15 +3,13 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
-
-#include "moreau/io/output_file.hpp"
 
 #include "result_json.hpp"
 
@@ -30,29 +28,26 @@ bool has_parameters(const Json& had, const Case& c) {
   return true;
 }
 
-fs::path file_of(const Places& places, const Case& c) {
-  return places.results / "runs" / (c.name + ".json");
-}
-
-/// Says once of each path why it does not count.
-void tell_unread(const fs::path& path, const std::string& why) {
+/// Says once of each line and each folder why it does not count.
+void tell_unread(const std::string& place, const std::string& why) {
   static std::set<std::string> told;
-  if (told.insert(path.string()).second)
-    std::fprintf(stderr, "not read: %s %s\n", path.c_str(), why.c_str());
+  if (told.insert(place).second)
+    std::fprintf(stderr, "not read: %s %s\n", place.c_str(), why.c_str());
 }
 
-/// @returns nothing without a file, or if it is none of a run with these parameters, which is told
-std::optional<Result> read_kept(const Places& places, const Case& c) {
-  const fs::path path = file_of(places, c);
-  if (!fs::exists(path)) return std::nullopt;
+/// @returns nothing without a line, or if it is not of a run with these parameters, which is told
+std::optional<Result> read_line(const Places& places, const RunTable& table, const Case& c) {
+  const RunTable::Line* line = table.find(c.name);
+  if (line == nullptr) return std::nullopt;
+  const std::string place =
+      places.table().string() + ", line " + std::to_string(line->number) + " (" + c.name + "),";
   try {
-    std::ifstream file(path);
-    const Json json = Json::parse(file);
+    const Json json = Json::parse(line->text);
     if (!json.at("parameters").is_object()) throw std::runtime_error("parameters: no object");
     if (has_parameters(json["parameters"], c)) return result_of(json, c);
-    tell_unread(path, "is of a run with other parameters; it does not count");
+    tell_unread(place, "is of a run with other parameters; it does not count");
   } catch (const std::exception& error) {
-    tell_unread(path,
+    tell_unread(place,
                 std::string("is no result of a run (") + error.what() + "); it does not count");
   }
   return std::nullopt;
@@ -77,27 +72,18 @@ std::variant<Result, std::string> measured(const Places& places, const Case& c) 
   }
 }
 
-void keep(const Places& places, const Result& result) {
-  const fs::path path = file_of(places, result.c);
-  const std::string text = json_text(result);
-  std::ifstream before(path, std::ios::binary);
-  if (std::string(std::istreambuf_iterator<char>(before), {}) == text) return;
-  fs::create_directories(path.parent_path());
-  moreau::write_atomically(path, text);
-}
-
 }  // namespace
 
 fs::path folder_of(const Places& places, const Case& c) {
   return places.output / "cases" / c.name;
 }
 
-bool is_done(const Places& places, const Case& c) {
-  if (read_kept(places, c)) return true;
+bool is_done(const Places& places, const RunTable& table, const Case& c) {
+  if (read_line(places, table, c)) return true;
   if (!has_folder(places, c)) return false;
   const auto run = measured(places, c);
   if (const auto* problem = std::get_if<std::string>(&run)) {
-    tell_unread(folder_of(places, c), *problem + "; it does not count");
+    tell_unread(folder_of(places, c).string(), *problem + "; it does not count");
     return false;
   }
   return true;
@@ -106,31 +92,40 @@ bool is_done(const Places& places, const Case& c) {
 std::string keep(const Places& places, const Case& c) {
   const auto run = measured(places, c);
   if (const auto* problem = std::get_if<std::string>(&run)) return *problem;
-  keep(places, std::get<Result>(run));
+  RunTable::add(places.table(), {{c.name, json_line(std::get<Result>(run))}});
   return {};
 }
 
 Kept read_results(const Places& places, const std::vector<Case>& plan) {
   Kept kept;
+  std::map<std::string, std::string> lines;
+  std::map<std::string, WallClock> clocks;
   for (const Case& c : plan) {
-    std::optional<Result> run;
-    if (has_folder(places, c)) {
-      auto found = measured(places, c);
-      if (const auto* problem = std::get_if<std::string>(&found)) {
-        tell_unread(folder_of(places, c), *problem + "; what was kept of it before stays");
-        ++kept.unread;
-      } else {
-        run = std::move(std::get<Result>(found));
-        keep(places, *run);
-      }
-    }
-    if (auto result = read_kept(places, c)) {
-      kept.results.push_back(std::move(*result));
-      if (!run) continue;
-      kept.results.back().clock = run->clock;
-      kept.results.back().folder = run->folder;
+    if (!has_folder(places, c)) continue;
+    const auto found = measured(places, c);
+    if (const auto* problem = std::get_if<std::string>(&found)) {
+      tell_unread(folder_of(places, c).string(), *problem + "; its line in the table stays");
+      ++kept.unread;
     } else {
-      kept.unread += fs::exists(file_of(places, c));
+      const Result& run = std::get<Result>(found);
+      lines[c.name] = json_line(run);
+      if (run.clock) clocks[c.name] = *run.clock;
+    }
+  }
+  RunTable::add(places.table(), lines);
+  const RunTable table = RunTable::read(places.table());
+  for (const std::size_t number : table.unnamed()) {
+    tell_unread(places.table().string() + ", line " + std::to_string(number) + ",",
+                "does not begin with the name of a case; it does not count");
+    ++kept.unread;
+  }
+  for (const Case& c : plan) {
+    if (auto result = read_line(places, table, c)) {
+      if (const auto clock = clocks.find(c.name); clock != clocks.end())
+        result->clock = clock->second;
+      kept.results.push_back(std::move(*result));
+    } else {
+      kept.unread += table.find(c.name) != nullptr;
     }
   }
   return kept;

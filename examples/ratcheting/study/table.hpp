@@ -4,14 +4,28 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace study {
+
+/// Values with their names, in the order of a file.
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+using Columns = Named<std::vector<double>>;
+
+/// Rounded to six digits: what a figure can show.
+inline double six(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return std::strtod(text, nullptr);
+}
 
 class Table {
  public:
