@@ -18,6 +18,7 @@
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy.hpp"
+#include "moreau/sample/random_deposition.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "methods.hpp"
@@ -54,7 +55,7 @@ class Experiment {
     thickness_ = thickness;
     mass_ = p.density * thickness * volume_;
     length_ = p.box_length > 0 ? p.box_length : length_from_volume();
-    const auto poses = hang<S>(grains.circumradii, length_, random_);
+    const auto poses = moreau::random_deposition<S>(grains.circumradii, length_, random_);
     double top = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const auto shape = simulation_.add_shape(grains.shapes[i]);

@@ -3,12 +3,11 @@
 // and this project's choices where the paper is silent. SI units.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string>
 
+#include "moreau/boundary/drive.hpp"
 #include "moreau/sample/size_distribution.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 
@@ -66,10 +65,7 @@ struct Parameters {
   std::string output = "ratcheting-output";
 
   /// f(t), compressive force on the moving wall [N] (paper, eq. 1).
-  double force(double t) const {
-    const double omega = 2 * std::numbers::pi * frequency;
-    return (fmax + fmin) / 2 - (fmax - fmin) / 2 * std::sin(omega * t);
-  }
+  double force(double t) const { return moreau::HarmonicForce(fmin, fmax, frequency)(t); }
 };
 
 }  // namespace ratcheting

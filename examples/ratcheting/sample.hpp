@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The loose sample before compression: shapes, sizes, and where the grains hang.
+// The grains of the sample: shapes and sizes.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <random>
 #include <vector>
 
-#include "moreau/core/pose.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/size_distribution.hpp"
-#include "moreau/shape/concepts.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/sphere.hpp"
@@ -20,23 +15,6 @@
 #include "parameters.hpp"
 
 namespace ratcheting {
-
-/// A rotation drawn uniformly.
-template <class S>
-typename S::Rotation random_rotation(std::mt19937_64& random) {
-  // The direction of a standard normal vector is uniform on the sphere, so for unit quaternions the
-  // rotation is uniform; in the plane exp of a uniform angle is.
-  std::uniform_real_distribution<typename S::Scalar> angle(-std::numbers::pi, std::numbers::pi);
-  std::normal_distribution<typename S::Scalar> normal;
-  typename S::Rotation q = S::identity();
-  // Three large random turns about random axes: uniform to far below what a packing could show.
-  for (int turn = 0; turn < 3; ++turn) {
-    typename S::Angular axis;
-    for (int k = 0; k < S::angular_dim; ++k) axis[k] = normal(random);
-    q = S::normalized(S::exp(axis.normalized() * angle(random)) * q);
-  }
-  return q;
-}
 
 /// The shape in space whose sample weighs what a plane sample is meant to weigh; in space, itself.
 template <class Shape>
@@ -74,36 +52,6 @@ Grains<Shape> make_grains(const Parameters& p, std::mt19937_64& random) {
     grains.volume += grains.shapes.back().volume();
   }
   return grains;
-}
-
-/// Hangs the grains one by one above a floor of the given extent (last axis up): each at the lowest
-/// of some random places where its circumsphere, lowered, meets floor or others. Loose, free of
-/// overlap.
-template <class S>
-std::vector<moreau::Pose<S>> hang(const std::vector<double>& radii, double length,
-                                  std::mt19937_64& random) {
-  constexpr int trials = 40, up = S::dim - 1;
-  std::vector<moreau::Pose<S>> poses(radii.size());
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    typename S::Vector best;
-    for (int trial = 0; trial < trials; ++trial) {
-      typename S::Vector x;
-      for (int k = 0; k < up; ++k) x[k] = radii[i] + unit(random) * (length - 2 * radii[i]);
-      x[up] = radii[i];
-      for (std::size_t j = 0; j < i; ++j) {
-        const double reach = radii[i] + radii[j];
-        const double aside =
-            (poses[j].position.template head<up>() - x.template head<up>()).squaredNorm();
-        if (aside >= reach * reach) continue;
-        x[up] = std::max(x[up], poses[j].position[up] + std::sqrt(reach * reach - aside));
-      }
-      if (trial == 0 || x[up] < best[up]) best = x;
-    }
-    poses[i].position = best;
-    poses[i].rotation = random_rotation<S>(random);
-  }
-  return poses;
 }
 
 }  // namespace ratcheting

@@ -63,7 +63,8 @@ study --output "$folder/b" --report-only >/dev/null || fail "report"
 diff -r --brief --exclude 'wall_clock.*' --exclude '*.svg' --exclude '*.png' \
   "$folder/a/results" "$folder/b/results" ||
   fail "tables differ after kill -9"
-for table in cases.csv report.md data/values.csv runs/polygon-s1-5Hz.json; do
+grep -q '^{"name":"polygon-s1-5Hz",' "$folder/a/results/runs.jsonl" || fail "a run is not in the table"
+for table in cases.csv report.md data/values.csv runs.jsonl; do
   [ -s "$folder/a/results/$table" ] || fail "no $table"
 done
 if command -v gnuplot >/dev/null; then
@@ -74,7 +75,7 @@ if command -v gnuplot >/dev/null; then
   [ -e "$folder/a/results/figures/rho_log_t.png" ] && fail "a figure of runs that the plan has not"
 fi
 
-# A damaged run is named, and leaves what was kept of it as it is; without that it is not done.
+# A damaged run is named and its line in the table stays as it is; without the line it is not done.
 run=$folder/b/cases/polygon-s1-5Hz
 cp -r "$run" "$folder/intact"
 cp -r "$folder/b/results" "$folder/reported"
@@ -87,10 +88,10 @@ for damage in 'head -c 20000 wall.csv >x; mv x wall.csv' 'sed -i "9s/.*/a,b/" wa
   study --figure x_t --output "$folder/b" --report-only >"$folder/damaged.log" 2>&1
   [ $? = 1 ] || fail "$damage: no failure"
   grep -qF "$run is damaged" "$folder/damaged.log" || fail "$damage: $(cat "$folder/damaged.log")"
-  diff -r --brief "$folder/reported/runs" "$folder/b/results/runs" || fail "$damage: another result is kept"
+  cmp "$folder/reported/runs.jsonl" "$folder/b/results/runs.jsonl" || fail "$damage: another result is kept"
   diff --brief "$folder/reported/cases.csv" "$folder/b/results/cases.csv" || fail "$damage: another table"
 done
-rm "$folder/b/results/runs/polygon-s1-5Hz.json"
+sed -i '/^{"name":"polygon-s1-5Hz",/d' "$folder/b/results/runs.jsonl"
 study --list --output "$folder/b" 2>/dev/null | grep -q "done polygon-s1-5Hz " && fail "a damaged run counts as done"
 study --shape polygon --output "$folder/b" >"$folder/again.log" 2>&1 || fail "start with a damaged run"
 grep -q "^1 ran" "$folder/again.log" || fail "a damaged run did not run again"
@@ -98,33 +99,36 @@ diff -r --brief --exclude 'wall_clock.*' "$folder/reported" "$folder/b/results" 
 study --seed 1 --report-only --output "$folder/b" >/dev/null 2>&1
 [ $? = 2 ] || fail "a report of one sample was promised"
 
-# What is kept of the runs is enough: without their folders nothing runs, and all is the same bytes.
+# The table of the runs is enough: without their folders nothing runs, and all is the same bytes.
 cp -r "$folder/a/results" "$folder/kept"
-rm -r "$folder/a/cases"
+rm -r "$folder/a/cases" "$folder/a/results/data" "$folder/a/results/figures"
+rm "$folder"/a/results/{cases.csv,report.md,wall_clock.md}
 study --output "$folder/a" --report-only >/dev/null || fail "report without folders"
 diff -r --brief "$folder/kept" "$folder/a/results" || fail "another report without folders"
 study --output "$folder/a" >"$folder/third.log" 2>&1 || fail "start without folders"
 grep -q "^0 ran, $cases were done before" "$folder/third.log" || fail "a case that is kept ran again"
 diff -r --brief "$folder/kept" "$folder/a/results" || fail "another report after a start without folders"
 
-# A file of a run with other parameters does not count; what is no such file is named.
-kept=$folder/a/results/runs/disk-s1-20Hz.json
-sed -i 's/"friction":0.4/"friction":0.3/' "$kept"
+# A line of a run with other parameters does not count; what is no such line is named.
+table=$folder/a/results/runs.jsonl
+spoil() { sed "/^{\"name\":\"disk-s1-20Hz\",/{$1}" "$folder/kept/runs.jsonl" >"$table"; }
+spoil 's/"friction":0.4/"friction":0.3/'
 study --list --output "$folder/a" | grep -q "done disk-s1-20Hz " && fail "other parameters count as done"
-for spoilt in 's/"C": .*/"C": 1x,/' 's/"thrust"/"trust"/' 's/"dx_max": /"dx_max": "x" \/\/ /' \
-  's/"t_peak":\[[^,]*,/"t_peak":[/' 's/.*//' '1s/.*/[/;$s/.*/]/'; do
-  sed "$spoilt" "$folder/kept/runs/disk-s1-20Hz.json" >"$kept"
+for spoilt in 's/"C":[^,]*/"C":1x/' 's/"thrust"/"trust"/' 's/"dx_max":/"dx_max":"x" \/\/ /' \
+  's/"t_peak":\[[^,]*,/"t_peak":[/' 's/.*//' 's/^{/[/;s/}$/]/'; do
+  spoil "$spoilt"
+  cmp -s "$folder/kept/runs.jsonl" "$table" && fail "$spoilt spoils nothing"
   study --output "$folder/a" --report-only >"$folder/spoilt.log" 2>&1
   [ $? = 1 ] || fail "$spoilt was read"
-  grep -qF "$kept" "$folder/spoilt.log" || fail "$spoilt: $(cat "$folder/spoilt.log")"
+  grep -qF "$table, line " "$folder/spoilt.log" || fail "$spoilt: $(cat "$folder/spoilt.log")"
 done
 # Such a case runs again, and all is as it was; its seconds are others.
-study --output "$folder/a" >"$folder/mended.log" 2>&1 || fail "start with a spoilt file"
-grep -q "^1 ran" "$folder/mended.log" || fail "a case with a spoilt file did not run again"
+study --output "$folder/a" >"$folder/mended.log" 2>&1 || fail "start with a spoilt line"
+grep -q "^1 ran" "$folder/mended.log" || fail "a case with a spoilt line did not run again"
 diff -r --brief --exclude 'wall_clock.*' "$folder/kept" "$folder/a/results" ||
-  fail "another report after a spoilt file"
+  fail "another report after a spoilt line"
 rm -r "$folder/a/cases"
-sed 's/"thrust": [^,]*/"thrust": null/' "$folder/kept/runs/disk-s1-20Hz.json" >"$kept"
+spoil 's/"thrust":[^,]*/"thrust":null/'
 study --figure x_t --output "$folder/a" --report-only >/dev/null || fail "a result that is not a number was refused"
 grep -q "^6,disk-s1-20Hz,.*,nan," "$folder/a/results/cases.csv" || fail "nan was lost"
 
@@ -141,7 +145,18 @@ for signal in TERM INT; do
     fail "report after SIG$signal"
   ended=$(grep -c "done in" "$folder/$signal.log")
   grep -q "^$ended of $cases cases are done" "$folder/$signal.report" || fail "report after SIG$signal"
-  [ "$(find "$folder/$signal/results/runs" -name '*.json' | wc -l)" = "$ended" ] || fail "kept after SIG$signal"
+  [ "$(wc -l <"$folder/$signal/results/runs.jsonl")" = "$ended" ] || fail "kept after SIG$signal"
+done
+
+# The results of the repository are those of its table.
+results=$(cd "$(dirname "$0")/../../examples/ratcheting/results" && pwd)
+mkdir -p "$folder/study/figures"
+cp "$results"/{runs.jsonl,wall_clock.csv} "$folder/study"
+(cd "$results/figures" && for name in *.png; do : >"$folder/study/figures/$name"; done)
+"$program" --plan paper --report-only --figure rho_log_t --output "$folder/none" --results "$folder/study" \
+  >"$folder/study.log" 2>&1 || fail "report of the repository's runs: $(tail -3 "$folder/study.log")"
+for file in runs.jsonl cases.csv report.md data/values.csv wall_clock.csv wall_clock.md; do
+  cmp "$results/$file" "$folder/study/$file" || fail "$file is not what the table gives"
 done
 [ "$failures" = 0 ] && echo "all passed"
 exit "$failures"

@@ -6,15 +6,18 @@
 #include <random>
 #include <vector>
 
-#include "../../examples/ratcheting_study/active_phase.hpp"
-#include "../../examples/ratcheting_study/closed_form.hpp"
-#include "../../examples/ratcheting_study/compaction_fit.hpp"
-#include "../../examples/ratcheting_study/loop_distance.hpp"
-#include "../../examples/ratcheting_study/power_law.hpp"
-#include "../../examples/ratcheting_study/result.hpp"
-#include "../../examples/ratcheting_study/wording.hpp"
+#include "../../examples/ratcheting/active_phase.hpp"
+#include "../../examples/ratcheting/study/closed_form.hpp"
+#include "../../examples/ratcheting/study/compaction_fit.hpp"
+#include "../../examples/ratcheting/study/loop_distance.hpp"
+#include "../../examples/ratcheting/study/power_law.hpp"
+#include "../../examples/ratcheting/study/result.hpp"
+#include "../../examples/ratcheting/study/wording.hpp"
 
 using namespace study;
+using ratcheting::active_phase;
+using ratcheting::ActivePhase;
+using ratcheting::time_before_minimum;
 
 namespace {
 

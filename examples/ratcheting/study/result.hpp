@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// What one run says.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "../periods.hpp"
+#include "behaviour.hpp"
+#include "closed_form.hpp"
+#include "facts.hpp"
+#include "plan.hpp"
+#include "table.hpp"
+
+namespace study {
+
+/// Before this time of the first jam of the baseline the box is filling [s].
+constexpr double filling_time = 0.15;
+
+/// The packing at a maximum of the force.
+struct Jam {
+  double t, x, rho_inner, rho_box;  ///< [s], [m], [-], [-]
+};
+
+/// Means over the periods of a run; nan without one. SI units.
+struct Result {
+  Case c;
+  Facts facts;
+  std::optional<WallClock> clock;  ///< not in the table of the runs
+  double mass, wall_mass, length, height;
+  double weight;  ///< m g [N]
+
+  std::vector<ratcheting::Period> periods;  ///< that begin jammed, at filling_time or after
+  std::vector<Jam> jams;                    ///< that bound these periods, one more than they are
+  double dx_max, dx_spread;                 ///< mean, standard deviation over periods [m]
+  double v_max;                             ///< passive, mean [m/s]
+  double delay;                             ///< delta t_r [s]
+  double dx_active, creep, thrust;          ///< see ActivePhase; thrust: f_a [N]
+  double steady_thrust, carried_share;      ///< see CarriedGrains; of the weight, of the mass [-]
+  double explained;                         ///< [-]
+  /// Share of a period in which the wall is at rest, |v| below a hundredth of its largest: none
+  /// where it never jams. Mean; nothing in what an earlier version kept [-].
+  std::optional<double> rest_share;
+  double net_contraction;                ///< (first x_j - last x_j') per period [m]
+  std::size_t contracting;               ///< periods with x_j' < x_j
+  double rho_initial, rho_0, rho_final;  ///< inner; rho_0 at 0.2 s [-]
+  double box_initial, box_final;         ///< of the whole box [-]
+  double rate;                           ///< d rho / (rho_0 dt) from jam to jam [1/s]
+  double compaction_per_period;          ///< the same per period [-]
+  double constant;                       ///< C of row 17, with m + m_w
+  Behaviour behaviour;
+  std::vector<Point> loop;  ///< see mean_loop(); only where a phase portrait shows it
+  /// Columns of the run's own tables, to six digits; only of runs whose course a figure shows: the
+  /// baseline's (wall, packing, state, velocity field, force chains) and the long ones'.
+  Named<Columns> tables;
+
+  Push push() const;
+  /// Rate of a solid fraction from the first jam to the last of the first second, or to the next
+  /// jam where that comes later: the same window for all frequencies; over its value at the first
+  /// [1/s].
+  double early_rate(double Jam::*rho) const;
+  /// The closed form with the thrust and the mass that the force on the wall tells [m].
+  double flight_displacement() const;
+  double scaled_load() const;  ///< (m g)^2 / ((m + m_w) fmax nu^2) [m]
+};
+
+inline double Result::early_rate(double Jam::*rho) const {
+  if (jams.size() < 2) return std::nan("");
+  std::size_t last = 1;
+  while (last + 1 < jams.size() && jams[last + 1].t <= 1 + 1e-9) ++last;
+  const Jam &from = jams.front(), &to = jams[last];
+  return (to.*rho / from.*rho - 1) / (to.t - from.t);
+}
+
+/// Measures a complete run.
+/// @throws std::runtime_error if a file of the run cannot be read, or is not of the steps and the
+///         duration that run.json tells
+Result measure(const std::filesystem::path& folder, const Case& c);
+
+}  // namespace study

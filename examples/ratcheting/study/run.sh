@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing (Debian), builds the study and runs it. Without arguments the small plan;
+# with arguments they alone go to the program, whose default is the whole study.
+set -euo pipefail
+top=$(cd "$(dirname "$0")/../../.." && pwd)
+"$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
+# The same instructions on all machines that have them: a run then has the same bits.
+instructions=-march=native
+if g++ -march=x86-64-v3 -E - </dev/null >/dev/null 2>&1 && grep -qw avx2 /proc/cpuinfo; then
+  instructions=-march=x86-64-v3
+fi
+cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=OFF \
+  "-DCMAKE_CXX_FLAGS=$instructions" \
+  -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF \
+  "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" >/dev/null
+echo "building the study in $top/build/study"
+cmake --build "$top/build/study" --target ratcheting ratcheting_study
+[ $# -gt 0 ] || set -- --plan small
+echo "ratcheting_study $*"
+exec "$top/build/study/examples/ratcheting_study" "$@"
