@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Grains in a slowly turning drum: how steep is the surface they flow down? Prints the mean dynamic
-// angle of repose; writes it over time (drum.csv) and the grains at the end: drum.vtp for ParaView,
-// and in the plane drum.png, where light grains are fast ones.
+// The dynamic angle of repose of grains in a slowly rotating drum. Prints the mean angle and
+// writes:
+//  - drum.csv: the angle over time
+//  - drum.vtp: the grains at the end, for ParaView
+//  - drum.png (in the plane only): the grains at the end; a lighter color is a higher speed
 //
 //   gnuplot -p -e 'set datafile separator ","; plot "drum.csv" using 1:2 skip 1 with lines'
 //
-// run<moreau::Polygon<double>> turns a circle in the plane; run<moreau::Polyhedron<double>> a slice
-// of a cylinder, periodic along its axis (and takes some minutes).
+// run<moreau::Polygon<double>> simulates a circle in the plane. run<moreau::Polyhedron<double>>
+// simulates a slice of a cylinder that is periodic along the axis; it takes some minutes.
 #include <cmath>
 #include <iostream>
 #include <moreau/moreau.hpp>
@@ -23,13 +25,13 @@
 using Law = moreau::SignoriniCoulomb<double>;
 
 namespace setup {
-constexpr double radius = 0.1, slice = 0.03;  // of the drum, depth in space [m]
-constexpr double size = 0.01;                 // of a grain, and of the grid they start on [m]
-constexpr double rate = 0.6;                  // of the drum [rad/s]
+constexpr double radius = 0.1, slice = 0.03;  // radius of the drum; its depth in space [m]
+constexpr double size = 0.01;                 // of a grain and of a cell of the initial grid [m]
+constexpr double rate = 0.6;                  // angular velocity of the drum [rad/s]
 constexpr double h = 5e-4, warm_up = 1.5, duration = 4;  // [s]
 }  // namespace setup
 
-/// Random grains on a grid in the lower half of the drum.
+/// Adds grains with random shapes on a grid in the lower part of the drum.
 template <class Simulation, class Shape>
 void fill(Simulation& world, const std::vector<Shape>& shapes) {
   using S = typename Simulation::S;
@@ -50,7 +52,8 @@ void fill(Simulation& world, const std::vector<Shape>& shapes) {
   }
 }
 
-/// Slope of the surface [degrees]: the centre of mass hangs that far to the side.
+/// Slope of the free surface [degrees], estimated as the angle between the vertical and the line
+/// from the axis of the drum to the centre of mass of the grains.
 template <class Simulation>
 double angle_of_repose(const Simulation& world) {
   typename Simulation::Vector sum = Simulation::Vector::Zero();
@@ -114,9 +117,9 @@ bool run() {
       [&](std::size_t k) { return bodies.velocity[world.grain(k).index()]; });
   draw(world);
   std::cout << world.grain_count() << " grains, angle of repose " << sum / count << " degrees; "
-            << unsolved << " of " << steps << " steps not solved\n";
-  // Angular grains of mu = 0.5: steeper than balls, which flow at some 25, and no avalanche stands
-  // at the angle of a heap of bricks.
+            << unsolved << " of " << steps << " steps not converged\n";
+  // Expected for angular grains with mu = 0.5: more than the 25 degrees at which spheres flow, less
+  // than the angle of a heap of bricks.
   return sum / count > 25 && sum / count < 45 && unsolved <= steps / 100;
 }
 

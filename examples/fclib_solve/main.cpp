@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solves a frictional contact problem from a file: FCLIB's HDF5 or Siconos' text.
+// Solves a frictional contact problem from a file in FCLIB's HDF5 form or in the text form of
+// Siconos.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -22,7 +23,7 @@ struct CommandLine {
   moreau::ProximalOptions solver;
 };
 
-/// One contact per line, normal first, in the units of the file, to the last digit.
+/// One line per contact, the normal component first, in the units of the file, with all digits.
 std::string format_impulses(const Eigen::VectorXd& impulses, Eigen::Index per_contact) {
   std::string text;
   char number[40];
@@ -34,20 +35,20 @@ std::string format_impulses(const Eigen::VectorXd& impulses, Eigen::Index per_co
   return text;
 }
 
-/// Before the time is spent on solving.
-/// @throws std::invalid_argument for an output that is the problem itself or has no folder
+/// Checks the output path before the problem is solved.
+/// @throws std::invalid_argument if the output is the input file or its folder does not exist
 void require_output(const CommandLine& line) {
   namespace fs = std::filesystem;
   std::error_code none;
   if (line.output.empty()) return;
   if (fs::equivalent(line.output, line.file, none))
-    throw std::invalid_argument("--output: '" + line.output + "' is the problem itself");
+    throw std::invalid_argument("--output: '" + line.output + "' is the input file");
   const fs::path folder = fs::absolute(line.output).parent_path();
   if (!fs::is_directory(folder))
-    throw std::invalid_argument("--output: there is no folder '" + folder.string() + "'");
+    throw std::invalid_argument("--output: folder '" + folder.string() + "' does not exist");
 }
 
-/// @returns 0, or 1 if the tolerance was not reached
+/// @returns 0 if the solution converged, else 1
 template <class S>
 int solve(const moreau::FrictionProblem<S>& problem, const CommandLine& line) {
   Eigen::VectorXd impulses;
@@ -65,7 +66,8 @@ int solve(const moreau::FrictionProblem<S>& problem, const CommandLine& line) {
   if (report.residual <= line.solver.tolerance)
     std::fprintf(stderr, "%s: the impulses grow without bound\n", line.file.c_str());
   else
-    std::fprintf(stderr, "%s: not solved to %g\n", line.file.c_str(), line.solver.tolerance);
+    std::fprintf(stderr, "%s: did not converge to the tolerance %g\n", line.file.c_str(),
+                 line.solver.tolerance);
   return 1;
 }
 
@@ -75,19 +77,19 @@ int main(int argc, char** argv) {
   CommandLine line;
   line.solver.max_seconds = 50;
   CLI::App app{
-      "Solves a frictional contact problem, in FCLIB's HDF5 or Siconos' text form, and says how "
-      "well."};
+      "Solves a frictional contact problem from a file (FCLIB's HDF5 or the text form of Siconos) "
+      "and prints the residual of the solution."};
   app.set_version_flag("--version", MOREAU_VERSION_STRING);
   app.option_defaults()->always_capture_default();
-  app.add_option("file", line.file, "the problem")->required();
+  app.add_option("file", line.file, "file with the problem")->required();
   app.add_option("--tolerance", line.solver.tolerance,
-                 "on the residual of the natural map, scaled to a mean diagonal of 1");
-  app.add_option("--output", line.output, "impulses as text, one contact per line, normal first");
+                 "for the natural-map residual, after scaling W to a mean diagonal of 1");
+  app.add_option("--output", line.output,
+                 "text file for the impulses: one line per contact, normal component first");
   app.add_option("--time-limit", line.solver.max_seconds,
-                 "the best result so far is given after this time [s]");
+                 "stop after this time and return the best result so far [s]");
   app.footer(
-      "Exit status: 0 solved, 1 not solved to the tolerance, 2 bad input, or impulses that cannot "
-      "be "
+      "Exit status: 0 converged; 1 not converged; 2 the input is not valid or the output cannot be "
       "written.");
   try {
     app.parse(argc, argv);

@@ -5,6 +5,6 @@ set key top right
 set xlabel 'time [s]'
 set xrange [0:1]
 set yrange [0:*]
-set ylabel 'points of contact, sweeps of a step'
+set ylabel 'contact points, sweeps per step'
 plot 'hello.txt' using (0.025 * ($0 + 1)):3 with lines lc 'gray' title 'sweeps', \
-     '' using (0.025 * ($0 + 1)):1 with steps lw 2 lc 'black' title 'points'
+     '' using (0.025 * ($0 + 1)):1 with steps lw 2 lc 'black' title 'contact points'

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The same experiment in the plane and in space, from one text: grains fall into a box under a lid,
-// and the instruments tell what became of them. Prints a table for each and writes into
-// measures-output/: run.csv for plots, and for ParaView grains and contacts over time, the field of
-// displacements at the end.
+// The same experiment in the plane and in space, from one source: grains fall into a box, a lid
+// presses on them, and the program measures the packing. Prints a table for each dimension and
+// writes into measures-output/:
+//  - run.csv: height of the lid and kinetic energy over time
+//  - run.pvd: grains and contacts over time, for ParaView
+//  - displacement.vtp: displacements of the grains at the end, for ParaView
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -25,13 +27,13 @@ namespace fs = std::filesystem;
 using Law = moreau::SignoriniCoulomb<double>;
 
 namespace setup {
-constexpr double size = 0.01, width = 0.06;   // of a grain, of the box [m]
-constexpr double pressure = 1000;             // of the lid [Pa], in the plane [N/m]
+constexpr double size = 0.01, width = 0.06;   // of a grain; of the box [m]
+constexpr double pressure = 1000;             // of the lid [Pa]; in the plane [N/m]
 constexpr double h = 2.5e-4, duration = 0.5;  // [s]
 }  // namespace setup
 using namespace setup;
 
-/// What the reports of a run should not have said.
+/// Counts the steps that did not converge and keeps the largest residual and overlap [m] of a run.
 struct Watch {
   std::size_t steps = 0, unsolved = 0;
   double residual = 0, overlap = 0;
@@ -44,8 +46,9 @@ struct Watch {
   }
 };
 
-/// Grains of three sizes about a grid in an open box, gravity along the last axis.
-/// @returns their mass [kg]
+/// Adds an open box, gravity along the last axis, and grains of three sizes near the points of a
+/// grid.
+/// @returns mass of all grains [kg]
 template <class World>
 double fill(World& world) {
   using S = typename World::S;
@@ -140,13 +143,15 @@ void run(const fs::path& folder) {
 
   const moreau::EnergyTerms& terms = energy.terms();
   std::cout << folder.filename().string() << ", " << world.grain_count() << " grains\n"
-            << "  steps " << watch.steps << ", unsolved " << watch.unsolved << ", worst residual "
-            << watch.residual << ", deepest overlap " << watch.overlap / size << " d\n"
-            << "  stress along the lid's axis " << stress(up, up) << ", across " << stress(0, 0)
-            << "; the lid's " << pressure << '\n'
-            << "  neighbours " << coordination.neighbours << " without " << coordination.rattlers
-            << " rattlers; fabric " << fabric.tensor.diagonal().transpose() << '\n'
-            << "  share of forces above the mean, by bins of a third:";
+            << "  steps " << watch.steps << ", not converged " << watch.unsolved
+            << ", largest residual " << watch.residual << ", largest overlap "
+            << watch.overlap / size << " d\n"
+            << "  stress normal to the lid " << stress(up, up) << ", parallel to it "
+            << stress(0, 0) << "; pressure of the lid " << pressure << '\n'
+            << "  mean number of neighbours " << coordination.neighbours << " without "
+            << coordination.rattlers << " rattlers; fabric " << fabric.tensor.diagonal().transpose()
+            << '\n'
+            << "  share of forces above the mean, in bins of a third of the mean:";
   for (std::size_t k = 3; k < 12; ++k) std::cout << ' ' << forces.density[k] * forces.width;
   std::cout << "\n  energy [J]: gravity " << terms.gravity << ", lid " << terms.forces
             << ", impacts " << terms.impacts << ", friction " << terms.friction << ", imbalance "

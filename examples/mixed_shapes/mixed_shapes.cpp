@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Several kinds of grains in one simulation: balls and rods among dice. The kind of a pair is found
-// by one visit; a simulation of one kind alone has none of this. Draws mixed_shapes.png.
+// Three kinds of shapes in one simulation: spheres, dice and rods. OneOf selects the kinds of a
+// pair at run time by one std::visit. A simulation of a single kind does not pay for this. Writes
+// mixed_shapes.png and prints how many contact points each pair of kinds has.
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
@@ -59,7 +60,7 @@ int main() {
           },
           picture));
 
-  // What touches what.
+  // Contact points of each pair of kinds.
   const char* names[] = {"ball", "die", "rod"};
   std::map<std::string, int> points;
   const auto kind_of = [&](std::uint32_t body) -> std::string {
@@ -72,7 +73,7 @@ int main() {
     ++points[first + " - " + second];
   }
   for (const auto& [pair, count] : points) std::cout << pair << ": " << count << " points\n";
-  std::cout << "deepest overlap on the way " << deepest << " m, " << unsolved
-            << " of 2000 steps not solved\n";
+  std::cout << "largest overlap of all steps " << deepest << " m, " << unsolved
+            << " of 2000 steps not converged\n";
   return points.size() > 6 && deepest < 1e-3 && unsolved <= 20 ? 0 : 1;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A run that may end at any moment: started again, it goes on, and its table has the same bytes as
-// that of a run that never ended. Disks of random sizes rain into a box that shakes. Writes into
-// restart-output/.
+// A run that continues from its last snapshot after it was stopped. Its table then has the same
+// bytes as the table of a run that was not stopped. Disks with random radii fall into a shaken box.
+// Writes into restart-output/.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ using World = moreau::Simulation<Disk, Law>;
 using Vector = World::Vector;
 
 namespace setup {
-constexpr double size = 0.01, width = 0.1, h = 5e-4;  // of a grain, of the box [m]; step [s]
+constexpr double size = 0.01, width = 0.1, h = 5e-4;  // of a grain; of the box [m]; step [s]
 constexpr int steps = 3000, snapshot_every = 500, grain_every = 100;
 }  // namespace setup
 using namespace setup;
@@ -35,7 +35,7 @@ void build(World& world) {
   world.set_gravity({0, -9.81});
 }
 
-/// One more disk, from a random place above the box.
+/// Adds a disk with a random radius at a random position at the top of the box.
 void rain(World& world, std::mt19937_64& random) {
   std::uniform_real_distribution<double> radius(0.4 * size, 0.6 * size), place(size, width - size);
   const moreau::ShapeId disk = world.add_shape(Disk(radius(random)));
@@ -44,7 +44,7 @@ void rain(World& world, std::mt19937_64& random) {
   world.add_grain(disk, pose, 2500);
 }
 
-/// The mean height of the grains [m].
+/// Mean height of the grains [m].
 double mean_height(const World& world) {
   double sum = 0;
   for (std::size_t k = 0; k < world.grain_count(); ++k)
@@ -52,7 +52,7 @@ double mean_height(const World& world) {
   return sum / double(world.grain_count());
 }
 
-/// The run of a folder, from the beginning or from its last snapshot, up to a step.
+/// Runs up to step `end`: from the last snapshot in the folder, or from the beginning without one.
 void run(const fs::path& folder, int end) {
   fs::create_directories(folder);
   const fs::path snapshot = folder / "run.snapshot";
@@ -67,7 +67,7 @@ void run(const fs::path& folder, int end) {
 
   moreau::CsvWriter table(folder / "run.csv", {{"t", "s"}, "grains", {"height", "m"}}, 10,
                           table_size);
-  // Functions are in no snapshot: made again, they take their time from the simulation.
+  // A snapshot holds no functions. Create them again; they read the time from the simulation.
   const moreau::VelocityDrive shake(world.walls()[0], Vector::UnitY(),
                                     [](double t) { return 0.02 * std::sin(60 * t); });
   for (; step < end; ++step) {
@@ -90,10 +90,10 @@ std::string bytes_of(const fs::path& path) {
 int main() {
   fs::remove_all("restart-output");
   run("restart-output/whole", steps);
-  run("restart-output/stopped", 1700);   // as if killed: 200 steps after its last snapshot
-  run("restart-output/stopped", steps);  // goes on from step 1500
+  run("restart-output/stopped", 1700);   // stops 200 steps after its last snapshot
+  run("restart-output/stopped", steps);  // continues from step 1500
   const bool same =
       bytes_of("restart-output/whole/run.csv") == bytes_of("restart-output/stopped/run.csv");
-  std::cout << (same ? "the same bytes in both tables\n" : "the tables differ\n");
+  std::cout << (same ? "both tables have the same bytes\n" : "the tables differ\n");
   return same ? 0 : 1;
 }
