@@ -3,7 +3,7 @@
 // time per contact point and sweep. Making a problem is not timed. Every solution starts from the
 // warm start that the step had, or from zero where there is none. The residual is that of
 // SolveReport for all. "converged" is 0 where the cap came first, and the time then that of the
-// cap, or where the impulses leave too much of the approach over; see
+// cap, or where the remaining approach velocity is too large; see
 // SolveReport::relative_approach.
 #include <benchmark/benchmark.h>
 #include <cstddef>

@@ -16,9 +16,9 @@ TEST_CASE("every member works, and meets the others") {
     CHECK(team.size() == size);
     std::vector<int> before(std::size_t(size), 0), after(std::size_t(size), 0);
     for (int round = 1; round <= 20; ++round)
-      team.run([&](int rank, int count, auto&& meet) {
+      team.run([&](int rank, int count, auto&& wait) {
         before[std::size_t(rank)] = round;
-        meet();
+        wait();
         int sum = 0;
         for (const int value : before) sum += value;
         after[std::size_t(rank)] = sum;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The Delassus operator W = J M^-1 J^T of a set of contacts, never formed: each contact keeps its
-// own rows of J M^-1/2, each body the change of its scaled velocity y = M^1/2 (V - V_free). Then
+// The Delassus operator W = J M^-1 J^T of a set of contacts. The matrix is not formed. Each contact
+// c keeps its scaled rows J_a M_a^-1/2 and J_b M_b^-1/2, written Ja and Jb; each body the change of
+// its scaled velocity y = M^1/2 (V - V_free). Then
 //
-//     u_c = free_c + Jb y_b - Ja y_a        an impulse dr at c:  y_b += Jb^T dr,  y_a -= Ja^T dr
-//     W_cc = Ja Ja^T + Jb Jb^T
+//     u_c = b_c + Jb y_b - Ja y_a,      an impulse dr at c:  y_b += Jb^T dr,  y_a -= Ja^T dr,
+//     W_cc = Ja Ja^T + Jb Jb^T,
 //
-// so that one sweep costs one pass over the contacts. A body that cannot move along some axis has a
-// zero there in M^-1/2; its prescribed velocity stands in V_free.
+// so that one sweep is one pass over the contacts. An axis along which a body cannot move has a
+// zero in M^-1/2; the prescribed velocity is in V_free.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,10 +21,11 @@
 #include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/local_block.hpp"
+#include "moreau/core/twist.hpp"
 
 namespace moreau {
 
-/// The operator for bodies that touch at points; model of what NonlinearGaussSeidel sweeps over.
+/// The operator of contacts at points, without couples.
 template <class S>
 class BodyDelassus {
  public:
@@ -35,11 +37,10 @@ class BodyDelassus {
   using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
   using PaddedRows = Eigen::Matrix<Scalar, width, S::dim>;
 
-  /// Builds the rows and blocks, and the free relative velocities; no impulse acts yet.
-  /// @param contacts in: the points, frames, levers; out: the tangents turned, see LocalBlock
+  /// Computes rows, blocks and free relative velocities; without any impulse.
+  /// @param contacts in: bodies, frames, levers; out: frames with turned tangents, see LocalBlock
   /// @param roots    M^-1/2 of every body
-  /// @param free     velocity every body would have without contacts, (v, w) in world axes
-  ///                 [m/s, rad/s]; as many as roots
+  /// @param free     velocity of every body without contacts, (v, w) in world axes [m/s, rad/s]
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
                 std::span<const typename S::Twist> free) {
     constexpr int tangents = S::dim - 1;
@@ -68,18 +69,19 @@ class BodyDelassus {
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return {rows_[c].a, rows_[c].b}; }
-  /// Scaled rows of a contact at its body a, (J M^-1/2)^T, width x D: a column for each axis of the
-  /// frame [kg^-1/2]. What an impulse does to a is minus these times it.
+  /// Ja^T, padded: width x D, one column for each axis of the frame [kg^-1/2]. An impulse dr
+  /// changes y_a by -Ja^T dr.
   const PaddedRows& rows_a(std::size_t c) const { return rows_[c].ja; }
-  /// The same of body b, to which the impulse does these times it.
+  /// Jb^T, padded: an impulse dr changes y_b by Jb^T dr.
   const PaddedRows& rows_b(std::size_t c) const { return rows_[c].jb; }
-  /// Relative velocity without any impulse, with the law's offset, in the contact's frame [m/s].
+  /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
+  /// [m/s].
   const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
   /// Adds to the free normal velocity of a contact, > 0 separates [m/s].
   void offset_normal(std::size_t c, Scalar offset) { rows_[c].free[0] += offset; }
 
-  /// Relative velocity u of a contact under all impulses applied so far, in its frame; u_n > 0
-  /// separates [m/s].
+  /// Relative velocity u under the impulses applied so far, in the contact's frame [m/s]; u_n > 0
+  /// separates.
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
     return row.free + row.jb.transpose() * scaled_[row.b] - row.ja.transpose() * scaled_[row.a];
@@ -95,16 +97,16 @@ class BodyDelassus {
     scaled_[row.b].noalias() += row.jb * impulse;
     scaled_[row.a].noalias() -= row.ja * impulse;
   }
-  /// Adds to the scaled angular velocity of a body: what a couple does [kg^1/2 m/s].
+  /// Adds the effect of a couple to the scaled angular velocity of a body [kg^1/2 m/s].
   void add_scaled_spin(std::size_t body, const typename S::Angular& change) {
-    scaled_[body].template segment<S::angular_dim>(S::dim) += change;
+    angular<S>(scaled_[body]) += change;
   }
-  /// Undoes all impulses: every body back at its free velocity.
+  /// Removes all impulses: every body has its free velocity.
   void clear() { scaled_.assign(scaled_.size(), PaddedTwist::Zero()); }
-  /// M^1/2 (V - V_free) of a body, D + A numbers, world axes [kg^1/2 m/s].
+  /// y = M^1/2 (V - V_free) of a body, D + A entries, world axes [kg^1/2 m/s].
   auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
 
-  /// u of a contact between bodies of velocities (v, w) [m/s, rad/s], in the contact's frame [m/s].
+  /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
   static Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
                                   const typename S::Twist& b) {
     return contact.frame.transpose() *
@@ -120,7 +122,7 @@ class BodyDelassus {
   };
 
   static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
-    return twist.template head<S::dim>() + S::spin(twist.template tail<S::angular_dim>(), lever);
+    return linear<S>(twist) + S::spin(angular<S>(twist), lever);
   }
   static PaddedRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
                                 const MobilityRoot<S>& root) {
@@ -129,12 +131,13 @@ class BodyDelassus {
       const Vector axis = frame.col(k);
       const Vector push = root.linear * axis;
       const typename S::Angular turn = root.angular * S::moment(lever, axis);
-      rows.col(k).template head<S::dim>() = push;
-      rows.col(k).template segment<S::angular_dim>(S::dim) = turn;
+      auto row = rows.col(k);
+      linear<S>(row) = push;
+      angular<S>(row) = turn;
     }
     return rows;
   }
-  /// Ja Ja^T + Jb Jb^T.
+  /// W_cc = Ja Ja^T + Jb Jb^T.
   static typename S::Matrix gram(const Row& row) {
     typename S::Matrix w;
     for (int i = 0; i < S::dim; ++i)

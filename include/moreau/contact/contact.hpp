@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The contacts of one step, as the mechanics needs them.
+// The contacts of one step.
 //
-// Conventions: the frame's first column is the normal, a unit vector from body a to body b in world
-// axes. Relative velocity u = F^T (v_b + lever(r_b) w_b - v_a - lever(r_a) w_a), so u_n > 0
-// separates; the impulse r is what b receives, in the frame, so r_n > 0 pushes; a receives -F r.
+// Conventions: the first column of the frame F is the normal, a unit vector from body a to body b
+// in world axes. With the levers l_a, l_b from the centres of mass to the contact point, the
+// relative velocity is u = F^T (v_b + lever(l_b) w_b - v_a - lever(l_a) w_a): u_n > 0 separates.
+// The impulse r acts on b, in the frame: r_n > 0 pushes. Body a receives -F r.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +16,11 @@
 
 namespace moreau {
 
-/// What the solver reads of one contact point. Across a periodic boundary, the centre of b is that
-/// of the image which touches.
+/// One contact point. Across a periodic boundary, the centre of b is that of its touching image.
 template <class S>
 struct Contact {
-  std::uint32_t a;             ///< the one body, BodyId::index()
-  std::uint32_t b;             ///< the other
+  std::uint32_t a;             ///< first body, BodyId::index()
+  std::uint32_t b;             ///< second body
   std::uint32_t law;           ///< index into the table of laws, Materials::laws()
   typename S::Scalar gap;      ///< along the normal [m], < 0 is penetration
   typename S::Matrix frame;    ///< columns n (unit, from a to b), t[, s]; right-handed, world axes
@@ -28,29 +28,29 @@ struct Contact {
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
 };
 
-/// What makes a contact point the same one in the next step.
+/// Identifies a contact point from step to step.
 struct ContactKey {
-  std::uint32_t a;     ///< the one body
-  std::uint32_t b;     ///< the other
-  FeatureKey feature;  ///< of the pair that makes the point
+  std::uint32_t a;     ///< first body, BodyId::index()
+  std::uint32_t b;     ///< second body
+  FeatureKey feature;  ///< pair of features at the point
   friend constexpr auto operator<=>(const ContactKey&, const ContactKey&) = default;
 };
 
-/// The contacts of one step, arrays in one order, sorted by (a, b, feature).
+/// The contacts of one step: arrays with one entry per point, sorted by (a, b, feature).
 template <class S>
 struct Contacts {
-  std::vector<Contact<S>> points;     ///< with their geometry
+  std::vector<Contact<S>> points;     ///< geometry and law
   std::vector<ContactKey> keys;       ///< one per point
-  std::vector<ContactClass> classes;  ///< of the pair, one per point
-  /// What b receives, in the contact frame, normal first, > 0 pushes [N s]; one per point.
+  std::vector<ContactClass> classes;  ///< class of the pair, one per point
+  /// Impulse on b, in the contact frame, normal first, > 0 pushes [N s].
   std::vector<typename S::Vector> impulses;
-  /// Of rolling and twisting resistance, on b, in the contact frame [N m s]; one per point, or
-  /// empty without.
+  /// Couple of rolling and twisting resistance on b, in the contact frame [N m s]; empty for a law
+  /// without couples.
   std::vector<typename S::Angular> couples;
 
   std::size_t size() const { return points.size(); }  ///< number of points
-  /// Whether all arrays are as long (couples may be empty), and all contacts between so many bodies
-  /// and of so many laws.
+  /// Whether all arrays have one size (couples may be empty), and bodies and laws are below these
+  /// numbers.
   bool are_valid(std::size_t bodies, std::size_t laws) const {
     if (keys.size() != size() || classes.size() != size() || impulses.size() != size() ||
         (!couples.empty() && couples.size() != size()))
@@ -70,7 +70,7 @@ struct Contacts {
     }
     return sum;
   }
-  /// Takes out all points; keeps the memory.
+  /// Removes all points; keeps the memory.
   void clear() {
     points.clear();
     keys.clear();

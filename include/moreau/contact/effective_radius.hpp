@@ -5,10 +5,11 @@
 
 namespace moreau {
 
-/// R = 1 / (1/R_a + 1/R_b) of a contact [m], with the distances of the point from the centres of
-/// mass: exact for spheres and disks, a stand-in elsewhere. 0 between two flat bodies.
+/// Effective radius R = 1 / (1/R_a + 1/R_b) of a contact [m], where R_a and R_b are the distances
+/// of the contact point from the centres of mass: exact for spheres and disks, an estimate for
+/// other shapes. 0 between two flat bodies.
 /// @param a_is_round false for a wall, which has no curvature
-/// @param b_is_round the same of b
+/// @param b_is_round as a_is_round, of body b
 template <class S>
 typename S::Scalar effective_radius(const Contact<S>& contact, bool a_is_round, bool b_is_round) {
   using T = typename S::Scalar;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The local problems of several independent contacts side by side, one per lane.
+// The Delassus blocks of several independent contacts, one per SIMD lane.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace moreau {
 
-/// LocalBlock of as many contacts as there are lanes, with the reciprocals that its solution needs.
+/// LocalBlock of one contact per lane, with the reciprocals that local solutions need.
 template <class S>
 struct LaneBlock {
-  static constexpr std::size_t dim = S::dim;        ///< rows of a contact
-  static constexpr std::size_t tangents = dim - 1;  ///< of them, in the plane of contact
+  static constexpr std::size_t dim = S::dim;        ///< D, rows of a contact
+  static constexpr std::size_t tangents = dim - 1;  ///< D - 1
   using W = detail::Wide<typename S::Scalar, detail::widest_bytes>;
   using Values = typename W::Values;
   using Vector = std::array<Values, dim>;
@@ -26,7 +26,7 @@ struct LaneBlock {
   Tangent slip;           ///< as in LocalBlock [1/kg]
   Tangent inverse_slip;   ///< 1 / slip [kg]
 
-  /// An unloaded contact's in every lane: W = 1.
+  /// W = 1 in every lane, for lanes without a contact.
   static LaneBlock unit() {
     LaneBlock block{};
     block.normal = block.inverse_normal = W::broadcast(1);
@@ -34,7 +34,7 @@ struct LaneBlock {
       block.slip[t] = block.inverse_slip[t] = W::broadcast(1);
     return block;
   }
-  /// Puts a block into a lane, lane < W::lanes.
+  /// Sets the block of a lane, lane < W::lanes.
   void set(std::size_t lane, const LocalBlock<S>& block) {
     normal[lane] = block.normal;
     inverse_normal[lane] = 1 / block.normal;
@@ -44,7 +44,7 @@ struct LaneBlock {
       inverse_slip[t][lane] = 1 / block.slip[Eigen::Index(t)];
     }
   }
-  /// The block in a lane, lane < W::lanes.
+  /// The block of a lane, lane < W::lanes.
   LocalBlock<S> operator[](std::size_t lane) const {
     LocalBlock<S> block;
     block.normal = normal[lane];

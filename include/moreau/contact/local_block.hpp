@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The Delassus block of one contact, factored so that a law's local solution is a few divisions.
+// The Delassus block of one contact, factored so that the local solution of a law is a few
+// divisions.
 //
 // Eliminating the normal impulse from u = W r + b leaves the tangential Schur complement
-// W_tt - w w^T / w_nn. With the tangents of the contact frame turned to its eigenvectors,
+// W_tt - w_tn w_tn^T / w_nn. With the tangents of the contact frame turned to its eigenvectors,
 //
-//     W = w_nn [1 q^T; q q q^T] + diag(0, slip),        q = w / w_nn,
+//     W = w_nn [1 k^T; k k k^T] + diag(0, slip),        k = w_tn / w_nn (the coupling),
 //
-// and for the impulse with u_n = 0 and u_t = -alpha r_t (alpha = 0 sticks)
+// and the impulse with u_n = 0 and u_t = -alpha r_t (alpha = 0 sticks) is
 //
-//     r_t = -(b_t - q b_n) / (slip + alpha)   (entry by entry),     r_n = -b_n / w_nn - q . r_t.
+//     r_t = -(b_t - k b_n) / (slip + alpha)   (entry by entry),     r_n = -b_n / w_nn - k . r_t.
 #pragma once
 
 #include <cmath>
@@ -27,7 +28,7 @@ struct LocalBlock {
   using Tangent = Eigen::Matrix<Scalar, tangents, 1>;
 
   Scalar normal;     ///< w_nn [1/kg]
-  Tangent coupling;  ///< q = w_tn / w_nn [-]
+  Tangent coupling;  ///< k = w_tn / w_nn [-]
   Tangent slip;      ///< eigenvalues of the Schur complement [1/kg]
 
   /// W r [m/s] of an impulse r [N s], both in the frame, normal first.
@@ -39,7 +40,7 @@ struct LocalBlock {
     for (int t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
     return u;
   }
-  /// Of W [1/kg].
+  /// Trace of W [1/kg].
   Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
   /// W, D x D, normal first [1/kg].
   typename S::Matrix matrix() const {
@@ -51,8 +52,8 @@ struct LocalBlock {
 
 namespace detail {
 
-/// Columns: orthonormal eigenvectors of a symmetric matrix of one or two rows, as a rotation: for
-/// each pair of axes one of Jacobi's rotations, by the smaller angle.
+/// Orthonormal eigenvectors of a symmetric matrix of one or two rows, as the columns of a rotation:
+/// one Jacobi rotation by the smaller angle.
 template <std::floating_point T, int N>
 Eigen::Matrix<T, N, N> eigenvectors(const Eigen::Matrix<T, N, N>& a) {
   static_assert(N <= 2, "eigenvectors: of three rows one rotation for each pair is not enough");
@@ -71,8 +72,8 @@ Eigen::Matrix<T, N, N> eigenvectors(const Eigen::Matrix<T, N, N>& a) {
 
 }  // namespace detail
 
-/// Turns the tangents (columns 1.. of a frame) so that W becomes a LocalBlock.
-/// @param w     W in the frame as it comes, D x D, normal first, symmetric positive definite [1/kg]
+/// Finds the rotation of the tangents (columns 1.. of the contact frame) that makes W a LocalBlock.
+/// @param w     W in the given frame, D x D, normal first, symmetric positive definite [1/kg]
 /// @param turn  out: D - 1 x D - 1, a rotation; new tangents = old tangents * turn
 /// @returns W in the turned frame
 template <class S>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The Delassus block of a contact that carries a couple beside its force. The rows of rolling are
-// the relative spin times a length R, so that all rows of u are velocities and all of r impulses:
+// The Delassus block of a contact with a couple. The rows of rolling are the relative spin times
+// the effective radius R, so that all rows of u are velocities and all rows of r are impulses:
 //
 //     u = (u_n, u_t, R w_rel),     r = (r_n, r_t, couple / R),
 //     W = [P  C; C^T  Q],          P the LocalBlock of the point, C (D x A), Q (A x A).
 #pragma once
 
 #include "moreau/contact/local_block.hpp"
+#include "moreau/core/twist.hpp"
 
 namespace moreau {
 
@@ -15,7 +16,7 @@ namespace moreau {
 template <class S>
 struct RollingBlock {
   using Scalar = typename S::Scalar;
-  static constexpr int rows = S::dim + S::angular_dim;  ///< of the contact: force, then couple / R
+  static constexpr int rows = S::dim + S::angular_dim;  ///< impulse, then couple / R
   using Vector = Eigen::Matrix<Scalar, rows, 1>;
   using Coupling = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
 
@@ -25,14 +26,14 @@ struct RollingBlock {
 
   /// W r [m/s], D + A numbers, of r [N s].
   Vector operator*(const Vector& r) const {
-    const typename S::Vector push = r.template head<S::dim>();
-    const typename S::Angular couple = r.template tail<S::angular_dim>();
+    const typename S::Vector push = linear<S>(r);
+    const typename S::Angular couple = angular<S>(r);
     Vector u;
-    u.template head<S::dim>() = point * push + coupling * couple;
-    u.template tail<S::angular_dim>() = coupling.transpose() * push + spin * couple;
+    linear<S>(u) = point * push + coupling * couple;
+    angular<S>(u) = coupling.transpose() * push + spin * couple;
     return u;
   }
-  Scalar trace() const { return point.trace() + spin.trace(); }  ///< of W [1/kg]
+  Scalar trace() const { return point.trace() + spin.trace(); }  ///< trace of W [1/kg]
 };
 
 }  // namespace moreau

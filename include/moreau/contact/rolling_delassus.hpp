@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Delassus operator of contacts that resist rolling and twisting: BodyDelassus with A further
-// rows per contact, R (w_b - w_a) in the contact's frame, where R is the effective radius of the
-// contact, 1/R = 1/R_a + 1/R_b with the distances of the point from the centres of mass; a wall
-// has no curvature.
+// The Delassus operator of contacts with rolling and twisting resistance: BodyDelassus with A more
+// rows per contact, R (w_b - w_a) in the frame of the contact, where R is its effective_radius().
 #pragma once
 
 #include <array>
@@ -14,11 +12,11 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/rolling_block.hpp"
+#include "moreau/core/twist.hpp"
 
 namespace moreau {
 
-/// The operator for bodies that touch at points and resist rolling; model of what
-/// NonlinearGaussSeidel sweeps over.
+/// The operator of contacts with couples.
 template <class S>
 class RollingDelassus {
  public:
@@ -39,8 +37,7 @@ class RollingDelassus {
       const typename S::Inertia axes = row.radius * S::angular_frame(contact.frame);
       row.ka = a.angular * axes;
       row.kb = b.angular * axes;
-      row.free = axes.transpose() * (free[contact.b].template tail<S::angular_dim>() -
-                                     free[contact.a].template tail<S::angular_dim>());
+      row.free = axes.transpose() * (angular<S>(free[contact.b]) - angular<S>(free[contact.a]));
       row.block.point = points_.block(c);
       row.block.spin = row.ka.transpose() * row.ka + row.kb.transpose() * row.kb;
       row.block.coupling =
@@ -51,23 +48,24 @@ class RollingDelassus {
 
   std::size_t size() const { return rows_.size(); }                ///< contacts
   std::size_t body_count() const { return points_.body_count(); }  ///< bodies, walls included
-  /// The operator of the points alone.
+  /// The operator without the rows of rolling.
   const BodyDelassus<S>& points() const { return points_; }
-  /// What a couple / R is to be multiplied by [m].
+  /// R of a contact [m].
   Scalar radius(std::size_t c) const { return rows_[c].radius; }
 
   /// W of contact c in its frame [1/kg].
   const RollingBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return points_.bodies(c); }
-  /// (Velocity, R spin) of b against a at contact c without impulses, with the law's offset, in the
-  /// frame [m/s].
+  /// Relative (velocity, R spin) without any impulse, with the offset of the law, in the frame of
+  /// the contact [m/s].
   Vector free_velocity(std::size_t c) const {
     return joined(points_.free_velocity(c), rows_[c].free);
   }
   /// As BodyDelassus::offset_normal.
   void offset_normal(std::size_t c, Scalar offset) { points_.offset_normal(c, offset); }
-  /// (Velocity, R spin) of b against a at contact c under the impulses applied, in the frame [m/s].
+  /// Relative (velocity, R spin) under the impulses applied so far, in the frame of the contact
+  /// [m/s].
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);
@@ -76,16 +74,16 @@ class RollingDelassus {
   }
   /// The first component of velocity(c) [m/s].
   Scalar normal_velocity(std::size_t c) const { return points_.normal_velocity(c); }
-  /// Adds (impulse, couple / R) on b and its opposite on a, in the frame [N s].
+  /// Applies (impulse, couple / R), in the frame of the contact, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);
-    const typename S::Angular couple = impulse.template tail<S::angular_dim>();
-    points_.apply(c, impulse.template head<S::dim>());
+    const typename S::Angular couple = angular<S>(impulse);
+    points_.apply(c, linear<S>(impulse));
     points_.add_scaled_spin(b, row.kb * couple);
     points_.add_scaled_spin(a, -(row.ka * couple));
   }
-  /// Takes back all impulses.
+  /// Removes all impulses.
   void clear() { points_.clear(); }
   /// As BodyDelassus::scaled_velocity.
   auto scaled_velocity(std::size_t body) const { return points_.scaled_velocity(body); }
@@ -103,7 +101,7 @@ class RollingDelassus {
     return u;
   }
   typename S::Angular spin_of(std::size_t body) const {
-    return points_.scaled_velocity(body).template tail<S::angular_dim>();
+    return angular<S>(points_.scaled_velocity(body));
   }
 
   BodyDelassus<S> points_;

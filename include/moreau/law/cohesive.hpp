@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Adhesion on top of any set-valued law: within a range of the gap the two bodies attract each
-// other with a constant force gamma along the normal, and what the contact pushes against it,
-// r + gamma h, obeys the law below,
+// Adhesion added to any set-valued law. Up to a range of the gap, the two bodies attract each other
+// with a constant force gamma along the normal. The push against it, r + gamma h, obeys the law,
 //
 //     0 <= u_n + offset  _|_  r_n + gamma h >= 0,     |r_t| <= mu (r_n + gamma h),
 //
-// so that a contact holds up to the pull gamma and slides at mu gamma without load (the law of
+// so that a contact holds up to a tension gamma and slides at mu gamma without load (the law of
 // LMGC90's cohesive Signorini-Coulomb contacts; F. Radjai and F. Dubois, eds., Discrete-element
 // Modeling of Granular Materials, Wiley 2011, ch. 1).
 #pragma once
@@ -22,20 +21,19 @@
 
 namespace moreau {
 
-/// A law with a constant attraction within a range of the gap; the header has its equations.
-/// Model of AttractiveLaw.
-/// @tparam Law    the set-valued law of the push, with whatever else it knows (static friction,
-///                rolling, lanes)
-/// @tparam Scalar what it counts in
+/// A law with a constant attraction up to a range of the gap; the head of this file has its
+/// equations. Model of AttractiveLaw.
+/// @tparam Law    set-valued law of the push; static friction, rolling and lanes stay as they are
+/// @tparam Scalar scalar of the law
 template <class Law = SignoriniCoulomb<>,
           std::floating_point Scalar =
               decltype(std::declval<const Law&>().velocity_offset(0., 0., 0.))>
 class Cohesive : public Law {
  public:
-  /// @param law      what holds without adhesion
+  /// @param law      the law without adhesion
   /// @param adhesion gamma >= 0, per contact point [N]
-  /// @param range    gap up to which it acts, >= 0 [m]; beyond the alert distance there is no
-  ///                 contact and no adhesion
+  /// @param range    largest gap with adhesion, >= 0 [m]; beyond the alert distance there is no
+  ///                 contact and so no adhesion
   /// @throws std::invalid_argument outside these ranges
   explicit Cohesive(const Law& law = Law{}, Scalar adhesion = 0, Scalar range = 0)
       : Law(law), adhesion_(adhesion), range_(range) {
@@ -46,7 +44,7 @@ class Cohesive : public Law {
   }
 
   Scalar adhesion() const { return adhesion_; }  ///< gamma [N]
-  Scalar range() const { return range_; }        ///< up to which gap it acts [m]
+  Scalar range() const { return range_; }        ///< largest gap with adhesion [m]
   /// Force with which the bodies attract each other along the normal at this gap [m], >= 0 [N].
   Scalar attraction(Scalar gap) const { return gap <= range_ ? adhesion_ : Scalar(0); }
   /// See StatefulLaw: the push obeys that variant of the law, k < variants.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the solver asks of a contact law.
+// The requirements of the solvers on a contact law.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace moreau {
 
-/// A law that says of itself that it carries couples: `static constexpr bool rolls = true`.
+/// A law with couples: it has `static constexpr bool rolls = true`.
 template <class L>
 concept Rolls = requires {
   requires L::rolls;
@@ -23,21 +23,22 @@ concept Rolls = requires {
 template <class L, class S>
 using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 
-/// A law between relative velocity u and impulse r of one contact in its own frame (normal first;
-/// u_n > 0 separates, r_n > 0 pushes), given for one pair of materials.
+/// A law between the relative velocity u and the impulse r of one contact, for one pair of
+/// materials. u and r are in the frame of the contact, normal first; u_n > 0 separates, r_n > 0
+/// pushes.
 ///
-/// - velocity_offset(gap, before, h): what is added to u_n so that the law reads 0 <= u_n + offset,
-///   perpendicular to r_n >= 0. gap [m], before = u_n ahead of the step [m/s], h [s]. Infinite
-///   where the contact cannot act in this step.
-/// - solve(block, b, guess): the impulse [N s] that satisfies u = W r + b and the law; exact.
-///   b [m/s] is the relative velocity at zero impulse with the offset; guess any impulse nearby.
-/// - natural_map(u, r): r - P_K(r - u'), zero exactly on solutions; u and r in one unit. With u = 0
-///   it is what of r the law forbids. A law with constants of a unit, such as a bound of r [N s],
-///   has natural_map(u, r, scale = 1): r is the impulse times scale [1/kg], and so must its
-///   constants be.
+/// - velocity_offset(gap, before, h): the offset [m/s] in 0 <= u_n + offset _|_ r_n >= 0. gap [m],
+///   before = u_n before the step [m/s], h the step [s]. Infinite if the contact cannot act in this
+///   step.
+/// - solve(block, b, guess): the exact impulse [N s] with u = W r + b and the law. b [m/s] is the
+///   relative velocity without impulse, with the offset; guess is an impulse to start from.
+/// - natural_map(u, r): r - P_K(r - u'), zero if and only if (u, r) satisfies the law; u and r in
+///   one unit. With u = 0 it is the distance of r from the impulses that the law allows. A law with
+///   constants that have a unit, such as a bound of r [N s], has natural_map(u, r, scale = 1): r is
+///   the impulse times scale [1/kg]; multiply the constants by scale, too.
 ///
-/// A law with `static constexpr bool rolls = true` carries a couple beside the force: block, u, r
-/// and b are those of a RollingBlock, with D + A rows, rolling and twisting last.
+/// A law with `static constexpr bool rolls = true` has a couple beside the force: block, u, r and b
+/// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
 /// Optional: see AttractiveLaw, StatefulLaw, LaneLaw.
 template <class L, class S>
@@ -51,7 +52,7 @@ concept SetValuedLaw = std::copyable<L> &&
 
 namespace detail {
 
-/// The natural map of u [m/s] and r, the impulse times scale [1/kg].
+/// The natural map of u [m/s] and r = impulse times scale [m/s]; scale [1/kg].
 template <class L, class Vector>
 Vector natural_map(const L& law, const Vector& u, const Vector& r, typename Vector::Scalar scale) {
   if constexpr (requires { law.natural_map(u, r, scale); })
@@ -62,24 +63,25 @@ Vector natural_map(const L& law, const Vector& u, const Vector& r, typename Vect
 
 }  // namespace detail
 
-/// A set-valued law of forces alone: D rows per contact.
+/// A set-valued law without couples: D rows per contact.
 template <class L, class S>
 concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;
-/// A set-valued law of forces and couples: D + A rows per contact.
+/// A set-valued law with couples: D + A rows per contact.
 template <class L, class S>
 concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
-/// A law whose bodies attract each other with attraction(gap) [N]; what it solves for is the push
-/// against that. See cohesive.hpp.
+/// A law whose bodies attract each other with the force attraction(gap) [N]. Its local problem is
+/// that of the push against the attraction, see cohesive.hpp.
 template <class L, class S>
 concept AttractiveLaw = SetValuedLaw<L, S> && requires(const L law, typename S::Scalar gap) {
   { law.attraction(gap) } -> std::same_as<typename S::Scalar>;
 };
 
-/// A law that is another one after slip than after rest.
+/// A law that depends on the impulse of the step before, such as static friction.
 ///
-/// - variants: how many laws it can be in a step, at most; variant(k), k < variants: each of them
-/// - variant_after(impulse): the k of this step, from the impulse of the last [N s], in the frame
+/// - variants: number of its variants; variant(k), k < variants: the law of a step
+/// - variant_after(impulse): the k of this step, from the impulse of the step before [N s], in the
+///   frame of the contact
 template <class L, class S>
 concept StatefulLaw = SetValuedLaw<L, S> &&
     requires(const L law, typename S::Vector impulse, std::size_t k) {
@@ -88,14 +90,14 @@ concept StatefulLaw = SetValuedLaw<L, S> &&
   L::variants;
 };
 
-/// A law that also solves one contact per lane.
+/// A law that also solves the local problems of several contacts at once, one per SIMD lane.
 ///
-/// - lane_parameters(): an array of all that the law differs in from others of its type, in the
-///   law's own units
-/// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or a step
-///   towards it that stands still nowhere else. memory is the law's own: one number per contact, 0
-///   at first, kept from visit to visit. Where polish is set the impulse lies in the cone to the
-///   last digit; the next visit's starts from it.
+/// - lane_parameters(): an array of the parameters of the local problem, in units of the law
+/// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or one step
+/// of
+///   an iteration whose only fixed point is solve(). memory is one number per contact for the law's
+///   own use, 0 at first, kept from visit to visit. If polish is set, the impulse lies in the cone
+///   to rounding.
 template <class L, class S>
 concept LaneLaw = PointLaw<L, S> &&
     requires(const L law, const LaneBlock<S> block, const typename LaneBlock<S>::Vector vector,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Signorini's condition and Coulomb's law for one contact whose block of W is any matrix, in
-// particular one that is not symmetric: no turn of the tangents then makes it a LocalBlock.
+// Signorini's condition and Coulomb's law for one contact whose block of W is any matrix. A matrix
+// that is not symmetric cannot be a LocalBlock, whatever the tangents.
 //
 // Eliminating r_n from u_n = 0 leaves, with u_t = -alpha r_t,
 //
 //     (S + alpha I) r_t = -c,     S = W_tt - w_tn w_nt / w_nn,     c = b_t - w_tn b_n / w_nn,
 //     r_n = -(b_n + w_nt r_t) / w_nn.
 //
-// alpha = 0 sticks; where that leaves the cone, alpha > 0 is the root of phi = |r_t| - mu r_n as in
-// signorini_coulomb.hpp. Where W is positive definite phi is positive at 0 and negative at
-// infinity.
+// alpha = 0 sticks. If that impulse is outside of the cone, alpha > 0 is the root of
+// phi = |r_t| - mu r_n as in signorini_coulomb.hpp. If W is positive definite, phi is positive at 0
+// and negative at infinity.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +20,7 @@
 
 namespace moreau::detail {
 
+/// The local problem of one contact.
 /// @tparam Matrix D x D, normal first
 template <class Matrix>
 class CoulombBlock {

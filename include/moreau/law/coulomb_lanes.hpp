@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The local solution of Signorini's and Coulomb's conditions, one contact per lane: what
-// SignoriniCoulomb::solve does, without branches. Two of its three cases are exact; slip in space
-// is iterated until a Newton step is short, a few per cent. From sweep to sweep alpha is
-// remembered, so the error is squared each time and the only fixed point is the exact solution.
+// The local solution of Signorini's and Coulomb's conditions for one contact per SIMD lane:
+// SignoriniCoulomb::solve without branches. No impulse and sticking are exact. Slip in space is
+// iterated until a Newton step is shorter than a few per cent. alpha is kept from sweep to sweep,
+// so that each visit squares the error and the only fixed point is the exact solution.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace moreau::detail {
 
-/// One local problem per lane.
+/// The local problems of the lanes.
 template <class S>
 class CoulombLanes {
  public:
@@ -26,8 +26,8 @@ class CoulombLanes {
   using Tangent = typename Block::Tangent;
   static constexpr std::size_t tangents = Block::tangents;
 
-  /// @param alpha  of u_t = -alpha r_t, from the last visit of this contact or 0; the new one
-  /// @param polish puts slipping impulses on the cone to the last digit
+  /// @param alpha  in: alpha of u_t = -alpha r_t from the last visit, or 0; out: the new alpha
+  /// @param polish projects slipping impulses onto the cone
   static Vector solve(const Block& block, const Vector& b, const Values& friction, Values& alpha,
                       bool polish) {
     const Values zero{};
@@ -60,11 +60,11 @@ class CoulombLanes {
   }
 
  private:
-  /// A Newton step this short, relative to slip + alpha, is the last, if | |r_t| - mu r_n | is as
-  /// small too, relative to their sum.
+  /// The iteration ends after a Newton step shorter than this, relative to slip + alpha, if
+  /// | |r_t| - mu r_n | is as small relative to |r_t| + mu r_n.
   static constexpr T close = T(0.05);
 
-  /// @param c    b_t - q b_n
+  /// @param c    b_t - k b_n
   /// @param free impulse without friction
   CoulombLanes(const Block& block, const Tangent& c, const Values& free, const Values& friction)
       : coupling_(block.coupling), slip_(block.slip), friction_(friction), free_(free), c_(c) {}
@@ -87,7 +87,7 @@ class CoulombLanes {
     return {s * free_ / (T(1) + s * coupling_[0])};
   }
 
-  /// r_t at some alpha, and what changes with alpha.
+  /// r_t at an alpha, and its derivatives.
   struct Point {
     Tangent r, fall;            ///< r_t and -dr_t/dalpha
     Values along, limit_slope;  ///< -|r_t| d|r_t|/dalpha and d(mu r_n)/dalpha
@@ -117,8 +117,8 @@ class CoulombLanes {
     return W::absolute(change) <= close * (least + alpha);
   }
 
-  /// In space. Mostly alpha of the last visit is so near that one Newton step on |r_t|^2 -
-  /// (mu r_n)^2, which needs no root, suffices.
+  /// The same in space. In most visits one Newton step on |r_t|^2 - (mu r_n)^2, which needs no
+  /// root, is enough, because alpha of the last visit is near.
   Tangent slide(const Indices& open, Values& alpha) const requires(tangents > 1) {
     const Values zero{};
     const Point p = at(alpha, W::broadcast(1));
@@ -135,8 +135,8 @@ class CoulombLanes {
     return r;
   }
 
-  /// Newton's method inside a bracket from any alpha >= 0; phi and the iteration as in solve_slip,
-  /// in units of the impulse without friction.
+  /// Newton's method in a bracket, from any alpha >= 0; phi and the iteration are those of
+  /// solve_slip, in units of the impulse without friction.
   Tangent search(Indices open, Values& alpha) const requires(tangents > 1) {
     const Values zero{}, most = W::broadcast(std::numeric_limits<T>::max());
     const Values unit = T(1) / free_;
@@ -171,7 +171,7 @@ class CoulombLanes {
     return result;
   }
 
-  /// On the cone to the last digit, whatever Newton left.
+  /// The projection onto the cone: Newton's method leaves a small distance.
   Tangent onto_cone(const Tangent& r) const {
     const Values zero{}, length2 = squared(r);
     const Values scale = length2 > zero ? limit(r) / W::square_root(length2) : zero;

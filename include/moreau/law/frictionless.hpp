@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
-#include <limits>
 
 #include "moreau/contact/lane_block.hpp"
 #include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/law/newton_restitution.hpp"
 
 namespace moreau {
 
@@ -27,11 +27,12 @@ class Frictionless {
 
   T restitution() const { return restitution_; }  ///< e [-]
 
-  /// As SignoriniCoulomb::velocity_offset, from gap [m], velocity before [m/s] and step [s] [m/s].
+  /// Offset of u_n [m/s], see newton_restitution.hpp.
+  /// @param gap    g [m], < 0 is penetration
+  /// @param before u_n before the step [m/s], > 0 separates
+  /// @param step   h [s], > 0
   T velocity_offset(T gap, T before, T step) const {
-    if (restitution_ == T(0)) return std::max(T(0), gap) / step;
-    if (gap > T(0)) return std::numeric_limits<T>::infinity();
-    return restitution_ * std::min(T(0), before);
+    return detail::newton_offset(restitution_, gap, before, step);
   }
 
   /// The exact impulse of the local problem on b, in the contact's frame [N s].
@@ -45,7 +46,7 @@ class Frictionless {
     return r;
   }
 
-  /// Nothing that solving depends on tells two laws of this type apart.
+  /// Empty: all laws of this type have the same local solution.
   std::array<T, 0> lane_parameters() const { return {}; }
   /// See LaneLaw: solve() itself in every lane.
   template <class S>
@@ -66,7 +67,7 @@ class Frictionless {
   Vector natural_map(const Vector& u, const Vector& r) const {
     return r - project(Vector(r - u));
   }
-  /// The point of that half-line nearest to x, in the unit of x.
+  /// The projection of x onto the half-line r_n >= 0, r_t = 0, in the unit of x.
   template <class Vector>
   Vector project(const Vector& x) const {
     return Vector::Unit(0) * std::max(T(0), x[0]);

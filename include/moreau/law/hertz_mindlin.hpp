@@ -22,8 +22,8 @@
 
 namespace moreau {
 
-/// Hertz's and Mindlin's elastic contact with Coulomb's limit; the header has its equations and
-/// their source. Model of RegularizedLaw.
+/// Hertz's and Mindlin's elastic contact with Coulomb's limit; the head of this file has its
+/// equations and their source. Model of RegularizedLaw.
 template <std::floating_point T = double>
 class HertzMindlin {
  public:
@@ -31,7 +31,7 @@ class HertzMindlin {
   /// @param shear       effective modulus G, 1/G = (2 - nu_a)/G_a + (2 - nu_b)/G_b, >= 0 [Pa];
   ///                    > 0 where there is friction
   /// @param friction    mu >= 0 [-]
-  /// @param restitution e in [0, 1] [-]; 0.135 is the least it gives
+  /// @param restitution e in [0, 1] [-]; at least 0.135
   /// @throws std::invalid_argument outside these ranges
   explicit HertzMindlin(T young = T(1e7), T shear = T(0), T friction = T(0), T restitution = T(1))
       : young_(young),
@@ -50,7 +50,7 @@ class HertzMindlin {
   /// @param young       Young's modulus of the material, > 0 [Pa]
   /// @param poisson     Poisson's ratio, in (-1, 1/2] [-]
   /// @param friction    mu >= 0 [-]
-  /// @param restitution e in [0, 1] of a central impact [-]; 0.135 is the least it gives
+  /// @param restitution e in [0, 1] of a central impact [-]; at least 0.135
   /// @returns the law with E = young / (2 (1 - poisson^2)) and G = shear / (2 (2 - poisson)), where
   ///          shear = young / (2 (1 + poisson)) [Pa]
   /// @throws std::invalid_argument outside these ranges, or for a number that is not finite
@@ -68,9 +68,9 @@ class HertzMindlin {
   T shear() const { return shear_; }        ///< G, effective [Pa]
   T friction() const { return friction_; }  ///< mu [-]
 
-  /// Force on b in the contact's frame, normal first, f_n >= 0 [N]; none where the gap is open.
+  /// Force on b in the frame of the contact, normal first, f_n >= 0 [N]; zero if the gap is open.
   /// @param motion of the contact; its effective mass and radius are m and R
-  /// @param memory in and out: xi in the frame [m], zero where the gap is open
+  /// @param memory in and out: xi in the frame [m], zero if the gap is open
   template <class S>
   typename S::Vector force(const ContactMotion<S>& motion, typename S::Vector& memory) const {
     if (motion.gap >= 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A law for one contact per lane, whether it knows lanes or not.
+// The local solutions of several contacts at once, for any law of points.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace moreau::detail {
 
-/// Solves lane after lane by the law's scalar solution.
+/// For a law that is no LaneLaw: its solve() lane after lane.
 template <class Law, class S>
 class LawLanes {
  public:
@@ -35,7 +35,8 @@ class LawLanes {
   }
 
  private:
-  std::array<const Law*, std::size_t{Block::W::lanes}> law_{};  // the table outlives the solution
+  std::array<const Law*, std::size_t{Block::W::lanes}>
+      law_{};  // in the table of laws, which outlives the solve
 };
 
 template <class Law, class S>

@@ -20,15 +20,16 @@
 
 namespace moreau {
 
-/// Cundall's and Strack's springs and dashpots; the header has their equations and source. One
-/// spring per contact point: a contact between faces has several. Model of RegularizedLaw.
+/// Cundall's and Strack's springs and dashpots; the head of this file has their equations and
+/// source. One spring per contact point: a contact between faces has several. Model of
+/// RegularizedLaw.
 template <std::floating_point T = double>
 class LinearSpringDashpot {
  public:
   /// @param stiffness            k_n > 0 [N/m]
   /// @param tangential_stiffness k_t >= 0 [N/m]; > 0 where there is friction
   /// @param friction             mu >= 0 [-]
-  /// @param restitution          e in [0, 1] of a central impact [-]; 0.135 is the least it gives
+  /// @param restitution          e in [0, 1] of a central impact [-]; at least 0.135
   /// @throws std::invalid_argument outside these ranges
   explicit LinearSpringDashpot(T stiffness = T(1e6), T tangential_stiffness = T(0),
                                T friction = T(0), T restitution = T(1))
@@ -55,9 +56,9 @@ class LinearSpringDashpot {
     return detail::contact_time(damping_) * std::sqrt(effective_mass / stiffness_);
   }
 
-  /// Force on b in the contact's frame, normal first, f_n >= 0 [N]; none where the gap is open.
+  /// Force on b in the frame of the contact, normal first, f_n >= 0 [N]; zero if the gap is open.
   /// @param motion of the contact
-  /// @param memory in and out: xi in the frame [m], zero where the gap is open
+  /// @param memory in and out: xi in the frame [m], zero if the gap is open
   template <class S>
   typename S::Vector force(const ContactMotion<S>& motion, typename S::Vector& memory) const {
     if (motion.gap >= 0) {

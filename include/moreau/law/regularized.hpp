@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What regularized laws see of a contact, and what several of them share.
+// The requirements on a regularized law, and what several of them share.
 #pragma once
 
 #include <cmath>
@@ -17,17 +17,18 @@ template <class S>
 struct ContactMotion {
   typename S::Scalar gap;               ///< [m], < 0 is penetration
   typename S::Vector velocity;          ///< of b against a at the point; u_n > 0 separates [m/s]
-  typename S::Scalar effective_mass;    ///< 1 / (1/m_a + 1/m_b); a wall weighs nothing in it [kg]
+  typename S::Scalar effective_mass;    ///< 1 / (1/m_a + 1/m_b), with 1/m = 0 for a wall [kg]
   typename S::Scalar effective_radius;  ///< 1 / (1/R_a + 1/R_b) with R from the centre of mass to
                                         ///< the point; a wall has no curvature [m]
-  typename S::Scalar step;              ///< since the last call [s]; 0 at a first look
+  typename S::Scalar step;              ///< since the last call [s]; 0 in the first call
 };
 
-/// Forces that are a function of gap and velocity, and of a memory that the law keeps.
+/// A law whose force is a function of gap and velocity, and of a memory.
 ///
-/// - force(motion, memory): the force on b [N] in the contact's frame, D numbers, normal first;
-///   f_n > 0 pushes. memory is a vector of the frame in the law's own unit, 0 when the contact is
-///   new; it is carried from step to step in world axes.
+/// - force(motion, memory): the force on b [N] in the frame of the contact, D entries, normal
+/// first;
+///   f_n > 0 pushes. memory is a vector in the frame, in a unit of the law, 0 for a new contact; it
+///   is carried from step to step in world axes.
 template <class L, class S>
 concept RegularizedLaw = std::copyable<L> &&
     requires(const L law, const ContactMotion<S> motion, typename S::Vector memory) {
@@ -40,7 +41,7 @@ concept ContactLaw = SetValuedLaw<L, S> || RegularizedLaw<L, S>;
 
 namespace detail {
 
-/// How long a contact of the damping ratio beta <= 1 lasts, over sqrt(m/k): until it would pull.
+/// Duration of a contact with damping ratio beta <= 1, over sqrt(m/k): until its force would pull.
 template <std::floating_point T>
 T contact_time(T beta) {
   const T rest = T(1) - beta * beta;
@@ -50,8 +51,8 @@ T contact_time(T beta) {
 /// The damping ratio beta of a linear oscillator whose impact ends when the force would pull:
 /// e = exp(-beta contact_time(beta)) (T. Schwager and T. Poschel, Granular Matter 9 (2007) 465);
 /// the same for Hertz's force with its dashpot, which a change of variables makes linear (D.
-/// Antypov and J. A. Elliott, EPL 94 (2011) 50004). Critical damping leaves e^-2 = 0.135; below it
-/// stays so.
+/// Antypov and J. A. Elliott, EPL 94 (2011) 50004). Critical damping gives e^-2 = 0.135,
+/// which is the least restitution.
 template <std::floating_point T>
 T damping_ratio(T restitution, const char* law) {
   require(restitution >= T(0) && restitution <= T(1), law, "restitution", restitution,
@@ -64,7 +65,7 @@ T damping_ratio(T restitution, const char* law) {
   return restitution < T(1) ? upper : T(0);
 }
 
-/// A normal force with a tangential spring and dashpot under Coulomb's limit.
+/// The force of a normal force and a tangential spring and dashpot with Coulomb's limit.
 /// @param memory in and out: stretch of the spring [m]
 template <class S>
 typename S::Vector spring_friction(const ContactMotion<S>& motion, typename S::Scalar normal,

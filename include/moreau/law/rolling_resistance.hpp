@@ -8,8 +8,8 @@
 // Iwashita and M. Oda, J. Eng. Mech. 124 (1998) 285; J. Ai et al., Powder Technol. 206 (2011) 269,
 // model A without a spring). Meant for spheres and disks.
 //
-// The local solution sticks and does not roll where that obeys both limits. Elsewhere the two laws
-// are solved in turn, each exactly with the other held, until nothing changes.
+// The local solution neither slips nor rolls if that obeys both limits. Else the two laws are
+// solved in turn, each exactly with the impulse of the other held, until nothing changes.
 #pragma once
 
 #include <Eigen/LU>
@@ -22,20 +22,21 @@
 #include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
 
 namespace detail {
 
-/// The m with |m| <= limit and Q m + c = -beta m, beta = 0 inside the limit.
+/// Solves Q m + c = -beta m with |m| <= limit and beta >= 0; beta = 0 if |m| < limit.
 template <class Matrix, class Vector, class T>
 Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
   constexpr T epsilon = std::numeric_limits<T>::epsilon();
   if (!(limit > 0) || c.isZero(0)) return Vector::Zero();
-  // In units of the limit, so that products of small couples do not underflow.
+  // In units of the limit: products of small couples would underflow.
   const Vector load = c / limit;
-  // So far outside that beta hides Q, and squares may overflow.
+  // So far outside that Q is below the rounding of beta; squares may overflow.
   if (!(epsilon * load.stableNorm() < q.trace())) return -limit * c.stableNormalized();
   T beta = 0;
   Vector m = Vector::Zero();
@@ -53,8 +54,8 @@ Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
 
 }  // namespace detail
 
-/// Signorini's condition with friction and rolling resistance for one pair of materials; the header
-/// has its equations and their source. Model of RollingLaw.
+/// Signorini's condition with friction and rolling resistance for one pair of materials; the head
+/// of this file has its equations and their source. Model of RollingLaw.
 template <std::floating_point T = double>
 class RollingResistance {
  public:
@@ -79,23 +80,23 @@ class RollingResistance {
   T rolling() const { return rolling_; }                  ///< eta [-]
   T restitution() const { return point_.restitution(); }  ///< e [-]
 
-  /// As SignoriniCoulomb::velocity_offset, from gap [m], velocity before [m/s] and step [s] [m/s].
+  /// Offset of u_n [m/s], as SignoriniCoulomb::velocity_offset.
   T velocity_offset(T gap, T before, T step) const {
     return point_.velocity_offset(gap, before, step);
   }
 
-  /// The impulse of the local problem on b, (r_n, r_t, couple / R) in the contact's frame, to
-  /// rounding [N s].
+  /// The solution of the local problem to rounding: the impulse (r_n, r_t, couple / R) on b, in the
+  /// frame of the contact [N s].
   /// @param block W of the contact [1/kg]
-  /// @param b     D + A, (velocity, R spin) at zero impulse, with the offset [m/s]
-  /// @param guess any impulse nearby, or zero [N s]
+  /// @param b     D + A, (velocity, R spin) without impulse, with the offset [m/s]
+  /// @param guess start of the iteration, zero allowed [N s]
   template <class S>
   typename RollingBlock<S>::Vector solve(const RollingBlock<S>& block,
                                          const typename RollingBlock<S>::Vector& b,
                                          const typename RollingBlock<S>::Vector& guess) const {
     using Vector = typename RollingBlock<S>::Vector;
     if (b[0] >= T(0)) return Vector::Zero();
-    // In units of the velocity, so that squares of small ones do not underflow.
+    // In units of the velocity: squares of small velocities would underflow.
     const T unit = b.cwiseAbs().maxCoeff();
     const Vector start = guess / unit;
     return unit * solve_unit<S>(block, b / unit, start.allFinite() ? start : Vector::Zero());
@@ -113,14 +114,14 @@ class RollingResistance {
     return r - project(x);
   }
 
-  /// The point of the cone |x_t| <= mu x_n, |m| <= eta x_n nearest to x = (x_n, x_t, m), in its
-  /// unit.
+  /// The projection of x = (x_n, x_t, m) onto the cone |x_t| <= mu x_n, |m| <= eta x_n, in the unit
+  /// of x.
   template <class Vector>
   Vector project(const Vector& x) const {
     constexpr int d = point_rows<Vector>, spins = Vector::RowsAtCompileTime - d;
     const T slide = x.template segment<d - 1>(1).norm(), roll = x.template tail<spins>().norm();
     const T mu = friction(), eta = rolling_;
-    // x_n of the projection: which of the two limits bind depends on it, so all four are tried.
+    // x_n of the projection: the two limits may bind or not, so there are four cases.
     T normal = 0;
     for (int binds = 0; binds < 4; ++binds) {
       const T a = binds & 1 ? mu : T(0), b = binds & 2 ? eta : T(0);
@@ -146,7 +147,7 @@ class RollingResistance {
   template <class Vector>
   static constexpr int point_rows = (Vector::RowsAtCompileTime + 1) / 2;
 
-  /// The same where the largest entry of b is 1.
+  /// solve() for b whose largest entry is 1.
   template <class S>
   typename RollingBlock<S>::Vector solve_unit(const RollingBlock<S>& block,
                                               const typename RollingBlock<S>::Vector& b,
@@ -157,18 +158,16 @@ class RollingResistance {
     Vector r = guess;
     for (int iteration = 0; iteration < 1000; ++iteration) {
       const Vector before = r;
-      const typename S::Vector b_point =
-          b.template head<S::dim>() + block.coupling * r.template tail<S::angular_dim>();
-      r.template head<S::dim>() =
-          point_.template solve<S>(block.point, b_point, r.template head<S::dim>());
-      const typename S::Angular c = b.template tail<S::angular_dim>() +
-                                    block.coupling.transpose() * r.template head<S::dim>();
+      const typename S::Vector b_point = linear<S>(b) + block.coupling * angular<S>(r);
+      linear<S>(r) = point_.template solve<S>(block.point, b_point, linear<S>(r));
+      const typename S::Angular c = angular<S>(b) + block.coupling.transpose() * linear<S>(r);
       const typename S::Angular couple =
           detail::solve_disc<typename S::Inertia, typename S::Angular, T>(block.spin, c,
                                                                           rolling_ * r[0]);
-      // A couple that opens the contact, which without it closes, would go on for ever.
+      // Damped after 30 iterations: a couple that opens a contact, which closes without the couple,
+      // would alternate for ever.
       const T share = iteration < 30 ? T(1) : T(0.5);
-      r.template tail<S::angular_dim>() += share * (couple - r.template tail<S::angular_dim>());
+      angular<S>(r) += share * (couple - angular<S>(r));
       if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) break;
     }
     return r;

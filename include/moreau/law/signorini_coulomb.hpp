@@ -4,16 +4,16 @@
 //   0 <= u_n + offset  _|_  r_n >= 0,     |r_t| <= mu r_n,  u_t = -alpha r_t with alpha >= 0,
 //                                          alpha = 0 inside the cone.
 //
-// The local solution is exact. Where the sticking impulse leaves the cone the contact slips,
+// The local solution is exact. If the sticking impulse is outside of the cone, the contact slips,
 // u_t = -alpha r_t, and alpha > 0 is the root of phi(alpha) = |r_t| - mu r_n, positive at 0 and
 // negative at infinity (O. Bonnefon and G. Daviet, "Quartic formulation of Coulomb 3D frictional
 // contact", INRIA RT-0400, 2011). Squaring phi would add roots with r_n < 0. Newton runs on 1/|r_t|
 // - 1/(mu r_n) instead, which is nearly linear in alpha (as in the secular equation of J. J. More
 // and D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553), inside a bracket for phi. In the
-// plane the sign of r_t does not depend on alpha and the solution is explicit.
+// plane the sign of r_t does not depend on alpha: the solution is explicit.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -24,12 +24,14 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/law/coulomb_lanes.hpp"
+#include "moreau/law/newton_restitution.hpp"
 
 namespace moreau {
 
 namespace detail {
 
-/// Slip in the plane: r_t = s mu r_n, with s the (constant) sign of r_t along the branch.
+/// The impulse of slip in the plane: r_t = s mu r_n, where the sign s of r_t does not depend on
+/// alpha.
 template <std::floating_point T>
 Eigen::Matrix<T, 2, 1> solve_slip(const LocalBlock<Space<2, T>>& block,
                                   const Eigen::Matrix<T, 2, 1>& b, T friction,
@@ -39,7 +41,7 @@ Eigen::Matrix<T, 2, 1> solve_slip(const LocalBlock<Space<2, T>>& block,
   return {normal, s * normal};
 }
 
-/// Slip in space, started from the alpha that the guess implies.
+/// The impulse of slip in space; Newton's method starts from the alpha of the guess.
 template <std::floating_point T>
 Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
                                   const Eigen::Matrix<T, 3, 1>& b, T friction,
@@ -47,12 +49,12 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
   // Within this relative |phi| the last Newton step is taken along the derivative at hand, which
   // leaves an error of its square: rounding.
   constexpr T close = std::numeric_limits<T>::epsilon() < T(1e-10) ? T(2e-8) : T(2e-4);
-  // In units of the impulse without friction, so that products of small impulses do not underflow.
+  // In units of the impulse without friction: products of small impulses would underflow.
   const T free = -b[0] / block.normal, unit = T(1) / free;
   if (!std::isfinite(unit))
     return Eigen::Matrix<T, 3, 1>::Zero();  // below the smallest normal number
-  const T q1 = block.coupling[0], q2 = block.coupling[1];
-  const T c1 = unit * (b[1] - q1 * b[0]), c2 = unit * (b[2] - q2 * b[0]);
+  const T k1 = block.coupling[0], k2 = block.coupling[1];
+  const T c1 = unit * (b[1] - k1 * b[0]), c2 = unit * (b[2] - k2 * b[0]);
   const T l1 = block.slip[0], l2 = block.slip[1];
   T lower = 0, upper = std::numeric_limits<T>::infinity(), alpha = 0;
   const T g1 = unit * guess[1], g2 = unit * guess[2], squared = g1 * g1 + g2 * g2;
@@ -66,9 +68,9 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
     r1 = -c1 * i1, r2 = -c2 * i2;
     const T s1 = r1 * i1, s2 = r2 * i2;  // -dr_t/dalpha
     const T length2 = r1 * r1 + r2 * r2, length = std::sqrt(length2);
-    const T limit = friction * (T(1) - q1 * r1 - q2 * r2);
+    const T limit = friction * (T(1) - k1 * r1 - k2 * r2);
     const T fall = r1 * s1 + r2 * s2;                      // -|r_t| d|r_t|/dalpha
-    const T limit_slope = friction * (q1 * s1 + q2 * s2);  // d limit/dalpha
+    const T limit_slope = friction * (k1 * s1 + k2 * s2);  // d limit/dalpha
     const T phi = length - limit;
     // Newton on the reciprocals where the limit is positive, on phi itself where it is not.
     const T change = limit > T(0) ? phi * length2 * limit /
@@ -86,8 +88,8 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
       next = std::isinf(upper) ? T(2) * lower + l1 + l2 : (lower + upper) / T(2);
     alpha = next;
   }
-  // On the cone to the last digit, whatever Newton left.
-  const T normal = free * (T(1) - q1 * r1 - q2 * r2);
+  // Projects the result onto the cone: Newton's method leaves a small distance.
+  const T normal = free * (T(1) - k1 * r1 - k2 * r2);
   const T length2 = r1 * r1 + r2 * r2;
   const T scale = length2 > T(0) ? friction * normal / std::sqrt(length2) : T(0);
   return {normal, scale * r1, scale * r2};
@@ -105,10 +107,10 @@ class SignoriniCoulomb {
   /// @throws std::invalid_argument outside these ranges
   explicit SignoriniCoulomb(T friction = T(0), T restitution = T(0))
       : SignoriniCoulomb(friction, restitution, friction) {}
-  /// With more friction at rest than in slip.
-  /// @param friction        mu >= 0 where it slid in the step before [-]
+  /// A law with static friction.
+  /// @param friction        mu >= 0 if the contact slid in the step before [-]
   /// @param restitution     e in [0, 1] [-]
-  /// @param static_friction mu >= friction where the contact is new or stuck in the step before [-]
+  /// @param static_friction mu >= friction if the contact is new or stuck in the step before [-]
   /// @throws std::invalid_argument outside these ranges
   SignoriniCoulomb(T friction, T restitution, T static_friction)
       : friction_(friction), restitution_(restitution), static_(static_friction) {
@@ -120,28 +122,24 @@ class SignoriniCoulomb {
             "static_friction", static_friction, "must be finite and >= friction");
   }
 
-  T friction() const { return friction_; }  ///< mu where it slips, and everywhere unless said [-]
-  T static_friction() const { return static_; }   ///< mu until it slips [-]
+  T friction() const { return friction_; }        ///< mu in slip [-]
+  T static_friction() const { return static_; }   ///< mu at rest [-]
   T restitution() const { return restitution_; }  ///< e [-]
 
-  /// What is added to u_n [m/s]. e = 0: the contact may close its gap within the step, max(0, g)/h,
-  /// and a penetration is not thrown out. e > 0: it acts only when closed, with e min(0, u_n
-  /// before); a contact that anticipated its gap would lose the restitution.
+  /// Offset of u_n [m/s], see newton_restitution.hpp.
   /// @param gap    g [m], < 0 is penetration
-  /// @param before u_n ahead of the step [m/s], > 0 separates
+  /// @param before u_n before the step [m/s], > 0 separates
   /// @param step   h [s], > 0
-  /// @returns infinity where the contact cannot act in this step
+  /// @returns infinity if the contact cannot act in this step
   T velocity_offset(T gap, T before, T step) const {
-    if (restitution_ == T(0)) return std::max(T(0), gap) / step;
-    if (gap > T(0)) return std::numeric_limits<T>::infinity();
-    return restitution_ * std::min(T(0), before);
+    return detail::newton_offset(restitution_, gap, before, step);
   }
 
-  /// The exact impulse of the local problem on b, in the contact's frame, normal first [N s]. It
-  /// uses friction(); the friction of rest is that of variant().
+  /// The exact solution of the local problem: the impulse on b, in the frame of the contact, normal
+  /// first [N s]. Its friction is friction(); static friction is that of a variant().
   /// @param block W of the contact [1/kg]
-  /// @param b     D, relative velocity at zero impulse, with the offset [m/s]
-  /// @param guess any impulse nearby, or zero [N s]
+  /// @param b     D, relative velocity without impulse, with the offset [m/s]
+  /// @param guess start of the iteration, zero allowed [N s]
   template <class S>
   typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
                            const typename S::Vector& guess) const {
@@ -156,21 +154,21 @@ class SignoriniCoulomb {
     const auto c = b.template tail<tangents>() - b[0] * block.coupling;
     r.template tail<tangents>() = -c.cwiseQuotient(block.slip);
     r[0] = free - block.coupling.dot(r.template tail<tangents>());
-    // In units of the impulse without friction, so that squares of small impulses do not underflow.
+    // In units of the impulse without friction: squares of small impulses would underflow.
     const T unit = T(1) / free, limit = unit * friction_ * r[0];
     if (limit >= T(0) && (unit * r.template tail<tangents>()).squaredNorm() <= limit * limit)
       return r;
     return detail::solve_slip<T>(block, b, friction_, guess);
   }
 
-  /// See StatefulLaw: with the friction of rest, with that of slip.
+  /// See StatefulLaw: static friction, friction in slip.
   static constexpr std::size_t variants = 2;
-  /// See StatefulLaw: 0 after rest, 1 after slip.
+  /// See StatefulLaw: 0 at rest, 1 in slip.
   SignoriniCoulomb variant(std::size_t k) const {
     return SignoriniCoulomb(k == 0 ? static_ : friction_, restitution_);
   }
-  /// It slid if its impulse [N s], in the contact's frame, lies on one of the two cones. 1 for all
-  /// if these are one.
+  /// See StatefulLaw: the contact slid if its impulse [N s], in its frame, lies on one of the two
+  /// cones. Always 1 if static and kinetic friction are equal.
   template <class Vector>
   std::size_t variant_after(const Vector& impulse) const {
     if (static_ == friction_) return 1;
@@ -181,9 +179,9 @@ class SignoriniCoulomb {
     return length > T(0) && slid ? 1 : 0;
   }
 
-  /// What two laws of this type differ in when they solve: the friction [-].
+  /// See LaneLaw: the friction [-].
   std::array<T, 1> lane_parameters() const { return {friction_}; }
-  /// One contact per lane; see CoulombLanes for what it returns of solve(). It remembers alpha.
+  /// See LaneLaw: CoulombLanes, whose memory is alpha.
   template <class S>
   static typename LaneBlock<S>::Vector solve_lanes(
       const LaneBlock<S>& block, const typename LaneBlock<S>::Vector& b,
@@ -195,7 +193,7 @@ class SignoriniCoulomb {
 
   /// r - P_K(r - (u + mu |u_t| n)), K the Coulomb cone. Zero iff (u, r) satisfies the law
   /// (G. De Saxce and Z.-Q. Feng, Math. Comput. Modelling 28 (1998) 225).
-  /// @param u,r D, normal first, in one unit, which is that of the result
+  /// @param u,r D entries, normal first, in one unit, which is that of the result
   template <class Vector>
   Vector natural_map(const Vector& u, const Vector& r) const {
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
@@ -204,7 +202,7 @@ class SignoriniCoulomb {
     return r - project(x);
   }
 
-  /// The point of the cone |x_t| <= mu x_n nearest to x, D numbers, normal first, in its unit.
+  /// The projection of x onto the cone |x_t| <= mu x_n; D entries, normal first, in the unit of x.
   template <class Vector>
   Vector project(const Vector& x) const {
     constexpr int tangents = Vector::RowsAtCompileTime - 1;

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Non-linear Gauss-Seidel made fast: the same fixed point and the same local solutions as
-// NonlinearGaussSeidel, with
+// Fast non-linear Gauss-Seidel: the fixed point and the local solutions of NonlinearGaussSeidel,
+// with
 //
-//  - contacts coloured by body, so that each wide instruction works on independent contacts, and
-//    each member of a team on others; the bits do not depend on how many they are;
-//  - momentum: a sweep starts from r + beta (r - r a sweep ago) and from the body velocities that
-//    belong to it, which are extrapolated alike because they are linear in r;
-//  - Anderson's mixing instead, where momentum gets no further: with friction a solution can repel
-//    the sweeps, which then circle around it for thousands;
-//  - contacts that carry nothing and separate left out of the sweeps between two checks; every
-//    check visits all.
+//  - colouring: contacts are coloured by body, so that a SIMD instruction and the members of a team
+//    work on independent contacts. The bits of the result do not depend on the size of the team;
+//  - Nesterov's momentum: a sweep starts from r + beta (r - r of the sweep before) and from the
+//    velocities of the bodies for these impulses, which are extrapolated alike: they are linear in
+//    r;
+//  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can repel the
+//  sweeps, which
+//    then circle around it for thousands of sweeps;
+//  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
+//    stopping test visits all contacts and updates the set.
 //
-// Whether the result is good is decided by a plain sweep (QM/16) or by the residual of the impulses
-// alone; the acceleration has no say in that.
+// The stopping tests are those of NonlinearGaussSeidel: the changes of a plain sweep (QM/16), or
+// the residual of the impulses with velocities computed from them alone. The acceleration does not
+// enter.
 #pragma once
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/law/concepts.hpp"
-#include "moreau/solve/coloured_sweeps.hpp"
+#include "moreau/solve/coloured/coloured_sweeps.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -32,18 +35,19 @@
 
 namespace moreau {
 
-/// When the sweeps end, and how they go.
+/// Options of ColouredGaussSeidel.
 struct ColouredOptions {
-  double tolerance = 1e-4;                     ///< on what stop_test names, > 0 [-]
+  double tolerance = 1e-4;                     ///< on the quantity that stop_test names, > 0 [-]
   StopTest stop_test = StopTest::natural_map;  ///< what ends the sweeps
-  int max_sweeps = 2000;    ///< cap, >= 1; reached without passing, the report says capped. A solve
-                            ///< that is tried again has it twice
+  /// Cap, >= 1; if it ends the sweeps, SolveReport::capped is set. A second attempt has a cap of
+  /// its own.
+  int max_sweeps = 2000;
   int check_interval = 20;  ///< sweeps from one stopping test to the next, >= 1
-  bool accelerate = true;   ///< off: plain sweeps
+  bool accelerate = true;   ///< false: plain sweeps
 };
 
-/// The fast solver of a step's contacts; the header says how it differs from the reference.
-/// @tparam TeamT who visits the contacts
+/// The fast solver of contact problems for laws of points.
+/// @tparam TeamT the threads that share the work
 template <Team TeamT>
 class TeamGaussSeidel {
  public:
@@ -62,7 +66,7 @@ class TeamGaussSeidel {
 
   const Options& options() const { return options_; }  ///< as given
 
-  /// Solves u = W r + b with the law of every contact; see NonlinearGaussSeidel::solve. Sizes are
+  /// Solves the contact problem; the arguments are those of NonlinearGaussSeidel::solve. Sizes are
   /// not checked.
   template <class Operator, class Law>
   SolveReport solve(ContactProblem<Operator, Law>& problem,
@@ -71,12 +75,12 @@ class TeamGaussSeidel {
     detail::drop_if_not_finite(impulses);
     SolveReport report = attempt(problem, impulses, sweeps, options_.accelerate);
     if (!options_.accelerate || report.relative_approach <= 1) return report;
-    // Worse than no impulses at all: driven away, by the warm start or by acceleration. Once more
-    // without either.
-    const int wasted = report.sweeps;
+    // Worse than no impulses: the warm start or the acceleration made the sweeps diverge. Second
+    // attempt without both.
+    const int first_sweeps = report.sweeps;
     std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
     report = attempt(problem, impulses, sweeps, false);
-    report.sweeps += wasted;
+    report.sweeps += first_sweeps;
     return report;
   }
 
@@ -93,56 +97,66 @@ class TeamGaussSeidel {
     report.converged = false;
     detail::set_impulses<Operator>(problem.delassus, impulses);
     sweeps.start(problem, impulses, accelerate);
-    double believed = 3 * options_.tolerance;  // change per sweep at which the residual may be met
+    // The residual takes a pass over all contacts. It is measured once the change per sweep is
+    // below the change at which the residual is expected to meet the tolerance.
+    double expected_change = 3 * options_.tolerance;
     double least = std::numeric_limits<double>::infinity();
-    int unchecked = 0;
+    int skipped = 0;
     while (!report.converged && report.sweeps < options_.max_sweeps) {
-      const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
-      for (int k = 1; k < block; ++k)
-        if (report.sweeps == 0 && std::has_single_bit(unsigned(k)))
-          sweeps.waking_sweep(team_);
-        else
-          sweeps.sweep(team_);
-      sweeps.plain_sweep(team_).write(report);
-      report.sweeps += block;
+      sweep_to_check(sweeps, report);
       const double change = std::max(report.quad_dv, report.quad_dvr);
       if (options_.stop_test == StopTest::qm16) {
         report.converged = passes_qm16(report, options_.tolerance);
         if (report.converged) certify(problem, impulses, sweeps, report);
         report.converged = report.converged && detail::is_closed(report);
-      } else if (report.quad_dv <= believed || ++unchecked == most_unchecked) {
-        unchecked = 0;
+      } else if (report.quad_dv <= expected_change || ++skipped == max_skipped) {
+        skipped = 0;
         certify(problem, impulses, sweeps, report);
         report.converged = is_solved(report);
-        believed = report.quad_dv * options_.tolerance / report.residual;
+        expected_change = report.quad_dv * options_.tolerance / report.residual;
       }
       if (report.converged) break;
-      if (change < kept * least) {
+      if (change < improvement * least) {
         least = change;
-        sweeps.keep();
-      } else if (!(change < astray * least)) {
-        sweeps.go_back();
+        sweeps.save();
+      } else if (!(change < divergence * least)) {
+        sweeps.restore();
       }
     }
-    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.go_back();
+    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.restore();
     if (!report.converged) certify(problem, impulses, sweeps, report);
     if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
     report.capped = !report.converged;
     return report;
   }
 
-  /// The change per sweep says little where a contact is nearly singular: after this many checks
-  /// that it forbade, the residual is looked at all the same.
-  static constexpr int most_unchecked = 16;
-  /// Impulses are kept when the change has fallen by `kept`, gone back to when it is `astray` times
-  /// what it was: acceleration can drive away.
-  static constexpr double kept = 0.5, astray = 1e3;
+  /// Most stopping tests in a row without the residual: the change per sweep says little about it
+  /// if a contact is nearly singular.
+  static constexpr int max_skipped = 16;
+  /// Safeguard against divergence by acceleration: impulses are saved if the change per sweep is
+  /// below `improvement` times that of the saved ones, and restored if it is `divergence` times as
+  /// large.
+  static constexpr double improvement = 0.5, divergence = 1e3;
+
+  /// The sweeps up to the next stopping test. In the first interval, sweeps 1, 2, 4, 8, .. update
+  /// the active set.
+  template <class Sweeps>
+  void sweep_to_check(Sweeps& sweeps, SolveReport& report) const {
+    const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
+    for (int k = 1; k < block; ++k)
+      if (report.sweeps == 0 && std::has_single_bit(unsigned(k)))
+        sweeps.sweep_all(team_);
+      else
+        sweeps.sweep_active(team_);
+    sweeps.plain_sweep(team_).write(report);
+    report.sweeps += block;
+  }
 
   bool is_solved(const SolveReport& report) const {
     return report.residual <= options_.tolerance && detail::is_closed(report);
   }
 
-  /// The residual of the impulses as they are, with velocities made from them alone.
+  /// The residual of the impulses, with velocities computed from them alone.
   template <class Operator, class Law>
   static void certify(ContactProblem<Operator, Law>& problem,
                       std::span<typename Operator::Vector> impulses,

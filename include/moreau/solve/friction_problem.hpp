@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A frictional contact problem given by its matrices alone, without bodies: what other codes write
-// to files. Of each contact, normal first,
+// A frictional contact problem given by its matrices, without bodies, as other codes write it to
+// files. For each contact, normal first,
 //
 //     u = W r + b,        Signorini's condition and Coulomb's law between u and r.
 //
-// W is what it is: positive semi-definite in theory, of low rank where contacts are many, and
-// slightly asymmetric where another code assembled it so.
+// W may be any matrix: positive semi-definite in theory, of low rank if there are many contacts,
+// slightly asymmetric if another code assembled it so.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@
 
 namespace moreau {
 
-/// A problem of n contacts; the header has its equations.
+/// A problem of n contacts; the head of this file has its equations.
 /// @tparam S the space; D numbers per contact, in its own frame, normal first
 template <class S>
 struct FrictionProblem {
@@ -40,7 +40,7 @@ struct FrictionProblem {
 };
 
 /// Checks the sizes and the numbers of a problem.
-/// @param function the public name the caller used
+/// @param function the public name that the exception gives
 /// @throws std::invalid_argument if W is not D n x D n, sizes differ, a number is not finite, a
 ///         friction is negative, or a diagonal entry of W is negative
 template <class S>
@@ -66,8 +66,8 @@ void require_valid(const FrictionProblem<S>& problem, std::string_view function)
   }
 }
 
-/// Mean of the diagonal of W [1/kg], by which W is divided and r multiplied, so that r has the unit
-/// of u; 1 where it is 0.
+/// Mean of the diagonal of W [1/kg], or 1 if that is 0. W is divided and r multiplied by it, so
+/// that r has the unit of u.
 template <class S>
 double delassus_scale(const FrictionProblem<S>& problem) {
   if (problem.size() == 0) return 1;
@@ -77,21 +77,22 @@ double delassus_scale(const FrictionProblem<S>& problem) {
 
 namespace detail {
 
-/// The natural map || r - P_K(r - (u + mu |u_t| n)) || and what it is compared with, in whatever
-/// units.
+/// The natural map || r - P_K(r - (u + mu |u_t| n)) || and the norms that it is compared with, all
+/// in one unit.
 struct MapError {
   double map, velocity, impulse;  ///< the map, max(|b|, |u|), |r|
   double closing;                 ///< | min(0, u_n) |
 
   double residual() const { return relative(std::max(velocity, impulse)); }
-  /// The residual, or a factor times that of the velocities alone or the approach that is left.
-  /// Without it impulses that grow without bound, where there is no solution, would look like one,
-  /// and so would none where mu is large: the map of an approach with slip is then 1/mu of it.
+  /// max(residual, factor times the map relative to the velocities, factor times the remaining
+  /// approach velocity). Without the second, impulses that grow without bound because there is no
+  /// solution would look like a solution. Without the third, no impulse would look like one if mu
+  /// is large: the map of an approach with slip is then 1/mu of the approach.
   double guarded(double factor) const {
     return std::max(residual(), factor * std::max(relative(velocity), share(closing, velocity)));
   }
   double relative(double norm) const { return share(map, norm); }
-  /// Of the norm; of 1 if that is 0, and infinite where numbers end.
+  /// part / norm, or part if the norm is 0; infinite if a value is not finite.
   static double share(double part, double norm) {
     const double e = norm > 0 ? part / norm : part;
     return e >= 0 && std::isfinite(norm) ? e : std::numeric_limits<double>::infinity();
@@ -115,10 +116,10 @@ MapError map_error(const Eigen::VectorXd& u, const Eigen::VectorXd& r, const Eig
 
 }  // namespace detail
 
-/// The residual by which a solution is judged: that of the natural map, with u = W r + b computed
-/// anew, after scaling W and r so that the mean of diag W is 1, relative to max(|b|, |r|, |u|) [-].
-/// Infinite where it is not a number. For the map see SignoriniCoulomb::natural_map.
-/// @param problem  taken as valid; see require_valid()
+/// The residual of a solution: that of the natural map, with u = W r + b, after scaling W and r so
+/// that the mean of diag W is 1, relative to max(|b|, |r|, |u|) [-]. Infinite if it is not a
+/// number. See SignoriniCoulomb::natural_map for the map.
+/// @param problem  must be valid, which is not checked; see require_valid()
 /// @param impulses D n, in the units of the problem [N s]
 /// @throws std::invalid_argument for impulses of another size
 template <class S>

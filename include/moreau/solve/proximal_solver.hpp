@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Solves a friction problem given by its matrices, however ill-conditioned.
+// Solves a friction problem given by its matrices, even if it is ill-conditioned.
 //
-// Gauss-Seidel with momentum comes first and mostly suffices. Where it stalls, the proximal point
-// method takes over: W + epsilon I about the last result is well conditioned and has a solution
-// near by, which Gauss-Seidel and Newton's method in turn find to rounding. Epsilon falls while
-// they do and rises where they fail (Siconos has solvers of this kind: V. Acary, M. Bremond and
-// O. Huber, in Advanced Topics in Nonsmooth Dynamics, Springer 2018, 375).
+//  1. Gauss-Seidel with Nesterov's momentum. For most problems this is enough.
+//  2. If it stalls, the proximal point method: the problem with W + epsilon I, centred at the last
+//     result, is well conditioned and has a solution near by. Gauss-Seidel and Newton's method in
+//     turn find it to rounding. epsilon is reduced if they succeed and raised if they fail.
+//
+// Siconos has solvers of this kind (V. Acary, M. Bremond and O. Huber, in Advanced Topics in
+// Nonsmooth Dynamics, Springer 2018, 375).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,32 +21,32 @@
 #include "moreau/solve/block_system.hpp"
 #include "moreau/solve/coulomb_newton.hpp"
 #include "moreau/solve/friction_problem.hpp"
-#include "moreau/solve/momentum.hpp"
+#include "moreau/solve/nesterov_momentum.hpp"
 
 namespace moreau {
 
-/// When the solver ends.
+/// Options of ProximalSolver.
 struct ProximalOptions {
   double tolerance = 1e-10;  ///< on natural_map_residual(), > 0 [-]
   int max_sweeps = 1000000;  ///< of Gauss-Seidel, over all contacts, >= 1
-  /// Time after which the best result so far is returned, > 0 [s], within one step of Newton's
-  /// method. A result that comes before does not depend on it.
+  /// Time after which the best result so far is returned, > 0 [s]; it is tested between steps of
+  /// Newton's method. Results that are found earlier do not depend on it.
   double max_seconds = std::numeric_limits<double>::infinity();
 };
 
-/// How well a problem was solved; not converging is no error.
+/// How well a problem was solved. A solver that does not converge is no error.
 struct ProblemReport {
   int sweeps = 0;          ///< of Gauss-Seidel
   int newton_steps = 0;    ///< each with a factorization
-  int proximal_steps = 0;  ///< 0: Gauss-Seidel sufficed
+  int proximal_steps = 0;  ///< 0 if Gauss-Seidel was enough
   double residual = 0;     ///< natural_map_residual() of the result [-]
-  /// The residual is within the tolerance; relative to the velocities alone it, and the approach
-  /// that is left, are within its root: a problem without solution, where impulses grow without
-  /// bound, does not pass.
+  /// The residual is below the tolerance; the map relative to the velocities alone and the
+  /// remaining approach velocity are below the root of the tolerance. The second condition fails
+  /// for a problem without solution, where impulses grow without bound.
   bool converged = false;
 };
 
-/// Solves a friction problem to rounding where that can be done; the header says how.
+/// Solves a friction problem, if possible to rounding; the head of this file has the method.
 class ProximalSolver {
  public:
   using Options = ProximalOptions;
@@ -63,7 +65,7 @@ class ProximalSolver {
   /// @param problem  of n contacts
   /// @param impulses in: the start, D n, or empty for zero; out: the best result, in the units of
   ///                 the problem, normal first in every contact [N s]
-  /// @returns what was reached; not converging is no error
+  /// @returns how well the problem was solved
   /// @throws std::invalid_argument for a problem that is not valid, or a start of another size or
   ///         that is not finite
   template <class S>
@@ -88,7 +90,7 @@ class ProximalSolver {
           newton(system),
           best{r, system.residual(r)} {}
 
-    /// Gauss-Seidel as long as it makes good progress.
+    /// Gauss-Seidel while the residual falls fast.
     void start() {
       constexpr int block = 200;
       constexpr double progress = 0.3;
@@ -100,7 +102,7 @@ class ProximalSolver {
       }
     }
 
-    /// Until the residual has not fallen for many steps: it is at rounding, or nothing helps.
+    /// Proximal point steps until the residual has not fallen for many of them.
     void proximal_point() {
       constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4, progress = 0.9;
       constexpr int most_idle = 1000;
@@ -126,9 +128,9 @@ class ProximalSolver {
       }
     }
 
-    /// Gauss-Seidel and Newton's method in turn, until both make little progress.
+    /// The shifted problem, by Gauss-Seidel and Newton's method in turn, until both stagnate.
     Best solve_shifted(const Eigen::VectorXd& centre, double outer) {
-      constexpr int rounds = 8, patience = 2, newton_iterations = 40;
+      constexpr int rounds = 8, max_stalls = 2, newton_iterations = 40;
       constexpr double rounding = 1e-14, progress = 0.5;
       const double tolerance = std::max(rounding, std::min(1e-2 * outer, 0.1 * options.tolerance));
       Best found{centre, system.residual(centre)};
@@ -138,8 +140,8 @@ class ProximalSolver {
       for (int round = 0; round < rounds && found.residual > tolerance; ++round) {
         sweep(r, found, tolerance, count);
         if (found.residual <= tolerance || over()) break;
-        if (round >= patience && found.residual > progress * before) break;
-        if (round % patience == 0) before = found.residual;
+        if (round >= max_stalls && found.residual > progress * before) break;
+        if (round % max_stalls == 0) before = found.residual;
         Eigen::VectorXd polished = r;
         found.offer(polished, newton.improve(polished, tolerance, newton_iterations));
         report.newton_steps = newton.steps();
@@ -148,11 +150,11 @@ class ProximalSolver {
       return found;
     }
 
-    /// Gauss-Seidel with momentum. r goes on even where the residual rises; what was best is
-    /// offered to `found`.
+    /// Gauss-Seidel with Nesterov's momentum. r continues even if its residual rises; `found` gets
+    /// the best result.
     void sweep(Eigen::VectorXd& r, Best& found, double tolerance, int count) {
       constexpr int check_interval = 10;
-      detail::Momentum momentum;
+      detail::NesterovMomentum nesterov;
       Eigen::VectorXd ahead = r;
       for (int k = 1; k <= count && found.residual > tolerance && !over(); ++k) {
         system.sweep(ahead);
@@ -160,7 +162,7 @@ class ProximalSolver {
         const Eigen::VectorXd change = ahead - r;
         r = ahead;
         if (k % check_interval == 0 || k == count) found.offer(r, system.residual(r));
-        ahead += momentum.next(change.squaredNorm()) * change;
+        ahead += nesterov.next(change.squaredNorm()) * change;
       }
     }
 

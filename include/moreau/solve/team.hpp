@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Who does the work of a solver. A team runs a piece of work on all its members at once:
+// The threads that share the work of a solver. A team runs a piece of work on all its members at
+// once:
 //
-//     team.run([&](int rank, int size, auto&& meet) { ... });
+//     team.run([&](int rank, int size, auto&& wait) { ... });
 //
-// rank is 0 .. size - 1; meet() returns once all members have come to it; run() returns when all
-// are done. What the members write must not depend on how many they are.
+// rank is 0 .. size - 1. wait() is a barrier: it returns once all members have called it. run()
+// returns when all members are done. The results must not depend on the size of the team.
 #pragma once
 
 #include <concepts>
@@ -12,7 +13,7 @@
 
 namespace moreau {
 
-/// The calling thread alone.
+/// A team of the calling thread alone.
 struct SingleThread {
   /// See Team.
   template <class Work>
@@ -21,15 +22,15 @@ struct SingleThread {
   }
 };
 
-/// Copies are cheap and do the same work; run() and meet() are what the header says.
+/// A team, see the head of this file. Copies are cheap and share the threads.
 template <class T>
 concept Team = std::copyable<T> && requires(const T team) {
-  team.run([](int, int, auto&& meet) { meet(); });
+  team.run([](int, int, auto&& wait) { wait(); });
 };
 
 namespace detail {
 
-/// The part of 0 .. count - 1 that a member of a team does.
+/// The part of 0 .. count - 1 for one member of a team.
 struct Share {
   std::size_t begin, end;
   Share(std::size_t count, int rank, int size)

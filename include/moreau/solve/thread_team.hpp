@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Optional: a team of threads (see team.hpp). The only header of the library that needs a library
-// of threads: link Threads::Threads.
+// Optional: a team of threads, see team.hpp. The only header of the library that needs threads:
+// link Threads::Threads.
 #pragma once
 
 #include <atomic>
@@ -19,23 +19,24 @@ namespace moreau {
 
 namespace detail {
 
-/// Returns once a value is no longer what it was: turns for a while, because that is mostly
-/// microseconds away, then sleeps, because there may be fewer cores than threads.
+/// Returns once a value has changed. Spins at first, because the change mostly takes microseconds,
+/// then sleeps, because there may be fewer cores than threads.
 inline void await_change(const std::atomic<std::uint32_t>& value, std::uint32_t was) {
-  constexpr int turns = 20000;
-  for (int turn = 0; turn < turns; ++turn)
+  constexpr int spins = 20000;
+  for (int spin = 0; spin < spins; ++spin)
     if (value.load(std::memory_order_acquire) != was) return;
   value.wait(was, std::memory_order_acquire);
 }
 
-/// A place where the members of a team wait for one another, any number of times.
-class MeetingPoint {
+/// A barrier for the members of a team, to be used any number of times.
+class Barrier {
  public:
-  explicit MeetingPoint(int size) : size_(size) {}
-  void operator()() {
+  explicit Barrier(int size) : size_(size) {}
+  /// Returns once all members have called it.
+  void wait() {
     const std::uint32_t round = round_.load(std::memory_order_relaxed);
-    if (here_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
-      here_.store(0, std::memory_order_relaxed);
+    if (waiting_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
+      waiting_.store(0, std::memory_order_relaxed);
       round_.store(round + 1, std::memory_order_release);
       round_.notify_all();
     } else {
@@ -45,14 +46,14 @@ class MeetingPoint {
 
  private:
   const int size_;
-  alignas(64) std::atomic<int> here_{0};
+  alignas(64) std::atomic<int> waiting_{0};
   alignas(64) std::atomic<std::uint32_t> round_{0};
 };
 
-/// Threads that wait for work until they are destroyed.
+/// Threads that wait for work until the pool is destroyed.
 class ThreadPool {
  public:
-  explicit ThreadPool(int size) : size_(size), meeting_(size) {
+  explicit ThreadPool(int size) : size_(size), barrier_(size) {
     for (int rank = 1; rank < size; ++rank) threads_.emplace_back([this, rank] { work(rank); });
   }
   ThreadPool(const ThreadPool&) = delete;
@@ -64,17 +65,20 @@ class ThreadPool {
   }
 
   int size() const { return size_; }
-  MeetingPoint& meeting() { return meeting_; }
+  /// The barrier of the members, as a function.
+  auto wait() {
+    return [this] { barrier_.wait(); };
+  }
 
   template <class Work>
   void run(Work& work) {
     call_ = [](void* object, int rank, ThreadPool& pool) {
-      (*static_cast<Work*>(object))(rank, pool.size_, pool.meeting_);
+      (*static_cast<Work*>(object))(rank, pool.size_, pool.wait());
     };
     object_ = &work;
     start();
-    work(0, size_, meeting_);
-    meeting_();
+    call_(object_, 0, *this);
+    barrier_.wait();
   }
 
  private:
@@ -89,12 +93,12 @@ class ThreadPool {
       ++seen;
       if (!call_) return;
       call_(object_, rank, *this);
-      meeting_();
+      barrier_.wait();
     }
   }
 
   const int size_;
-  MeetingPoint meeting_;
+  Barrier barrier_;
   void (*call_)(void*, int, ThreadPool&) = nullptr;
   void* object_ = nullptr;
   alignas(64) std::atomic<std::uint32_t> task_{0};
@@ -103,23 +107,23 @@ class ThreadPool {
 
 }  // namespace detail
 
-/// A team of threads, the caller's own among them. Copies share the threads; one piece of work at a
-/// time.
+/// A team of threads, the calling thread among them. Copies share the threads. They do one piece of
+/// work at a time.
 class ThreadTeam {
  public:
-  /// Starts the threads, one fewer than said: the caller's own is one of them.
+  /// Starts threads - 1 threads: the calling thread is a member.
   /// @throws std::invalid_argument for less than one thread
   explicit ThreadTeam(int threads = 1) {
     require(threads >= 1, "ThreadTeam", "threads", threads, "must be at least 1");
     pool_ = std::make_shared<detail::ThreadPool>(threads);
   }
-  int size() const { return pool_->size(); }  ///< members, the calling thread included
+  int size() const { return pool_->size(); }  ///< number of members, the calling thread included
 
   /// See Team.
   template <class Work>
   void run(Work&& work) const {
     if (size() == 1)
-      work(0, 1, pool_->meeting());
+      work(0, 1, pool_->wait());
     else
       pool_->run(work);
   }
@@ -128,10 +132,10 @@ class ThreadTeam {
   std::shared_ptr<detail::ThreadPool> pool_;
 };
 
-/// ColouredGaussSeidel by several threads: the same bits, whatever their number.
+/// ColouredGaussSeidel on several threads; the bits of the result do not depend on their number.
 class ParallelGaussSeidel : public TeamGaussSeidel<ThreadTeam> {
  public:
-  /// @param options as ColouredGaussSeidel's
+  /// @param options of ColouredGaussSeidel
   /// @param threads at least 1; copies of the solver share them
   /// @throws std::invalid_argument as ColouredGaussSeidel, and for less than one thread
   explicit ParallelGaussSeidel(const Options& options = {}, int threads = 1)

@@ -32,16 +32,9 @@
 #include "moreau/detect/reduce.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/tolerances.hpp"
 
 namespace moreau {
-
-/// The alert distance and the other lengths of detection.
-template <class T>
-struct DetectionLengths {
-  T margin;      ///< alert distance: largest gap of a contact, >= 0 [m]
-  T skin;        ///< the list of pairs stays valid for motions of this size, >= 0 [m]
-  T resolution;  ///< contact points closer together than this are merged, >= 0 [m]
-};
 
 /// Which points of a contact between two faces are used.
 enum class ContactPoints {

@@ -19,6 +19,7 @@
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/reduce.hpp"
 #include "moreau/law/materials.hpp"
@@ -40,20 +41,20 @@
 
 namespace moreau {
 
-/// Grains and walls that touch, moved on step by step. SI units; in the plane, masses, forces and
-/// energies are per what the densities are per.
+/// Grains and walls in contact, advanced step by step. SI units; in the plane, masses, forces and
+/// energies are per length if densities are.
 ///
-/// @tparam ShapeT     of the grains, convex; its Space is the simulation's
-/// @tparam Law        contact law between two materials: set-valued or regularized
-/// @tparam Integrator time stepping: of impulses for a set-valued law, of forces for another
+/// @tparam ShapeT     shape of the grains, convex; its space is that of the simulation
+/// @tparam Law        contact law between two materials, set-valued or regularized
+/// @tparam Integrator of impulses for a set-valued law, of forces for a regularized law
 /// @tparam Broad      broad phase
 /// @tparam Solver     of the contact problem; NoSolver for a regularized law
 ///
-/// Policies that do not go together fail to compile; policies.hpp has the reasons.
+/// Policies that do not fit together do not compile; policies.hpp has the reasons.
 ///
-/// Functions that are given a body, a material, a vector or a number throw std::invalid_argument,
-/// which names function, argument and value, for an id that is none of this simulation, what is not
-/// finite, and what their comments rule out; nothing has then changed.
+/// Functions throw std::invalid_argument, which names function, argument and value, for an id that
+/// is not of this simulation, a value that is not finite, and the cases in their comments. The
+/// simulation is then unchanged.
 template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
@@ -67,11 +68,11 @@ class Simulation {
   using Twist = typename S::Twist;
 
   /// A simulation without bodies, at time 0, without gravity, for a set-valued law.
-  /// @param grain_size the smallest grain's size [m], > 0; all tolerances are relative to it
+  /// @param grain_size size of the smallest grain [m], > 0; all tolerances are relative to it
   /// @param materials  the law for every pair of materials
   /// @param solver     of the contact problem, with its options
   /// @param tolerances of detection, relative to the grain size [-]
-  /// @param correction how overlaps are taken back
+  /// @param correction how overlaps are corrected
   /// @param integrator with its options
   /// @throws std::invalid_argument for a size that is not finite or not positive, or for
   ///         tolerances or options of the correction out of range
@@ -79,7 +80,7 @@ class Simulation {
              const Tolerances& tolerances = {}, const OverlapCorrectionOptions& correction = {},
              const Integrator& integrator = Integrator{}) requires set_valued
       : Simulation(grain_size, materials, tolerances, Dynamics(solver, correction, integrator)) {}
-  /// The same for a regularized law, which has nothing to solve and no overlap to take back.
+  /// The same for a regularized law, without a contact problem and without overlap correction.
   /// @throws std::invalid_argument for a size that is not finite or not positive, or tolerances out
   ///         of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
@@ -90,11 +91,11 @@ class Simulation {
   ShapeId add_shape(const ShapeT& shape) { return assembly_.add_shape(shape); }
 
   /// Adds a grain at rest.
-  /// @param shape    as add_shape() numbered it
+  /// @param shape    an id that add_shape() returned
   /// @param pose     of the shape's frame in the world [m]; its origin is the centre of mass
   /// @param density  [kg/m^3], in the plane [kg/m^2], > 0
   /// @param material of its surface
-  /// @returns its id; bodies are numbered as they are added, grains and walls alike
+  /// @returns its id; bodies, grains and walls, are numbered in the order in which they are added
   /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite or
   ///         no rigid one, a density that is not finite or not positive, a mass or an inertia that
   ///         the scalar cannot hold, a shape whose centre of mass is farther from its origin than
@@ -131,12 +132,12 @@ class Simulation {
     detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
     return body;
   }
-  /// Adds a drum that grains are in, the inside of an infinite cylinder (in the plane: a circle):
-  /// fixed, or moving as set_velocity and set_spin say, e.g. set_spin(drum, rate * axis). It is
-  /// none of walls() and cannot have a mass; laws that ask for a radius of contact take it for
-  /// flat.
+  /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
+  /// fixed, or moving with the velocities of set_velocity and set_spin, e.g.
+  /// set_spin(cylinder, rate * axis). walls() does not contain it and it cannot have a mass. Laws
+  /// with an effective radius treat it as flat.
   /// @param point    any point of its axis, world axes [m]
-  /// @param axis     unit, world axes, as that of a rotation: in the plane the number 1 or -1
+  /// @param axis     unit vector of the axis, world axes; in the plane the number 1 or -1
   /// @param radius   [m], > 0
   /// @param material of its surface
   /// @returns its id
@@ -159,16 +160,16 @@ class Simulation {
     return body;
   }
 
-  /// Makes an axis periodic: what leaves the cell at one end enters it at the other, and grains
-  /// meet across. Poses are not wrapped, so that displacements can be read off them; cell().wrap()
-  /// says where in the cell a point is. Call it again for another axis, for other bounds, or with
-  /// infinite ones to open the axis; after a change of length, grains that had left the cell are
-  /// elsewhere in it.
+  /// Makes an axis periodic. Poses are not wrapped: displacements are differences of positions, and
+  /// cell().wrap() gives the place of a point in the cell. Call it again for another axis or other
+  /// bounds; infinite bounds open the axis. A change of length moves grains that have left the cell
+  /// to other places in it.
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
-  /// @throws std::invalid_argument for an axis or bounds that are none, a wall across the axis, or
-  ///         a cell not longer than two of the widest grain, each with margin and skins, so that a
-  ///         pair could meet through two images
+  /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
+  /// a
+  ///         wall across the axis, or a cell not longer than two of the widest grain with margin
+  ///         and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper) {
     constexpr const char* self = "Simulation::set_periodic";
     PeriodicCell<S> cell = detector_.cell();
@@ -178,46 +179,46 @@ class Simulation {
   }
   const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
 
-  /// Lets a wall move along its normal as a body of this mass, under set_force and the contacts.
-  /// Gravity does not act on walls. An infinite mass makes it a fixed or driven wall again.
+  /// Makes a wall move along its normal as a body of this mass, under set_force() and its contacts.
+  /// Gravity does not act on walls. With an infinite mass the wall is fixed or driven again.
   /// @param wall a half-space; a cylinder cannot have a mass
   /// @param mass [kg], > 0
-  /// @throws std::invalid_argument for a body that is none of walls() or a mass that is not
-  ///         positive
+  /// @throws std::invalid_argument for a body that is not in walls() or a mass that is not positive
   void set_wall_mass(BodyId wall, Scalar mass) {
     assembly_.require_wall(wall, "Simulation::set_wall_mass");
     require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
             "must be > 0, with a finite inverse");
     assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
   }
-  /// External force on a body at its centre of mass, world axes [N], beside gravity; stays until
-  /// set again. Where a body has no mass, as a wall, it moves nothing.
+  /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
+  /// and acts until it is set again. It does not move a body without mass, such as a wall.
   /// @throws std::invalid_argument for a body that is not of this simulation or a force that is not
   ///         finite
   void set_force(BodyId body, const VectorArgument<S>& force) {
     assembly_.require_body(body, "Simulation::set_force");
     require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
-    assembly_.bodies().force[body.index()].template head<S::dim>() = force;
+    linear<S>(assembly_.bodies().force[body.index()]) = force;
   }
-  /// Velocity of the centre, world axes [m/s]. Where a body has no mass, as a wall, it is kept.
+  /// Sets the velocity of the centre, world axes [m/s]. A body without mass, such as a wall, keeps
+  /// it.
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
   ///         not finite
   void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
     assembly_.require_body(body, "Simulation::set_velocity");
     require(velocity.allFinite(), "Simulation::set_velocity", "velocity", velocity,
             "must be finite");
-    assembly_.bodies().velocity[body.index()].template head<S::dim>() = velocity;
+    linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
   }
-  /// Angular velocity, world axes [rad/s]: a vector in space, in the plane a number, > 0 from x to
-  /// y. A body without inertia, as a wall, keeps it.
+  /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
+  /// from x to y. A body without inertia, such as a wall, keeps it.
   /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
   ///         finite
   void set_spin(BodyId body, const AngularArgument<S>& spin) {
     assembly_.require_body(body, "Simulation::set_spin");
     require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
-    assembly_.bodies().velocity[body.index()].template tail<S::angular_dim>() = spin;
+    angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
   }
-  /// Puts a body elsewhere, world axes [m]; its velocity stays.
+  /// Sets the pose of a body, world axes [m]; its velocity does not change.
   /// @throws std::invalid_argument for a body that is not of this simulation, or a pose that is not
   ///         finite or no rigid one
   void set_pose(BodyId body, const Pose<S>& pose) {
@@ -226,22 +227,22 @@ class Simulation {
     assembly_.bodies().pose[body.index()] = pose;
     if constexpr (!set_valued) dynamics_.forget();
   }
-  /// Acceleration of gravity, world axes [m/s^2]; acts on grains, not on walls. None until set.
+  /// Sets the acceleration of gravity on grains, world axes [m/s^2]; zero at first.
   /// @throws std::invalid_argument for a vector that is not finite
   void set_gravity(const VectorArgument<S>& gravity) {
     require(gravity.allFinite(), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
   }
-  /// Another solver, or the same with other options, from the next step on.
+  /// Sets the solver from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
-  /// How overlaps are taken back, from the next step on.
+  /// Sets how overlaps are corrected, from the next step on.
   /// @throws std::invalid_argument for options out of range; see OverlapCorrection
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
     dynamics_.set_correction(options);
   }
-  /// Which points of a contact between faces act, from the next step on; few of them until set.
+  /// Sets which points of a contact between faces are used, from the next step on; few at first.
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
-  /// Other laws, from the next step on; as many materials as before.
+  /// Sets the laws from the next step on; the number of materials must not change.
   /// @throws std::invalid_argument for another number of materials
   void set_materials(const Materials<Law>& materials) {
     require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
@@ -250,24 +251,24 @@ class Simulation {
   }
 
   /// Advances the time by `step` [s], > 0.
-  /// @returns what it did and how well the contacts were solved; not converging is no error
+  /// @returns results of the step, and how well the contact problem was solved
   /// @throws std::invalid_argument for a step that is not positive or not finite
-  /// @throws std::runtime_error naming a body whose velocity or place is no number any more
+  /// @throws std::runtime_error naming a body whose velocity or position is not finite
   StepReport step(Scalar step);
 
   Scalar time() const { return time_; }              ///< sum of the steps [s]
-  Scalar grain_size() const { return grain_size_; }  ///< what tolerances are relative to [m]
+  Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
   const Bodies<S>& bodies() const { return assembly_.bodies(); }  ///< by BodyId::index()
-  /// Those of the last step, with their impulses [N s], of a regularized law force x step.
+  /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
   const Contacts<S>& contacts() const { return contacts_; }
-  const Materials<Law>& materials() const { return materials_; }  ///< laws
-  /// What took the overlaps of the last step back, with the shifts.
+  const Materials<Law>& materials() const { return materials_; }  ///< of all pairs
+  /// The overlap correction, with the shifts of the last step.
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
   const Vector& gravity() const { return gravity_; }                   ///< world axes [m/s^2]
   std::size_t grain_count() const { return assembly_.grain_count(); }  ///< without walls
-  /// The k-th grain that was added.
+  /// The k-th grain, in the order in which they were added.
   /// @throws std::invalid_argument unless k < grain_count()
   BodyId grain(std::size_t k) const {
     assembly_.require_grain(k, "Simulation::grain");
@@ -330,11 +331,7 @@ class Simulation {
   static double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
   }
-  DetectionLengths<Scalar> lengths() const {
-    return {static_cast<Scalar>(tolerances_.margin) * grain_size_,
-            static_cast<Scalar>(tolerances_.skin) * grain_size_,
-            static_cast<Scalar>(tolerances_.resolution) * grain_size_};
-  }
+  DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
   void detect(StepReport& report) {
     const std::span<const Pose<S>> poses(assembly_.bodies().pose);

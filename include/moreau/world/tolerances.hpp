@@ -7,6 +7,14 @@
 
 namespace moreau {
 
+/// The alert distance and the other lengths of detection.
+template <class T>
+struct DetectionLengths {
+  T margin;      ///< alert distance: largest gap of a contact, >= 0 [m]
+  T skin;        ///< the list of pairs stays valid for motions of this size, >= 0 [m]
+  T resolution;  ///< contact points closer together than this are merged, >= 0 [m]
+};
+
 /// Lengths that act as tolerances, each relative to the grain size [-].
 struct Tolerances {
   /// Alert distance, > 0: largest gap of a contact. Times the grain size it must exceed the
@@ -15,6 +23,12 @@ struct Tolerances {
   double skin = 0.05;        ///< the list of pairs is kept until a box has moved this far, >= 0
   double resolution = 1e-3;  ///< contact points closer together than this are merged, >= 0
 
+  /// The lengths for grains of this size [m].
+  template <class T>
+  DetectionLengths<T> lengths(T grain_size) const {
+    return {static_cast<T>(margin) * grain_size, static_cast<T>(skin) * grain_size,
+            static_cast<T>(resolution) * grain_size};
+  }
   /// Checks the ranges.
   /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if one of them is not finite or out

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "moreau/solve/contact_groups.hpp"
+#include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/team.hpp"
 
 namespace moreau::detail {
 
-/// Scaled velocities y of all bodies, a row each, read and written for as many bodies at once as
-/// there are lanes.
+/// Scaled velocities y of all bodies, one row per body, read and written for one body per SIMD lane
+/// at once.
 template <class S, class W>
 class LaneVelocities {
  public:
@@ -23,15 +23,15 @@ class LaneVelocities {
   using BodyLanes = std::array<Values, registers * W::lanes>;
   using Bodies = std::array<std::uint32_t, std::size_t{W::lanes}>;
 
-  /// All at rest.
+  /// Sets all velocities to zero.
   void reset(std::size_t rows) { now_.assign(registers * rows, Values{}); }
   void set(std::size_t body, const auto& y) {
     for (int k = 0; k < S::dofs; ++k)
       now_[registers * body + std::size_t(k / W::lanes)][k % W::lanes] = y[k];
   }
-  /// The next extrapolation starts from the velocities as they are.
+  /// Makes the present velocities the velocities before the next extrapolation.
   void settle() { before_ = now_; }
-  /// Adds beta times the change since the last extrapolation; a member's part of the team's work.
+  /// Adds beta times the change since the last extrapolation; the work of one member of a team.
   void extrapolate(T beta, int rank, int size) {
     const Values factor = W::broadcast(beta);
     const Share share(now_.size(), rank, size);
@@ -52,7 +52,7 @@ class LaneVelocities {
     }
     return y;
   }
-  /// The bodies of a group as its lanes left them; the pushes of all lanes on the hub.
+  /// Writes the velocities of the bodies of a group; adds up the changes of all lanes for the hub.
   template <class Pairs>
   void scatter(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
     if (group.hub == Hub::a)

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The contacts of a step side by side: pairs of bodies that do not touch one another's bodies fill
-// the lanes of a group, so that a group is solved by wide arithmetic as one contact would be. The
-// points of a pair stay together: its bodies are loaded once for all of them.
+// The contacts of a step, grouped for SIMD arithmetic. A group has one pair of bodies per lane, and
+// no two of its pairs share a body that can move. All contact points of a pair are in its lane, so
+// that the velocities of its bodies are loaded once for all of them.
 //
-// A body of many partners, such as a moving wall, would need a group of its own for each. Where it
-// is much heavier than they are, its pairs share groups instead: all lanes see its velocity as it
-// was before the group and their pushes are added up. What one lane then does not know of the
-// others is made up for by a heavier block,
+// A hub, a body with many partners such as a moving wall, would need one group for each of its
+// pairs. If it is much heavier than its partners, its pairs share groups: all lanes read its
+// velocity before the group, and their changes of it are added up. A heavier block makes up for the
+// impulses of the other lanes,
 //
 //     W' = (1 + (n - 1) tr(W^-1 W_hub)) W  >=  W + (n - 1) W_hub,        n points in the group,
 //
-// as if each point had an n-th of the body's mass (mass splitting: R. Tonge, F. Benevolenski and
-// A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). The fixed point stays what it was. A body as
-// light as its partners keeps groups of its own: it would take n times the sweeps.
+// as if each point had an n-th of the mass of the hub (mass splitting: R. Tonge, F. Benevolenski
+// and A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). The fixed point does not change. The pairs
+// of a hub as light as its partners are not grouped: shared groups would take n times the sweeps.
 #pragma once
 
 #include <Eigen/LU>
@@ -27,38 +27,39 @@
 
 #include "moreau/contact/lane_block.hpp"
 #include "moreau/law/law_lanes.hpp"
+#include "moreau/solve/coloured/pair_colouring.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/pair_colouring.hpp"
 
 namespace moreau::detail {
 
-/// One contact point per lane. Inert lanes have no rows and a free velocity that separates.
+/// One contact point per lane. Unused lanes have zero rows and a free velocity that separates.
 template <class S, class Law>
 struct PointPack {
   using Block = LaneBlock<S>;
   using Values = typename Block::Values;
   using Vector = typename Block::Vector;
 
-  std::array<Vector, S::dofs> rows_a{}, rows_b{};  ///< J M^-1/2, one entry of y after the other
+  std::array<Vector, S::dofs> rows_a{}, rows_b{};  ///< J M^-1/2; first index: entry of y
   Block block = Block::unit();
   Vector free{Values{} + 1};
   LawLanes<Law, S> law{};
-  Vector impulse{}, before{};  ///< after the last sweep and the one before it
+  Vector impulse{}, before{};  ///< after the last visit and the visit before
 };
 
-/// Which body of its pairs the lanes of a group have in common.
+/// Which body of their pairs the lanes of a group share.
 enum class Hub : std::uint8_t { none, a, b };
 
-/// As many pairs as there are lanes, no two sharing a movable body but the hub.
+/// A group: one pair per lane. No two pairs share a body that can move, except the hub.
 template <int Lanes>
 struct PairPack {
   std::uint32_t first, count;  ///< PointPacks
-  std::uint32_t awake;         ///< of them, those that sweeps between two checks visit: the first
-  std::uint32_t colour;        ///< PairColouring::colours for those that must be treated alone
+  std::uint32_t active;        ///< number of them, from the first, that the active set contains
+  std::uint32_t colour;        ///< PairColouring::colours if the group has none
   Hub hub;
-  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of velocities
+  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of LaneVelocities
 };
 
+/// The groups of a contact problem, with the data of their contacts.
 template <class Operator, class Law>
 class ContactGroups {
  public:
@@ -73,8 +74,8 @@ class ContactGroups {
   std::vector<Pairs> pairs;    ///< sorted by colour
   std::vector<Points> points;  ///< in the order of pairs
 
-  /// Rows of velocities that the groups refer to: one per body, and one per group for lanes and
-  /// bodies that do not move, so that groups of one colour never write the same row.
+  /// Number of rows of LaneVelocities: one per body, and one per group for unused lanes and bodies
+  /// that cannot move, so that groups of one colour never write the same row.
   std::size_t rows() const { return body_count_ + pairs.size(); }
 
   /// @param problem  contacts of one pair of bodies follow one another
@@ -101,7 +102,7 @@ class ContactGroups {
     }
   }
 
-  /// Impulses of the packs, back in the operator's order.
+  /// Writes the impulses of the groups in the order of the problem.
   void unpack(std::span<Impulse> impulses) const {
     for (std::size_t p = 0; p < points.size(); ++p)
       for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -113,7 +114,7 @@ class ContactGroups {
   }
 
  private:
-  /// By colour, hub, then pairs that are likely to act, then pairs of many points.
+  /// Sorted by colour, hub, pairs with most points that are likely to act, pairs with most points.
   struct Ordered {
     std::uint64_t key;
     std::uint32_t pair;
@@ -158,7 +159,7 @@ class ContactGroups {
     }
     std::sort(order_.begin(), order_.end());
   }
-  /// The heavy body of many partners in a pair that has one; none where both are.
+  /// The heavy hub of a pair; none if the pair has no hub, a light hub or two hubs.
   Hub hub_of(std::uint32_t k) const {
     if (colouring_[k] != PairColouring::colours) return Hub::none;
     const bool a = colouring_.is_hub(bodies_[k][0]), b = colouring_.is_hub(bodies_[k][1]);
@@ -176,7 +177,7 @@ class ContactGroups {
         light = !(share_of_hub(op, c, hub) <= most);
     }
   }
-  /// tr(W^-1 W_hub): how much of W is the hub's.
+  /// tr(W^-1 W_hub), the share of the hub in W.
   static typename S::Scalar share_of_hub(const Operator& op, std::uint32_t c, Hub hub) {
     const auto& rows = hub == Hub::a ? op.rows_a(c) : op.rows_b(c);
     const typename S::Matrix inverse = op.block(c).matrix().inverse();
@@ -195,13 +196,13 @@ class ContactGroups {
     const Operator& op = problem.delassus;
     Pairs group;
     group.first = static_cast<std::uint32_t>(points.size());
-    group.count = group.awake = 0;
+    group.count = group.active = 0;
     group.colour = colouring_[members[0].pair];
     group.hub = hub_of(members[0].pair);
     const auto still = static_cast<std::uint32_t>(body_count_ + pairs.size());
     group.a.fill(group.hub == Hub::a ? bodies_[members[0].pair][0] : still);
     group.b.fill(group.hub == Hub::b ? bodies_[members[0].pair][1] : still);
-    std::uint32_t together = 0;
+    std::uint32_t together = 0;  // points of the group
     for (const Ordered& member : members) {
       const std::uint32_t count = first_[member.pair + 1] - first_[member.pair];
       group.count = std::max(group.count, count);
@@ -227,7 +228,7 @@ class ContactGroups {
     pairs.push_back(group);
   }
 
-  /// W' of the header.
+  /// Replaces W by W' of the head of this file.
   static void make_heavier(LocalBlock<S>& block, const Operator& op, std::uint32_t c, Hub hub,
                            std::uint32_t together) {
     using T = typename S::Scalar;
@@ -255,10 +256,10 @@ class ContactGroups {
 
   std::size_t body_count_ = 0;
   std::vector<std::array<std::uint32_t, 2>> bodies_;
-  std::vector<std::uint32_t> first_;  // contact of each pair, and their number at the end
+  std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
   std::vector<unsigned char> moves_, light_;
   std::vector<Ordered> order_;
-  std::vector<std::uint32_t> contact_of_;  // of every lane of every point
+  std::vector<std::uint32_t> contact_of_;  // of every lane of every PointPack, or none
   PairColouring colouring_;
 };
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Colours pairs of bodies so that no two pairs of one colour share a body that can move.
 #pragma once
 
 #include <array>
@@ -11,13 +10,15 @@
 
 namespace moreau::detail {
 
+/// Colours pairs of bodies: no two pairs of one colour share a body that can move.
 class PairColouring {
  public:
   static constexpr std::uint32_t colours = 64;
-  /// Pairs of a body with more than this many partners would each need a colour of their own.
+  /// A body with more partners is a hub. Its pairs are not coloured: each would need its own
+  /// colour.
   static constexpr std::uint32_t hub = 48;
 
-  /// @param pairs  bodies of each pair
+  /// @param pairs  the two bodies of each pair
   /// @param moves  whether a body can move, one entry per body
   void assign(std::span<const std::array<std::uint32_t, 2>> pairs,
               std::span<const unsigned char> moves) {
@@ -40,9 +41,9 @@ class PairColouring {
     }
   }
 
-  /// Whether a body can move and has too many partners.
+  /// Whether a body can move and has more than `hub` partners.
   bool is_hub(std::uint32_t body) const { return degree_[body] > hub; }
-  /// Colour of a pair; `colours` for one that must be treated alone.
+  /// Colour of a pair; `colours` if it has none.
   std::uint32_t operator[](std::size_t pair) const { return colour_[pair]; }
 
  private:

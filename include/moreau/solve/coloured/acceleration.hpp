@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// The acceleration of coloured sweeps: Nesterov's momentum. If it stagnates, Anderson's mixing
+// replaces it, and if mixing stagnates, Nesterov's momentum again.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "moreau/solve/anderson_mixing.hpp"
+#include "moreau/solve/nesterov_momentum.hpp"
+#include "moreau/solve/stagnation_test.hpp"
+
+namespace moreau::detail {
+
+/// Anderson's mixing of the impulses of the points that are active when it starts.
+template <class Kernel>
+class ImpulseMixing {
+ public:
+  using S = typename Kernel::S;
+  using T = typename S::Scalar;
+  using W = typename Kernel::W;
+
+  /// @param active groups with active points
+  void start(Kernel& kernel, const std::vector<std::uint32_t>& active) {
+    points_.clear();
+    for (const std::uint32_t k : active) {
+      const typename Kernel::Pairs& group = kernel.groups()[k];
+      for (std::uint32_t p = 0; p < group.active; ++p) points_.push_back(group.first + p);
+    }
+    packed_.resize(Eigen::Index(points_.size() * S::dim * std::size_t{W::lanes}));
+    pack(kernel);
+    anderson_.start(packed_);
+  }
+  /// Replaces the impulses by their mix; the velocities of the kernel are then to be recomputed.
+  void mix(Kernel& kernel) {
+    pack(kernel);
+    anderson_.mix(packed_);
+    const T* from = packed_.data();
+    for (const std::uint32_t p : points_)
+      for (std::size_t d = 0; d < S::dim; ++d, from += W::lanes)
+        kernel.points()[p].impulse[d] = W::load(from);
+  }
+
+ private:
+  void pack(Kernel& kernel) {
+    T* to = packed_.data();
+    for (const std::uint32_t p : points_)
+      for (std::size_t d = 0; d < S::dim; ++d, to += W::lanes)
+        std::memcpy(to, &kernel.points()[p].impulse[d], sizeof(typename W::Values));
+  }
+
+  std::vector<std::uint32_t> points_;
+  Eigen::Matrix<T, Eigen::Dynamic, 1> packed_;
+  AndersonMixing<T> anderson_;
+};
+
+/// Which acceleration is in use, and its parameters.
+template <class T>
+class Acceleration {
+ public:
+  /// @param enabled false: plain sweeps
+  explicit Acceleration(bool enabled = true) : enabled_(enabled) {}
+
+  bool is_mixing() const { return mixing_; }
+  T beta() const { return beta_; }  ///< of the next sweep, see NesterovMomentum
+
+  /// Sets beta to 0 for the next sweep: the impulses before do not belong to the present
+  /// velocities.
+  void interrupt() { beta_ = 0; }
+  /// Ends mixing and sets beta to 0.
+  void restart() {
+    beta_ = 0;
+    mixing_ = false;
+  }
+  /// Sets beta from the squared change of the last sweep, which squared_change() returns.
+  void update_beta(const auto& squared_change) {
+    beta_ = 0;
+    if (enabled_ && !mixing_) beta_ = static_cast<T>(nesterov_.next(squared_change()));
+  }
+  /// Tests the change of a plain sweep; switches between Nesterov's momentum and mixing if it
+  /// stagnates.
+  /// @returns whether mixing starts
+  bool check(double change) {
+    if (!mixing_) nesterov_.check(change);
+    if (!enabled_ || !stagnation_.stagnates(change)) return false;
+    mixing_ = !mixing_;
+    return mixing_;
+  }
+
+ private:
+  bool enabled_, mixing_ = false;
+  T beta_ = 0;
+  NesterovMomentum nesterov_;
+  StagnationTest stagnation_;
+};
+
+}  // namespace moreau::detail

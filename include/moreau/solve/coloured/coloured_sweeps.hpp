@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The sweeps of ColouredGaussSeidel. group_kernel.hpp has the local solutions, schedule.hpp the
+// order of the groups, acceleration.hpp the start of each sweep.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/solve/coloured/acceleration.hpp"
+#include "moreau/solve/coloured/group_kernel.hpp"
+#include "moreau/solve/coloured/schedule.hpp"
+#include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/sweep_change.hpp"
+
+namespace moreau::detail {
+
+/// The state of one solution and the sweeps that improve it. A sweep visits all groups, or the
+/// active ones: those with an impulse at one of their points.
+template <class Operator, class Law>
+class ColouredSweeps {
+ public:
+  using Kernel = GroupKernel<Operator, Law>;
+  using S = typename Kernel::S;
+  using Impulse = typename Kernel::Impulse;
+
+  /// @param problem its operator carries the velocities of the impulses
+  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+             bool accelerate) {
+    kernel_.start(problem, impulses);
+    acceleration_ = Acceleration<T>(accelerate);
+    all_.assign(kernel_.groups(), [](std::uint32_t) { return true; });
+    update_active();
+    save();
+  }
+  /// Takes the velocities of the bodies from the operator, free of the rounding of the sweeps.
+  void load_velocities(const Operator& op) {
+    kernel_.load_velocities(op);
+    acceleration_.interrupt();
+  }
+  /// Saves the impulses.
+  void save() {
+    saved_.clear();
+    for (const auto& point : kernel_.points())
+      for (std::size_t d = 0; d < S::dim; ++d) saved_.push_back(point.impulse[d]);
+  }
+  /// Goes back to the saved impulses; the next sweep has no acceleration.
+  void restore() {
+    std::size_t i = 0;
+    for (auto& point : kernel_.points())
+      for (std::size_t d = 0; d < S::dim; ++d) point.impulse[d] = point.before[d] = saved_[i++];
+    recompute_velocities();
+    kernel_.velocity().settle();
+    acceleration_.restart();
+  }
+  void unpack(std::span<Impulse> impulses) const { kernel_.unpack(impulses); }
+
+  /// An accelerated sweep over the active groups.
+  template <class Team>
+  void sweep_active(const Team& team) {
+    if (acceleration_.is_mixing()) {
+      mixed_sweep(team);
+      return;
+    }
+    team.run([&](int rank, int size, auto&& wait) {
+      kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
+      wait();
+      active_.forward(rank, size, wait, visit_active());
+    });
+    update_beta(active_);
+  }
+  /// An accelerated sweep over all groups; updates the active set.
+  template <class Team>
+  void sweep_all(const Team& team) {
+    team.run([&](int rank, int size, auto&& wait) {
+      kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
+      wait();
+      all_.forward(rank, size, wait, [&](std::uint32_t k) {
+        kernel_.template visit_all<false>(k, acceleration_.beta());
+      });
+    });
+    update_active();
+    update_beta(all_);
+  }
+  /// A sweep over all groups without acceleration; updates the active set.
+  /// @returns its changes
+  template <class Team>
+  SweepChange plain_sweep(const Team& team) {
+    kernel_.velocity().settle();
+    acceleration_.interrupt();
+    kernel_.clear_measures();
+    team.run([&](int rank, int size, auto&& wait) {
+      all_.forward(rank, size, wait,
+                   [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); });
+    });
+    update_active();
+    const SweepChange change = kernel_.measures();
+    ++mixed_sweeps_;
+    if (acceleration_.check(std::sqrt(change.dv2))) {
+      mixed_sweeps_ = 0;
+      mixing_.start(kernel_, active_.groups());
+    }
+    update_beta(all_);
+    return change;
+  }
+
+ private:
+  using T = typename S::Scalar;
+  static constexpr int sweeps_per_mix = 4;
+
+  auto visit_active() {
+    return [this](std::uint32_t k) { kernel_.visit_active(k, acceleration_.beta()); };
+  }
+  /// A sweep over the active groups, backward and forward in turn; every few sweeps the impulses
+  /// are mixed before.
+  template <class Team>
+  void mixed_sweep(const Team& team) {
+    if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) {
+      mixing_.mix(kernel_);
+      recompute_velocities();
+    }
+    kernel_.velocity().settle();
+    const bool back = mixed_sweeps_++ % 2 == 0;
+    team.run([&](int rank, int size, auto&& wait) {
+      if (back)
+        active_.backward(rank, size, wait, visit_active());
+      else
+        active_.forward(rank, size, wait, visit_active());
+    });
+  }
+  void recompute_velocities() {
+    kernel_.recompute_velocities();
+    update_active();
+  }
+  void update_active() {
+    active_.assign(kernel_.groups(),
+                   [&](std::uint32_t k) { return kernel_.groups()[k].active > 0; });
+  }
+  void update_beta(const Schedule& visited) {
+    acceleration_.update_beta([&] { return kernel_.squared_change(visited.groups()); });
+  }
+
+  Kernel kernel_;
+  Schedule all_, active_;
+  Acceleration<T> acceleration_;
+  ImpulseMixing<Kernel> mixing_;
+  int mixed_sweeps_ = 0;  // since mixing started
+  std::vector<typename Kernel::Values> saved_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/solve/coloured/contact_groups.hpp"
+#include "moreau/solve/coloured/lane_velocities.hpp"
+#include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/sweep_change.hpp"
+
+namespace moreau::detail {
+
+/// Groups of contacts with their impulses, the scaled velocities of their bodies, and the visit of
+/// a group: the local solution of its contacts.
+template <class Operator, class Law>
+class GroupKernel {
+ public:
+  using Groups = ContactGroups<Operator, Law>;
+  using S = typename Groups::S;
+  using T = typename S::Scalar;
+  using W = typename Groups::W;
+  using Values = typename W::Values;
+  using Vector = typename LaneBlock<S>::Vector;
+  using Impulse = typename Operator::Vector;
+  using Pairs = typename Groups::Pairs;
+  using Points = typename Groups::Points;
+
+  /// @param problem its operator carries the velocities of the impulses
+  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses) {
+    groups_.build(problem, impulses);
+    changes_.assign(groups_.pairs.size(), Values{});
+    load_velocities(problem.delassus);
+    for (Pairs& group : groups_.pairs) update_active(group);
+  }
+  /// Takes the velocities of the bodies from the operator.
+  void load_velocities(const Operator& op) {
+    velocity_.reset(groups_.rows());
+    for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.scaled_velocity(i));
+    velocity_.settle();
+  }
+  /// Computes the velocities of the bodies from the impulses alone.
+  void recompute_velocities() {
+    velocity_.reset(groups_.rows());
+    for (Pairs& group : groups_.pairs) {
+      apply(group);
+      update_active(group);
+    }
+  }
+  void unpack(std::span<Impulse> impulses) const { groups_.unpack(impulses); }
+
+  const std::vector<Pairs>& groups() const { return groups_.pairs; }
+  std::vector<Points>& points() { return groups_.points; }
+  LaneVelocities<S, W>& velocity() { return velocity_; }
+
+  /// Visits the active points of group k.
+  /// @param beta impulses start from r + beta (r - r of the last visit)
+  void visit_active(std::uint32_t k, T beta) { visit<false>(k, groups_.pairs[k].active, beta); }
+  /// Visits all points of group k, unless none is active and none approaches; updates the active
+  /// points.
+  /// @tparam Measure whether it takes the measures of its changes
+  template <bool Measure>
+  void visit_all(std::uint32_t k, T beta) {
+    Pairs& group = groups_.pairs[k];
+    changes_[k] = Values{};
+    if (group.active == 0 && !approaches(group)) return;
+    visit<Measure>(k, group.count, beta);
+    update_active(group);
+  }
+
+  /// Squared change of impulses in the last visits of some groups, added up in their order.
+  double squared_change(const std::vector<std::uint32_t>& groups) const {
+    Values change2{};
+    for (const std::uint32_t k : groups) change2 += changes_[k];
+    return double(W::sum(change2));
+  }
+  void clear_measures() { measures_.assign(groups_.pairs.size(), {}); }
+  SweepChange measures() const {
+    SweepChange change;
+    for (const SweepChange& one : measures_) change.add(one);
+    return change;
+  }
+
+ private:
+  using BodyLanes = typename LaneVelocities<S, W>::BodyLanes;
+
+  /// Adds what the impulses of a group do to its bodies.
+  void apply(const Pairs& group) {
+    BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
+      push(groups_.points[p], groups_.points[p].impulse, a, b);
+    velocity_.scatter(group, a, b);
+  }
+  /// Adds what impulses at a point do to the velocities of its bodies.
+  static void push(const Points& point, const Vector& impulse, BodyLanes& a, BodyLanes& b) {
+    for (std::size_t k = 0; k < S::dofs; ++k)
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        a[k] -= point.rows_a[k][d] * impulse[d];
+        b[k] += point.rows_b[k][d] * impulse[d];
+      }
+  }
+
+  /// A point is active if it has an impulse or had one before its last visit; the points of a group
+  /// up to its last active one are visited.
+  void update_active(Pairs& group) const {
+    group.active = 0;
+    for (std::uint32_t p = 0; p < group.count; ++p) {
+      const Points& point = groups_.points[group.first + p];
+      typename W::Indices some{};
+      for (std::size_t d = 0; d < S::dim; ++d)
+        some |= (point.impulse[d] != Values{}) | (point.before[d] != Values{});
+      if (W::any(some)) group.active = p + 1;
+    }
+  }
+  /// Whether u_n < 0 at a point of the group.
+  bool approaches(const Pairs& group) const {
+    const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    typename W::Indices some{};
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
+      const Points& point = groups_.points[p];
+      Values u = point.free[0];
+      for (std::size_t k = 0; k < S::dofs; ++k)
+        u += point.rows_b[k][0] * b[k] - point.rows_a[k][0] * a[k];
+      some |= u < Values{};
+    }
+    return W::any(some);
+  }
+
+  /// Solves the first `count` contacts of each pair in the group, one after the other.
+  template <bool Measure>
+  void visit(std::uint32_t number, std::uint32_t count, T extrapolation) {
+    const Pairs& group = groups_.pairs[number];
+    Values change2{};
+    BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    const Values beta = W::broadcast(extrapolation);
+    for (std::uint32_t p = group.first; p < group.first + count; ++p) {
+      Points& point = groups_.points[p];
+      Vector guess;
+      for (std::size_t d = 0; d < S::dim; ++d)
+        guess[d] = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
+      // Two sums side by side: half the latency.
+      const Vector own = point.block * guess;
+      Vector of_a, of_b;
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        of_a[d] = own[d];
+        of_b[d] = point.free[d];
+      }
+      for (std::size_t k = 0; k < S::dofs; ++k)
+        for (std::size_t d = 0; d < S::dim; ++d) {
+          of_a[d] += point.rows_a[k][d] * a[k];
+          of_b[d] += point.rows_b[k][d] * b[k];
+        }
+      Vector u;
+      for (std::size_t d = 0; d < S::dim; ++d) u[d] = of_b[d] - of_a[d];
+      const Vector impulse = point.law.solve(point.block, u, guess, Measure);
+      Vector change;
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        change[d] = impulse[d] - guess[d];
+        change2 += change[d] * change[d];
+        point.before[d] = point.impulse[d];
+        point.impulse[d] = impulse[d];
+      }
+      // A compiler barrier: the rows are read again from memory. Kept in registers they would be
+      // spilled and read from there.
+      asm volatile("" : : : "memory");
+      push(point, change, a, b);
+      if constexpr (Measure) measure(measures_[number], point.block, change, impulse);
+    }
+    changes_[number] = change2;
+    velocity_.scatter(group, a, b);
+  }
+
+  static void measure(SweepChange& sum, const LaneBlock<S>& block, const Vector& change,
+                      const Vector& impulse) {
+    const Vector dv = block * change, wr = block * impulse;
+    Values dv2{}, r2{}, wr2{}, rwr{};
+    for (std::size_t d = 0; d < S::dim; ++d) {
+      dv2 += dv[d] * dv[d];
+      r2 += impulse[d] * impulse[d];
+      wr2 += wr[d] * wr[d];
+      rwr += impulse[d] * wr[d];
+    }
+    for (int l = 0; l < W::lanes; ++l)
+      sum.add(double(dv2[l]), double(r2[l]), double(wr2[l]), double(rwr[l]));
+  }
+
+  Groups groups_;
+  LaneVelocities<S, W> velocity_;
+  // One entry per group.
+  std::vector<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
+  std::vector<SweepChange> measures_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+namespace moreau::detail {
+
+/// Tells whether a sequence of values has stopped decreasing.
+class StagnationTest {
+ public:
+  /// @returns true after `checks` values in a row that were not below `progress` times the least
+  ///          value before them; the count then begins anew
+  bool stagnates(double value) {
+    if (value < progress * least_) {
+      least_ = value;
+      count_ = 0;
+    } else if (++count_ == checks) {
+      count_ = 0;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double progress = 0.9;
+  static constexpr int checks = 8;
+
+  double least_ = std::numeric_limits<double>::infinity();
+  int count_ = 0;
+};
+
+}  // namespace moreau::detail
