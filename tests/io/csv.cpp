@@ -93,12 +93,12 @@ TEST_CASE("a table goes on where it was") {
     CHECK(csv.size() == size + 2);
   }
   CHECK(read(path) == "i\n0\n1\n2\n3\n4\n7\n");
-  CHECK_THROWS_WITH_AS(CsvWriter(path, {"i"}, 1, 1000), doctest::Contains("cannot go on with"),
+  CHECK_THROWS_WITH_AS(CsvWriter(path, {"i"}, 1, 1000), doctest::Contains("cannot continue"),
                        std::system_error);
   CHECK(read(path).size() == size + 2);
 }
 
-TEST_CASE("a table that is not the one to go on with is refused and left as it was") {
+TEST_CASE("a table that cannot be continued is rejected and left unchanged") {
   const TemporaryFolder folder("csv");
   const auto path = folder / "rows.csv";
   {
@@ -111,7 +111,7 @@ TEST_CASE("a table that is not the one to go on with is refused and left as it w
     return CsvWriter(path, columns, 1, keep).size();
   };
   const std::string short_of =
-      "cannot go on with '" + path.string() + "', it has 28 of the 1000 bytes to be kept";
+      "cannot continue '" + path.string() + "': it has 28 of the 1000 bytes to keep";
   CHECK_THROWS_WITH_AS(goes_on({{"t", "s"}, "i"}, 1000), doctest::Contains(short_of.c_str()),
                        std::system_error);
   const std::string other =
@@ -122,7 +122,8 @@ TEST_CASE("a table that is not the one to go on with is refused and left as it w
   CHECK_THROWS_AS(goes_on({{"t", "s"}, "i", "j"}, 14), std::invalid_argument);
   CHECK_THROWS_AS(goes_on({"a column whose name is longer than the table"}, 14),
                   std::invalid_argument);
-  const std::string within = "CsvWriter: keep = 13 must be where a line of '" + path.string() + "'";
+  const std::string within =
+      "CsvWriter: keep = 13 must be the end of a line of '" + path.string() + "'";
   CHECK_THROWS_WITH_AS(goes_on({{"t", "s"}, "i"}, 13), doctest::Contains(within.c_str()),
                        std::invalid_argument);
   CHECK_THROWS_AS(goes_on({{"t", "s"}, "i"}, 15), std::invalid_argument);
@@ -286,13 +287,14 @@ TEST_CASE("a file that cannot be replaced is named as the caller named it") {
     write_atomically(missing, "x");
     FAIL("did not throw");
   } catch (const std::system_error& error) {
-    CHECK(error.what() == "cannot write '" + missing.string() +
-                              "' by way of 'series.pvd.part' beside it: No such file or directory");
+    CHECK(error.what() ==
+          "cannot write '" + missing.string() +
+              "' through 'series.pvd.part' in the same folder: No such file or directory");
     CHECK(error.code() == std::errc::no_such_file_or_directory);
   }
   const auto taken = folder / "taken";
   std::filesystem::create_directory(taken);
-  const std::string says = "cannot write '" + taken.string() + "' by way of";
+  const std::string says = "cannot write '" + taken.string() + "' through";
   CHECK_THROWS_WITH_AS(write_atomically(taken, "x"), doctest::Contains(says.c_str()),
                        std::system_error);
 }

@@ -24,10 +24,10 @@ inline constexpr std::array<std::uint64_t, 256> crc64_table = make_crc64_table()
 
 }  // namespace detail
 
-/// CRC-64/XZ of bytes: "123456789" has 0x995dc9bbdf1939fa. No error within 64 bits in a row stays
-/// unseen, in particular none of a single byte.
-/// @param before the checksum of what the bytes follow
-/// @returns the checksum of all
+/// CRC-64/XZ of bytes; the checksum of "123456789" is 0x995dc9bbdf1939fa. It detects every error
+/// that is confined to 64 consecutive bits.
+/// @param before checksum of the preceding bytes, to continue it; 0 at the beginning
+/// @returns checksum of the preceding bytes together with `bytes`
 constexpr std::uint64_t crc64(std::string_view bytes, std::uint64_t before = 0) {
   std::uint64_t rest = ~before;
   for (const char byte : bytes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables of numbers as comma-separated values.
+// Writes tables of numbers as comma-separated values.
 #pragma once
 
 #include <charconv>
@@ -18,33 +18,34 @@
 
 namespace moreau {
 
-/// The name of a column and the unit of its numbers: {"x", "m"} is headed "x [m]", "x" alone "x".
+/// Name of a column and unit of its numbers: the header of {"x", "m"} is "x [m]", of "x" it is "x".
 struct CsvColumn {
   std::string_view name;  ///< not empty
-  std::string_view unit;  ///< empty: none is written
+  std::string_view unit;  ///< empty: no unit in the header
 
-  /// Not explicit, so that a name alone is a column.
+  /// Not explicit, so that a string converts to a column without unit.
   constexpr CsvColumn(const char* name_in, const char* unit_in = "")
       : name(name_in), unit(unit_in) {}
 };
 
-/// Writes one row at a time. Numbers are as short as they can be and still read back to the same
-/// bits; nan and inf are written so. Only whole lines go to the file, so an interrupted run leaves
-/// a valid one. No allocation per row once the longest has been written.
+/// Writes one row at a time. Each number has the fewest digits that read back to the same bits; NaN
+/// and infinity are written as nan and inf. The file receives only whole lines, so it is a valid
+/// table after an interrupted run. A row allocates no memory, unless it is longer than all rows
+/// before it.
 class CsvWriter {
  public:
-  /// Creates the file and writes the header line, or goes on with a table that is there.
+  /// Creates the file and writes the header line, or continues an existing table.
   /// @param columns     names and units, e.g. {{"t", "s"}, {"x", "m"}, "contacts"}: the header is
   ///                    "t [s],x [m],contacts"
-  /// @param flush_every rows that may be held back, > 0; 1 writes every row at once
-  /// @param keep        > 0: goes on with a table that is there behind so many bytes, as size()
-  ///                    gave them, and cuts off what follows them
+  /// @param flush_every number of rows per write to the file, > 0; 1 writes every row immediately
+  /// @param keep        if > 0, continues an existing table: keeps this many bytes of it, as size()
+  ///                    returned them, removes the rest and appends
   /// @throws std::system_error naming the path if the file cannot be created or written, or has
-  ///         less than `keep`
-  /// @throws std::invalid_argument without columns, for a name that is empty, a name or unit that
-  ///         holds a comma, a quote, a bracket or a line break, for flush_every = 0, or if the
-  ///         table that is there has another header or no line that ends at `keep`; it is then as
-  ///         it was
+  ///         fewer bytes than `keep`
+  /// @throws std::invalid_argument if there are no columns; if a name is empty; if a name or unit
+  ///         contains a comma, a quote, a bracket or a line break; if flush_every = 0; if the
+  ///         existing table has another header or no line that ends at `keep` (the table is then
+  ///         unchanged)
   CsvWriter(const std::filesystem::path& path, std::initializer_list<CsvColumn> columns,
             std::size_t flush_every = 1, std::uintmax_t keep = 0)
       : columns_(columns.size()),
@@ -55,10 +56,10 @@ class CsvWriter {
     lines_ = header(columns) + '\n';
     flush();
   }
-  /// Hands the file on.
+  /// Transfers the file to the new object.
   CsvWriter(CsvWriter&&) = default;
   CsvWriter& operator=(CsvWriter&&) = delete;
-  /// Writes what is held back; an error then goes unseen: call close() to see it.
+  /// Writes the remaining rows. It ignores errors: call close() before to receive them.
   ~CsvWriter() {
     try {
       close();
@@ -66,14 +67,14 @@ class CsvWriter {
     }
   }
 
-  const std::filesystem::path& path() const { return file_.path(); }  ///< of the file
-  std::size_t rows() const { return rows_; }                          ///< given to this object
-  /// Bytes of the table so far, with those that are held back.
+  const std::filesystem::path& path() const { return file_.path(); }  ///< path of the file
+  std::size_t rows() const { return rows_; }  ///< number of rows added to this object
+  /// Size of the table so far [bytes], including rows that are not yet in the file.
   std::uintmax_t size() const { return written_ + lines_.size(); }
 
-  /// Adds a row of numbers (floating-point or integers), as many as there are columns.
-  /// @throws std::system_error naming the path if the file cannot be written, e.g. for a full disk
-  /// @throws std::invalid_argument for another number of values
+  /// Adds a row of numbers (floating-point or integer), one per column.
+  /// @throws std::system_error naming the path if the file cannot be written, e.g. on a full disk
+  /// @throws std::invalid_argument if the number of values is not the number of columns
   template <class... Numbers>
   requires(std::is_arithmetic_v<Numbers>&&...) void row(Numbers... numbers) {
     require(sizeof...(numbers) == columns_, "CsvWriter::row", "number of values",
@@ -84,7 +85,7 @@ class CsvWriter {
     if (++rows_ % flush_every_ == 0) flush();
   }
 
-  /// Hands all rows so far to the operating system.
+  /// Passes all rows so far to the operating system.
   /// @throws std::system_error naming the path if the file cannot be written
   void flush() {
     if (lines_.empty()) return;
@@ -92,14 +93,14 @@ class CsvWriter {
     written_ += lines_.size();
     lines_.clear();
   }
-  /// flush(), then waits until all of it is on the disk: before a snapshot that says how long the
-  /// table is, so that it is no shorter even where the power fails.
+  /// Calls flush() and waits until all rows are on the disk. Call it before you write a snapshot
+  /// that contains size(): the table is then at least that long, even after a power failure.
   /// @throws std::system_error naming the path if the file cannot be written
   void sync() {
     flush();
     file_.sync();
   }
-  /// flush(), then closes the file. No row() after it.
+  /// Calls flush() and closes the file. Do not call row() afterwards.
   /// @throws std::system_error naming the path if the file cannot be written
   void close() {
     flush();
@@ -134,7 +135,7 @@ class CsvWriter {
     }
     return line;
   }
-  /// Of a table to go on with. One that is missing or too short is for OutputFile to refuse.
+  /// Checks an existing table that is to be continued. OutputFile rejects a missing or short file.
   static void check_table(const std::filesystem::path& path, const std::string& header,
                           std::uintmax_t keep) {
     std::error_code error;
@@ -144,17 +145,17 @@ class CsvWriter {
     file.read(found.data(), static_cast<std::streamsize>(found.size()));
     if (!file.is_open() || file.bad())
       throw std::system_error(std::make_error_code(std::errc::io_error),
-                              "cannot read '" + path.string() + "' to go on with it");
+                              "cannot read '" + path.string() + "' to continue it");
     require(file && found == header + '\n', "CsvWriter", "columns", header,
-            "must be the header of '" + path.string() + "' to go on with it");
+            "must be the header of '" + path.string() + "' to continue it");
     file.seekg(static_cast<std::streamoff>(keep - 1));
     require(file.get() == '\n', "CsvWriter", "keep", keep,
-            "must be where a line of '" + path.string() + "' ends");
+            "must be the end of a line of '" + path.string() + "'");
   }
 
   void append(auto number, std::size_t start) {
     if (lines_.size() > start) lines_ += ',';
-    char digits[64];  // the longest shortest form of a double has 24
+    char digits[64];  // the shortest form of a double has at most 24 characters
     const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
     lines_.append(digits, end);
   }

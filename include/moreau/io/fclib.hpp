@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Friction problems in the HDF5 form of FCLIB, the Frictional Contact Library (V. Acary et al.,
-// "FCLIB: a collection of discrete 3D Frictional Contact problems", INRIA RT-444, 2014):
+// Reads and writes contact problems in the HDF5 form of FCLIB, the Frictional Contact Library
+// (V. Acary et al., "FCLIB: a collection of discrete 3D Frictional Contact problems", INRIA RT-444,
+// 2014). A local problem (read and written) consists of
 //
-//     /fclib_local/spacedim, W/{nzmax, m, n, nz, p, i, x}, vectors/{q, mu},
-//     /solution/{u, r},
+//     /fclib_local/spacedim, W/{nzmax, m, n, nz, p, i, x}, vectors/{q, mu}
+//     /solution/{u, r}
 //
-// and, read only, /fclib_global with M and H in place of W, vectors/{f, w, mu}.
+// where q is the free velocity b. A global problem (read only) is /fclib_global with the matrices M
+// and H in place of W and with vectors/{f, w, mu}. FCLIB's H is the transposed contact Jacobian J.
 //
-// OPTIONAL: needs the C library of HDF5 (its headers, and linking hdf5). No other header includes
-// this one.
+// Optional: needs the C library of HDF5. Link hdf5. No other header includes this one.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -31,11 +32,12 @@ namespace moreau {
 
 namespace detail {
 
-/// An open object of the HDF5 library, closed with this one.
+/// Owns an open object of the HDF5 library and closes it.
 class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);
-  /// @throws std::runtime_error with the text if the id says that the call failed
+  /// @param what the action, for the message
+  /// @throws std::runtime_error if the id is negative, that is, if the call failed
   Hdf5Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
     if (id < 0) throw std::runtime_error("HDF5: cannot " + what);
   }
@@ -49,7 +51,7 @@ class Hdf5Handle {
   Close close_;
 };
 
-/// Keeps HDF5 from printing its own account of an error; the library's is an exception.
+/// Turns off the error messages that HDF5 prints. Errors are reported by exceptions instead.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -78,11 +80,11 @@ std::vector<Number> read_hdf5(hid_t group, const std::string& name) {
   const Hdf5Handle space(H5Dget_space(set), &H5Sclose, "read the size of " + name);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count < 0) throw std::runtime_error("HDF5: cannot read the size of " + name);
-  // Compression by deflate shrinks 1032 times at most, and a number was a byte at least: what
-  // claims more is not in the file, and does not fit into memory either.
+  // A damaged file may state a huge count. Deflate compresses by at most 1032, and a number has at
+  // least one byte before compression.
   if (static_cast<hsize_t>(count) / 1100 > H5Dget_storage_size(set))
     throw std::runtime_error("HDF5: " + name + " claims " + std::to_string(count) +
-                             " numbers, which are not there");
+                             " numbers, more than the file can hold");
   std::vector<Number> numbers(static_cast<std::size_t>(count));
   if (count > 0 &&
       H5Dread(set, hdf5_type(Number()), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0)
@@ -121,11 +123,12 @@ inline Hdf5Handle create_hdf5_group(hid_t parent, const std::string& name) {
           "create the group " + name};
 }
 
-/// A matrix in the storage of CSparse: nz = -2 compressed rows, -1 compressed columns, >= 0 that
-/// many triplets. Of these p holds the columns and i the rows, as in CSparse and as files are
-/// written; FCLIB's own header says the opposite.
-/// @param group  holds the matrix as its subgroup `name`
-/// @param rows_wanted,columns_wanted its size: one that the file claims is not believed
+/// Reads a matrix in the storage of CSparse: compressed rows for nz = -2, compressed columns for
+/// nz = -1, nz triplets for nz >= 0. For triplets p holds the columns and i the rows, as in CSparse
+/// and in existing files; FCLIB's fclib.h documents them the other way round.
+/// @param group  contains the subgroup `name` with the matrix
+/// @param rows_wanted,columns_wanted required size; a file with another size is rejected, so that a
+///        damaged file cannot request a huge allocation
 inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::size_t rows_wanted,
                                    std::size_t columns_wanted) {
   constexpr const char* self = "read_fclib";
@@ -155,7 +158,7 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::si
           "must exceed the rows or columns");
   for (std::size_t o = 0; o < outer; ++o) {
     const std::string where = name + "/p[" + std::to_string(o + 1) + "]";
-    require(p[o] >= 0 && p[o + 1] >= p[o], self, where, p[o + 1], "must not fall");
+    require(p[o] >= 0 && p[o + 1] >= p[o], self, where, p[o + 1], "must not decrease");
     const auto end = std::size_t(p[o + 1]);
     require(end <= index.size() && end <= x.size(), self, where, p[o + 1],
             "must not exceed the entries of i and x");
@@ -166,7 +169,9 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::si
   return checked_matrix(rows, columns, entries, self, name);
 }
 
-/// The global form M v = H r + f, u = H^T v + w without v: W = H^T M^-1 H, b = H^T M^-1 f + w.
+/// Eliminates v from the global problem M v = J^T r + f, u = J v + w:
+/// W = J M^-1 J^T, b = J M^-1 f + w.
+/// @param h J^T, as files store it
 inline void condense(const RowSparse& mass, const RowSparse& h, const std::vector<double>& f,
                      const std::vector<double>& w, RawFrictionProblem& raw) {
   constexpr const char* self = "read_fclib";
@@ -174,7 +179,7 @@ inline void condense(const RowSparse& mass, const RowSparse& h, const std::vecto
   using Map = Eigen::Map<const Eigen::VectorXd>;
   require(mass.rows() > 0, self, "M", mass.rows(), "must have rows");
   Eigen::SparseLU<Sparse> lu(Sparse{mass});
-  require(lu.info() == Eigen::Success, self, "M", mass.rows(), "must be regular");
+  require(lu.info() == Eigen::Success, self, "M", mass.rows(), "must be invertible");
   const Sparse by_columns = h;
   const Sparse inverse_h = lu.solve(by_columns);
   raw.delassus = by_columns.transpose() * inverse_h;
@@ -200,14 +205,14 @@ void write_fclib_matrix(hid_t group, const FrictionProblem<S>& problem) {
 inline AnyFrictionProblem read_fclib_problem(const std::filesystem::path& path) {
   constexpr const char* self = "read_fclib";
   const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose,
-                        "open it: missing, not readable, no HDF5 file, or cut off");
+                        "open it: missing, not readable, not an HDF5 file, or truncated");
   const bool is_local = H5Lexists(file, "fclib_local", H5P_DEFAULT) > 0;
   require(is_local || H5Lexists(file, "fclib_global", H5P_DEFAULT) > 0, self, "path", path.string(),
           "must hold a group fclib_local or fclib_global");
   const auto group = open_hdf5_group(file, is_local ? "fclib_local" : "fclib_global");
   for (const char* bilateral : {"V", "R", "G"})
     require(H5Lexists(group, bilateral, H5P_DEFAULT) <= 0, self, "group", bilateral,
-            "must not be there: bilateral constraints are not solved");
+            "must not exist: bilateral constraints are not solved");
   RawFrictionProblem raw;
   raw.rows_per_contact = read_hdf5_integer(group, "spacedim");
   const auto vectors = open_hdf5_group(group, "vectors");
@@ -225,14 +230,14 @@ inline AnyFrictionProblem read_fclib_problem(const std::filesystem::path& path) 
   return checked_problem(raw, self);
 }
 
-/// The bytes of a file, made in memory: HDF5 itself would leave half of one on a full disk.
+/// Builds the bytes of a file in memory. HDF5 itself would leave a part of a file on a full disk.
 template <class S>
 std::string fclib_image(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose, "make it in memory");
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose, "build the file in memory");
   if (H5Pset_fapl_core(access, std::size_t{1} << 20, false) < 0)
-    throw std::runtime_error("HDF5: cannot make it in memory");
+    throw std::runtime_error("HDF5: cannot build the file in memory");
   const Hdf5Handle file(H5Fcreate("problem.hdf5", H5F_ACC_TRUNC, H5P_DEFAULT, access), &H5Fclose,
-                        "make it in memory");
+                        "build the file in memory");
   const auto local = create_hdf5_group(file, "fclib_local");
   write_hdf5(local, "spacedim", int(S::dim));
   write_fclib_matrix(create_hdf5_group(local, "W"), problem);
@@ -249,11 +254,11 @@ std::string fclib_image(const FrictionProblem<S>& problem, const Eigen::VectorXd
       H5Fflush(file, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file, nullptr, 0);
   std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
   if (size <= 0 || H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
-    throw std::runtime_error("HDF5: cannot make it in memory");
+    throw std::runtime_error("HDF5: cannot build the file in memory");
   return bytes;
 }
 
-/// Calls f(); its errors of HDF5 name the file.
+/// Calls f() and adds the path to the message of an exception.
 template <class F>
 auto naming(const std::filesystem::path& path, F&& f) {
   const QuietHdf5 quiet;
@@ -268,28 +273,27 @@ auto naming(const std::filesystem::path& path, F&& f) {
 
 }  // namespace detail
 
-/// Whether a file is HDF5 at all; false for one that cannot be read.
+/// Whether a file is an HDF5 file; false if it cannot be read.
 inline bool is_hdf5(const std::filesystem::path& path) {
   const detail::QuietHdf5 quiet;
   return H5Fis_hdf5(path.c_str()) > 0;
 }
 
-/// Reads the problem of an FCLIB file, in the units it has. A global one is brought to its local
-/// form first: W = H^T M^-1 H, b = H^T M^-1 f + w.
-/// @throws std::runtime_error naming the path if the file cannot be opened or lacks a part
-/// @throws std::invalid_argument naming the path and what is wrong if it is no valid problem, or if
-/// it has
-///         bilateral constraints or rolling friction, which this library does not solve
+/// Reads the contact problem of an FCLIB file, in the units of the file. A global problem is
+/// reduced to its local form: W = J M^-1 J^T, b = J M^-1 f + w.
+/// @throws std::runtime_error naming the path if the file cannot be opened or a part is missing
+/// @throws std::invalid_argument naming the path and the reason if the problem is not valid, or if
+///         it has bilateral constraints or rolling friction, which this library does not solve
 inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
   return detail::naming(path, [&] { return detail::read_fclib_problem(path); });
 }
 
-/// Writes a problem as an FCLIB file, W by compressed rows; an existing file is replaced, as a
-/// whole (write_atomically()).
-/// @param impulses r in the units of the problem, D n [N s], or empty: with it goes a solution
-///                 group with r and u = W r + b
+/// Writes a contact problem to an FCLIB file, with W in compressed rows. An existing file is
+/// replaced as a whole (write_atomically()).
+/// @param impulses r, D per contact, in the units of the problem [N s]; the file then has a group
+///                 `solution` with r and u = W r + b. Empty: no such group
 /// @throws std::system_error naming the path if the file cannot be written
-/// @throws std::invalid_argument for a problem that is not valid or impulses of another size
+/// @throws std::invalid_argument if the problem is not valid or the impulses have another size
 template <class S>
 void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& problem,
                  const Eigen::VectorXd& impulses = {}) {

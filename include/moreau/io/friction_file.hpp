@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the readers of friction problems share: the space of a problem is known only once its file
-// has been read.
+// Shared by the readers of contact problems: the dimension of a problem is known only after its
+// file was read.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -16,7 +16,7 @@
 
 namespace moreau {
 
-/// A problem in the plane or in space.
+/// A contact problem in the plane or in space.
 using AnyFrictionProblem = std::variant<FrictionProblem<Space<2>>, FrictionProblem<Space<3>>>;
 
 namespace detail {
@@ -25,7 +25,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The numbers of a file before its space is known.
+/// The content of a file before its dimension is known.
 struct RawFrictionProblem {
   int rows_per_contact = 0;
   RowSparse delassus;

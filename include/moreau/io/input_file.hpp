@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file to read from, which says why when it cannot.
+// Reads a file; the error names the file and the reason.
 #pragma once
 
 #include <cerrno>
@@ -14,8 +14,8 @@ namespace moreau {
 
 namespace detail {
 
-/// All bytes of a file.
-/// @param function the public name the caller used
+/// Reads all bytes of a file.
+/// @param function name of the public function, for the message
 /// @throws std::system_error naming function, path and reason if the file cannot be read
 inline std::string read_file(const std::filesystem::path& path, std::string_view function) {
   const auto fail = [&] {
@@ -31,7 +31,7 @@ inline std::string read_file(const std::filesystem::path& path, std::string_view
   if (!file) fail();
   std::string bytes;
   char some[1 << 14];
-  // A folder opens, but does not read.
+  // fopen() succeeds on a folder, fread() fails.
   while (const std::size_t count = std::fread(some, 1, sizeof some, file.get()))
     bytes.append(some, count);
   if (std::ferror(file.get()) != 0) fail();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file to write to, which says so when it cannot.
+// Writes a file; every error names the file and the reason.
 #pragma once
 
 #include <cerrno>
@@ -17,14 +17,14 @@
 
 namespace moreau {
 
-/// Bytes go out with write() and are with the operating system when it returns.
-/// Every failure throws std::system_error naming the path and the reason.
+/// An unbuffered file: write() passes its bytes to the operating system before it returns. Every
+/// failure throws std::system_error naming the path and the reason.
 class OutputFile {
  public:
-  /// Empties the file or creates it; its folder must exist.
-  /// @param keep goes on behind so many bytes of a file that is there, and cuts off what follows
-  ///             them; a file that has less is an error
-  /// @throws std::system_error if the file cannot be opened, created or gone on with
+  /// Creates the file or empties it; its folder must exist.
+  /// @param keep if > 0, continues an existing file: keeps this many bytes, removes the rest and
+  ///             appends; a file with fewer bytes is an error
+  /// @throws std::system_error if the file cannot be opened, created or continued
   explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0)
       : path_(path), written_(keep) {
     errno = 0;
@@ -33,21 +33,21 @@ class OutputFile {
       const std::uintmax_t size = std::filesystem::file_size(path, error);
       if (!error && size < keep)
         throw std::system_error(std::make_error_code(std::errc::invalid_argument),
-                                "cannot go on with '" + path.string() + "', it has " +
+                                "cannot continue '" + path.string() + "': it has " +
                                     std::to_string(size) + " of the " + std::to_string(keep) +
-                                    " bytes to be kept");
+                                    " bytes to keep");
       if (!error) std::filesystem::resize_file(path, keep, error);
-      if (error) throw std::system_error(error, "cannot go on with '" + path.string() + "'");
+      if (error) throw std::system_error(error, "cannot continue '" + path.string() + "'");
     }
     file_.reset(std::fopen(path.c_str(), keep > 0 ? "ab" : "wb"));
     if (!file_) fail("open");
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   }
 
-  const std::filesystem::path& path() const { return path_; }  ///< of the file
+  const std::filesystem::path& path() const { return path_; }  ///< path of the file
 
-  /// Appends the bytes. If not all of them find room, a file on a disk has none of them.
-  /// @throws std::system_error if they cannot be written, or after close()
+  /// Appends the bytes. If the disk has no room for all of them, a regular file receives none.
+  /// @throws std::system_error if the bytes cannot be written, or after close()
   void write(std::string_view bytes) {
     errno = 0;
     if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
@@ -58,18 +58,18 @@ class OutputFile {
     }
     written_ += bytes.size();
   }
-  /// Waits until what was written is on the disk, where the system can say so.
-  /// @throws std::system_error if the system says that it cannot
+  /// Waits until the written bytes are on the disk, if the system supports it.
+  /// @throws std::system_error if the system reports a failure
   void sync() {
 #if __has_include(<unistd.h>)
     errno = 0;
-    // Pipes and the like have no disk.
+    // Pipes and similar files have no disk and report EINVAL or ENOTSUP.
     if (file_ && ::fsync(::fileno(file_.get())) != 0 && errno != EINVAL && errno != ENOTSUP)
       fail("write");
 #endif
   }
-  /// Closes the file and checks that all of it could be written. No write() after it.
-  /// @throws std::system_error if it could not
+  /// Closes the file and checks that all bytes were written. Do not call write() afterwards.
+  /// @throws std::system_error if they were not
   void close() {
     if (!file_) return;
     errno = 0;
@@ -81,7 +81,7 @@ class OutputFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  /// What was written of the bytes for which there was no room.
+  /// Removes the part that a failed write() has written.
   void take_back() {
 #if __has_include(<unistd.h>)
     if (file_ && ::ftruncate(::fileno(file_.get()), static_cast<off_t>(written_)) == 0)
@@ -95,23 +95,23 @@ class OutputFile {
   }
 
   std::filesystem::path path_;
-  std::uintmax_t written_;  // bytes, those that were kept included
+  std::uintmax_t written_;  // [bytes], including `keep`
   std::unique_ptr<std::FILE, Close> file_;
 };
 
 namespace detail {
 
-/// Waits until the names in a folder are on the disk, where the system can say so.
+/// Waits until the entries of a folder are on the disk, if the system supports it.
 inline void sync_folder([[maybe_unused]] const std::filesystem::path& folder) {
 #if __has_include(<unistd.h>)
   const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY);
   if (file < 0) return;
-  ::fsync(file);  // not every file system can
+  ::fsync(file);  // not every file system supports it
   ::close(file);
 #endif
 }
 
-/// What a path leads to behind symbolic links, there or not.
+/// The path after all symbolic links are followed; it need not exist.
 inline std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code none;
   for (int k = 0; k < 40 && std::filesystem::is_symlink(path, none); ++k)
@@ -121,14 +121,14 @@ inline std::filesystem::path behind_links(std::filesystem::path path) {
 
 }  // namespace detail
 
-/// Replaces a file as a whole: a reader, a run that is killed or a machine that loses its power
-/// finds the old one or the new one, never a part. On the way the new one is beside it, under its
-/// name with ".part". A symbolic link stays, what it leads to is replaced; what is no file, a
-/// device or a pipe, is written to.
-/// @throws std::system_error naming the path and the reason; the old file is then as it was
+/// Replaces a file as a whole. A reader finds the old file or the new file and never a part, also
+/// after the program was killed or the power failed. The function writes a temporary file in the
+/// same folder, with the suffix ".part", and renames it. If the path is a symbolic link, it
+/// replaces the target of the link. If the path is a device or a pipe, it writes to it directly.
+/// @throws std::system_error naming the path and the reason; the old file is then unchanged
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code ignored;
-  // Asked of the path itself: the link of a pipe's descriptor names no file.
+  // Test the path itself: the link target of a pipe's descriptor is not a file name.
   if (std::filesystem::is_other(std::filesystem::status(path, ignored))) {
     OutputFile file(path);
     file.write(bytes);
@@ -147,8 +147,8 @@ inline void write_atomically(const std::filesystem::path& path, std::string_view
     detail::sync_folder(target.parent_path());
   } catch (const std::system_error& error) {
     std::filesystem::remove(partial, ignored);
-    throw std::system_error(error.code(), "cannot write '" + path.string() + "' by way of '" +
-                                              partial.filename().string() + "' beside it");
+    throw std::system_error(error.code(), "cannot write '" + path.string() + "' through '" +
+                                              partial.filename().string() + "' in the same folder");
   } catch (...) {
     std::filesystem::remove(partial, ignored);
     throw;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Friction problems in the text form that Siconos/Numerics dumps (github.com/siconos/siconos):
-// dimension, contacts, W in one of three storages, q, mu; normal first in every contact.
+// Reads contact problems in the text form of Siconos/Numerics (github.com/siconos/siconos):
+// dimension, number of contacts, W in one of three storages, q (the free velocity b), mu; the
+// normal component comes first in every contact.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +24,13 @@ namespace moreau {
 
 namespace detail {
 
-/// Words of a text between white space.
+/// Reads the words of a text one by one.
 class TextScanner {
  public:
   TextScanner(std::string_view text, std::string_view function)
       : text_(text), function_(function) {}
 
-  /// The next word; empty at the end.
+  /// The next word; empty at the end of the text.
   std::string_view word() {
     const std::size_t start = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
     at_ = std::min(text_.find_first_of(" \t\r\n", start), text_.size());
@@ -56,16 +57,18 @@ class TextScanner {
     if (next != expected)
       throw_invalid(function_, "word", shown(next), "must be '" + std::string(expected) + "'");
   }
-  /// Numbers still to come at most, so that a wrong size does not ask for all memory.
+  /// Checks that the rest of the text can hold `count` numbers, so that a wrong size in a file
+  /// cannot request a huge allocation.
   void require_room(std::size_t count, std::string_view name) const {
     require(2 * count <= text_.size() - at_ + 1, function_, name, count,
-            "must not exceed what the file holds");
+            "must not exceed the numbers in the file");
   }
   void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
   std::string_view function() const { return function_; }
 
  private:
-  /// A word of a file that may be none of text, fit for a message.
+  /// A word in a form that can be printed: at most 32 characters, each printable. The file may be
+  /// binary.
   static std::string shown(std::string_view word) {
     constexpr std::size_t most = 32;
     std::string text(word.substr(0, most));
@@ -105,7 +108,7 @@ struct TextMatrix {
   Triplets entries;
 };
 
-/// Storage 0: sizes again, then all values, column by column.
+/// Storage 0: rows, columns, then all values column by column.
 inline void scan_dense(TextScanner& scan, TextMatrix& raw) {
   const int rows = scan.integer("rows"), columns = scan.integer("columns");
   require(rows == raw.rows && columns == raw.columns, scan.function(), "size of dense W", rows,
@@ -118,19 +121,19 @@ inline void scan_dense(TextScanner& scan, TextMatrix& raw) {
     }
 }
 
-/// Start of each block of rows or columns from the cumulative sizes in the file.
+/// First row or column of each block, from the cumulative sizes in the file.
 inline std::vector<int> scan_block_starts(TextScanner& scan, int blocks, int total) {
   std::vector<int> starts = scan_integers(scan, blocks, "block size");
   starts.insert(starts.begin(), 0);
   for (std::size_t k = 1; k < starts.size(); ++k)
     require(starts[k] > starts[k - 1], scan.function(), "cumulative block size", starts[k],
-            "must grow");
+            "must increase");
   require(starts.back() == total, scan.function(), "cumulative block size", starts.back(),
           "must end at the size of W");
   return starts;
 }
 
-/// Storage 1: blocks by compressed rows, each with its number and its values column by column.
+/// Storage 1: compressed rows of blocks. Each block has its number and its values column by column.
 inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   const int blocks = scan.integer("number of blocks");
   const int block_rows = scan.integer("block rows"), block_columns = scan.integer("block columns");
@@ -143,7 +146,7 @@ inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   for (int row = 0; row + 1 < filled1; ++row) {
     const auto here = std::size_t(row);
     require(first[here + 1] >= first[here] && first[here + 1] <= blocks, scan.function(), "index1",
-            first[here + 1], "must grow to the number of blocks");
+            first[here + 1], "must increase to the number of blocks");
     if (first[here + 1] > first[here])
       require(row < block_rows, scan.function(), "index1", row, "must have a row for each block");
     for (int block = first[here]; block < first[here + 1]; ++block) {
@@ -159,8 +162,7 @@ inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   }
 }
 
-/// Storage 2: what CSparse prints: triplets, or lists by columns (by rows where the origin says
-/// so).
+/// Storage 2: the output of CSparse: triplets, or lists by columns (by rows if `origin` is 3).
 inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
   constexpr int compressed_rows = 3, half_of_symmetric = 4;
   const int origin = scan.integer("origin of sparse W");
@@ -207,9 +209,9 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
 
 }  // namespace detail
 
-/// Reads a problem from the text of a dump, in the units it has. A text that was cut within its
-/// last number cannot be told from a whole one: some are written without a line end.
-/// What comes after mu is not read: many dumps have a flag there.
+/// Reads a contact problem from a text, in the units of the text. Text after mu is ignored: many
+/// files have a flag there. A text that is truncated within its last number is accepted, because
+/// some files have no line end.
 /// @throws std::invalid_argument naming what is wrong if the text is no valid problem
 inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   constexpr std::string_view self = "parse_siconos_text";
@@ -242,7 +244,7 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   return detail::checked_problem(raw, self);
 }
 
-/// Reads a problem from a file; see parse_siconos_text().
+/// Reads a contact problem from a file; see parse_siconos_text().
 /// @throws std::system_error naming the path if the file cannot be read or is empty
 /// @throws std::invalid_argument naming the path and what is wrong if it is no valid problem
 inline AnyFrictionProblem read_siconos_text(const std::filesystem::path& path) {

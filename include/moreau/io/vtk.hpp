@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Snapshots that ParaView opens: grains with their surfaces, contacts as lines, fields, the box
-// around.
+// Writes files for ParaView: grains with their surfaces, contacts as lines, fields, boxes.
 //
-// In ParaView: a grain is its faces, their arrays on the cells. Spheres alone are points with their
-// arrays on the points, a hundredth of the size: show them with the filter Glyph or the
-// representation Point Gaussian, scaled by `size`; or have them drawn as faces, too (VtkOptions).
-// Contacts: the filter Tube, its radius varying with `normal_force`. Fields: the filter Glyph.
+// In ParaView:
+//  - Grains are faces, with their arrays on the cells.
+//  - If all grains are spheres, they are points, with their arrays on the points; the file is a
+//    hundred times smaller. Use the filter Glyph or the representation Point Gaussian, scaled by
+//    `size`. VtkOptions::spheres_as_points = false writes faces instead.
+//  - Contacts are lines. Use the filter Tube and vary its radius by `normal_force`.
+//  - Fields are points. Use the filter Glyph.
 #pragma once
 
 #include <algorithm>
@@ -32,12 +34,13 @@ namespace moreau {
 
 /// How grains are drawn.
 struct VtkOptions {
-  int fineness = 2;  ///< 0 to 6, of curved surfaces, as SurfaceMesher's: 320 triangles a ball
-  bool spheres_as_points = true;  ///< of assemblies of nothing but spheres
+  int fineness =
+      2;  ///< of curved surfaces, 0 to 6, as in SurfaceMesher; 2: 320 triangles per sphere
+  bool spheres_as_points = true;  ///< if all grains are spheres
 };
 
-/// Writes .vtp files, each whole or not at all; keeps its buffers from snapshot to snapshot.
-/// Coordinates in world axes [m], as single-precision numbers; in the plane z = 0.
+/// Writes .vtp files, each whole or not at all. Reuses its buffers from file to file. Coordinates
+/// are in world axes [m] in single precision; in the plane z = 0.
 template <class S>
 class VtkWriter {
  public:
@@ -47,11 +50,12 @@ class VtkWriter {
   explicit VtkWriter(const VtkOptions& options = {})
       : options_(options), mesher_(options.fineness) {}
 
-  /// The grains, with `id` (the number k), `size` (circumdiameter [m]), `velocity` of the centre
-  /// [m/s], `speed` and `spin` (magnitude of the angular velocity [rad/s]).
+  /// Writes the grains with the arrays `id` (the index k), `size` (circumdiameter [m]), `velocity`
+  /// of the centre of mass [m/s], `speed` [m/s] and `spin` (magnitude of the angular velocity
+  /// [rad/s]).
   /// @param shape_of,pose_of,velocity_of k -> shape, pose [m], twist (v, w) [m/s, rad/s] of grain
   ///                                     k, world axes
-  /// @throws std::invalid_argument for a pose with infinite numbers or none
+  /// @throws std::invalid_argument if a pose is not finite
   /// @throws std::system_error naming the path if the file cannot be written
   template <class ShapeOf, class PoseOf, class VelocityOf>
   void write_grains(const std::filesystem::path& path, std::size_t grain_count,
@@ -93,11 +97,11 @@ class VtkWriter {
     data_.write(path);
   }
 
-  /// Contact points as lines between the centres of their bodies, with `normal_force` and
-  /// `friction_force` [N], `gap` [m], `class` (the number of the ContactClass) and `point`, where
-  /// it is [m].
-  /// @param contacts of force_chains() or contact_segments()
-  /// @throws std::invalid_argument for an end with infinite numbers or none
+  /// Writes contacts as lines between the centres of their bodies with the arrays `normal_force`
+  /// and `friction_force` [N], `gap` [m], `class` (value of the ContactClass) and `point`, the
+  /// position of the contact point [m].
+  /// @param contacts from force_chains() or contact_segments()
+  /// @throws std::invalid_argument if an end of a segment is not finite
   /// @throws std::system_error naming the path if the file cannot be written
   void write_contacts(const std::filesystem::path& path,
                       std::span<const ContactSegment<S>> contacts) {
@@ -123,8 +127,8 @@ class VtkWriter {
     data_.write(path);
   }
 
-  /// The cells of a grid that hold grains, as points at their centres, with `value`, the mean in
-  /// the field's unit, and `grains`, how many there were.
+  /// Writes the cells of a grid that contain grains as points at the centres of the cells, with the
+  /// arrays `value` (mean in the unit of the field) and `grains` (number of grains in the mean).
   /// @throws std::system_error naming the path if the file cannot be written
   void write_field(const std::filesystem::path& path, const GridField<S>& field) {
     clear();
@@ -140,8 +144,8 @@ class VtkWriter {
     data_.write(path);
   }
 
-  /// The edges of a box, world axes [m].
-  /// @throws std::invalid_argument for a box that is empty or has infinite numbers or none
+  /// Writes the edges of a box, world axes [m].
+  /// @throws std::invalid_argument if the box is empty or not finite
   /// @throws std::system_error naming the path if the file cannot be written
   void write_box(const std::filesystem::path& path, const Aabb<S>& box) {
     require(is_drawable(box.lower), "VtkWriter::write_box", "box.lower", box.lower,
@@ -176,7 +180,7 @@ class VtkWriter {
     first_.clear();
     second_.clear();
   }
-  /// Whether a file, whose coordinates are floats, can have the point.
+  /// Whether a point is finite in single precision, as files store it.
   static bool is_drawable(const Vector& x) { return x.template cast<float>().allFinite(); }
   void append_point(const Vector& position) {
     cell_.assign(1, data_.add_point(position));
@@ -195,7 +199,8 @@ class VtkWriter {
       data_.add_cell(VtkPolyData::Cells::polygons, cell_);
     }
   }
-  /// Of the farthest point from the origin; of a shape that does not know it, in the mesh.
+  /// Distance of the farthest point from the origin [m]: the circumradius, or from the mesh for a
+  /// shape without circumradius().
   template <class Shape>
   typename S::Scalar reach(const Shape& shape) const {
     if constexpr (HasCircumradius<Shape>) {
@@ -220,7 +225,7 @@ class VtkWriter {
   SurfaceMesh<S> mesh_;
   VtkPolyData data_;
   std::vector<std::int32_t> cell_, numbers_;
-  std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays to be added
+  std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays
 };
 
 }  // namespace moreau

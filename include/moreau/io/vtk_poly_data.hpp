@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The XML format of VTK for points, lines and polygons (.vtp), as ParaView opens it.
-// Format: "VTK file formats", XML, PolyData; arrays lie behind the XML as raw appended data, each
-// preceded by its number of bytes (header_type UInt64).
+// Writes points, lines and polygons in the XML format of VTK (.vtp) for ParaView. Source: "VTK file
+// formats", XML, PolyData. The arrays follow the XML as raw appended data; each one begins with its
+// number of bytes (header_type UInt64).
 #pragma once
 
 #include <algorithm>
@@ -27,12 +27,12 @@
 
 namespace moreau {
 
-/// The numbers that arrays can have.
+/// Types of the numbers in an array.
 template <class T>
 concept VtkNumber = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, std::int32_t> || std::same_as<T, std::uint32_t>;
 
-/// What VTK's XML calls them.
+/// Name of a number type in VTK's XML.
 template <VtkNumber T>
 constexpr std::string_view vtk_type_name() {
   if constexpr (std::same_as<T, float>) return "Float32";
@@ -43,7 +43,7 @@ constexpr std::string_view vtk_type_name() {
 
 namespace detail {
 
-/// Whether an attribute of XML can have this text as it is.
+/// Whether a text can be an XML attribute without escapes.
 inline bool is_plain_xml(std::string_view text) {
   return std::none_of(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '"' || c == '<' || c == '&';
@@ -52,8 +52,8 @@ inline bool is_plain_xml(std::string_view text) {
 
 }  // namespace detail
 
-/// One data set. Cells are vertices, lines or polygons; a file orders them so, and cell arrays
-/// have to follow that order. clear() keeps the memory for the next snapshot.
+/// One data set. Its cells are vertices, lines and polygons; the file stores them in this order,
+/// and cell arrays must have the same order. clear() keeps the memory for the next file.
 class VtkPolyData {
  public:
   /// Kinds of cells, in the order of a file.
@@ -61,7 +61,7 @@ class VtkPolyData {
   /// What an array belongs to.
   enum class On : std::uint8_t { points, cells };
 
-  /// Takes out everything; keeps the memory.
+  /// Removes all data and keeps the memory.
   void clear() {
     points_.clear();
     for (auto& kind : cells_) kind = {};
@@ -77,24 +77,28 @@ class VtkPolyData {
     for (int k = 0; k < 3; ++k) points_.push_back(k < x.size() ? static_cast<float>(x[k]) : 0.0f);
     return static_cast<std::int32_t>(point_count() - 1);
   }
-  /// A cell of the points with these indices, which add_point() gave; they are not checked.
+  /// Adds a cell.
+  /// @param points indices of its points, as add_point() returned them; not checked
   void add_cell(Cells kind, std::span<const std::int32_t> points) {
     CellList& cells = cells_[static_cast<std::size_t>(kind)];
     cells.points.insert(cells.points.end(), points.begin(), points.end());
     cells.ends.push_back(static_cast<std::int32_t>(cells.points.size()));
   }
 
-  std::size_t point_count() const { return points_.size() / 3; }  ///< added so far
-  /// Added so far, of all kinds.
+  std::size_t point_count() const { return points_.size() / 3; }  ///< number of points
+  /// Number of cells of all kinds.
   std::size_t cell_count() const {
     std::size_t count = 0;
     for (const CellList& kind : cells_) count += kind.ends.size();
     return count;
   }
 
-  /// Values on all points or cells added so far, `components` in a row for each, in any unit.
-  /// @throws std::invalid_argument for a number of values that does not fit, or a name that is
-  ///         empty or has a control character or one of " < > &
+  /// Adds an array with values for all points or all cells so far.
+  /// @param components values per point or cell; they are consecutive in `values`
+  /// @param values     in any unit
+  /// @throws std::invalid_argument if the number of values is not components times the number of
+  ///         points or cells, or if the name is empty or contains a control character or one of
+  ///         " < > &
   template <VtkNumber T>
   void add_array(On place, std::string_view name, std::size_t components,
                  std::span<const T> values) {
@@ -156,7 +160,7 @@ class VtkPolyData {
     return xml + "</" + tag + ">\n";
   }
 
-  /// The XML of an array; its bytes go behind the others.
+  /// XML element of an array; appends its bytes to appended_.
   template <VtkNumber T>
   std::string element(std::string_view name, std::size_t components, std::span<const T> values) {
     const std::size_t offset = appended_.size();
@@ -174,18 +178,20 @@ class VtkPolyData {
   std::string appended_;
 };
 
-/// A .pvd file: the snapshots of a run with their times, as ParaView plays them.
+/// A .pvd file: a list of files with their times, which ParaView plays as an animation.
 class PvdSeries {
  public:
-  /// Writes nothing yet.
+  /// Does not write a file; add() does.
   explicit PvdSeries(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Lists a file (relative to the .pvd file) at a time [s] and rewrites the series, so that it is
-  /// whole at any moment. Files of the same time are shown together as parts 0, 1, ...
-  /// @throws std::invalid_argument for a name that is empty or has a control character or one of
-  ///         " < &, a time that is not finite, or a part < 0
-  /// @throws std::system_error naming the path if the series cannot be written; the file is then
-  ///         not listed, and can be added again
+  /// Adds a file to the list and rewrites the .pvd file, which is therefore complete at any time.
+  /// @param time [s]
+  /// @param file name relative to the folder of the .pvd file
+  /// @param part ParaView shows files with the same time together, as parts 0, 1, ...
+  /// @throws std::invalid_argument if the name is empty or contains a control character or one of
+  ///         " < &, if the time is not finite, or if part < 0
+  /// @throws std::system_error naming the path if the .pvd file cannot be written; the list is then
+  ///         unchanged, so the file can be added again
   void add(double time, std::string_view file, int part = 0) {
     require(std::isfinite(time), "PvdSeries::add", "time", time, "must be finite");
     require(!file.empty(), "PvdSeries::add", "file", "''", "must be a name");
