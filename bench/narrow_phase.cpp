@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Cost of the narrow phase for one pair: cold, nothing being known of the pair beforehand, and
-// coherent, along trajectories with a cache. One body for every shape and dimension.
+// Cost of the narrow phase for one pair: cold, without any memory of the pair, and coherent, along
+// trajectories with a cache. The same code runs for every shape and dimension.
 //
-// A shape of your own joins in by one line at the end, once Ballast<Shape> says how to draw one.
+// To measure a shape of your own, add one line at the end and say in Ballast<Shape> how to draw
+// one.
 #include <benchmark/benchmark.h>
 #include <memory>
 #include <string>
@@ -13,7 +14,7 @@ namespace {
 
 using namespace moreau;
 
-/// The three queries. With a cache or, as it is then empty each time, without.
+/// The three queries, with a cache or without one.
 struct Overlap {
   static constexpr const char* name = "overlap";
   template <class Body, class T, class... Cache>

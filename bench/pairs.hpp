@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairs of bodies to bench the narrow phase on, made from a fixed seed: one body for every shape
-// and dimension.
+// Pairs of bodies to measure the narrow phase on, made from a fixed seed. The same code makes those
+// of every shape and dimension.
 #pragma once
 
 #include <algorithm>
@@ -41,14 +41,14 @@ Eigen::Quaternion<T> random_rotation(Space<3, T>, std::mt19937_64& random) {
   return q.normalized();
 }
 
-/// A polyhedron of as many vertices, all on an ellipsoid.
+/// A polyhedron with `count` vertices, all on an ellipsoid.
 template <class T>
 moreau::Polyhedron<T> with_vertices(Space<3, T>, std::size_t count, std::mt19937_64& random) {
   using Vector = typename Space<3, T>::Vector;
   std::vector<Vector> points;
   while (points.size() < count) {
     const Vector x = random_direction<Space<3, T>>(random);
-    // Evenly, so that four points do not make a splinter.
+    // The points are spread evenly, so that no four of them make a splinter.
     const bool is_near = std::any_of(points.begin(), points.end(), [&](const Vector& y) {
       return (x - y).norm() * std::sqrt(static_cast<T>(count)) < T(1.6);
     });
@@ -57,7 +57,7 @@ moreau::Polyhedron<T> with_vertices(Space<3, T>, std::size_t count, std::mt19937
   for (Vector& x : points) x = x.cwiseProduct(Vector(1, T(0.85), T(0.7)));
   return moreau::Polyhedron<T>(std::span<const Vector>(points));
 }
-/// A polygon of as many vertices, all on an ellipse.
+/// A polygon with `count` vertices, all on an ellipse.
 template <class T>
 moreau::Polygon<T> with_vertices(Space<2, T>, std::size_t count, std::mt19937_64& random) {
   using Vector = typename Space<2, T>::Vector;
@@ -71,8 +71,8 @@ moreau::Polygon<T> with_vertices(Space<2, T>, std::size_t count, std::mt19937_64
   return moreau::Polygon<T>(std::span<const Vector>(points));
 }
 
-/// Where a pair stands: the distance of the centres is that of touching plus a part of the smaller
-/// diameter drawn evenly between the two.
+/// How near the shapes of a pair are: the distance of the centres is that at which they touch, plus
+/// a fraction of the smaller diameter that is drawn uniformly from [from, to].
 struct Situation {
   const char* name;
   double from, to;
@@ -98,8 +98,8 @@ auto touching_distance(const Placed<ShapeT>& a, Placed<ShapeT> b,
   return inside;
 }
 
-/// Bodies at the origin, each in an orientation of its own, and pairs of them with the place of the
-/// second one. 600 bodies outgrow the caches next to the core, as those of a simulation do.
+/// Bodies at the origin in random orientations, and pairs of them with the position of the second
+/// body. 600 bodies do not fit into the caches next to the core, as those of a simulation do not.
 template <class ShapeT>
 struct Pairs {
   using S = SpaceOf<ShapeT>;
@@ -168,8 +168,8 @@ struct Pairs {
   }
 };
 
-/// Pairs that move a little from step to step, 1e-4 of the diameter and 1e-4 rad, each in a random
-/// walk; every step is placed beforehand.
+/// Pairs that move a little from step to step, by 1e-4 of the diameter and 1e-4 rad, in a random
+/// walk. All steps are placed beforehand.
 template <class ShapeT>
 struct Trajectories {
   using S = SpaceOf<ShapeT>;
@@ -204,7 +204,7 @@ struct Trajectories {
   }
 };
 
-/// Random shapes, as a sample of the study has them.
+/// Random shapes as in the samples of the study.
 template <class ShapeT>
 std::vector<ShapeT> ballast(std::size_t count) {
   std::mt19937_64 random(1);

@@ -25,7 +25,7 @@ typename S::Angular across() {
   return S::Angular::Unit(S::angular_dim / 2);
 }
 
-/// All points within a radius of a segment along x: a shape with nothing but its support.
+/// All points within a radius of a segment along x: a shape with a support function only.
 template <class S>
 struct Stadium {
   using Space = S;
@@ -125,7 +125,7 @@ TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its end
     CHECK(point.gap == doctest::Approx(1 - 0.1 - std::hypot(0.4, 0.5)));
   CHECK(both[0].position[0] * both[1].position[0] < 0);
   CHECK(both[0].feature < both[1].feature);
-  // Upright it touches at one.
+  // An upright shape touches at one point.
   pose.rotation = S::exp(std::numbers::pi / 2 * across<S>());
   pose.position[0] = 0.1;
   const auto one = points_of(Stadium<S>{0.3, 0.1}, pose, 1, 1);

@@ -92,7 +92,8 @@ void check_against_oracle(const Pair& pair, double margin) {
   for (const auto& point : manifold.points) {
     deepest = std::min(deepest, point.gap);
     CHECK(point.gap <= margin + tiny);
-    // Each end of the gap lies on the face it was measured from, so never outside its shape.
+    // Each witness point lies on the face that the gap was measured from, so never outside its
+    // shape.
     const Vector half = point.gap / 2 * manifold.normal;
     CHECK(height_above(*pair.a, pair.pose_a, point.position - half) < 1e-7 * pair.size);
     CHECK(height_above(*pair.b, pair.pose_b, point.position + half) < 1e-7 * pair.size);
@@ -102,7 +103,7 @@ void check_against_oracle(const Pair& pair, double margin) {
                        [](const auto& p, const auto& q) { return p.feature < q.feature; }));
 }
 
-/// The same answer, with a and b exchanged and all moved by a motion.
+/// Checks that the answer stays the same if a and b are exchanged and both are moved by one motion.
 void check_same(const Manifold<S>& one, const Manifold<S>& other, const Pose<S>& motion, bool swap,
                 double tiny) {
   const double sign = swap ? -1 : 1;
@@ -287,7 +288,7 @@ TEST_CASE("polyhedra: boxes apart by corner and by edge are named so") {
   const Eigen::Quaterniond on_corner =
       Eigen::Quaterniond::FromTwoVectors(Vector(1, 1, 1), Vector(0, -0.3, -1));
   const Vector corner = on_corner * Vector(0.5, 0.5, 0.5);
-  // A corner beside the upper edge of a box on its edge, outside both of its faces.
+  // A corner beside the upper edge of a box that stands on an edge, outside both of its faces.
   const Vector edge(0.1, 0, std::sqrt(0.5));
   const Vector beside = 0.003 * Vector(0, 0.1, 1).normalized();
   REQUIRE(collide(Placed<Solid>(box, {Vector::Zero(), turn}),

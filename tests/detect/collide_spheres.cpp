@@ -14,13 +14,13 @@ using namespace moreau;
 
 namespace {
 
-/// A small copy of a polytope's surface points: the signed distance of a point by brute force.
+/// The signed distance of a point from a polytope, by brute force.
 template <class ShapeT>
 double point_gap(const ShapeT& shape, const typename ShapeT::Vector& x) {
   const auto heights = ((shape.face_normals() * x).array() - shape.face_offsets().array()).eval();
   if (heights.maxCoeff() <= 0) return heights.maxCoeff();
   using S = typename ShapeT::Space;
-  // A tiny polytope around the point stands in for it.
+  // A tiny polytope around the point takes the place of the point.
   double best = 1e9;
   const oracle::World<ShapeT> world(shape, Pose<S>{}, S::Vector::Zero());
   if constexpr (requires { shape.edges(); }) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The points of a contact carry its load. A pressure on the contact's polygon, along the normal,
-// comes to a force at a centre of pressure in the polygon; forces of points that push come to one
-// in the hull of the points. So the hull has to hold the polygon, and of the few points that are
-// kept the triangle the centre of pressure as it was.
+// The contact points of a pair can carry its load. A pressure along the normal on the contact
+// polygon amounts to a force at a centre of pressure within the polygon. Normal forces at points
+// amount to a force within the hull of the points. So the hull of all points has to hold the
+// polygon, and the triangle of the few points that reduce() keeps has to hold the previous centre
+// of pressure.
 #include <array>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -56,7 +57,7 @@ bool is_inside(const Outline& outline, const Flat& x) {
   }
   return true;
 }
-/// The corners of what two convex outlines share, in no order.
+/// The corners of the intersection of two convex outlines, in no order.
 Outline shared(const Outline& a, const Outline& b) {
   Outline found;
   for (const Flat& x : a)
@@ -84,7 +85,7 @@ double beyond(const Outline& a, const Outline& b) {
   return worst;
 }
 
-/// A random face of b on a random face of a, pressed in by a little, moved aside and turned.
+/// A random face of b on a random face of a, overlapping a little, shifted and turned at random.
 struct FaceToFace {
   Solid a, b;
   Pose<S> pose_a, pose_b;
@@ -173,7 +174,7 @@ TEST_CASE("three points hold the centre of pressure of the step before") {
     REQUIRE(manifold.points.size() == 3);
     Outline triangle;
     for (const auto& point : manifold.points) triangle.push_back(point.position.head<2>());
-    // Beside a side by 2 % of the height on it counts as within.
+    // A centre of pressure beyond a side by 2 % of the triangle's height counts as within.
     CHECK(beyond({pressure.head<2>()}, triangle) < 0.02 * 4);
   }
 }

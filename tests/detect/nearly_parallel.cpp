@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edges and faces that are parallel, exactly or all but: where normals and the nearest points of
-// lines are lost in rounding, but not the distance.
+// Edges and faces that are parallel exactly or nearly: the common normal and the nearest points of
+// lines are then lost in rounding, but the distance is not.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +27,7 @@ T above(const Placed<Polyhedron<T>>& shape, const typename Space<3, T>::Vector& 
   return height;
 }
 
-/// The witnesses are on the surfaces, and overlap says what the gap does.
+/// Checks that the witness points lie on the surfaces, and that overlap() agrees with the gap.
 template <class T>
 void check_answers(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& b, T size) {
   const auto found = distance(a, b);
@@ -75,7 +75,7 @@ TEST_CASE_TEMPLATE("boxes turned alike: the gap is that of intervals", T, double
       between[Eigen::Index(k)] = (random() % 2 ? 1 : -1) * (half + beyond[random() % 4]);
     }
     pose_b.position = pose_a.rotation * Vector(between.cast<T>());
-    // What the pose holds after rounding.
+    // The displacement that the pose has after rounding.
     const Eigen::Vector3d apart = (pose_a.rotation.template cast<double>().inverse() *
                                    pose_b.position.template cast<double>())
                                       .cwiseAbs();
@@ -115,7 +115,8 @@ TEST_CASE("all but parallel: the gap does not know how the pair is turned") {
       pose_a.rotation = samples::rotation(S{}, random);
       pose_b.rotation = pose_a.rotation * pose_b.rotation;
       pose_b.position = pose_a.rotation * pose_b.position;
-      // Between 1e-11 and 1e-8 rad no axis of two edges is known to more than 3e-11 of the size.
+      // For angles between 1e-11 and 1e-8 rad the gap along an axis of two edges is accurate to
+      // 3e-11 of the size only.
       const double known = turn < 2e-8 && turn > 5e-13 ? 6e-11 : 1e-12;
       CHECK(std::abs(distance(Placed(a, pose_a), Placed(b, pose_b)).gap - gap) < known);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The truth that the narrow phase is tested against: every axis and every pair of features, by
+// The reference that the narrow phase is tested against: every axis and every pair of features, by
 // brute force.
 #pragma once
 
@@ -50,7 +50,7 @@ typename W::S::Scalar separation(const W& a, const W& b, const typename W::Vecto
   return bottom - top;
 }
 
-/// Best axis so far and the best of those that point elsewhere.
+/// The best axis so far, and the best among the axes in other directions.
 template <class S>
 class Best {
  public:
@@ -105,7 +105,7 @@ Vector segment_to_segment(const Vector& p, const Vector& p1, const Vector& q, co
   return best;
 }
 
-/// Difference from a face of a polyhedron to a point above it, if the foot is within the face.
+/// Difference from a face of a polyhedron to a point above it, if the point projects onto the face.
 template <class T>
 bool face_to_point(const moreau::Polyhedron<T>& shape, const World<moreau::Polyhedron<T>>& world,
                    std::size_t f, const typename moreau::Space<3, T>::Vector& x,
@@ -122,7 +122,7 @@ bool face_to_point(const moreau::Polyhedron<T>& shape, const World<moreau::Polyh
   return true;
 }
 
-/// All features against all, of polyhedra that are apart.
+/// Compares all features of two polyhedra that are apart.
 template <class T>
 typename moreau::Space<3, T>::Vector nearest_difference(
     const moreau::Polyhedron<T>& a, const World<moreau::Polyhedron<T>>& world_a,
@@ -172,7 +172,7 @@ Truth<moreau::Space<3, T>> signed_gap(const moreau::Polyhedron<T>& a,
   if (truth.gap <= T(0)) return truth;
   const Vector apart = nearest_difference(a, world_a, b, world_b);
   const T gap = apart.norm();
-  // A difference of a few roundings has no direction; the best axis then has.
+  // A difference of a few roundings has no direction: the best axis is taken instead.
   if (gap < T(1e-10) * size) return {gap, truth.normal, false};
   return {gap, apart / gap, true};
 }

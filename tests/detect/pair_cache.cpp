@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is remembered of a pair changes no bit of any answer, however the pair moves and whatever
-// the memory holds.
+// The pair cache changes no bit of any answer, however the pair moves and whatever the cache holds.
 #include <array>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -17,7 +16,7 @@ using namespace moreau;
 
 namespace {
 
-/// Two shapes with one memory for each query, which outlives every motion.
+/// Two shapes with one cache for each query, which is kept through all motions.
 template <class ShapeT>
 class Companions {
  public:
@@ -32,7 +31,7 @@ class Companions {
   }
 
   T size() const { return size_; }
-  /// Anywhere near touching, in any orientation: a jump.
+  /// Moves b to a random place and orientation near touching: a jump.
   void touch_again(std::mt19937_64& random) {
     pose_b_.rotation = samples::rotation(S{}, random);
     const Vector line = samples::direction<S>(random);
@@ -43,7 +42,7 @@ class Companions {
       (overlap(a_, b_) ? inside : outside) = (inside + outside) / 2;
     }
   }
-  /// Both shapes, by about the step times the size, and as many radians.
+  /// Moves both shapes by about the step times the size, and turns them by as many radians.
   void move(T step, std::mt19937_64& random) {
     for (Pose<S>* pose : {&pose_a_, &pose_b_}) {
       pose->position += step * size_ * samples::direction<S>(random);
@@ -56,7 +55,7 @@ class Companions {
   void set_caches(const std::array<PairCache<S>, 3>& caches) { caches_ = caches; }
   const std::array<PairCache<S>, 3>& caches() const { return caches_; }
 
-  /// All three queries, with what is remembered and without.
+  /// Checks all three queries with the caches against those without.
   void check(T margin) {
     Manifold<S> cold, cached;
     const bool touch = collide(a_, b_, margin, cold);
@@ -69,7 +68,8 @@ class Companions {
     CHECK(one.witness_b == other.witness_b);
     const bool together = overlap(a_, b_, caches_[2]);
     CHECK(overlap(a_, b_) == together);
-    // The boolean stops at any axis that separates.
+    // overlap() stops at the first axis that separates: a gap within rounding may be judged either
+    // way.
     const T rounding = size_ * DetectionTolerance<T>::rounding;
     if (std::abs(one.gap) > rounding) CHECK(together == (one.gap <= 0));
   }
@@ -120,7 +120,7 @@ TEST_CASE_TEMPLATE("a pair cache changes no bit, whatever the motion", ShapeT, P
     Companions<ShapeT> pair(shapes[random() % shapes.size()], shapes[random() % shapes.size()],
                             random);
     for (int k = 0; k < 60; ++k) {
-      // Small steps that drift, now and then a large one or a jump.
+      // Small steps, now and then a large one or a jump.
       const double step = k % 10 == 9 ? std::pow(10., exponent(random)) : 1e-4;
       if (k % 20 == 19) pair.touch_again(random);
       pair.move(static_cast<T>(step), random);
@@ -202,9 +202,9 @@ TEST_CASE("coherent pairs are proved, seldom searched") {
     PairCache<S> cache;
     for (int k = 0; k < 20; ++k) {
       const Placed<Polyhedron<double>> b(shape_b, pose_b);
-      const detail::PolyhedronPair<double> both(a, b);
+      const detail::PolytopePair<Polyhedron<double>> both(a, b);
       if (k > 0) {
-        proved += detail::PolyhedronRecall<double>(both).prove(cache);
+        proved += detail::prove_axis(both, cache).has_value();
         ++asked;
       }
       distance(a, b, cache);

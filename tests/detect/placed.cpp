@@ -12,7 +12,7 @@ using namespace moreau;
 
 namespace {
 
-/// Nothing is known of it but its support.
+/// A shape with a support function only.
 template <class S>
 struct Opaque {
   using Space = S;
@@ -71,7 +71,7 @@ void check_scans() {
       std::vector<std::uint32_t> above;
       rows.for_each_above(S::Vector::Ones(), 0.5, [&](std::uint32_t i) { above.push_back(i); });
       CHECK(above == std::vector<std::uint32_t>{static_cast<std::uint32_t>(top)});
-      // Of equals the first.
+      // Among equals the first is reported.
       matrix.row(count - 1).setConstant(1);
       rows.assign(matrix, S::Matrix::Identity());
       CHECK(rows.farthest(S::Vector::Ones()).index == top);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// overlap, distance and collide for every pair of shapes that is judged for itself.
+// overlap, distance and collide for every pair of elementary shapes.
 #include "detect/queries.hpp"
 
 using namespace queries;

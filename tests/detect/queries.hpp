@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // overlap, distance and collide of a pair of shapes, in either order, with and without a cache.
 //
-// The distance proves itself, by the support function alone: the separation along its normal is a
-// lower bound of the gap; its witnesses, if they lie in the shapes, make an upper one where the
-// shapes are apart; where they overlap no other direction may separate better.
+// The distance is checked by the support functions alone. The separation along its normal is a
+// lower bound of the gap. If the shapes are apart, the distance of the witness points is an upper
+// bound, if these lie in the shapes. If the shapes overlap, no other direction may separate better.
 #pragma once
 
 #include <cmath>
@@ -21,10 +21,10 @@ namespace queries {
 
 using namespace moreau;
 
-/// 1e-12 of the smallest diameter here.
+/// 1e-12 of the smallest diameter in these tests.
 constexpr double tiny = 1.6e-12;
 
-/// A shape that shows no more than its support.
+/// A shape that hides all but its support function.
 template <class ShapeT>
 struct Opaque {
   using Space = SpaceOf<ShapeT>;
@@ -53,7 +53,7 @@ struct Ellipsoid {
   }
 };
 
-/// Of the kind, at random.
+/// A random shape of the kind.
 template <class ShapeT>
 struct Draw {
   static ShapeT from(std::mt19937_64& random) { return samples::grain(SpaceOf<ShapeT>{}, random); }
@@ -108,13 +108,13 @@ inline constexpr bool is_curved = false;
 template <class S>
 inline constexpr bool is_curved<Ellipsoid<S>> = true;
 
-/// How exact a gap is. With a curved surface that is known by its support alone, the distance
-/// algorithm ends where the digits of the points do.
+/// The accuracy of a gap. For a curved surface known by its support function alone, rounding of the
+/// support points limits it.
 template <class A, class B>
 constexpr double exactness = std::is_same_v<typename SpaceOf<A>::Scalar, float> ? 2e-3
                              : is_curved<A> || is_curved<B>                     ? 1e-8
                                                                                 : tiny;
-/// Of a normal, in radians: about the root of that.
+/// The accuracy of a normal [rad]: about the square root of that of the gap.
 template <class A, class B>
 constexpr double turned = std::is_same_v<typename SpaceOf<A>::Scalar, float> ? 0.1 : 1.7e-4;
 
@@ -163,7 +163,7 @@ void check_queries(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::
   if (std::abs(found.gap) > 1e3 * close)
     CHECK((swapped.normal + found.normal).norm() < turned<A, B>);
 
-  // The same function, but where shapes are visited it may be compiled more than once.
+  // The same function answers, but pairs with a OneOf may get another copy of its code.
   constexpr bool is_visited = is_one_of<A> || is_one_of<B>;
   const auto same = [](double x, double y) {
     return is_visited ? std::abs(x - y) <= 1e-2 * exactness<A, A> : x == y;

@@ -119,13 +119,14 @@ TEST_CASE("reduce: points within the resolution are one, thin triangles two") {
 }
 
 TEST_CASE("reduce: a point that comes in keeps the side that the pressure was on") {
-  // A square; the load was on the side from 0 to 1, and 3 has just become the deepest.
+  // A square. The load was on the side from point 0 to point 1; point 3 has just become the
+  // deepest.
   const auto square =
       std::vector<std::array<double, 3>>{{0, 0, 0}, {1, 0, 0}, {1.5, 1, 0}, {0, 1, -1e-3}};
   Manifold<S> manifold = manifold_of(square);
   reduce(manifold, 3, std::vector<KeptPoint>{{key(0), 1}, {key(1), 1}, {key(2), 0}});
   CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 3});
-  // A little deeper than the others is no reason.
+  // A point that is only a little deeper than the others changes nothing.
   Reduction reduction;
   reduction.shallower = 1e-2;
   manifold = manifold_of(square);

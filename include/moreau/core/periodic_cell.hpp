@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cell that repeats itself: what leaves it on one side is what enters it on the other.
+// A periodic cell: a body that leaves it on one side enters it on the other side.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,9 @@
 
 namespace moreau {
 
-/// Which axes of the world are periodic, and from where to where. Open along all axes until told.
-/// The images of a point x are x + k length(axis) Unit(axis) for all whole k.
+/// Which axes of the world are periodic, and the bounds of the cell along them. Open along all axes
+/// until set() is called. The images of a point x are x + k length(axis) Unit(axis) for all whole
+/// k.
 template <class S>
 class PeriodicCell {
  public:
@@ -38,7 +39,7 @@ class PeriodicCell {
     length_[axis] = opens ? Scalar(0) : upper - lower;
   }
 
-  bool is_open() const { return length_.isZero(0); }              ///< along all axes
+  bool is_open() const { return length_.isZero(0); }              ///< whether no axis is periodic
   bool is_periodic(int axis) const { return length_[axis] > 0; }  ///< axis 0 for x
   /// Along every axis [m]; zero where it is open.
   const Vector& length() const { return length_; }
@@ -66,8 +67,8 @@ class PeriodicCell {
     return y;
   }
 
-  /// Two grains meet through one image only, and none meets itself, in a cell longer than two of
-  /// the widest.
+  /// Checks that the cell is longer than two of the widest grains, so that two grains touch through
+  /// one image only, and none touches its own image.
   /// @param width    of a grain and all that is kept around it [m]
   /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the cell is too short

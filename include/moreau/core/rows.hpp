@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many vectors side by side, laid out so that a scan over them reads whole registers.
+// Many vectors, stored so that a scan over them reads whole registers.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@
 
 namespace moreau::detail {
 
-/// The rows of an N x D matrix in blocks of as many rows as a register has lanes: x of each, y of
-/// each, ... A scan reads memory in order, and a single row lies on a line or two of the cache.
-/// Behind the last row the first one is repeated up to a whole block, so that scans need no tail
-/// and never report a row that is not there: of equals they report the first.
+/// The rows of an N x D matrix, stored in blocks of as many rows as a register has lanes: the x of
+/// each row, the y of each row, ... A scan reads memory in order, and a single row lies on one or
+/// two lines of the cache. The last block is filled up with copies of the first row, so that scans
+/// need no special case at the end. Among equal rows a scan reports the first one, never a copy.
 template <class S>
 class Rows {
  public:
@@ -27,7 +27,7 @@ class Rows {
   using Vector = typename S::Vector;
   using Wides = std::array<typename W::Values, std::size_t{S::dim}>;
 
-  /// The rows of the body's matrix, turned.
+  /// Takes over the rows of a matrix in body axes, turned to world axes.
   template <class BodyRows>
   void assign(const BodyRows& body, const typename S::Matrix& rotation) {
     MOREAU_ASSERT(body.rows() > 0);
@@ -55,7 +55,7 @@ class Rows {
     return row;
   }
 
-  /// direction . row for a block of rows from row i on; the direction in every lane.
+  /// direction . row for the block of rows from row i on; d holds the direction in every lane.
   typename W::Values dot(Eigen::Index i, const Wides& d) const {
     const T* block = rows_.data() + S::dim * i;
     typename W::Values sum = d[0] * W::load(block);
@@ -69,14 +69,14 @@ class Rows {
     return wide;
   }
 
-  /// A block of rows from row i on.
+  /// The block of rows from row i on.
   Wides wide(Eigen::Index i) const {
     Wides rows;
     for (std::size_t k = 0; k < S::dim; ++k)
       rows[k] = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
     return rows;
   }
-  /// The smallest direction . row, for a direction in each lane.
+  /// The smallest direction . row over all rows, for another direction in each lane.
   typename W::Values lowest(const Wides& directions) const {
     constexpr std::size_t lanes = W::lanes;
     auto lowest = W::broadcast(std::numeric_limits<T>::infinity());
@@ -94,7 +94,7 @@ class Rows {
     return lowest;
   }
 
-  /// The largest direction . row.
+  /// The largest direction . row, and the index of the row.
   Extreme<T> farthest(const Vector& direction) const {
     const auto d = broadcast(direction);
     auto index = W::iota();
@@ -105,7 +105,7 @@ class Rows {
     }
     return best.reduce();
   }
-  /// The largest direction . row, without saying where.
+  /// The largest direction . row.
   T reach(const Vector& direction) const {
     const auto d = broadcast(direction);
     auto best = dot(0, d);
@@ -126,8 +126,11 @@ class Rows {
         above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
     return -std::ptrdiff_t{sum[0]} - copies;
   }
-  /// The square of the largest distance / rise of the other rows, seen from one of them; infinite
-  /// if one rises no more than `least`.
+  /// The square of the largest ratio of distance to rise of the other rows, seen from one of them
+  /// [-]; infinite if a row rises by `least` or less.
+  /// @param apex   that row
+  /// @param up     direction of the rise, unit
+  /// @param least  [m]
   T spread2(const Vector& apex, const Vector& up, T least) const {
     const auto from = broadcast(apex), d = broadcast(up);
     const auto infinite = W::broadcast(std::numeric_limits<T>::infinity());
@@ -145,7 +148,7 @@ class Rows {
     }
     return W::maximum(widest)[0];
   }
-  /// The box around the rows.
+  /// The bounding box of the rows.
   Aabb<S> bounding_box() const {
     Wides low, high;
     for (std::size_t k = 0; k < S::dim; ++k)
@@ -163,7 +166,7 @@ class Rows {
     }
     return box;
   }
-  /// Calls use(row) for each row with direction . row >= lowest, in their order.
+  /// Calls use(index) for each row with direction . row >= lowest, in their order.
   template <class Use>
   void for_each_above(const Vector& direction, T lowest, Use&& use) const {
     const auto d = broadcast(direction);
@@ -175,7 +178,8 @@ class Rows {
   }
 
  private:
-  /// Of a matrix whose columns are contiguous; the first row where there is none.
+  /// Loads a block of rows of a matrix whose columns are contiguous; copies of the first row behind
+  /// the last one.
   template <class BodyRows>
   static Wides load(const BodyRows& body, Eigen::Index i) {
     Wides block;

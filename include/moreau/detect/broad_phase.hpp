@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which boxes overlap: what the broad phases share.
+// The concept of a broad phase, which finds the pairs of boxes that overlap. Models are in broad/.
 #pragma once
 
 #include <compare>
@@ -12,10 +12,10 @@
 
 namespace moreau {
 
-/// Two boxes by their place in the input; first < second.
+/// Two boxes by their indices in the input; first < second.
 struct IndexPair {
   std::uint32_t first;   ///< index of a box
-  std::uint32_t second;  ///< of another, greater
+  std::uint32_t second;  ///< index of another box, greater
   friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the narrow phase says of a pair (a, b).
+// The answers of the narrow phase for a pair of shapes (a, b): contact points with a common normal
+// (Manifold), or the signed distance with the nearest points (SignedDistance).
 //
-// Convention, everywhere in the library: the normal is a unit vector in world axes from a to b; a
-// gap is the signed distance along it, negative where the shapes overlap.
+// Convention, everywhere in the library: the normal is a unit vector in world axes from a to b. A
+// gap is the signed distance along the normal [m], negative where the shapes overlap.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +15,9 @@
 
 namespace moreau {
 
-/// The kind of the features that touch, each pair named once whichever of a and b holds which.
-/// Half-spaces count as a face. A sphere counts as a vertex. In the plane an edge of a polygon is
-/// an edge: vertex_edge and edge_edge are the regular classes there.
+/// The kinds of the two features that touch, irrespective of which of them belongs to a. A
+/// half-space counts as a face, a sphere as a vertex. In the plane the side of a polygon counts as
+/// an edge, so that vertex_edge and edge_edge are the regular classes there.
 enum class ContactClass : std::uint8_t {
   vertex_vertex,  ///< degenerate
   vertex_edge,    ///< degenerate in space, the simple contact in the plane
@@ -33,11 +34,10 @@ constexpr const char* name(ContactClass c) {
   return names[static_cast<int>(c)];
 }
 
-/// Identifies a contact point within its pair from step to step by the features that make it:
-/// (vertex of a, face of b), (face of a, vertex of b), (edge of a, edge of b). It does not depend
-/// on which of the two faces served as reference of the clipping.
+/// Identifies a contact point within its pair from step to step by the two features that make it,
+/// for example a vertex of a and a face of b.
 struct FeatureKey {
-  /// Of the feature of a, then of b.
+  /// The kind of a's feature, then that of b's feature.
   enum class Kind : std::uint8_t {
     vertex_face = 0,    ///< a vertex of a, a face of b
     face_vertex = 1,    ///< a face of a, a vertex of b
@@ -48,7 +48,7 @@ struct FeatureKey {
   };
   std::uint64_t value = 0;  ///< kind, a and b in one number, ordered so
 
-  constexpr FeatureKey() = default;  ///< the least of all: vertex 0, face 0
+  constexpr FeatureKey() = default;  ///< the smallest key: vertex 0 of a, face 0 of b
   /// @param kind of the two features
   /// @param a,b  indices of the feature of a and of b, each below 2^28, which is not checked
   constexpr FeatureKey(Kind kind, std::size_t a, std::size_t b)
@@ -68,32 +68,75 @@ struct FeatureKey {
   friend constexpr auto operator<=>(const FeatureKey&, const FeatureKey&) = default;
 };
 
+namespace detail {
+
+/// The class of a contact of one point.
+constexpr ContactClass class_of_point(FeatureKey feature) {
+  switch (feature.kind()) {
+    case FeatureKey::Kind::vertex_vertex:
+      return ContactClass::vertex_vertex;
+    case FeatureKey::Kind::vertex_edge:
+    case FeatureKey::Kind::edge_vertex:
+      return ContactClass::vertex_edge;
+    case FeatureKey::Kind::edge_edge:
+      return ContactClass::edge_edge;
+    default:
+      return ContactClass::vertex_face;
+  }
+}
+
+/// The kind of key of a vertex of a on a face of b: in the plane, faces are edges.
+template <std::floating_point T>
+constexpr FeatureKey::Kind vertex_on_face(Space<2, T>) {
+  return FeatureKey::Kind::vertex_edge;
+}
+template <std::floating_point T>
+constexpr FeatureKey::Kind vertex_on_face(Space<3, T>) {
+  return FeatureKey::Kind::vertex_face;
+}
+
+}  // namespace detail
+
 /// One point of a contact.
 template <class S>
 struct ManifoldPoint {
   typename S::Vector position;  ///< world axes, midway between the two surfaces [m]
   typename S::Scalar gap;       ///< along the manifold's normal [m], < 0 is penetration
-  FeatureKey feature;           ///< what makes it the same point in the next step
+  FeatureKey feature;           ///< the features that make the point
 };
 
-/// The points where a pair touches or is about to, with one common normal.
-/// Reused from pair to pair: clear() keeps the memory.
+/// The points where a pair of shapes touches, or may touch soon, with one common normal.
+/// Reuse an object from pair to pair: clear() keeps its memory.
 template <class S>
 struct Manifold {
   typename S::Vector normal = S::Vector::Zero();             ///< unit, from a to b, world axes
-  typename S::Scalar gap = 0;                                ///< signed distance [m], < 0 overlaps
+  typename S::Scalar gap = 0;                                ///< signed distance [m]
   ContactClass contact_class = ContactClass::vertex_vertex;  ///< of the features that touch
   std::vector<ManifoldPoint<S>> points;     ///< gap at most the margin; sorted by feature
-  std::vector<typename S::Scalar> scratch;  ///< working memory of whoever fills the points
+  std::vector<typename S::Scalar> scratch;  ///< working memory of the function that fills it
 
-  /// Takes out the points; keeps the memory.
+  /// Removes the points; keeps the memory.
   void clear() { points.clear(); }
-  /// Points into the order of their keys.
+  /// Sets normal and gap and removes the points.
+  void start(const typename S::Vector& new_normal, typename S::Scalar new_gap) {
+    clear();
+    normal = new_normal;
+    gap = new_gap;
+  }
+  /// Becomes the manifold of a contact of one point.
+  /// @param position  midway between the two surfaces, world axes [m]
+  void set_single_point(const typename S::Vector& new_normal, typename S::Scalar new_gap,
+                        const typename S::Vector& position, FeatureKey feature) {
+    start(new_normal, new_gap);
+    contact_class = detail::class_of_point(feature);
+    points.push_back({position, new_gap, feature});
+  }
+  /// Sorts the points by feature.
   void sort() {
     std::sort(points.begin(), points.end(),
               [](const auto& p, const auto& q) { return p.feature < q.feature; });
   }
-  /// The manifold of (b, a), made of that of (a, b).
+  /// Turns the manifold of (a, b) into that of (b, a).
   void swap_sides() {
     normal = -normal;
     for (auto& point : points) point.feature = point.feature.swapped();
@@ -101,15 +144,39 @@ struct Manifold {
   }
 };
 
-/// The signed distance of a pair. Of shapes that overlap deeply, by a tenth of their size, and one
-/// of which is a segment or is known by its support alone, the witnesses may lie beside the
-/// surfaces.
+/// The signed distance of a pair. The witness points may lie beside the surfaces if the shapes
+/// overlap by a tenth of their size or more and one of them is a segment or is known by its support
+/// alone.
 template <class S>
 struct SignedDistance {
-  typename S::Scalar gap;        ///< [m], < 0: the depth of penetration
+  typename S::Scalar gap;        ///< [m]; if < 0, minus the depth of penetration
   typename S::Vector normal;     ///< unit, from a to b, world axes
-  typename S::Vector witness_a;  ///< a point of a's surface, world axes [m]
-  typename S::Vector witness_b;  ///< of b's surface: witness_a + gap normal, world axes [m]
+  typename S::Vector witness_a;  ///< nearest or deepest point of a's surface, world axes [m]
+  typename S::Vector witness_b;  ///< that of b's surface: witness_a + gap normal, world axes [m]
 };
+
+namespace detail {
+
+/// Starts the manifold of a pair, without points, if the gap is at most the margin [m].
+/// @returns whether it is
+template <class S>
+bool start_if_touching(const SignedDistance<S>& found, typename S::Scalar margin,
+                       Manifold<S>& out) {
+  if (!(found.gap <= margin)) return false;
+  out.start(found.normal, found.gap);
+  return true;
+}
+/// Fills the manifold of a pair that touches at one point, midway between the witness points.
+/// @param out  filled if the gap is at most the margin [m], left alone otherwise
+/// @returns whether the gap is at most the margin
+template <class S>
+bool touch_at_one_point(const SignedDistance<S>& found, typename S::Scalar margin,
+                        FeatureKey feature, Manifold<S>& out) {
+  if (!(found.gap <= margin)) return false;
+  out.set_single_point(found.normal, found.gap, (found.witness_a + found.witness_b) / 2, feature);
+  return true;
+}
+
+}  // namespace detail
 
 }  // namespace moreau

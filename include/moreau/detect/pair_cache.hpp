@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// The memory of a pair between time steps: the features of two shapes that made their separating
+// axis in the last query, a guess at the axis of the next one.
 #pragma once
 
 #include <cstdint>
@@ -9,40 +11,31 @@ namespace moreau {
 
 namespace detail {
 
-/// What an axis belongs to. Edges of polygons are their faces.
+/// The features that make the separating axis of a pair. Edges of polygons count as faces.
 enum class AxisKind : std::uint8_t {
-  none,
-  face_a,          ///< a face of a, opposite the deepest vertex of b
-  face_b,          ///< the reverse
+  none,            ///< not known
+  face_a,          ///< a face of a and the vertex of b that is deepest below it
+  face_b,          ///< a face of b and the vertex of a that is deepest below it
   edges,           ///< an edge of each
-  vertices,        ///< a vertex of each; the shapes are apart, as they are in what follows
+  vertices,        ///< a vertex of each; the shapes are apart, as in all that follow
   vertex_edge,     ///< a vertex of a, an edge of b
   edge_vertex,     ///< an edge of a, a vertex of b
-  nearest_points,  ///< other features, which happen to be where rounding decides
+  nearest_points,  ///< the nearest points of pairs that are so aligned that rounding decides
 };
 
 }  // namespace detail
 
-/// What the narrow phase remembers of a pair from one step to the next. It saves time and nothing
-/// else: every answer is the same with an empty one, or with one that belongs to another pair,
-/// because what it holds is only a guess that is proved anew each time
-/// (polytope/detail/local_proof.hpp).
+/// What the narrow phase remembers of a pair from one step to the next, to save time. Every answer
+/// is the same, bit by bit, with an empty cache or with that of another pair: the features are only
+/// a guess, which is proved anew for the present poses before it is used (polytope/prove_axis.hpp).
 template <class S>
 struct PairCache {
-  /// The axis, unit, from a to b, world axes, that separated the pair last time; zero if none did.
+  /// The axis found last, unit, from a to b, world axes; it separated the shapes by more than the
+  /// margin if kind is none. Zero if there is none.
   typename S::Vector axis = S::Vector::Zero();
-  /// The features that made the axis last time.
-  detail::AxisKind kind = detail::AxisKind::none;
-  std::uint32_t a = 0;  ///< index of a's
-  std::uint32_t b = 0;  ///< index of b's
-
-  /// Keeps a detail::Axis for the next query.
-  void remember(const auto& found) {
-    axis = found.normal;
-    kind = found.kind;
-    a = found.a;
-    b = found.b;
-  }
+  detail::AxisKind kind = detail::AxisKind::none;  ///< the features that made the axis
+  std::uint32_t a = 0;                             ///< number of a's feature
+  std::uint32_t b = 0;                             ///< number of b's feature
 };
 
 }  // namespace moreau

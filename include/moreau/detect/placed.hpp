@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A shape where it stands in this step: what the narrow phase reads.
+// Placed<Shape>: a shape at the pose that it has in this step. The narrow phase reads nothing else.
 //
-// Everything but the centre is kept relative to the centre, in world axes. A pair is then judged in
+// All but the centre is kept relative to the centre, in world axes. A pair is then judged in
 // coordinates of the size of the shapes, however far from the world's origin it lies.
+//
+// detail::Placement holds what is kept of each kind of shape; its functions are those of Placed.
 #pragma once
 
 #include <type_traits>
@@ -19,28 +21,25 @@
 
 namespace moreau {
 
-/// A convex shape of which the support function is all that is known.
+namespace detail {
+
+/// What is kept of a convex shape of which only the support function is known.
 template <class ShapeT>
-class Placed {
+class Placement {
  public:
-  using Space = SpaceOf<ShapeT>;
-  using Scalar = typename Space::Scalar;
-  using Vector = typename Space::Vector;
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const ShapeT& shape) { update(shape, Pose<Space>{}); }
-  /// At the pose.
-  Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
-
-  /// To the pose, world axes [m]. The shape must outlive this object's use.
-  void update(const ShapeT& shape, const Pose<Space>& pose) {
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  void update(const ShapeT& shape, const Pose<S>& pose) {
     shape_ = &shape;
     pose_ = pose;
   }
-  /// The same orientation elsewhere, world axes [m].
+  /// Moves the centre, world axes [m]; the orientation stays.
   void move_to(const Vector& center) { pose_.position = center; }
 
-  const ShapeT& shape() const { return *shape_; }          ///< what was placed
+  const ShapeT& shape() const { return *shape_; }          ///< the shape that was placed
   const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
   /// Radius of the ball about the centre that holds the shape [m].
   Scalar radius() const requires HasCircumradius<ShapeT> { return shape_->circumradius(); }
@@ -49,31 +48,27 @@ class Placed {
   Vector support(const Vector& direction) const {
     return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);
   }
-  Aabb<Space> bounding_box() const { return shape_->bounding_box(pose_); }  ///< world axes [m]
+  /// World axes [m].
+  Aabb<S> bounding_box() const { return shape_->bounding_box(pose_); }
 
  private:
   const ShapeT* shape_ = nullptr;
-  Pose<Space> pose_;
+  Pose<S> pose_;
 };
 
-/// A polytope: its vertices and face normals turned into world axes once per step.
+/// What is kept of a polytope: vertices and face normals, turned into world axes once per step.
 template <class ShapeT>
 requires Polytope<ShapeT>
-class Placed<ShapeT> {
+class Placement<ShapeT> {
  public:
-  using Space = SpaceOf<ShapeT>;
-  using Scalar = typename Space::Scalar;
-  using Vector = typename Space::Vector;
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const ShapeT& shape) { update(shape, Pose<Space>{}); }
-  /// At the pose.
-  Placed(const ShapeT& shape, const Pose<Space>& pose) { update(shape, pose); }
-
-  /// To the pose, world axes [m]. Allocates only if the shape has more vertices or faces than any
-  /// before. The shape must outlive this object's use.
-  void update(const ShapeT& shape, const Pose<Space>& pose) {
-    const typename Space::Matrix rotation = pose.rotation.toRotationMatrix();
+  /// Places the shape at a pose, world axes [m]. Allocates only if the shape has more vertices or
+  /// faces than any before. The shape must outlive this object's use.
+  void update(const ShapeT& shape, const Pose<S>& pose) {
+    const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
     shape_ = &shape;
     center_ = pose.position;
     vertices_.assign(shape.vertices(), rotation);
@@ -84,18 +79,18 @@ class Placed<ShapeT> {
     offsets_.tail(offsets_.size() - count).setConstant(offsets_[0]);
   }
 
-  /// The same orientation elsewhere, world axes [m]; costs nothing, unlike update().
+  /// Moves the centre, world axes [m]; the orientation stays. Costs nothing, unlike update().
   void move_to(const Vector& center) { center_ = center; }
 
-  const ShapeT& shape() const { return *shape_; }   ///< what was placed
+  const ShapeT& shape() const { return *shape_; }   ///< the shape that was placed
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
-  /// N of them, relative to the centre, world axes [m].
-  const detail::Rows<Space>& vertices() const { return vertices_; }
-  /// F of them, unit, outward, world axes.
-  const detail::Rows<Space>& normals() const { return normals_; }
+  /// The N vertices, relative to the centre, world axes [m].
+  const Rows<S>& vertices() const { return vertices_; }
+  /// The F face normals, unit, outward, world axes.
+  const Rows<S>& normals() const { return normals_; }
   /// Distance of face f's plane from the centre [m].
   Scalar offset(std::size_t f) const { return offsets_[static_cast<Eigen::Index>(f)]; }
-  /// Those of all faces [m], as many as normals().padded_size().
+  /// The offsets of all faces [m], as many as normals().padded_size().
   const Scalar* offsets() const { return offsets_.data(); }
   /// Radius of the ball about the centre that holds the shape [m].
   Scalar radius() const { return shape_->circumradius(); }
@@ -105,8 +100,8 @@ class Placed<ShapeT> {
     return vertices_[vertices_.farthest(direction).index];
   }
   /// World axes [m].
-  Aabb<Space> bounding_box() const {
-    Aabb<Space> box = vertices_.bounding_box();
+  Aabb<S> bounding_box() const {
+    Aabb<S> box = vertices_.bounding_box();
     box.lower += center_;
     box.upper += center_;
     return box;
@@ -115,29 +110,23 @@ class Placed<ShapeT> {
  private:
   const ShapeT* shape_ = nullptr;
   Vector center_ = Vector::Zero();
-  detail::Rows<Space> vertices_, normals_;
+  Rows<S> vertices_, normals_;
   Eigen::Array<Scalar, Eigen::Dynamic, 1> offsets_;
 };
 
-/// A ball or disk.
+/// What is kept of a ball or disk.
 template <class S>
-class Placed<Sphere<S>> {
+class Placement<Sphere<S>> {
  public:
-  using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const Sphere<S>& shape) { update(shape, Pose<S>{}); }
-  /// At the pose.
-  Placed(const Sphere<S>& shape, const Pose<S>& pose) { update(shape, pose); }
-
-  /// To the pose, world axes [m].
+  /// Places the shape at a pose, world axes [m].
   void update(const Sphere<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     radius_ = shape.radius();
   }
-  /// Elsewhere, world axes [m].
+  /// Moves the centre, world axes [m].
   void move_to(const Vector& center) { center_ = center; }
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
   Scalar radius() const { return radius_; }         ///< [m]
@@ -152,20 +141,14 @@ class Placed<Sphere<S>> {
   Scalar radius_ = 0;
 };
 
-/// A wall: the solid is { x : normal . (x - center) <= 0 }.
+/// What is kept of a half-space. The solid is { x : normal . (x - center) <= 0 }.
 template <class S>
-class Placed<HalfSpace<S>> {
+class Placement<HalfSpace<S>> {
  public:
-  using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const HalfSpace<S>& shape) { update(shape, Pose<S>{}); }
-  /// At the pose.
-  Placed(const HalfSpace<S>& shape, const Pose<S>& pose) { update(shape, pose); }
-
-  /// To the pose, world axes [m].
+  /// Places the shape at a pose, world axes [m].
   void update(const HalfSpace<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     normal_ = pose.rotation * shape.normal();
@@ -179,20 +162,14 @@ class Placed<HalfSpace<S>> {
   Vector normal_ = Vector::Zero();
 };
 
-/// A segment, the core of a capsule.
+/// What is kept of a segment, the core of a capsule.
 template <class S>
-class Placed<Segment<S>> {
+class Placement<Segment<S>> {
  public:
-  using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const Segment<S>& shape) { update(shape, Pose<S>{}); }
-  /// At the pose.
-  Placed(const Segment<S>& shape, const Pose<S>& pose) { update(shape, pose); }
-
-  /// To the pose, world axes [m].
+  /// Places the shape at a pose, world axes [m].
   void update(const Segment<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     radius_ = shape.half_length();
@@ -214,7 +191,24 @@ class Placed<Segment<S>> {
   Scalar radius_ = 0;
 };
 
-/// A rounded shape: its core where that stands, and the radius.
+}  // namespace detail
+
+/// A shape at a pose. Its functions are update(shape, pose), which places it anew, center(),
+/// support(direction), bounding_box() and those of its detail::Placement.
+template <class ShapeT>
+class Placed : public detail::Placement<ShapeT> {
+ public:
+  using Space = SpaceOf<ShapeT>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+
+  /// Places the shape at the origin, not turned. The shape must outlive this object's use.
+  explicit Placed(const ShapeT& shape) { this->update(shape, Pose<Space>{}); }
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  Placed(const ShapeT& shape, const Pose<Space>& pose) { this->update(shape, pose); }
+};
+
+/// A rounded shape at a pose: its placed core, and the radius about it.
 template <class Core>
 class Placed<Rounded<Core>> {
  public:
@@ -222,24 +216,22 @@ class Placed<Rounded<Core>> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const Rounded<Core>& shape) : Placed(shape, Pose<Space>{}) {}
-  /// At the pose.
-  Placed(const Rounded<Core>& shape, const Pose<Space>& pose)
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  explicit Placed(const Rounded<Core>& shape, const Pose<Space>& pose = {})
       : core_(shape.core(), shape.core_pose(pose)),
         center_(pose.position),
         radius_(shape.radius()) {}
 
-  /// To the pose, world axes [m]. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
   void update(const Rounded<Core>& shape, const Pose<Space>& pose) {
     core_.update(shape.core(), shape.core_pose(pose));
     center_ = pose.position;
     radius_ = shape.radius();
   }
-  /// Where it stands.
+  /// The core at its pose.
   const Placed<Core>& core() const { return core_; }
   const Vector& center() const { return center_; }    ///< the body's origin, world axes [m]
-  Scalar rounding_radius() const { return radius_; }  ///< of the ball [m]
+  Scalar rounding_radius() const { return radius_; }  ///< of the surface about the core [m]
   /// The farthest point in the direction (any length but zero), relative to the centre, world
   /// axes [m].
   Vector support(const Vector& direction) const {
@@ -254,7 +246,7 @@ class Placed<Rounded<Core>> {
   Scalar radius_;
 };
 
-/// One of several kinds.
+/// A OneOf shape at a pose: the shape that it holds.
 template <class... Shapes>
 class Placed<OneOf<Shapes...>> {
  public:
@@ -262,16 +254,14 @@ class Placed<OneOf<Shapes...>> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// At the origin, not turned.
-  explicit Placed(const OneOf<Shapes...>& shape) : Placed(shape, Pose<Space>{}) {}
-  /// At the pose.
-  Placed(const OneOf<Shapes...>& shape, const Pose<Space>& pose)
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  explicit Placed(const OneOf<Shapes...>& shape, const Pose<Space>& pose = {})
       : held_(shape.visit([&](const auto& kind) -> Held {
           return Placed<KindOf<decltype(kind)>>(kind, pose);
         })) {}
 
-  /// To the pose, world axes [m]. Keeps its memory while the shape is of the same kind as before.
-  /// The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. Keeps its memory while the shape is of the same
+  /// kind as before. The shape must outlive this object's use.
   void update(const OneOf<Shapes...>& shape, const Pose<Space>& pose) {
     shape.visit([&](const auto& kind) {
       using Kind = Placed<KindOf<decltype(kind)>>;
@@ -281,7 +271,7 @@ class Placed<OneOf<Shapes...>> {
         held_.template emplace<Kind>(kind, pose);
     });
   }
-  /// use(placed), whatever kind it is.
+  /// Calls use with the Placed shape of the kind that is held.
   template <class Use>
   decltype(auto) visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), held_);

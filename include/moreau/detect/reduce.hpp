@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// From the full polygon of contact to a few points that carry nearly the same load.
+// reduce: from all contact points of a pair to at most three that carry nearly the same load.
 //
-// Three points carry what presses on their triangle. A pressure that wants to leave it, beyond one
-// of its sides, tips the bodies about that side, until a point that was left out penetrates. It is
-// taken in then, with those two others with which the bodies would come to rest under the pressure
-// as it was: of all triangles that hold it the lowest. The load can move on to it, and the tipping
-// ends. Chosen by area alone, the triangle loses the pressure again, and the bodies rock for ever.
+// Three points carry a load whose centre of pressure lies in their triangle. If the load moves
+// beyond a side of the triangle, the bodies tip about that side until a point that was left out
+// penetrates. This deepest point then joins the triangle, together with the two points with which
+// the bodies would come to rest under the previous load: among all triangles that hold the centre
+// of pressure, the one that is lowest there. The load can move on to the new point, and the tipping
+// ends. If the triangle were chosen by its area alone, it would lose the centre of pressure again,
+// and the bodies would rock for ever.
 #pragma once
 
 #include <algorithm>
@@ -20,30 +22,32 @@
 
 namespace moreau {
 
-/// How reduce() chooses. Shares are of the size of the contact [-], lengths in [m].
+/// How reduce() chooses points. Fractions [-] are of the size of the contact, lengths are in [m].
 struct Reduction {
-  /// Points within this fraction of the contact's extent of the deepest one [-] are as deep; the
-  /// first of them by key stays, so that the choice does not follow the rounding.
+  /// Points count as equally deep as the deepest one if they lie within this fraction of the
+  /// contact's extent above it [-]. The first of them by key is chosen, so that the choice does not
+  /// depend on rounding.
   double as_deep = 1e-6;
-  /// The points of the step before are kept while they span this fraction of the best area [-].
+  /// The points of the step before are kept while they span this fraction of the largest area [-].
   double keep = 0.8;
-  /// Three points whose triangle is flatter than this fraction of extent squared [-] say no more
-  /// than two.
+  /// A triangle flatter than this fraction of the contact's extent squared [-] counts as two
+  /// points.
   double flat = 1e-6;
-  /// Points closer together than this, and a triangle lower than this, say no more than one point,
-  /// or two [m]. Two points at nearly one place make the contact problem nearly singular.
+  /// Two points closer together than this count as one point, and a triangle lower than this counts
+  /// as two points [m]. Two points at nearly one place make the contact problem nearly singular.
   double resolution = 0;
-  /// The points of the step before may all be so much shallower than the deepest one [m].
+  /// The points of the step before are kept only if one of them is at most this much shallower than
+  /// the deepest point [m].
   double shallower = 0;
-  /// Where three points are no farther above the deepest one than this, the others, which are open,
-  /// are not asked [m].
+  /// If three points or more lie at most this far above the deepest point [m], points that lie
+  /// higher, which are open, are not considered.
   double near = std::numeric_limits<double>::infinity();
 };
 
-/// A point that was kept at the step before.
+/// A contact point that was kept in the step before.
 struct KeptPoint {
   FeatureKey feature;  ///< of the point
-  double push = 0;     ///< normal impulse that it carried, >= 0 [N s]
+  double push = 0;     ///< normal impulse that the point carried, >= 0 [N s]
 };
 
 namespace detail {
@@ -57,8 +61,8 @@ typename S::Scalar area2(const ManifoldPoint<S>& a, const ManifoldPoint<S>& b,
   return p.squaredNorm() * q.squaredNorm() - dot * dot;
 }
 
-/// A choice among the points of one manifold, found by going through all pairs that complete the
-/// deepest point.
+/// A choice among the points of one manifold: the deepest point, and the two others that are found
+/// by comparing all pairs.
 template <class S>
 class PointChoice {
  public:
@@ -66,18 +70,21 @@ class PointChoice {
   using Vector = typename S::Vector;
   using Points = std::vector<ManifoldPoint<S>>;
 
-  PointChoice(const Points& points, std::span<const KeptPoint> previous, const Reduction& reduction)
-      : points_(points) {
-    T deepest = points[0].gap;
-    for (const auto& point : points) {
+  explicit PointChoice(const Points& points) : points_(points) {}
+
+  /// Finds the deepest point and the centre of pressure; must come before the other functions.
+  void update(std::span<const KeptPoint> previous, const Reduction& reduction) {
+    T deepest = points_[0].gap;
+    for (const auto& point : points_) {
       deepest = std::min(deepest, point.gap);
-      extent2_ = std::max(extent2_, (point.position - points[0].position).squaredNorm());
+      extent2_ = std::max(extent2_, (point.position - points_[0].position).squaredNorm());
     }
     equal_ = static_cast<T>(reduction.as_deep) * std::sqrt(extent2_);
-    while (!(points[first_].gap <= deepest + equal_)) ++first_;
+    while (!(points_[first_].gap <= deepest + equal_)) ++first_;
     nearly_ = std::max(equal_, static_cast<T>(reduction.shallower));
     highest_ = deepest + static_cast<T>(reduction.near);
-    if (std::count_if(points.begin(), points.end(), [&](const auto& p) { return is_near(p); }) < 3)
+    if (std::count_if(points_.begin(), points_.end(), [&](const auto& p) { return is_near(p); }) <
+        3)
       highest_ = std::numeric_limits<T>::infinity();
     find_pressure(previous);
   }
@@ -96,9 +103,11 @@ class PointChoice {
       if (is_better(distance2(i), distance2(best))) best = i;
     return best;
   }
-  /// The triangle with the deepest point on which the bodies come to rest under the pressure: of
-  /// those that hold it the lowest there; of equals, as where the pressure lies on a side, the one
-  /// whose corners close first; of equals again the widest. If none holds it, the widest.
+  /// The two points that make with the deepest point the triangle on which the bodies come to rest
+  /// under the previous load. Among the triangles that hold the centre of pressure it is the lowest
+  /// there; among equally low ones, as if the centre lies on a side, the one whose corners close
+  /// first; among equals again the widest. If no triangle holds the centre of pressure, it is the
+  /// widest.
   std::array<std::size_t, 2> best() const {
     std::array<std::size_t, 2> best{first_, first_};
     T lowest = std::numeric_limits<T>::infinity(), closest = lowest;
@@ -118,7 +127,7 @@ class PointChoice {
   }
 
  private:
-  /// By more than rounding: of equals the first by key stays.
+  /// Whether a value is larger by more than rounding: among equals the first by key stays.
   static bool is_better(T value, T best) { return value > best * T(1 + 1e-6); }
   /// -1, 0 or 1: whether a gap is smaller, nearly equal, or larger.
   int ordered(T gap, T other) const {
@@ -126,7 +135,7 @@ class PointChoice {
   }
   bool is_near(const ManifoldPoint<S>& point) const { return point.gap <= highest_; }
 
-  /// Where the points of the step before, at their places of now, carried the load.
+  /// Finds the centre of pressure of the step before, with the points at their present positions.
   void find_pressure(std::span<const KeptPoint> previous) {
     T sum = 0;
     for (const KeptPoint& old : previous)
@@ -138,8 +147,8 @@ class PointChoice {
     loaded_ = sum > 0;
     if (loaded_) pressure_ /= sum;
   }
-  /// Gap between the bodies at the pressure as the triangle with the deepest point has it; infinite
-  /// if the pressure lies more than a little beside it.
+  /// The gap between the bodies at the centre of pressure [m], interpolated over the triangle with
+  /// the deepest point; infinite if the centre lies more than a little outside of the triangle.
   T height_of_pressure(std::size_t i, std::size_t j) const {
     constexpr T beside = T(0.02), infinity = std::numeric_limits<T>::infinity();
     if (!loaded_) return infinity;
@@ -156,12 +165,14 @@ class PointChoice {
   const Points& points_;
   std::size_t first_ = 0;
   T extent2_ = 0, equal_ = 0, nearly_ = 0, highest_ = 0;
-  Vector pressure_ = Vector::Zero();  ///< its centre, from the deepest point [m]
+  Vector pressure_ = Vector::Zero();  ///< centre of pressure relative to the deepest point [m]
   bool loaded_ = false;
 };
 
-/// The triangle of the step before, if all of it is here and one point is deep enough.
-/// @param lowest gap that counts as such [m]
+/// Finds the points of the step before in the manifold.
+/// @param lowest    at least one of them must have at most this gap [m]
+/// @param triangle  their indices
+/// @returns whether all three are there and one of them is deep enough
 template <class S>
 bool find_previous(const Manifold<S>& manifold, std::span<const KeptPoint> previous,
                    typename S::Scalar lowest, std::array<std::size_t, 3>& triangle) {
@@ -176,12 +187,13 @@ bool find_previous(const Manifold<S>& manifold, std::span<const KeptPoint> previ
   return deep;
 }
 
-/// Whether all points push: the pressure lies within them.
+/// Whether all points carry a load: the centre of pressure lies within them.
 inline bool carries(std::span<const KeptPoint> previous) {
   return std::all_of(previous.begin(), previous.end(),
                      [](const KeptPoint& point) { return point.push > 0; });
 }
 
+/// Removes all points but the chosen ones.
 template <class S>
 void keep_points(Manifold<S>& manifold, std::span<std::size_t> chosen) {
   std::sort(chosen.begin(), chosen.end());
@@ -194,15 +206,17 @@ void keep_points(Manifold<S>& manifold, std::span<std::size_t> chosen) {
 
 }  // namespace detail
 
-/// Keeps at most max_points (1, 2 or 3) points: the deepest; with it the farthest from it; or the
-/// two that span with it the lowest triangle under the previous pressure, or without one the
-/// widest. The same points and the same memory give the same choice; the class stays that of the
-/// full contact.
-/// @param manifold   in: all points, sorted by feature; out: those that are kept, in that order
+/// Keeps at most max_points (1, 2 or 3) points of a manifold: the deepest point; and the one
+/// farthest from it, or the two that make with it the lowest triangle under the previous load, or
+/// the widest triangle without a previous load. The same points and the same memory give the same
+/// choice. The class stays that of the full contact.
+/// @param manifold   in: all points, sorted by feature; out: the points that are kept, in that
+/// order
 /// @param max_points 1, 2 or 3
-/// @param previous   what was kept at the step before. That triangle stays while it has one of the
-///                   deepest points and all of it pushes, or has most of the best area; pass none
-///                   for a choice without memory
+/// @param previous   the points that were kept in the step before. Their triangle stays if it has
+/// one
+///                   of the deepest points, and if all its points carry a load or it has most of
+///                   the largest area; pass none for a choice without memory
 /// @param reduction  how to choose
 template <class S>
 void reduce(Manifold<S>& manifold, std::size_t max_points, std::span<const KeptPoint> previous = {},
@@ -210,7 +224,8 @@ void reduce(Manifold<S>& manifold, std::size_t max_points, std::span<const KeptP
   using T = typename S::Scalar;
   const auto& points = manifold.points;
   if (points.size() <= max_points && (reduction.resolution <= 0 || points.size() <= 1)) return;
-  const detail::PointChoice<S> choice(points, previous, reduction);
+  detail::PointChoice<S> choice(points);
+  choice.update(previous, reduction);
   std::array<std::size_t, 3> chosen{choice.first(), choice.first(), choice.first()};
   const T resolution2 = static_cast<T>(reduction.resolution * reduction.resolution);
   const std::size_t farthest = choice.farthest();

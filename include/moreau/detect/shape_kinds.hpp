@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which functions of the narrow phase a shape is for.
+// Concepts and traits that select the functions of the narrow phase for a pair of shapes.
 #pragma once
 
 #include "moreau/shape/concepts.hpp"
@@ -34,27 +34,27 @@ inline constexpr bool is_one_of = false;
 template <class... Shapes>
 inline constexpr bool is_one_of<OneOf<Shapes...>> = true;
 
-/// Judged for itself, not by what it is made of.
+/// A shape with functions of its own: neither rounded nor a OneOf.
 template <class ShapeT>
 concept Elementary = !is_rounded<ShapeT> && !is_one_of<ShapeT>;
 
-/// Convex, with nothing known but its support.
+/// A convex shape of which only the support function is known.
 template <class ShapeT>
 concept SupportOnly =
     ConvexCore<ShapeT> && Elementary<ShapeT> && !Polytope<ShapeT> && !is_sphere<ShapeT>;
 
-/// A pair of elementary shapes that only the general algorithms can judge. Spheres and segments
-/// come first, as everywhere.
+/// A pair of elementary shapes for which there are only the general algorithms GJK and EPA
+/// (convex/collide_convex.hpp). Spheres and segments come first, see collide_rank.
 template <class A, class B>
 concept GeneralPair =
     ConvexCore<A> && ConvexCore<B> && Elementary<A> && Elementary<B> && !is_sphere<B> &&
     !is_segment<B> && (SupportOnly<A> || SupportOnly<B>);
 
-/// A pair with a rounded shape.
+/// A pair with a rounded shape and no OneOf.
 template <class A, class B>
 concept RoundedPair = !is_one_of<A> && !is_one_of<B> && (is_rounded<A> || is_rounded<B>);
 
-/// A pair with a shape that has to be asked which kind it is.
+/// A pair with a OneOf, the kind of which is known at run time only.
 template <class A, class B>
 concept MixedPair = is_one_of<A> || is_one_of<B>;
 

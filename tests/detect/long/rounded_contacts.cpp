@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The points of contact of capsules, rounded shapes and shapes known by their support, where one
-// can say them by hand.
+// Contact points of capsules, rounded shapes and shapes known by their support functions, in cases
+// that can be worked out by hand.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
@@ -57,7 +57,7 @@ TEST_CASE("a rod lying on a wall, on a face, along a rod: two points") {
   CHECK(on_wall.contact_class == ContactClass::edge_face);
   CHECK(on_wall.normal == V3(0, 0, -1));
 
-  // Over the rim of a box of half sides (0.5, 1, 0.5), a little into it.
+  // Across the rim of a box of half sides (0.5, 1, 0.5), overlapping a little.
   const auto on_box = contact(rod, at(V3(0.3, 0, 0.69)), samples::box(1., 2., 1.), at(V3(0, 0, 0)));
   check_points(on_box, {V3(-0.5, 0, 0.495), V3(0.5, 0, 0.495)}, -0.01);
   CHECK(on_box.contact_class == ContactClass::edge_face);
@@ -90,7 +90,7 @@ TEST_CASE("crossing rods touch in one point, however deep") {
     CHECK((found.points[0].position - V3(0.1, 0, height / 2)).norm() < 1e-12);
     CHECK(found.contact_class == ContactClass::edge_edge);
   }
-  // In the plane crossing segments are an overlap: out of it along the shorter way.
+  // In the plane crossing segments overlap; the axis is the shorter way to separate them.
   const Capsule<S2> flat(1, 0.2);
   const auto found = contact(flat, at(V2(0, 0)), flat, at(V2(0.2, 0.7), pi / 2));
   CHECK(found.gap == doctest::Approx(-0.3 - 0.4));

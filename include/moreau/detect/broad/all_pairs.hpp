@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
+// The broad phase that compares every box with every other box.
 #pragma once
 
 #include "moreau/detect/broad_phase.hpp"
 
 namespace moreau {
 
-/// Every box against every other, O(n^2): the truth that the other broad phases are tested against,
-/// and the fastest for a few dozen boxes.
+/// Compares every box with every other box in O(n^2). The other broad phases are tested against it,
+/// and it is the fastest one for a few dozen boxes.
 template <class S>
 class AllPairs {
  public:

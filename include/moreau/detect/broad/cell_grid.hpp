@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The broad phase that hashes boxes into a hierarchy of grids (hierarchical spatial hashing).
 #pragma once
 
 #include <algorithm>
@@ -13,10 +14,10 @@
 
 namespace moreau {
 
-/// Deals the boxes out into cells, each of a level that suits its size: level k has cells twice as
-/// wide as level k - 1, and a box goes to the first level whose cells are at least as wide as it. A
-/// box spans at most two cells of its level along each axis, and of a coarser one too, so mixtures
-/// of sizes cost no more than equal ones. O(n) for boxes that do not pile up.
+/// Puts every box into a cell of a grid that suits its size: the grid of level k has cells twice as
+/// wide as that of level k - 1, and a box goes to the first level whose cells are at least as wide
+/// as the box. A box spans at most two cells of its own level, and of each coarser level, along
+/// each axis, so that mixed sizes cost no more than equal sizes. O(n) if boxes do not pile up.
 template <class S>
 class CellGrid {
  public:
@@ -50,7 +51,7 @@ class CellGrid {
       smallest = std::min(smallest, widest(box));
       largest = std::max(largest, widest(box));
     }
-    // Points and specks share the cells of what is a thousandth of the largest; and cell numbers
+    // The finest cells are a thousandth of the largest box, for smaller boxes too, and cell numbers
     // must fit into an integer.
     const Scalar extent = (far - origin_).maxCoeff();
     slack_ = Scalar(4) * std::numeric_limits<Scalar>::epsilon() *
@@ -101,8 +102,8 @@ class CellGrid {
     return static_cast<std::size_t>(hash >> 32) & (head_.size() - 1);
   }
 
-  /// Box i against those whose lower corner lies in a cell that matters at this level. Those of its
-  /// own level it meets once: the one with the lower index reports.
+  /// Compares box i with the boxes of a level whose lower corner lies in a cell that box i can
+  /// reach. A pair of the same level is reported once, by the box with the lower index.
   void look(std::uint32_t i, int level, std::span<const Aabb<S>> boxes,
             std::vector<IndexPair>& pairs) const {
     Vector reach = boxes[i].lower;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pairs of boxes in a periodic cell, by any broad phase: every box is brought into the cell, and
-// those that reach out of it towards another get an image there.
+// Pairs of boxes in a periodic cell, by any broad phase. Every box is shifted by whole cells until
+// its centre lies in the cell; boxes that reach the other side of the cell get a shifted image
+// there.
 #pragma once
 
 #include <algorithm>
@@ -15,21 +16,23 @@
 
 namespace moreau {
 
-/// Finds pairs of boxes through the images of a cell. Keeps its memory: no allocation once it has
-/// grown.
+/// Finds the pairs of boxes that overlap through an image of a periodic cell. Keeps its memory: no
+/// allocation once it has grown.
 template <class S>
 class PeriodicImages {
  public:
   using Vector = typename S::Vector;
 
   /// Replaces the contents of `pairs` by all pairs of boxes that overlap through some image,
-  /// sorted, each once. Boxes may lie anywhere; no two of them may be longer together than the cell
-  /// (PeriodicCell::require_room), so that a pair overlaps through one image at most.
+  /// sorted, each once. Boxes may lie anywhere. No two of them may be longer together than the cell
+  /// along a periodic axis (PeriodicCell::require_room), so that a pair overlaps through one image
+  /// at most.
   /// @param boxes       world axes [m]
   /// @param broad_phase a BroadPhase of this space
-  /// @param pairs       of places in boxes
-  /// @param shifts      one per pair: what brings the second box as it lies next to the first,
-  ///                    whole cells, world axes [m]
+  /// @param pairs       of indices of boxes
+  /// @param shifts      one per pair: the displacement, by whole cells, that takes the second box
+  /// as
+  ///                    it lies to its image that overlaps the first box, world axes [m]
   template <class Broad>
   void find_pairs(const PeriodicCell<S>& cell, std::span<const Aabb<S>> boxes, Broad& broad_phase,
                   std::vector<IndexPair>& pairs, std::vector<Vector>& shifts) {
@@ -51,7 +54,7 @@ class PeriodicImages {
     Vector cells;  // whole numbers
   };
 
-  /// Every box by whole cells to where its centre lies in the cell.
+  /// Shifts every box by whole cells so that its centre lies in the cell.
   void bring_home(const PeriodicCell<S>& cell, std::span<const Aabb<S>> boxes) {
     boxes_.clear();
     owner_.clear();
@@ -76,8 +79,8 @@ class PeriodicImages {
     cells_.push_back(cells);
   }
 
-  /// Images in half of the neighbouring cells, one of each two that lie opposite: a pair that meets
-  /// through one meets through the other with the roles exchanged.
+  /// Adds images in half of the neighbouring cells, one of each two opposite cells: a pair that
+  /// overlaps through one of them overlaps through the other with the roles exchanged.
   void add_images(const PeriodicCell<S>& cell, std::size_t count) {
     int neighbours = 1;
     for (int axis = 0; axis < S::dim; ++axis) neighbours *= 3;
@@ -104,7 +107,8 @@ class PeriodicImages {
     }
   }
 
-  /// From pairs of boxes at home with boxes at home or images to pairs of owners.
+  /// Turns pairs of boxes in the cell with boxes in the cell or images into pairs of the given
+  /// boxes.
   void collect(std::size_t count) {
     images_.clear();
     for (const IndexPair& pair : found_) {
@@ -118,10 +122,10 @@ class PeriodicImages {
               [](const Image& x, const Image& y) { return x.pair < y.pair; });
   }
 
-  std::vector<Aabb<S>> boxes_;        // at home, then images
-  std::vector<std::uint32_t> owner_;  // of each
-  std::vector<Vector> cells_;         // from where the owner lies to this box, whole numbers
-  Aabb<S> hull_;                      // of those at home
+  std::vector<Aabb<S>> boxes_;        // those in the cell, then their images
+  std::vector<std::uint32_t> owner_;  // index of the given box that each of them belongs to
+  std::vector<Vector> cells_;  // how many cells each is shifted from its owner, whole numbers
+  Aabb<S> hull_;               // around the boxes in the cell
   std::vector<IndexPair> found_;
   std::vector<Image> images_;
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The broad phase that sorts the boxes along one axis (sweep and prune).
 #pragma once
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 
 namespace moreau {
 
-/// Sorts the boxes along the axis on which they spread most and compares each with those that begin
-/// before it ends. Good up to some thousand boxes, and for any mixture of sizes.
+/// Sorts the boxes by their lower ends along the axis on which they spread most, and compares each
+/// box with those that begin before it ends. Good for up to a few thousand boxes and any mixture of
+/// sizes.
 template <class S>
 class SweepAndPrune {
  public:

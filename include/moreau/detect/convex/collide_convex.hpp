@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Shapes of which the support function is all that is known, against each other or any other: the
-// distance algorithm where they are apart. Where they overlap, an expanding polytope finds the axis
-// roughly, and then the distance algorithm exactly: with b moved out of a along the axis n, by a
-// little more than their depth there, the nearest points are along a better one. If m is the normal
-// of C = B - A nearest to the origin, p the depth and R the radius of curvature, this takes an
-// angle e between n and m to about e p / R, and a flat face is found at once. The contact is one
-// point.
+// Pairs with a shape of which only the support function is known, or for which there is no special
+// function. The contact is one point.
+//
+// Shapes that are apart: GJK (gjk.hpp). Overlapping shapes: EPA (epa.hpp) finds the axis n roughly,
+// then GJK finds it exactly. With b moved out of a along n, by a little more than the depth there,
+// the direction of the nearest points is a better axis. If m is the normal of C = B - A at the
+// point of its surface nearest to the origin, p the depth and R the radius of curvature, this takes
+// an angle e between n and m to about e p / R; a flat face is found at once.
 #pragma once
 
 #include <algorithm>
@@ -38,8 +39,8 @@ class ConvexPair {
         offset_(b.center() - a.center()),
         size_(extent(a.bounding_box()) + extent(b.bounding_box())) {}
 
-  /// Not inlined, so that every caller gets the same bits.
-  /// @param margin  a gap larger than this need not be known, but that it is larger [m]
+  /// Signed distance of the pair. Not inlined, so that every caller gets the same bits.
+  /// @param margin  a gap larger than this may be given as any larger gap [m]
   [[gnu::noinline]] SignedDistance<S> distance(
       T margin = std::numeric_limits<T>::infinity()) const {
     SignedDistance<S> found;
@@ -50,9 +51,10 @@ class ConvexPair {
 
  private:
   static T extent(const Aabb<S>& box) { return (box.upper - box.lower).norm(); }
-  /// The nearest points. Points close together on a curved surface make a simplex that cannot go
-  /// on: start again from the axis found, until the distance is what its axis separates by.
-  /// @param shift   of b [m]
+  /// The nearest points of shapes that are apart. A simplex of points close together on a curved
+  /// surface gets stuck: GJK is started again from the axis found, until the distance equals the
+  /// separation along the axis.
+  /// @param shift   displacement of b [m]
   /// @param margin  a gap larger than this may be given as any larger one [m]
   /// @returns whether the shapes are then apart
   bool is_apart(const Vector& start, const Vector& shift, T margin,
@@ -68,13 +70,13 @@ class ConvexPair {
     }
     return true;
   }
-  /// The distance algorithm from one point on.
-  /// @param shift  of b [m]
+  /// GJK from one direction on.
+  /// @param shift  displacement of b [m]
   /// @returns whether the shapes are then apart
   bool run_gjk(const Lifted& start, const Vector& shift, T margin, SignedDistance<S>& found) const {
     std::array<Vector, all_steps + 2> on_a;
     std::uint32_t count = 0;
-    // In the plane too the nearest points are those of a set in space, without thickness.
+    // A pair in the plane is taken for one in space without thickness.
     const auto support = [&](const Lifted& n) -> DifferencePoint<Lifted> {
       Vector direction = n.template head<S::dim>();
       if (direction.isZero(0)) direction = Vector::UnitX();
@@ -101,26 +103,28 @@ class ConvexPair {
     found.witness_b = found.witness_a + apart;
     return true;
   }
-  /// What is left to gain on a curved surface when the digits of its points end.
+  /// The accuracy of a distance on a curved surface, which rounding of its points limits [m].
   T precise() const { return size_ * T(512) * std::numeric_limits<T>::epsilon(); }
   T rounding() const { return size_ * DetectionTolerance<T>::rounding; }
   ExtremePoint<Vector> reach(const Vector& n) const {
     const Vector on_a = a_.support(-n);
     return {offset_ + (b_.support(n) - on_a), on_a};
   }
-  /// What the expanding polytope leaves to be found, and how far apart b is moved from a [m].
+  /// The accuracy to which EPA finds the depth before GJK takes over [m].
   T rough() const { return std::max(size_ * T(2e-4), precise()); }
+  /// The distance of a and b when b is moved out of a [m].
   T aside() const { return size_ * T(1e-2); }
-  /// Where the climb is slow, so that the polytope has to come near by itself [m].
+  /// The depth from which on the climb is slow, so that EPA runs to the full accuracy [m].
   T deep() const { return size_ * T(2e-2); }
-  /// The separation along a unit vector: a lower bound of the gap.
+  /// The separation along a unit vector [m]: a lower bound of the gap.
   T separation(const Vector& n) const { return n.dot(reach(-n).point); }
 
   SignedDistance<S> depth() const {
     const auto reach_along = [this](const Vector& n) { return reach(n); };
     const auto polytope = epa(S{}, reach_along, rough());
     SignedDistance<S> best = climb_from(polytope.nearest());
-    // Other faces that may hide a smaller depth; those that look nearly the same way end there too.
+    // Other faces may hide a smaller depth. From those with nearly the same normal, the climb leads
+    // to the same axis.
     std::array<Vector, 8> seen{best.normal};
     std::size_t count = 1;
     for (std::size_t f = 0; f < polytope.size() && count < seen.size(); ++f) {
@@ -138,7 +142,7 @@ class ConvexPair {
     const SignedDistance<S> other = climb_from(epa(S{}, reach_along, precise()).nearest());
     return other.gap > best.gap ? other : best;
   }
-  /// The best axis that is reached from a face.
+  /// The best axis that is reached by climbing from a face of the polytope.
   SignedDistance<S> climb_from(const NearestFace<Vector>& face) const {
     Vector normal = -face.outward, witness = a_.center() + face.on_a, turn = Vector::Zero();
     T gap = separation(normal);
@@ -159,7 +163,7 @@ class ConvexPair {
     }
     return {gap, normal, witness, witness + gap * normal};
   }
-  /// Where the turns of the normal shrink at a constant rate, to where they would end.
+  /// Extrapolates the normal to the limit of its turns, if these shrink at a constant rate.
   void go_farther(const Vector& turn, T rate, Vector& normal, T& gap) const {
     if (!(rate > T(0) && rate < T(1))) return;
     const Vector end = (normal + rate / (T(1) - rate) * turn).normalized();
@@ -177,8 +181,8 @@ class ConvexPair {
 
 }  // namespace detail
 
-/// Signed distance of shapes known by their support: exact to rounding for flat faces; for curved
-/// ones to what the digits of the support allow. The header has the algorithm.
+/// Signed distance of shapes known by their support functions: exact to rounding for flat faces; on
+/// curved surfaces as accurate as rounding of the support points allows.
 template <class A, class B>
 requires GeneralPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b) {
@@ -194,15 +198,8 @@ requires GeneralPair<A, B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
              Manifold<SpaceOf<A>>& out, PairCache<SpaceOf<A>>&) {
   MOREAU_ASSERT(margin >= 0);
-  const auto found = detail::ConvexPair<A, B>(a, b).distance(margin);
-  if (!(found.gap <= margin)) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
-  out.contact_class = ContactClass::vertex_vertex;
-  out.points.push_back({(found.witness_a + found.witness_b) / 2, found.gap,
-                        FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0)});
-  return true;
+  return detail::touch_at_one_point(detail::ConvexPair<A, B>(a, b).distance(margin), margin,
+                                    FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0), out);
 }
 
 }  // namespace moreau

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Depth of two convex shapes that overlap, known by their support alone: the origin's distance from
-// the surface of C = B - A. A polytope of points of C grows where its face is nearest to the origin
-// until C reaches no farther there (the expanding polytope algorithm, van den Bergen 2001).
+// EPA, the expanding polytope algorithm: the depth of two overlapping convex shapes that are known
+// by their support functions. Source: G. van den Bergen, Proximity queries and penetration depth
+// computation on 3D game objects, Game Developers Conference 2001.
+//
+// The depth is the distance of the origin from the surface of C = B - A. A polytope whose corners
+// are points of C, with the origin inside, grows: the support point of C in the direction of the
+// polytope's nearest face becomes a corner, until C reaches no farther there. The polytope is a
+// ring of points in the plane and a hull of triangles in space.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +19,25 @@
 
 namespace moreau::detail {
 
-/// A point of C, and the point of A that it belongs to.
+/// A support point of C and the point of A that belongs to it, relative to the centre of a [m].
 template <class Vector>
 struct ExtremePoint {
   Vector point, on_a;
 };
 
-/// A face of the polytope; of the nearest to the origin, minus its offset is about the gap.
+/// A face of the polytope. The gap of the shapes is about minus the offset of the nearest face.
 template <class Vector>
 struct NearestFace {
-  Vector outward;                  ///< unit
-  typename Vector::Scalar offset;  ///< of its plane from the origin [m]
-  Vector on_a;                     ///< the point of A below the origin's foot
+  Vector outward;                  ///< unit normal, out of the polytope
+  typename Vector::Scalar offset;  ///< distance of the face's plane from the origin [m]
+  Vector on_a;                     ///< the point of A that belongs to the origin's projection [m]
 };
 
-/// So many points that only curved surfaces at the end of their digits need them.
+/// The polytope stops growing at so many points. Only curved surfaces, at the limit of rounding,
+/// need more.
 inline constexpr int most_points = 1000;
 
-/// In the plane: a ring of points, counter-clockwise.
+/// The polytope in the plane: a ring of points, counter-clockwise.
 template <std::floating_point T, class Reach>
 class ExpandingPolygon {
  public:
@@ -39,17 +45,21 @@ class ExpandingPolygon {
   using Face = NearestFace<Vector>;
 
   /// @param reach    reach(n) -> the ExtremePoint of C with the largest n . point
-  /// @param precise  differences of no account [m]
-  ExpandingPolygon(const Reach& reach, T precise) : precise_(precise) {
+  /// @param precise  differences below this are ignored [m]
+  ExpandingPolygon(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
+
+  /// Starts from three points of C and grows until C reaches no farther than `precise` beyond the
+  /// nearest side.
+  void expand() {
     for (int k = 0; k < 3; ++k) {
       const T angle = T(2.0943951) * static_cast<T>(k);
-      ring_.push_back(reach(Vector(std::cos(angle), std::sin(angle))));
+      ring_.push_back(reach_(Vector(std::cos(angle), std::sin(angle))));
     }
     while (true) {
       const std::size_t at = nearest_side();
       const Face nearest = face(at);
-      const auto next = reach(nearest.outward);
-      if (!(nearest.outward.dot(next.point) - nearest.offset > precise) ||
+      const auto next = reach_(nearest.outward);
+      if (!(nearest.outward.dot(next.point) - nearest.offset > precise_) ||
           ring_.size() >= most_points)
         return;
       ring_.insert(ring_.begin() + static_cast<std::ptrdiff_t>(at) + 1, next);
@@ -57,7 +67,7 @@ class ExpandingPolygon {
   }
   Face nearest() const { return face(nearest_side()); }
   std::size_t size() const { return ring_.size(); }
-  /// Face k; infinitely far if it is too short to have a direction.
+  /// Side k; infinitely far away if it is too short to have a normal.
   Face face(std::size_t k) const {
     const auto& p = ring_[k];
     const auto& q = ring_[(k + 1) % ring_.size()];
@@ -82,32 +92,38 @@ class ExpandingPolygon {
     return best;
   }
 
-  std::vector<ExtremePoint<Vector>> ring_;
+  const Reach& reach_;
   const T precise_;
+  std::vector<ExtremePoint<Vector>> ring_;
 };
 
-/// In space: triangles, counter-clockwise from outside.
+/// The polytope in space: a hull of triangles, counter-clockwise from outside.
 template <std::floating_point T, class Reach>
 class ExpandingPolytope {
  public:
   using Vector = typename Space<3, T>::Vector;
 
-  ExpandingPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {
+  /// Arguments as those of ExpandingPolygon.
+  ExpandingPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
+
+  /// Starts from four points of C and grows until C reaches no farther than `precise` beyond the
+  /// nearest face.
+  void expand() {
     start();
     while (grow()) {
     }
   }
   NearestFace<Vector> nearest() const { return face(nearest_face()); }
   std::size_t size() const { return faces_.size(); }
-  /// Face f; infinitely far if it is too thin to have a direction.
+  /// Face f; infinitely far away if it is too thin to have a normal.
   NearestFace<Vector> face(std::size_t f) const {
     const Face& face = faces_[f];
     if (!(face.offset < std::numeric_limits<T>::infinity()))
       return {face.outward, face.offset, points_[face.corner[0]].on_a};
     const auto& [i, j, k] = face.corner;
-    const Vector foot = face.offset * face.outward;
-    const Vector p = points_[i].point - foot, q = points_[j].point - foot;
-    const Vector r = points_[k].point - foot;
+    const Vector origin_on_face = face.offset * face.outward;
+    const Vector p = points_[i].point - origin_on_face, q = points_[j].point - origin_on_face;
+    const Vector r = points_[k].point - origin_on_face;
     std::array<T, 3> weight{face.outward.dot(q.cross(r)), face.outward.dot(r.cross(p)),
                             face.outward.dot(p.cross(q))};
     T sum = 0;
@@ -125,7 +141,7 @@ class ExpandingPolytope {
     T offset;
   };
 
-  /// Four points that are not in a plane.
+  /// Four points of C that do not lie in a plane.
   void start() {
     points_ = {reach_(Vector::UnitX()), reach_(Vector(-Vector::UnitX()))};
     const Vector along = points_[1].point - points_[0].point;
@@ -141,6 +157,7 @@ class ExpandingPolytope {
     add_face(v[1], v[2], v[3]);
     add_face(v[2], v[0], v[3]);
   }
+  /// Adds the support point in the direction or against it, whichever is farther from the point.
   void add_farther(const Vector& direction, const Vector& from) {
     const auto one = reach_(direction), other = reach_(Vector(-direction));
     const bool take_one = direction.dot(one.point - from) >= direction.dot(from - other.point);
@@ -150,7 +167,7 @@ class ExpandingPolytope {
     const Vector normal =
         (points_[j].point - points_[i].point).cross(points_[k].point - points_[i].point);
     const T length = normal.norm();
-    // A sliver is never the nearest, and hides behind none.
+    // A sliver is never the nearest face, and no point is beyond it.
     if (!(length > precise_ * precise_)) {
       faces_.push_back({{i, j, k}, Vector::Zero(), std::numeric_limits<T>::infinity()});
       return;
@@ -164,6 +181,8 @@ class ExpandingPolytope {
       if (faces_[f].offset < faces_[best].offset) best = f;
     return best;
   }
+  /// Adds the support point beyond the nearest face, and replaces the faces that it sees.
+  /// @returns false if C reaches no farther than the face
   bool grow() {
     const std::size_t nearest = nearest_face();
     const Face& face = faces_[nearest];
@@ -186,7 +205,8 @@ class ExpandingPolytope {
     for (const auto& [i, j] : rim_) add_face(i, j, points_.size() - 1);
     return true;
   }
-  /// From one face on to its neighbours, so that rounding opens no second hole.
+  /// Marks the faces that a point sees, going from one face to its neighbours, so that rounding
+  /// cannot open a second hole.
   void mark_visible(std::size_t from, const Vector& point) {
     is_visible_.assign(faces_.size(), false);
     is_visible_[from] = true;
@@ -203,7 +223,7 @@ class ExpandingPolytope {
       }
     }
   }
-  /// The face with this edge.
+  /// The face with the edge from corner i to corner j; the number of faces if there is none.
   std::size_t face_with(std::size_t i, std::size_t j) const {
     std::size_t f = 0;
     for (; f < faces_.size(); ++f)
@@ -211,7 +231,8 @@ class ExpandingPolytope {
         if (faces_[f].corner[k] == i && faces_[f].corner[(k + 1) % 3] == j) return f;
     return f;
   }
-  /// An edge of two visible faces is inside; what is left is the rim.
+  /// Adds an edge to the rim of the visible faces, or removes it if the reversed edge is there: an
+  /// edge of two visible faces is not on the rim.
   void toggle(const std::array<std::size_t, 2>& edge) {
     const auto reverse =
         std::find(rim_.begin(), rim_.end(), std::array<std::size_t, 2>{edge[1], edge[0]});
@@ -230,15 +251,22 @@ class ExpandingPolytope {
   std::vector<std::size_t> stack_;
 };
 
-/// The polytope of points of C, grown until C reaches no farther than `precise` beyond its nearest
-/// face. As it lies within C, only its faces nearer than a known depth can hide a smaller one.
+/// EPA: the polytope of points of C, grown until C reaches no farther than `precise` [m] beyond its
+/// nearest face. The polytope lies within C, so only its faces that are nearer to the origin than a
+/// known depth can hide a smaller depth.
+/// @param reach  reach(n) -> the ExtremePoint of C with the largest n . point; must outlive the
+/// answer
 template <std::floating_point T, class Reach>
 ExpandingPolygon<T, Reach> epa(Space<2, T>, const Reach& reach, T precise) {
-  return {reach, precise};
+  ExpandingPolygon<T, Reach> polytope(reach, precise);
+  polytope.expand();
+  return polytope;
 }
 template <std::floating_point T, class Reach>
 ExpandingPolytope<T, Reach> epa(Space<3, T>, const Reach& reach, T precise) {
-  return {reach, precise};
+  ExpandingPolytope<T, Reach> polytope(reach, precise);
+  polytope.expand();
+  return polytope;
 }
 
 }  // namespace moreau::detail

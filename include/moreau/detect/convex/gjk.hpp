@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Distance of two convex shapes that are apart, or the news that they are not.
+// GJK: the distance of two convex shapes that are known by their support functions, or that they
+// overlap. Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the
+// distance between complex objects in three-dimensional space, IEEE J. Robotics and Automation 4
+// (1988) 193-203.
 //
-// C = B - A is the set of differences b - a. The shapes are apart iff C does not hold the origin,
-// and the nearest point v of C to the origin is then the distance, its direction the normal. Two
-// bounds close in on it: the hull of the points of C found so far is at least as far away as C, and
-// for any unit n the plane of the support point w(n) bounds C: s(n) = n . w <= distance.
+// C = B - A is the set of differences b - a. The shapes are apart if and only if C does not hold
+// the origin. The point v of C nearest to the origin is then the distance, and its direction the
+// normal. Two bounds close in on it: the hull of the points of C found so far (simplex.hpp) is at
+// least as far from the origin as C, and for any unit n with the support point w(n), s(n) = n .
+// w(n) is at most the distance.
 #pragma once
 
 #include <limits>
@@ -15,17 +19,18 @@ namespace moreau::detail {
 
 enum class Proximity {
   beyond,     ///< a plane separates the shapes by more than the margin
-  apart,      ///< apart; the simplex has the nearest points
-  touching,   ///< they overlap, or what is between them is lost in rounding
-  undecided,  ///< none of these yet
+  apart,      ///< the shapes are apart; the simplex holds the nearest points
+  touching,   ///< the shapes overlap, or their distance is lost in rounding
+  undecided,  ///< the steps were too few to tell
 };
 
+/// Runs some steps of GJK.
 /// @param support  support(n) -> the DifferencePoint of C with the smallest n . point
-/// @param simplex  points of C to go on from; ends up at the nearest ones found
-/// @param axis     the last direction looked along, of any length
-/// @param margin   stop when the gap is known to be larger [m], >= 0
-/// @param size     length of the order of the shapes; what is below some eps of it counts as zero
-/// @param steps    stop after as many; some 6 suffice for an answer
+/// @param simplex  in: points of C to start from; out: the nearest points found
+/// @param axis     out: the last direction of a support point, any length
+/// @param margin   the iteration stops when the gap is known to be larger [m], >= 0
+/// @param size     of the order of the shapes [m]; less than some eps of it counts as zero
+/// @param steps    the most steps to make; about 6 suffice for an answer
 template <std::floating_point T, class Support>
 Proximity gjk(const Support& support, Simplex<T>& simplex, typename Space<3, T>::Vector& axis,
               T margin, T size, int steps) {
@@ -48,7 +53,7 @@ Proximity gjk(const Support& support, Simplex<T>& simplex, typename Space<3, T>:
   return Proximity::undecided;
 }
 
-/// So many steps that only rounding can make them necessary.
+/// The most steps of GJK; more would be due to rounding only.
 inline constexpr int all_steps = 64;
 
 }  // namespace moreau::detail

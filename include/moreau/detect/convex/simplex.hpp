@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points of the Minkowski difference B - A, at most four, and the one of their hull nearest to the
-// origin: the inner step of the distance algorithm of Gilbert, Johnson and Keerthi (1988).
+// The simplex of GJK: at most four points of the Minkowski difference B - A, and the point of their
+// hull that is nearest to the origin. Source: Gilbert, Johnson and Keerthi 1988, see gjk.hpp.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace moreau::detail {
 
-/// point = (vertex b of B) - (vertex a of A), world axes.
+/// A point of B - A: vertex b of B minus vertex a of A, world axes [m].
 template <class Vector>
 struct DifferencePoint {
   Vector point;
   std::uint32_t a, b;
 };
 
-/// The points that carry the nearest point of their hull, which itself is `nearest`. `direction` is
-/// parallel to it (any length), taken from the geometry of the points: it keeps its digits where
-/// the nearest point itself is lost in rounding because the origin all but touches the hull.
+/// The points whose hull holds the nearest point, `nearest()` [m]. `direction()`, of any length, is
+/// parallel to nearest() but computed from the geometry of the points: it keeps its digits if the
+/// nearest point is lost in rounding because the origin all but touches the hull.
 template <std::floating_point T>
 class Simplex {
  public:
@@ -36,17 +36,17 @@ class Simplex {
   const Vector& nearest() const { return nearest_; }
   const Vector& direction() const { return direction_; }
   T squared_distance() const { return nearest_.squaredNorm(); }
-  /// Whether the origin lies at least the depth within the hull, all of which is so thick that
-  /// rounding has no say in it.
+  /// Whether the origin lies within the hull, at least the depth [m] from its faces, and the hull
+  /// is so thick that rounding does not decide that.
   bool holds_origin(T depth) const {
     if (size_ < 4) return false;
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector& top = points_[k].point;
-      const Vector& foot = points_[(k + 1) % 4].point;
-      const Vector along = points_[(k + 2) % 4].point - foot;
-      const Vector across = points_[(k + 3) % 4].point - foot;
+      const Vector& corner = points_[(k + 1) % 4].point;
+      const Vector along = points_[(k + 2) % 4].point - corner;
+      const Vector across = points_[(k + 3) % 4].point - corner;
       const Vector n = along.cross(across);
-      const T length = n.norm(), above = n.dot(top - foot), height = n.dot(-foot);
+      const T length = n.norm(), above = n.dot(top - corner), height = n.dot(-corner);
       if (!(length > depth * std::max(along.norm(), across.norm())) ||
           !(std::abs(height) > depth * length) || (above > T(0)) != (height > T(0)))
         return false;
@@ -60,12 +60,12 @@ class Simplex {
   }
 
   enum class Step {
-    nearer,    ///< the new nearest point is nearer; the points it does not need are dropped
-    stuck,     ///< it is not; nothing has changed
+    nearer,    ///< the hull is nearer to the origin now; points that it does not need are dropped
+    stuck,     ///< the hull is not nearer; nothing has changed
     enclosed,  ///< the origin lies within the four points
   };
-  /// Adds a point beyond which the hull has none towards the origin. The nearest feature then has
-  /// the new point, so only those are looked at.
+  /// Adds the support point of B - A in the direction of the origin. The nearest feature of the new
+  /// hull has this point, so only the features with it are compared.
   Step add(const Point& s) {
     Feature best{s.point, s.point};
     switch (size_) {
@@ -94,8 +94,8 @@ class Simplex {
   }
 
  private:
-  /// The new point, and with it the first, or the first and second of the old ones (first <
-  /// second).
+  /// A feature of the hull: the new point with none, one (`first`) or two (`first` < `second`) of
+  /// the old points, and the feature's point nearest to the origin.
   struct Feature {
     Vector nearest, direction;
     T squared_distance = std::numeric_limits<T>::infinity();
@@ -115,11 +115,11 @@ class Simplex {
     return {x, x, x.squaredNorm(), 2, i, 0};
   }
 
-  // The origin is beyond an edge if it lies on the outer side of the plane through the edge,
-  // perpendicular to the triangle. Beyond none, its foot is on the face.
+  // The origin is beyond an edge if it lies on the outer side of the plane through the edge that is
+  // perpendicular to the triangle. If it is beyond no edge, it projects onto the face.
   Feature face(const Vector& s, std::size_t i, std::size_t j, const Vector& n) const {
     const T squared = n.squaredNorm();
-    // Points on a line make a normal of nothing but rounding.
+    // The normal of points on a line is rounding only.
     constexpr T parallel = T(1024) * std::numeric_limits<T>::epsilon();
     const bool is_flat =
         !(squared > parallel * parallel * to(s, i).squaredNorm() * to(s, j).squaredNorm());
@@ -136,8 +136,8 @@ class Simplex {
     return {x, height < T(0) ? Vector(-n) : n, height * height / squared, 3, i, j};
   }
 
-  /// Of the three faces with the new point those behind which the origin lies.
-  /// @returns false if there is none
+  /// The nearest of the three faces with the new point beyond which the origin lies.
+  /// @returns false if there is none: the origin lies within the hull
   bool nearest_face(const Vector& s, Feature& best) const {
     constexpr std::array<std::array<std::size_t, 2>, 3> sides = {{{0, 1}, {1, 2}, {0, 2}}};
     const std::array<Vector, 3> normals = {normal(s, 0, 1), normal(s, 1, 2), normal(s, 0, 2)};
@@ -159,7 +159,7 @@ class Simplex {
   Vector nearest_, direction_;
 };
 
-/// The weights of the points in the nearest one: none is negative, and their sum is one.
+/// The weights of the points in the nearest point: none is negative, and their sum is 1.
 template <std::floating_point T>
 std::array<T, 3> weights_of(const Simplex<T>& simplex) {
   using Vector = typename Space<3, T>::Vector;

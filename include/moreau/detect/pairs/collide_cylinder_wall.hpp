@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Anything against the inside of a cylinder (in the plane: of a circle). The wall counts as a face;
-// a normal points into it, away from the axis.
+// Any shape against the inside of a cylinder (of a circle in the plane). The wall counts as a face;
+// the normal of a contact points into the wall, away from the cylinder's axis.
 //
-// The distance from the axis is a convex function of the point. Within a polytope it is largest at
-// a vertex, so its vertices say all, each with a normal of its own; a ball is a vertex with a
-// radius, a capsule two of them. Of shapes with nothing but a support function two points are
-// found: where going outwards leads to from the two sides of the shape. They are one where the
-// shape touches at one point only, and they are the two ends of what lies across; of a line or a
-// face of contact parallel to the axis one point is found.
+// The distance from the axis is a convex function of the point. Within a polytope it is therefore
+// largest at a vertex, and the vertices are the contact points, each with a normal of its own. A
+// ball is a vertex with a radius, a capsule two of them. For a shape known by its support function
+// alone, two points are found by climbing outwards from either side of the shape. They coincide if
+// the shape touches at one point; they are the two ends if an edge or a face lies across the axis.
+// Of a line or a face of contact that is parallel to the axis, one point is found.
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,21 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/placed.hpp"
-#include "moreau/detect/polytope/contact_class.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 
 namespace moreau {
 
-/// A drum: the solid is { x : |radial(x - center)| >= radius }.
+namespace detail {
+
+/// What is kept of the wall of a cylinder. The solid is { x : |radial(x - center)| >= radius }.
 template <class S>
-class Placed<CylinderWall<S>> {
+class Placement<CylinderWall<S>> {
  public:
-  using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   using Angular = typename S::Angular;
 
-  /// At the origin, not turned.
-  explicit Placed(const CylinderWall<S>& shape) { update(shape, Pose<S>{}); }
-  /// At the pose.
-  Placed(const CylinderWall<S>& shape, const Pose<S>& pose) { update(shape, pose); }
-
-  /// To the pose, world axes [m].
+  /// Places the wall at a pose, world axes [m].
   void update(const CylinderWall<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     axis_ = S::adjoint(pose.rotation) * shape.axis();
@@ -57,8 +52,6 @@ class Placed<CylinderWall<S>> {
   Scalar radius_ = 0;
 };
 
-namespace detail {
-
 /// Any unit vector perpendicular to the axis.
 template <class S>
 typename S::Vector any_radial(const Placed<CylinderWall<S>>& wall) {
@@ -71,8 +64,9 @@ typename S::Vector any_radial(const Placed<CylinderWall<S>>& wall) {
   return longest.normalized();
 }
 
-/// From the farthest point in a direction outwards as long as it leads farther from the axis; by
-/// convexity each farthest point in the radial direction does, or is the last.
+/// The point of a shape that is farthest from the cylinder's axis, by climbing: from the farthest
+/// point in a direction, again and again to the farthest point in the radial direction. By
+/// convexity each step leads farther from the axis or is the last one.
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Vector climb(const Placed<ShapeT>& a,
                                        const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
@@ -93,8 +87,9 @@ typename SpaceOf<ShapeT>::Vector climb(const Placed<ShapeT>& a,
   return best;
 }
 
-/// use(k, x, r): the ball of radius r about x, relative to the centre, touches if the shape does
-/// there; k numbers these places.
+/// Calls use(k, x, r) for the places k where a shape may touch the wall: the ball of radius r [m]
+/// about x, relative to the centre, world axes [m], touches the wall there if and only if the shape
+/// does.
 template <class ShapeT, class Use>
 void for_each_outermost(const Placed<ShapeT>& a, const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
                         Use&& use) {
@@ -144,11 +139,11 @@ void for_each_outermost(const Placed<OneOf<Shapes...>>& a,
 
 }  // namespace detail
 
-/// Contact points with normals of their own: each in a manifold of one point. The header says
-/// which.
+/// Contact points with normals of their own, each in a manifold of one point. The head of this file
+/// says which points these are.
 /// @param margin points up to this gap are in contact [m], >= 0
 /// @param out    filled anew for each point
-/// @param use    called without arguments whenever it is, in the order of the keys
+/// @param use    called without arguments after each filling, in the order of the feature keys
 /// @returns whether there was a point
 template <class ShapeT, class Use>
 bool collide_each(const Placed<ShapeT>& a, const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
@@ -164,12 +159,9 @@ bool collide_each(const Placed<ShapeT>& a, const Placed<CylinderWall<SpaceOf<Sha
     const T distance = arm.norm();
     const T gap = b.radius() - radius - distance;
     if (!(gap <= margin)) return;
-    out.clear();
-    out.normal = distance > 0 ? Vector(arm / distance) : detail::any_radial(b);
-    out.gap = gap;
-    out.contact_class = detail::class_of_point(FeatureKey(detail::vertex_on_face(S{}), k, 0));
-    out.points.push_back({a.center() + (x + (radius + gap / 2) * out.normal), gap,
-                          FeatureKey(detail::vertex_on_face(S{}), k, 0)});
+    const Vector normal = distance > 0 ? Vector(arm / distance) : detail::any_radial(b);
+    out.set_single_point(normal, gap, a.center() + (x + (radius + gap / 2) * normal),
+                         FeatureKey(detail::vertex_on_face(S{}), k, 0));
     use();
     touch = true;
   });

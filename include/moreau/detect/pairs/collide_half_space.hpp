@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Anything against a wall. The wall counts as a face; the normal points into it.
+// Any shape against a half-space, the solid behind a plane wall. The half-space counts as a face;
+// the normal of the contact points into it.
+//
+// Polytopes and segments touch with every vertex within the margin, other shapes with their deepest
+// point and, if nothing but their support function is known, with the corners of a flat spot.
 #pragma once
 
 #include <array>
@@ -9,7 +13,6 @@
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
-#include "moreau/detect/polytope/contact_class.hpp"
 #include "moreau/detect/shape_kinds.hpp"
 #include "moreau/detect/tolerance.hpp"
 
@@ -17,8 +20,8 @@ namespace moreau {
 
 namespace detail {
 
-/// What touches a plane with that many vertices: in the plane, a point or an edge; in space, a
-/// vertex, an edge or a face.
+/// The class of a contact with a half-space by the number of vertices that touch: a vertex or an
+/// edge in the plane; a vertex, an edge or a face in space.
 template <std::floating_point T>
 ContactClass class_at_plane(Space<2, T>, std::size_t vertices) {
   return vertices == 1 ? ContactClass::vertex_edge : ContactClass::edge_edge;
@@ -32,7 +35,7 @@ ContactClass class_at_plane(Space<3, T>, std::size_t vertices) {
 
 }  // namespace detail
 
-/// Signed distance of any convex shape from a wall: that of its farthest point into the wall.
+/// Signed distance of a convex shape from a half-space: that of its deepest point.
 template <class ShapeT>
 requires Elementary<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
     const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b) {
@@ -44,7 +47,7 @@ requires Elementary<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
   return {gap, normal, witness, witness + gap * normal};
 }
 
-/// One point, the deepest.
+/// One contact point, the deepest point of the shape.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
@@ -55,18 +58,11 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
              PairCache<SpaceOf<ShapeT>>&) {
   using S = SpaceOf<ShapeT>;
   MOREAU_ASSERT(margin >= 0);
-  const SignedDistance<S> found = distance(a, b);
-  if (!(found.gap <= margin)) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
-  out.contact_class = detail::class_at_plane(S{}, 1);
-  out.points.push_back({(found.witness_a + found.witness_b) / 2, found.gap,
-                        FeatureKey(detail::vertex_on_face(S{}), 0, 0)});
-  return true;
+  return detail::touch_at_one_point(distance(a, b), margin,
+                                    FeatureKey(detail::vertex_on_face(S{}), 0, 0), out);
 }
 
-/// Every vertex within the margin is a point; arguments as above.
+/// Contact points of a polytope: every vertex within the margin; arguments as above.
 template <class ShapeT>
 requires Elementary<ShapeT> && Polytope<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,
@@ -80,9 +76,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   const T height = b.normal().dot(a.center() - b.center());
   const T gap = height - a.vertices().farthest(normal).value;
   if (!(gap <= margin)) return false;
-  out.clear();
-  out.normal = normal;
-  out.gap = gap;
+  out.start(normal, gap);
   const T rounding = a.radius() * DetectionTolerance<T>::rounding;
   a.vertices().for_each_above(normal, height - margin - rounding, [&](std::uint32_t v) {
     const Vector x = a.vertices()[v];
@@ -94,16 +88,13 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   return true;
 }
 
-/// The ends within the margin are points; arguments as above.
+/// Contact points of a segment: the ends within the margin; arguments as above.
 template <class S>
 bool collide(const Placed<Segment<S>>& a, const Placed<HalfSpace<S>>& b, typename S::Scalar margin,
              Manifold<S>& out, PairCache<S>&) {
   MOREAU_ASSERT(margin >= 0);
   const SignedDistance<S> found = distance(a, b);
-  if (!(found.gap <= margin)) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
+  if (!detail::start_if_touching(found, margin, out)) return false;
   for (std::size_t v = 0; v < 2; ++v) {
     const typename S::Vector x = a.vertex(v);
     const auto gap = b.normal().dot((a.center() - b.center()) + x);
@@ -117,7 +108,8 @@ bool collide(const Placed<Segment<S>>& a, const Placed<HalfSpace<S>>& b, typenam
 
 namespace detail {
 
-/// Calls use(unit vector) for directions in the plane of contact: two in the plane, six in space.
+/// Calls use(unit vector) for tangents of the contact: two in the plane, six in space.
+/// @param frame  the contact frame
 template <std::floating_point T, class Use>
 void for_each_tangent(Space<2, T>, const typename Space<2, T>::Matrix& frame, Use&& use) {
   use(frame.col(1));
@@ -131,37 +123,40 @@ void for_each_tangent(Space<3, T>, const typename Space<3, T>::Matrix& frame, Us
   }
 }
 
-/// The farthest points of a shape in directions around a normal, relative to its centre.
+/// The corners of the flat spot of a shape around a normal: its farthest points in directions
+/// tilted from the normal, relative to its centre, world axes [m].
+template <class S>
+struct FlatSpot {
+  std::array<typename S::Vector, 6> corners;
+  std::size_t size = 0;  ///< how many corners there are; none if the surface is not flat there
+};
+/// @param deepest  the farthest point along the normal, relative to the centre, world axes [m]
+/// @param size     of the shape [m]
 template <class ShapeT>
-class FlatSpot {
- public:
+FlatSpot<SpaceOf<ShapeT>> flat_spot(const Placed<ShapeT>& shape,
+                                    const typename SpaceOf<ShapeT>::Vector& normal,
+                                    const typename SpaceOf<ShapeT>::Vector& deepest,
+                                    typename SpaceOf<ShapeT>::Scalar size) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
-  using Vector = typename S::Vector;
-
-  FlatSpot(const Placed<ShapeT>& shape, const Vector& normal, const Vector& deepest, T size) {
-    constexpr T tilt = DetectionTolerance<T>::tilt;
-    const T far = T(10) * tilt * size;
-    for_each_tangent(S{}, S::contact_frame(normal), [&](const Vector& tangent) {
-      corners_[count_] = shape.support(normal + tilt * tangent);
-      is_flat_ = is_flat_ || (corners_[count_] - deepest).squaredNorm() > far * far;
-      ++count_;
-    });
-  }
-  /// None unless the surface is flat there.
-  std::size_t size() const { return is_flat_ ? count_ : 0; }
-  const Vector& operator[](std::size_t k) const { return corners_[k]; }
-
- private:
-  std::array<Vector, 6> corners_;
-  std::size_t count_ = 0;
-  bool is_flat_ = false;
-};
+  constexpr T tilt = DetectionTolerance<T>::tilt;
+  const T far = T(10) * tilt * size;
+  FlatSpot<S> spot;
+  bool is_flat = false;
+  for_each_tangent(S{}, S::contact_frame(normal), [&](const typename S::Vector& tangent) {
+    typename S::Vector& corner = spot.corners[spot.size++];
+    corner = shape.support(normal + tilt * tangent);
+    is_flat = is_flat || (corner - deepest).squaredNorm() > far * far;
+  });
+  if (!is_flat) spot.size = 0;
+  return spot;
+}
 
 }  // namespace detail
 
-/// A shape known by its support: the deepest point (vertex 0) and, where the surface is flat, the
-/// corners of the flat spot (vertices 1 to 6), so that what is flat can stand. Arguments as above.
+/// Contact points of a shape known by its support function: the deepest point (vertex 0 of the
+/// feature key) and, where the surface is flat, the corners of the flat spot (vertices 1 to 6), so
+/// that a shape with a flat side can stand on it. Arguments as above.
 template <class ShapeT>
 requires Elementary<ShapeT> && SupportOnly<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,
@@ -172,10 +167,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   using Vector = typename S::Vector;
   MOREAU_ASSERT(margin >= 0);
   const SignedDistance<S> found = distance(a, b);
-  if (!(found.gap <= margin)) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
+  if (!detail::start_if_touching(found, margin, out)) return false;
   const Aabb<S> box = a.bounding_box();
   const T size = (box.upper - box.lower).norm(), near = size * DetectionTolerance<T>::coincident;
   const auto add = [&](const Vector& x, std::size_t id) {
@@ -188,8 +180,8 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
       out.points.push_back({position, gap, FeatureKey(detail::vertex_on_face(S{}), id, 0)});
   };
   const Vector deepest = a.support(found.normal);
-  const detail::FlatSpot<ShapeT> spot(a, found.normal, deepest, size);
-  for (std::size_t k = 0; k < spot.size(); ++k) add(spot[k], k + 1);
+  const auto spot = detail::flat_spot(a, found.normal, deepest, size);
+  for (std::size_t k = 0; k < spot.size; ++k) add(spot.corners[k], k + 1);
   add(deepest, 0);
   out.sort();
   out.contact_class = detail::class_at_plane(S{}, out.points.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes that are one of several kinds: one visit finds what the pair is.
+// Pairs with a OneOf shape, which holds a shape of one of several kinds: one visit finds which
+// kinds the pair is of and calls their function.
 #pragma once
 
 #include <utility>
@@ -13,7 +14,7 @@ namespace moreau {
 
 namespace detail {
 
-/// use(a, b) with what the shapes are.
+/// Calls use(a, b) with the shapes that a and b hold.
 template <class A, class B, class Use>
 decltype(auto) visit_pair(const Placed<A>& a, const Placed<B>& b, Use&& use) {
   if constexpr (is_one_of<A>)
@@ -26,26 +27,26 @@ decltype(auto) visit_pair(const Placed<A>& a, const Placed<B>& b, Use&& use) {
 
 }  // namespace detail
 
-/// Signed distance of what the two are.
+/// Signed distance of the shapes that the pair holds.
 template <class A, class B>
 requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                              const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return distance(x, y); });
 }
-/// The same with what is remembered of the pair.
+/// The same, with the memory of the pair.
 template <class A, class B>
 requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
                                                              PairCache<SpaceOf<A>>& cache) {
   return detail::visit_pair(a, b,
                             [&](const auto& x, const auto& y) { return distance(x, y, cache); });
 }
-/// Whether what the two are has a point in common.
+/// Whether the shapes that the pair holds have a point in common.
 template <class A, class B>
 requires MixedPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return overlap(x, y); });
 }
-/// The same with what is remembered of the pair.
+/// The same, with the memory of the pair.
 template <class A, class B>
 requires MixedPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cache) {
@@ -53,7 +54,7 @@ bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cach
                             [&](const auto& x, const auto& y) { return overlap(x, y, cache); });
 }
 
-/// Contact points of what the two are.
+/// Contact points of the shapes that the pair holds.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rounded shapes: their cores are judged, with the radii added to the margin, then the surfaces put
-// back where they are. This is exact, for along any axis the separation of two rounded shapes is
-// that of their cores less the radii. Points, keys and class of the contact are those of the cores.
+// Pairs with a rounded shape: the query of the cores, with the radii added to the margin, and the
+// surfaces put back where they are. This is exact, because along any axis the separation of two
+// rounded shapes is that of their cores less the radii. Feature keys and class of the contact are
+// those of the cores.
 #pragma once
 
 #include "moreau/detect/manifold.hpp"
@@ -13,7 +14,7 @@ namespace moreau {
 
 namespace detail {
 
-/// What collides for a shape: its core, or itself.
+/// The core of a rounded shape; any other shape itself.
 template <class ShapeT>
 const Placed<ShapeT>& core_of(const Placed<ShapeT>& shape) {
   return shape;
@@ -22,7 +23,7 @@ template <class Core>
 const Placed<Core>& core_of(const Placed<Rounded<Core>>& shape) {
   return shape.core();
 }
-/// How far the surface lies outside of that [m].
+/// How far the surface lies outside of the core [m].
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar radius_about_core(const Placed<ShapeT>&) {
   return 0;
@@ -32,7 +33,7 @@ typename SpaceOf<Core>::Scalar radius_about_core(const Placed<Rounded<Core>>& sh
   return shape.rounding_radius();
 }
 
-/// The distance of the rounded shapes from that of the cores.
+/// The signed distance of rounded shapes, given that of their cores.
 template <class S>
 SignedDistance<S> rounded(const SignedDistance<S>& cores, typename S::Scalar radius_a,
                           typename S::Scalar radius_b) {
@@ -50,7 +51,7 @@ requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& 
   return detail::rounded(distance(detail::core_of(a), detail::core_of(b)),
                          detail::radius_about_core(a), detail::radius_about_core(b));
 }
-/// The same with what is remembered of the cores.
+/// The same, with the memory of the cores.
 template <class A, class B>
 requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b,

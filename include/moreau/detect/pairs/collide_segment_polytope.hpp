@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Segment, the core of a capsule, against polyhedron or polygon. The axis is that of two convex
-// shapes (collide_convex.hpp), exact as both are flat; the points of contact are where the segment
-// lies above the face that looks at it.
+// Segment, the core of a capsule, against polyhedron or polygon.
+//
+// Axis and gap are those of two convex shapes (convex/collide_convex.hpp), which are exact because
+// both shapes are flat. The contact points are the ends of the part of the segment that lies above
+// the facing face; if these miss the deepest point, the nearest points are added.
 #pragma once
 
 #include <algorithm>
@@ -12,19 +14,18 @@
 #include "moreau/detect/convex/collide_convex.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
-#include "moreau/detect/pairs/collide_polygons.hpp"
 #include "moreau/detect/placed.hpp"
-#include "moreau/detect/polytope/contact_class.hpp"
-#include "moreau/detect/polytope/edge_overlap.hpp"
-#include "moreau/detect/polytope/make_manifold.hpp"
+#include "moreau/detect/polytope/contact_polygon.hpp"
+#include "moreau/detect/polytope/facing_features.hpp"
 #include "moreau/detect/tolerance.hpp"
 
 namespace moreau {
 
 namespace detail {
 
-/// The part of a segment above a face of a polyhedron, seen along the normal: fractions of the
-/// segment from vertex 0, and the edges of the face where it leaves.
+/// The part of a segment that lies above a face of a polyhedron, seen along the normal: its ends as
+/// fractions of the segment from vertex 0, and the edges of the face that the segment crosses
+/// there.
 template <std::floating_point T>
 class SegmentOnFace {
  public:
@@ -32,16 +33,20 @@ class SegmentOnFace {
   using Vector = typename S::Vector;
 
   SegmentOnFace(const Placed<Segment<S>>& a, const Placed<Polyhedron<T>>& b, std::uint32_t face,
-                const Vector& normal, T near)
-      : a_(a), b_(b), face_(face), normal_(normal), offset_(b.center() - a.center()) {
-    const auto loop = b.shape().face(face);
+                const Vector& normal)
+      : a_(a), b_(b), face_(face), normal_(normal), offset_(b.center() - a.center()) {}
+
+  /// Cuts the segment at the edges of the face. Must come before for_each_corner.
+  /// @param near  distance within which a point lies on an edge [m]
+  void clip(T near) {
+    const auto loop = b_.shape().face(face_);
     for (std::size_t k = 0; k < loop.size() && !is_empty(); ++k) {
-      const Vector from = b.vertices()[loop[k]] + offset_;
-      const Vector along = b.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] + offset_ - from;
-      const Vector inward = along.cross(normal).normalized();
-      cut(inward.dot(a.vertex(0) - from), inward.dot(a.vertex(1) - from), near, k);
+      const Vector from = b_.vertices()[loop[k]] + offset_;
+      const Vector along = b_.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] + offset_ - from;
+      const Vector inward = along.cross(normal_).normalized();
+      cut(inward.dot(a_.vertex(0) - from), inward.dot(a_.vertex(1) - from), near, k);
     }
-    steepness_ = b.normals()[face].dot(normal);
+    steepness_ = b_.normals()[face_].dot(normal_);
     if (!(steepness_ < T(-0.1))) ends_[0].fraction = T(2);
   }
   /// Calls use(ManifoldPoint) for each end of that part; once if they coincide.
@@ -89,17 +94,20 @@ class SegmentOnFace {
   std::array<End, 2> ends_{End{T(0), none}, End{T(1), none}};
 };
 
-/// Adds the points of contact within the margin.
-/// @returns whether a face takes part, its own side for the segment in the plane
+/// Adds the contact points within the margin.
+/// @returns whether a face takes part in the contact; in the plane, a side of the polygon or the
+///          segment itself
 template <std::floating_point T>
 bool add_corners(const Placed<Segment<Space<3, T>>>& a, const Placed<Polyhedron<T>>& b,
                  const SignedDistance<Space<3, T>>& found, T margin, T near,
                  Manifold<Space<3, T>>& out) {
   using Vector = typename Space<3, T>::Vector;
   const Vector towards_a = -found.normal;
-  const auto face = facing_face(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
-                                towards_a, margin - found.gap);
-  SegmentOnFace<T>(a, b, face, found.normal, near).for_each_corner(near, [&](const auto& corner) {
+  const auto face = facing_feature(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
+                                   towards_a, margin - found.gap);
+  SegmentOnFace<T> segment(a, b, face, found.normal);
+  segment.clip(near);
+  segment.for_each_corner(near, [&](const auto& corner) {
     if (corner.gap <= margin) out.points.push_back(corner);
   });
   return (b.normals()[face] - towards_a).norm() < DetectionTolerance<T>::aligned;
@@ -111,9 +119,9 @@ bool add_corners(const Placed<Segment<Space<2, T>>>& a, const Placed<Polygon<T>>
   using Vector = typename Space<2, T>::Vector;
   constexpr T aligned = DetectionTolerance<T>::aligned;
   const Vector towards_a = -found.normal, offset = b.center() - a.center();
-  const auto edge = facing_edge(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
-                                towards_a, margin - found.gap);
-  EdgeOverlap<T>(a, 0, b, edge, offset, found.normal, near)
+  const auto edge = facing_feature(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
+                                   towards_a, margin - found.gap);
+  ContactSegment<T>(a, 0, b, edge, offset, found.normal, near)
       .for_each_corner([&](const auto& corner) {
         if (corner.gap <= margin) out.points.push_back(corner);
       });
@@ -121,8 +129,8 @@ bool add_corners(const Placed<Segment<Space<2, T>>>& a, const Placed<Polygon<T>>
          std::abs(found.normal.dot(a.half())) < aligned * a.radius();
 }
 
-/// The point of contact where no face takes part: of an end or the inside of the segment, and the
-/// vertex of the polytope that is nearest.
+/// The contact point if no face takes part: that of the nearest points, keyed by an end or the
+/// inside of the segment and by the farthest vertex of the polytope towards it.
 template <class ShapeT>
 ManifoldPoint<SpaceOf<ShapeT>> witness_point(const Placed<Segment<SpaceOf<ShapeT>>>& a,
                                              const Placed<ShapeT>& b,
@@ -136,7 +144,7 @@ ManifoldPoint<SpaceOf<ShapeT>> witness_point(const Placed<Segment<SpaceOf<ShapeT
                      b.vertices().farthest(-found.normal).index)};
 }
 
-/// Of two points along the segment.
+/// The class of a contact of two points along the segment.
 template <std::floating_point T>
 constexpr ContactClass class_of_edge(Space<2, T>, bool) {
   return ContactClass::edge_edge;
@@ -148,7 +156,7 @@ constexpr ContactClass class_of_edge(Space<3, T>, bool has_face) {
 
 }  // namespace detail
 
-/// Two points where the segment lies along a face, one else.
+/// Contact points: two where the segment lies along a face, else one.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
@@ -163,10 +171,7 @@ bool collide(const Placed<Segment<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b,
   const T size = a.radius() + b.radius(), reach = size + margin;
   if ((b.center() - a.center()).squaredNorm() > reach * reach) return false;
   const auto found = detail::ConvexPair<Segment<S>, ShapeT>(a, b).distance(margin);
-  if (!(found.gap <= margin)) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
+  if (!detail::start_if_touching(found, margin, out)) return false;
   const T rounding = size * DetectionTolerance<T>::rounding;
   const bool has_face = detail::add_corners(a, b, found, margin + rounding,
                                             size * DetectionTolerance<T>::coincident, out);

@@ -6,13 +6,14 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
+#include "moreau/detect/pairs/collide_spheres.hpp"
 #include "moreau/detect/placed.hpp"
-#include "moreau/detect/polytope/contact_class.hpp"
 #include "moreau/detect/polytope/segment_axis.hpp"
 
 namespace moreau {
 
-/// Signed distance of a ball from a segment. A centre on the segment is given a normal across it.
+/// Signed distance of a ball from a segment. If the centre of the ball lies on the segment, the
+/// normal is any perpendicular of the segment.
 template <class S>
 SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b) {
   using T = typename S::Scalar;
@@ -20,7 +21,7 @@ SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>&
   const Vector offset = a.center() - b.center();
   const T t = std::clamp(offset.dot(b.half()) / b.half().squaredNorm(), T(-1), T(1));
   const Vector apart = t * b.half() - offset;
-  const T between = apart.stableNorm();
+  const T between = detail::stable_length(apart);
   const Vector normal = between > T(0) ? Vector(apart / between)
                                        : Vector(S::contact_frame(b.half().normalized()).col(1));
   const Vector witness = a.center() + a.radius() * normal;
@@ -36,18 +37,11 @@ bool collide(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b, typename S
              Manifold<S>& out, PairCache<S>&) {
   using Kind = FeatureKey::Kind;
   MOREAU_ASSERT(margin >= 0);
-  const SignedDistance<S> found = distance(a, b);
-  if (!(found.gap <= margin)) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
   const auto along = (a.center() - b.center()).dot(b.half()), end = b.half().squaredNorm();
   const FeatureKey feature = std::abs(along) < end
                                  ? FeatureKey(Kind::vertex_edge, 0, 0)
                                  : FeatureKey(Kind::vertex_vertex, 0, along < 0 ? 0 : 1);
-  out.contact_class = detail::class_of_point(feature);
-  out.points.push_back({(found.witness_a + found.witness_b) / 2, found.gap, feature});
-  return true;
+  return detail::touch_at_one_point(distance(a, b), margin, feature, out);
 }
 
 /// Signed distance of two segments; < 0 where they cross in the plane, 0 where they meet in
@@ -63,7 +57,8 @@ SignedDistance<S> distance(const Placed<Segment<S>>& a, const Placed<Segment<S>>
 
 namespace detail {
 
-/// The ends of one that lie beside the other, each with its own distance from it.
+/// Adds the ends of each segment that lie beside the other segment and within the margin of it,
+/// each with its own distance from the other segment.
 template <class S>
 void add_ends(const SegmentPair<S>& pair, const SegmentAxis<S>& axis,
               const typename S::Vector& center, typename S::Scalar margin, Manifold<S>& out) {
@@ -91,12 +86,13 @@ void add_ends(const SegmentPair<S>& pair, const SegmentAxis<S>& axis,
   }
 }
 
-/// The feature of a where its point at s is, an end or what is between them.
+/// Whether the point at the parameter s of a segment is one of its ends.
 template <std::floating_point T>
 bool is_end(T s) {
   return std::abs(s) >= T(1);
 }
 
+/// The key of the nearest points.
 template <class S>
 FeatureKey feature_of(const SegmentAxis<S>& axis) {
   using Kind = FeatureKey::Kind;
@@ -110,8 +106,9 @@ FeatureKey feature_of(const SegmentAxis<S>& axis) {
 
 }  // namespace detail
 
-/// The ends of each beside the other that are within the margin, so two points where one lies along
-/// the other; and the nearest points, if those are not among them.
+/// Contact points: the ends of each segment that lie beside the other segment within the margin, so
+/// two points where one segment lies along the other; and the nearest points, if they are not among
+/// these.
 /// @param margin  pairs up to this gap are in contact [m], >= 0
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
@@ -126,9 +123,7 @@ bool collide(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b, typename 
   if (pair.offset.squaredNorm() > reach * reach) return false;
   const detail::SegmentAxis<S> axis = detail::segment_axis(pair);
   if (!(axis.gap <= margin)) return false;
-  out.clear();
-  out.normal = axis.normal;
-  out.gap = axis.gap;
+  out.start(axis.normal, axis.gap);
   detail::add_ends(pair, axis, a.center(), margin, out);
   T deepest = std::numeric_limits<T>::infinity();
   for (const auto& point : out.points) deepest = std::min(deepest, point.gap);

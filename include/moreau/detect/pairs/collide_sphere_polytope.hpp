@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Ball against polyhedron, disk against polygon: the centre against the polytope, less the radius.
+// Ball against polyhedron, disk against polygon: the signed distance of the ball's centre from the
+// polytope, less the radius.
+//
+// Inside the polytope, and outside above the face whose plane is farthest below the centre, if the
+// centre projects onto that face, the distance is that from the face's plane. Elsewhere a vertex or
+// an edge is nearest: found by comparing all vertices of a polygon, and by GJK for a polyhedron.
 #pragma once
 
 #include <limits>
@@ -8,7 +13,6 @@
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
-#include "moreau/detect/polytope/contact_class.hpp"
 #include "moreau/detect/polytope/projection.hpp"
 #include "moreau/detect/tolerance.hpp"
 #include "moreau/shape/polygon.hpp"
@@ -21,12 +25,13 @@ namespace detail {
 /// The signed distance of a point from a polytope's surface, < 0 inside.
 template <class S>
 struct PointDistance {
-  typename S::Scalar distance;
-  typename S::Vector outward;  ///< unit: from the nearest point of the surface to the point outside
-  FeatureKey feature;          ///< the point as vertex 0 of a, the polytope as b
+  typename S::Scalar distance;  ///< [m]
+  typename S::Vector outward;   ///< unit, out of the polytope at the nearest point of its surface
+  FeatureKey feature;           ///< the point as vertex 0 of a, the polytope as b
 };
 
-/// The face above whose plane the point, relative to the centre, is highest.
+/// The face above whose plane a point, relative to the shape's centre, is highest, and that height
+/// [m].
 template <class ShapeT>
 Extreme<typename SpaceOf<ShapeT>::Scalar> highest_face(const Placed<ShapeT>& shape,
                                                        const typename SpaceOf<ShapeT>::Vector& x) {
@@ -42,7 +47,8 @@ Extreme<typename SpaceOf<ShapeT>::Scalar> highest_face(const Placed<ShapeT>& sha
   return best.reduce();
 }
 
-/// Outside a polygon: the foot on the highest edge if it is within it, or the nearest vertex.
+/// The distance of a point outside a polygon from the edge `highest`, if the point projects onto
+/// it, or from the nearest vertex.
 template <std::floating_point T>
 PointDistance<Space<2, T>> nearest_outside(const Placed<Polygon<T>>& shape,
                                            const Extreme<T>& highest,
@@ -62,8 +68,9 @@ PointDistance<Space<2, T>> nearest_outside(const Placed<Polygon<T>>& shape,
           FeatureKey(Kind::vertex_vertex, 0, nearest)};
 }
 
-/// Outside a polyhedron: the foot on the highest face if it is within it, or the distance
-/// algorithm.
+/// The distance of a point outside a polyhedron from the face `highest`, if the point projects onto
+/// it, or by GJK.
+/// @param size  of the order of the pair [m]
 template <std::floating_point T>
 PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
                                            const Extreme<T>& highest,
@@ -81,7 +88,7 @@ PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
   Simplex<T> simplex(support(axis));
   const Proximity proximity =
       gjk<T>(support, simplex, axis, std::numeric_limits<T>::infinity(), size, all_steps);
-  // A foot on the rim of a face, or a touch that rounding hides.
+  // The point projects onto the rim of a face, or rounding hides whether it touches.
   if (proximity == Proximity::touching || simplex.size() == 3) return above_face;
   FeatureKey feature(Kind::vertex_vertex, 0, simplex[0].a);
   if (simplex.size() == 2)
@@ -93,7 +100,8 @@ PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
   return {simplex.nearest().norm(), simplex.direction().normalized(), feature};
 }
 
-/// Of the ball's centre, relative to the polytope's.
+/// The signed distance of a point x, relative to the polytope's centre, from the polytope.
+/// @param size  of the order of the pair [m]
 template <class ShapeT>
 PointDistance<SpaceOf<ShapeT>> point_distance(const Placed<ShapeT>& shape,
                                               const typename SpaceOf<ShapeT>::Vector& x,
@@ -131,11 +139,8 @@ bool collide(const Placed<Sphere<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b,
   const auto found = detail::point_distance(b, offset, a.radius() + b.radius());
   const auto gap = found.distance - a.radius();
   if (!(gap <= margin)) return false;
-  out.clear();
-  out.normal = -found.outward;
-  out.gap = gap;
-  out.contact_class = detail::class_of_point(found.feature);
-  out.points.push_back({a.center() - (a.radius() + gap / 2) * found.outward, gap, found.feature});
+  out.set_single_point(-found.outward, gap, a.center() - (a.radius() + gap / 2) * found.outward,
+                       found.feature);
   return true;
 }
 

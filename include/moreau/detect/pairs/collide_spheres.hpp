@@ -2,18 +2,39 @@
 // Ball against ball, disk against disk.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
 
 namespace moreau {
 
-/// Signed distance of two balls. Concentric ones are given the x axis for a normal.
+namespace detail {
+
+/// The length of a vector, without overflow of its squares. Eigen's stableNorm() adds the squares
+/// in an order that depends on the address of the vector, so that its bits change from build to
+/// build.
+template <class Vector>
+typename Vector::Scalar stable_length(const Vector& v) {
+  using T = typename Vector::Scalar;
+  const T scale = std::max(v.cwiseAbs().maxCoeff(), std::numeric_limits<T>::min());
+  const T inverse = T(1) / scale;
+  T sum = 0;
+  for (const T x : v) sum += (x * inverse) * (x * inverse);
+  return scale * std::sqrt(sum);
+}
+
+}  // namespace detail
+
+/// Signed distance of two balls. The normal of concentric balls is the x axis.
 template <class S>
 SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& b) {
   using Vector = typename S::Vector;
   const Vector offset = b.center() - a.center();
-  const auto between = offset.stableNorm();
+  const auto between = detail::stable_length(offset);
   const Vector normal = between > 0 ? Vector(offset / between) : Vector(Vector::UnitX());
   return {between - (a.radius() + b.radius()), normal, a.center() + a.radius() * normal,
           b.center() - b.radius() * normal};
@@ -29,15 +50,8 @@ bool collide(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& b, typename S:
   MOREAU_ASSERT(margin >= 0);
   const auto reach = a.radius() + b.radius() + margin;
   if ((b.center() - a.center()).squaredNorm() > reach * reach) return false;
-  const SignedDistance<S> found = distance(a, b);
-  if (found.gap > margin) return false;
-  out.clear();
-  out.normal = found.normal;
-  out.gap = found.gap;
-  out.contact_class = ContactClass::vertex_vertex;
-  out.points.push_back({(found.witness_a + found.witness_b) / 2, found.gap,
-                        FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0)});
-  return true;
+  return detail::touch_at_one_point(distance(a, b), margin,
+                                    FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0), out);
 }
 
 }  // namespace moreau

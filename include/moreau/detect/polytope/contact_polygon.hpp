@@ -1,23 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Where two faces look at each other along a normal: the polygon in which their projections
-// overlap, with the gap between the two planes at each of its corners.
+// contact_polygon: where two facing features overlap, seen along the normal of the contact, with
+// the gap between the two surfaces at each corner. Here the contact points of a pair get their
+// gaps.
 //
-// A corner is a vertex of one face inside the other, or a crossing of two edges. Each is found on
-// its own, from the signs of every vertex against every edge line of the other face; none depends
-// on which face is called the reference, so neither do the keys.
+// In space the features are faces, and the overlap of their projections is a convex polygon. In the
+// plane they are edges, and the overlap is a segment. A corner is a vertex of one feature within
+// the other or, in space, a crossing of two edges. Its gap is the height of b's surface minus that
+// of a's, both along the normal; it is negative where the shapes overlap. The point lies midway.
+//
+// Each corner is found on its own, from the signs of every vertex against every edge line of the
+// other face. None depends on which face is called the reference of a clipping, so neither do the
+// feature keys.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/placed.hpp"
+#include "moreau/detect/polytope/facing_features.hpp"
 #include "moreau/detect/tolerance.hpp"
+#include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
 namespace moreau::detail {
 
-/// Two faces projected along the normal; counter-clockwise both. Coordinates relative to the centre
-/// of a: x and y along the tangents, h along the normal.
+/// The polygon in which two faces of polyhedra overlap, seen along the normal. Both faces run
+/// counter-clockwise. Coordinates are relative to the centre of a: x and y along the tangents of
+/// the contact frame, h along the normal [m].
 template <std::floating_point T>
 class ContactPolygon {
  public:
@@ -25,10 +38,9 @@ class ContactPolygon {
   using Vector = typename S::Vector;
   using Shape = Placed<Polyhedron<T>>;
 
-  /// @param offset  centre of b minus centre of a
-  /// @param near    length below which a corner lies on an edge
+  /// @param near  distance below which a corner lies on an edge [m]
   ContactPolygon(const Shape& a, std::size_t face_a, const Shape& b, std::size_t face_b,
-                 const Vector& offset, const Vector& normal, T near, std::vector<T>& scratch)
+                 const Vector& normal, T near)
       : a_(a),
         b_(b),
         frame_(S::contact_frame(normal)),
@@ -36,21 +48,26 @@ class ContactPolygon {
         face_b_(face_b),
         loop_a_(a.shape().face(face_a)),
         loop_b_(b.shape().face(face_b)),
-        near_(near) {
+        near_(near) {}
+
+  /// Projects the two faces. Must come before for_each_corner.
+  /// @param offset   centre of b minus centre of a, world axes [m]
+  /// @param scratch  memory that this object works in from then on
+  void project(const Vector& offset, std::vector<T>& scratch) {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     scratch.resize(3 * (n + m) + 2 * n * m);
     corners_a_ = scratch.data();
     corners_b_ = corners_a_ + 3 * n;
     beside_a_ = corners_b_ + 3 * m;
     beside_b_ = beside_a_ + n * m;
-    for (std::size_t i = 0; i < n; ++i) project(a.vertices()[loop_a_[i]], corners_a_ + 3 * i);
-    // Seen along the normal, b's face runs clockwise: read it backwards.
+    for (std::size_t i = 0; i < n; ++i) project(a_.vertices()[loop_a_[i]], corners_a_ + 3 * i);
+    // Seen along the normal, b's face runs clockwise: it is read backwards.
     for (std::size_t j = 0; j < m; ++j)
-      project(b.vertices()[loop_b_[m - 1 - j]] + offset, corners_b_ + 3 * j);
+      project(b_.vertices()[loop_b_[m - 1 - j]] + offset, corners_b_ + 3 * j);
     sides(corners_a_, n, corners_b_, m, beside_a_);
     sides(corners_b_, m, corners_a_, n, beside_b_);
-    plane_a_ = plane(a, face_a, Vector::Zero());
-    plane_b_ = plane(b, face_b, offset);
+    plane_a_ = plane(a_, face_a_, Vector::Zero());
+    plane_b_ = plane(b_, face_b_, offset);
   }
 
   /// Calls use(ManifoldPoint) for each corner.
@@ -76,6 +93,7 @@ class ContactPolygon {
  private:
   using Loop = std::span<const std::uint32_t>;
 
+  /// Writes x, y and h of a point relative to the centre of a.
   void project(const Vector& x, T* corner) const {
     corner[0] = frame_.col(1).dot(x);
     corner[1] = frame_.col(2).dot(x);
@@ -100,7 +118,7 @@ class ContactPolygon {
       if (side[i * points + j] < T(0)) return false;
     return true;
   }
-  /// Whether corner j of b coincides with a corner of a that is in the polygon already.
+  /// Whether corner j of b coincides with a corner of a that is inside b's face and so was used.
   bool is_corner_of_a(std::size_t j) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -112,6 +130,7 @@ class ContactPolygon {
     return false;
   }
 
+  /// Calls use for the crossing of edge i of a and edge j of b, if they cross within both.
   template <class Use>
   void cross(std::size_t i, std::size_t j, Use& use) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
@@ -130,7 +149,7 @@ class ContactPolygon {
                          edges_b[j + 1 < m ? m - 2 - j : m - 1])));
   }
 
-  /// h = plane[0] + plane[1] x + plane[2] y on a face.
+  /// The plane of a face: h = plane[0] + plane[1] x + plane[2] y.
   std::array<T, 3> plane(const Shape& shape, std::size_t face, const Vector& center) const {
     const Vector normal = shape.normals()[face];
     const T inverse = T(1) / normal.dot(frame_.col(0));
@@ -151,9 +170,116 @@ class ContactPolygon {
   const std::size_t face_a_, face_b_;
   const Loop loop_a_, loop_b_;
   const T near_;
-  T *corners_a_, *corners_b_;  // x, y, h
-  T *beside_a_, *beside_b_;    // of a's edges and b's corners; of b's edges and a's corners
-  std::array<T, 3> plane_a_, plane_b_;
+  T *corners_a_ = nullptr, *corners_b_ = nullptr;  // x, y, h of each
+  T* beside_a_ = nullptr;                          // sides() of a's edges and b's corners
+  T* beside_b_ = nullptr;                          // sides() of b's edges and a's corners
+  std::array<T, 3> plane_a_{}, plane_b_{};
 };
+
+/// The segment in which two edges overlap, of polygons or a segment alone, seen along the normal.
+/// Coordinates are relative to the centre of a: x along the tangent, h along the normal [m].
+template <std::floating_point T>
+class ContactSegment {
+ public:
+  using S = Space<2, T>;
+  using Vector = typename S::Vector;
+  using Shape = Placed<Polygon<T>>;
+
+  /// @param a       a polygon or a segment; the segment is its own edge 0
+  /// @param offset  centre of b minus centre of a, world axes [m]
+  /// @param near    distance within which two ends are one [m]
+  template <class ShapeA>
+  ContactSegment(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
+                 const Vector& offset, const Vector& normal, T near)
+      : center_(a.center()), frame_(S::contact_frame(normal)), near_(near) {
+    a_ = project(a, edge_a, Vector::Zero());
+    b_ = project(b, edge_b, offset);
+  }
+
+  /// Calls use(ManifoldPoint) for each end; once if they coincide.
+  template <class Use>
+  void for_each_corner(Use&& use) const {
+    for (const End& end : a_.ends)
+      if (b_.contains(end.x, near_))
+        use(point(end.x, end.h, b_.height(end.x),
+                  FeatureKey(FeatureKey::Kind::vertex_edge, end.vertex, b_.edge)));
+    for (const End& end : b_.ends)
+      if (a_.contains(end.x, near_) && !is_end_of_a(end))
+        use(point(end.x, a_.height(end.x), end.h,
+                  FeatureKey(FeatureKey::Kind::edge_vertex, a_.edge, end.vertex)));
+  }
+
+ private:
+  struct End {
+    T x, h;
+    std::uint32_t vertex;
+  };
+  struct Edge {
+    std::array<End, 2> ends;
+    std::uint32_t edge;
+
+    bool contains(T x, T near) const {
+      const auto [low, high] = std::minmax(ends[0].x, ends[1].x);
+      return x >= low - near && x <= high + near;
+    }
+    T height(T x) const {
+      const T along = ends[1].x - ends[0].x;
+      const T t = along == T(0) ? T(0) : (x - ends[0].x) / along;
+      return ends[0].h + t * (ends[1].h - ends[0].h);
+    }
+  };
+
+  End project(const Vector& x, std::uint32_t vertex) const {
+    return {frame_.col(1).dot(x), frame_.col(0).dot(x), vertex};
+  }
+  Edge project(const Shape& shape, std::uint32_t edge, const Vector& offset) const {
+    const std::uint32_t next = edge + 1 < shape.vertices().size() ? edge + 1 : 0;
+    return {{project(shape.vertices()[edge] + offset, edge),
+             project(shape.vertices()[next] + offset, next)},
+            edge};
+  }
+  Edge project(const Placed<Segment<S>>& shape, std::uint32_t edge, const Vector& offset) const {
+    return {{project(shape.vertex(0) + offset, 0), project(shape.vertex(1) + offset, 1)}, edge};
+  }
+  bool is_end_of_a(const End& end) const {
+    for (const End& other : a_.ends)
+      if (std::abs(other.x - end.x) <= near_ && b_.contains(other.x, near_)) return true;
+    return false;
+  }
+  ManifoldPoint<S> point(T x, T height_a, T height_b, FeatureKey key) const {
+    return {center_ + frame_ * Vector(T(0.5) * (height_a + height_b), x), height_b - height_a, key};
+  }
+
+  const Vector center_;
+  const typename S::Matrix frame_;
+  const T near_;
+  Edge a_, b_;
+};
+
+/// The overlap of the facing features of a pair; call for_each_corner of it.
+/// @param normal   of the contact, unit, from a to b, world axes
+/// @param scratch  memory for the answer, which refers to it
+template <std::floating_point T>
+ContactPolygon<T> contact_polygon(const PolytopePair<Polyhedron<T>>& pair,
+                                  const FacingFeatures& facing,
+                                  const typename Space<3, T>::Vector& normal,
+                                  std::vector<T>& scratch) {
+  ContactPolygon<T> polygon(pair.a, facing.a, pair.b, facing.b, normal,
+                            pair.size * DetectionTolerance<T>::coincident);
+  polygon.project(pair.offset, scratch);
+  return polygon;
+}
+template <std::floating_point T>
+ContactSegment<T> contact_polygon(const PolytopePair<Polygon<T>>& pair,
+                                  const FacingFeatures& facing,
+                                  const typename Space<2, T>::Vector& normal, std::vector<T>&) {
+  return {pair.a,
+          facing.a,
+          pair.b,
+          facing.b,
+          pair.offset,
+          normal,
+          pair.size * DetectionTolerance<T>::coincident};
+}
 
 }  // namespace moreau::detail

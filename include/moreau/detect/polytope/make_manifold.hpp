@@ -1,204 +1,128 @@
 // SPDX-License-Identifier: MIT
-// The points of contact of two polyhedra, once the axis is known.
+// make_manifold: the contact points of two polytopes, once the axis is known.
+//
+//   1. If the pair is recognised to touch at a single point, that point is the witness point of the
+//      axis (detail/single_contact_point.hpp, detail/witness_points.hpp).
+//   2. Else the corners of the contact polygon, or in the plane the ends of the contact segment,
+//      within the margin are the points (facing_features.hpp, contact_polygon.hpp). Each has the
+//      gap between the two surfaces there.
+//   3. If the polygon has no corner as deep as the axis says, the witness point is added.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
-#include "moreau/detect/polytope/contact_class.hpp"
+#include "moreau/detect/manifold.hpp"
 #include "moreau/detect/polytope/contact_polygon.hpp"
-#include "moreau/detect/polytope/polyhedron_witness.hpp"
-#include "moreau/detect/polytope/projection.hpp"
-#include "moreau/detect/polytope/single_contact_point.hpp"
+#include "moreau/detect/polytope/detail/single_contact_point.hpp"
+#include "moreau/detect/polytope/detail/witness_points.hpp"
+#include "moreau/detect/polytope/facing_features.hpp"
 
 namespace moreau::detail {
 
-/// Of some faces the one that faces the direction most.
+/// Step 3 for polyhedra. A polygon narrower than the length below which two points are one may miss
+/// the deepest point. That is the witness point, unless it lies beside the face: then the deepest
+/// corner of the polygon is as near to it as can be told, and is given the gap of the axis.
+/// @param deepest  corner of the contact polygon; its gap is infinite if there are no corners
 template <std::floating_point T>
-std::uint32_t most_aligned(const Placed<Polyhedron<T>>& shape,
-                           std::span<const std::uint32_t> candidates,
-                           const typename Space<3, T>::Vector& direction) {
-  std::uint32_t best = candidates[0];
-  T most = -2;
-  for (const std::uint32_t f : candidates)
-    if (const T aligned = direction.dot(shape.normals()[f]); aligned > most) {
-      best = f;
-      most = aligned;
-    }
-  return best;
-}
-
-/// Of the faces at a vertex, the one with most of its vertices (three are enough) at or above the
-/// height along the direction; of those the one that faces it most.
-template <std::floating_point T>
-std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape,
-                          std::span<const std::uint32_t> candidates,
-                          const typename Space<3, T>::Vector& direction, T height) {
-  std::uint32_t best = candidates[0];
-  int most = -1;
-  T most_aligned = 0;
-  for (const std::uint32_t f : candidates) {
-    int count = 0;
-    for (const std::uint32_t v : shape.shape().face(f))
-      if (count < 3 && direction.dot(shape.vertices()[v]) >= height) ++count;
-    const T aligned = direction.dot(shape.normals()[f]);
-    if (count < most || (count == most && aligned <= most_aligned)) continue;
-    best = f;
-    most = count;
-    most_aligned = aligned;
+void add_deepest(const PolytopePair<Polyhedron<T>>& pair, const FoundAxis<Space<3, T>>& found,
+                 const ManifoldPoint<Space<3, T>>& deepest, Manifold<Space<3, T>>& out) {
+  if (!std::isfinite(deepest.gap) || witness_is_on_both(pair, found)) {
+    out.points.push_back(witness_point(pair, found));
+    return;
   }
-  return best;
+  if (out.points.empty()) out.points.push_back(deepest);
+  for (auto& point : out.points)
+    if (point.feature == deepest.feature) point.gap = found.axis.gap;
+}
+/// Step 3 for polygons: the segment of contact has no width that could be lost.
+template <std::floating_point T>
+void add_deepest(const PolytopePair<Polygon<T>>& pair, const FoundAxis<Space<2, T>>& found,
+                 const ManifoldPoint<Space<2, T>>&, Manifold<Space<2, T>>& out) {
+  out.points.push_back(witness_point(pair, found));
 }
 
-/// The face of one shape that looks along the direction at the feature that made the axis.
-/// @param id    the feature: a face, an edge or the top vertex along the direction
-/// @param slab  only vertices less than this below the top one can be within the margin [m]
-template <std::floating_point T>
-std::uint32_t facing_face(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint32_t id,
-                          const typename Space<3, T>::Vector& direction, T slab) {
-  if (kind == FeatureKind::face) return id;
-  const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
-  const auto choose = [&](std::span<const std::uint32_t> candidates, T top, int own) {
-    // Where no vertex but the feature's is so high, all candidates have as many.
-    return shape.vertices().count_above(direction, top - slab) <= own
-               ? most_aligned(shape, candidates, direction)
-               : facing_face(shape, candidates, direction, top - slab);
-  };
-  if (kind == FeatureKind::vertex) return choose(shape.shape().vertex_faces(id), height(id), 1);
-  const auto& edge = shape.shape().edges()[id];
-  return choose(edge.face, std::max(height(edge.vertex[0]), height(edge.vertex[1])), 2);
-}
-
-/// The two faces whose overlap is the region of contact. Only vertices within margin - gap of a
-/// shape's support plane can be within the margin of the other shape.
-template <std::floating_point T>
-std::array<std::uint32_t, 2> facing_faces(const PolyhedronPair<T>& pair,
-                                          const Axis<Space<3, T>>& axis, T margin) {
-  const T slab = margin - axis.gap + pair.rounding();
-  std::uint32_t a = axis.a, b = axis.b;
-  if (axis.kind == AxisKind::nearest_points) {
-    a = pair.a.vertices().farthest(axis.normal).index;
-    b = pair.b.vertices().farthest(-axis.normal).index;
-  }
-  return {facing_face(pair.a, feature_of_a(axis.kind), a, axis.normal, slab),
-          facing_face(pair.b, feature_of_b(axis.kind), b,
-                      typename Space<3, T>::Vector(-axis.normal), slab)};
-}
-
-/// Whether the witness is a point of both features that make the axis. Of several vertices that are
-/// equally deep, or of edges so parallel that they separate wherever they end, one that lies beside
-/// the other feature proves nothing.
-template <std::floating_point T>
-bool is_on_both(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis,
-                const Witness<typename Space<3, T>::Vector>& witness) {
-  using Vector = typename Space<3, T>::Vector;
-  if (axis.kind == AxisKind::face_a) return projects_onto(pair.a, axis.a, witness.b);
-  const Vector on_b = witness.b - pair.offset;
-  if (axis.kind == AxisKind::face_b)
-    return projects_onto(pair.b, axis.b, Vector(witness.a - pair.offset));
-  if (axis.kind != AxisKind::edges) return true;
-  const T near = pair.size * DetectionTolerance<T>::coincident;
-  const T along = std::clamp(fraction_along(pair.b, axis.b, on_b), T(0), T(1));
-  return (point_along(pair.b, axis.b, along) - on_b).squaredNorm() <= near * near;
-}
-
-/// Midway between the surfaces where they are nearest or deepest, relative to the centre of a.
-/// Where the witness does not say it, the polygon in which the faces overlap does.
-template <std::floating_point T>
-typename Space<3, T>::Vector middle_of_contact(const PolyhedronPair<T>& pair,
-                                               const Axis<Space<3, T>>& axis,
-                                               const Simplex<T>* simplex) {
-  using Vector = typename Space<3, T>::Vector;
-  const Witness<Vector> witness = witness_of(pair, axis, simplex);
-  Vector middle = T(0.5) * (witness.a + witness.b);
-  if (is_on_both(pair, axis, witness)) return middle;
-  std::vector<T> scratch;
-  const auto [face_a, face_b] = facing_faces(pair, axis, std::max(axis.gap, T(0)));
-  const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal,
-                                  pair.size * DetectionTolerance<T>::coincident, scratch);
-  T deepest = std::numeric_limits<T>::infinity();
-  polygon.for_each_corner([&](const ManifoldPoint<Space<3, T>>& corner) {
-    if (!(corner.gap < deepest)) return;
-    deepest = corner.gap;
-    middle = corner.position - pair.a.center();
-  });
-  return middle;
-}
-
-/// Whether the overlap of the facing faces has one corner within the slab.
-template <std::floating_point T>
-bool touches_at_one_corner(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis,
-                           std::uint32_t face_a, std::uint32_t face_b, T slab, T near) {
-  using Vector = typename Space<3, T>::Vector;
-  switch (axis.kind) {
-    case AxisKind::face_a:
-      return touches_only_at_corner(pair.b, axis.b, face_b, axis.normal, pair.a, face_a,
-                                    Vector(pair.b.vertices()[axis.b] + pair.offset), slab, near);
-    case AxisKind::face_b:
-      return touches_only_at_corner(pair.a, axis.a, face_a, Vector(-axis.normal), pair.b, face_b,
-                                    Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
-    case AxisKind::edges:
-      return touches_only_at_crossing(pair, axis, face_a, face_b, slab, near);
-    default:
-      return false;
-  }
-}
-
-/// Fills the manifold of a pair whose axis is known.
-template <std::floating_point T>
-void fill(const PolyhedronPair<T>& pair, const Axis<Space<3, T>>& axis, const Simplex<T>* simplex,
-          T margin, Manifold<Space<3, T>>& out) {
-  out.clear();
-  out.normal = axis.normal;
-  out.gap = axis.gap;
-  const auto add_witness = [&] {
-    const auto witness = witness_of(pair, axis, simplex);
-    out.points.push_back(
-        {pair.a.center() + T(0.5) * (witness.a + witness.b), axis.gap, witness.feature});
-    out.contact_class = class_of_point(witness.feature);
-  };
-  const T near = pair.size * DetectionTolerance<T>::coincident;
-  const T slab = margin - axis.gap + pair.rounding();
-  if (touches_only_at_vertex(pair, axis, slab, near)) return add_witness();
-  const auto [face_a, face_b] = facing_faces(pair, axis, margin);
-  if (touches_at_one_corner(pair, axis, face_a, face_b, slab, near)) return add_witness();
-  const ContactPolygon<T> polygon(pair.a, face_a, pair.b, face_b, pair.offset, axis.normal, near,
-                                  out.scratch);
-  ManifoldPoint<Space<3, T>> deepest{{}, std::numeric_limits<T>::infinity(), FeatureKey()};
-  polygon.for_each_corner([&](const ManifoldPoint<Space<3, T>>& corner) {
-    if (corner.gap < deepest.gap) deepest = corner;
-    if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
-  });
-  // Nearest vertices lie above each other, but no face takes part.
+/// Steps 2 and 3: adds the contact points of the facing features, sorted by feature.
+template <class ShapeT>
+void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
+                 const FacingFeatures& facing, typename SpaceOf<ShapeT>::Scalar margin,
+                 Manifold<SpaceOf<ShapeT>>& out) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  const Axis<S>& axis = found.axis;
+  ManifoldPoint<S> deepest{S::Vector::Zero(), std::numeric_limits<T>::infinity(), FeatureKey()};
+  contact_polygon(pair, facing, axis.normal, out.scratch)
+      .for_each_corner([&](const ManifoldPoint<S>& corner) {
+        if (corner.gap < deepest.gap) deepest = corner;
+        if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
+      });
+  // Two nearest vertices, or a vertex and an edge, lie above each other, but no face takes part.
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
-  if (is_degenerate || !(deepest.gap <= axis.gap + T(64) * pair.rounding())) {
-    // A polygon narrower than what counts as one point may miss the deepest. The witness is that,
-    // unless it is beside the face: then the polygon's deepest corner is as near as can be told.
-    if (std::isfinite(deepest.gap) && !is_on_both(pair, axis, witness_of(pair, axis, simplex))) {
-      if (out.points.empty()) out.points.push_back(deepest);
-      for (auto& point : out.points)
-        if (point.feature == deepest.feature) point.gap = axis.gap;
-    } else {
-      add_witness();
-    }
-  }
+  if (out.points.empty() || !(deepest.gap <= axis.gap + T(64) * pair.rounding()))
+    add_deepest(pair, found, deepest, out);
   out.sort();
-  switch (out.points.size()) {
-    case 1:
-      out.contact_class = class_of_point(out.points[0].feature);
-      break;
-    case 2:
-      out.contact_class = has_face ? ContactClass::edge_face : ContactClass::edge_edge;
-      break;
-    default:
-      out.contact_class = ContactClass::face_face;
+}
+
+/// The class of a contact of some points.
+/// @param has_face  whether a face makes the axis
+template <std::floating_point T>
+ContactClass class_of_points(const std::vector<ManifoldPoint<Space<3, T>>>& points, bool has_face) {
+  if (points.size() == 1) return class_of_point(points[0].feature);
+  if (points.size() > 2) return ContactClass::face_face;
+  return has_face ? ContactClass::edge_face : ContactClass::edge_edge;
+}
+template <std::floating_point T>
+ContactClass class_of_points(const std::vector<ManifoldPoint<Space<2, T>>>& points, bool) {
+  return points.size() == 1 ? class_of_point(points[0].feature) : ContactClass::edge_edge;
+}
+
+/// Fills the manifold of a pair.
+/// @param found   the axis of the pair, with a gap of at most the margin
+/// @param margin  points up to this gap are in contact [m], >= 0
+template <class ShapeT>
+void make_manifold(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
+                   typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  const auto& axis = found.axis;
+  out.start(axis.normal, axis.gap);
+  const T near = pair.size * DetectionTolerance<T>::coincident;
+  const T slab = margin - axis.gap + pair.rounding();
+  if (touches_only_at_vertex(pair, axis, slab, near)) {
+    out.points.push_back(witness_point(pair, found));
+  } else if (const auto facing = facing_features(pair, axis, margin);
+             touches_at_one_corner(pair, axis, facing, slab, near)) {
+    out.points.push_back(witness_point(pair, found));
+  } else {
+    add_corners(pair, found, facing, margin, out);
   }
+  const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
+  out.contact_class = class_of_points(out.points, has_face);
+}
+
+/// The point midway between the surfaces where they are nearest or deepest, relative to the centre
+/// of a, world axes [m]: the witness point, or the deepest corner of the contact polygon if the
+/// witness point lies beside a feature.
+template <class ShapeT>
+typename SpaceOf<ShapeT>::Vector middle_of_contact(const PolytopePair<ShapeT>& pair,
+                                                   const FoundAxis<SpaceOf<ShapeT>>& found) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  typename S::Vector middle = witness_middle(pair, found);
+  if (witness_is_on_both(pair, found)) return middle;
+  std::vector<T> scratch;
+  const auto facing = facing_features(pair, found.axis, std::max(found.axis.gap, T(0)));
+  T deepest = std::numeric_limits<T>::infinity();
+  contact_polygon(pair, facing, found.axis.normal, scratch)
+      .for_each_corner([&](const ManifoldPoint<S>& corner) {
+        if (!(corner.gap < deepest)) return;
+        deepest = corner.gap;
+        middle = corner.position - pair.a.center();
+      });
+  return middle;
 }
 
 }  // namespace moreau::detail

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Whether a point projects onto a face of a polytope: whether the foot of the perpendicular from
+// the point to the face's plane lies within the face. Faces of polygons are their edges.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +11,9 @@
 
 namespace moreau::detail {
 
-/// Whether the foot of the perpendicular from the point, relative to the centre, is within the
-/// edge, at least the clearance, given as its square [m^2], from its ends.
+/// Whether the projection of a point on the line of an edge lies within the edge.
+/// @param x           relative to the shape's centre, world axes [m]
+/// @param clearance2  square of the least distance of the projection from both ends [m^2]
 template <std::floating_point T>
 bool projects_within(const Placed<Polygon<T>>& shape, std::size_t edge,
                      const typename Space<2, T>::Vector& x, T clearance2) {
@@ -19,12 +22,14 @@ bool projects_within(const Placed<Polygon<T>>& shape, std::size_t edge,
   const Vector from = shape.vertices()[edge];
   const Vector along = shape.vertices()[next] - from;
   const T t = along.dot(x - from), length2 = along.squaredNorm();
-  const T inside = std::min(t, length2 - t);  // the distance from the nearer end times the length
+  const T inside =
+      std::min(t, length2 - t);  // distance from the nearer end times the edge's length
   return inside >= T(0) && inside * inside >= clearance2 * length2;
 }
 
-/// Whether the foot of the perpendicular from the point, relative to the centre, is
-/// within the face, at least the clearance, given as its square [m^2], from its rim.
+/// Whether the projection of a point on the plane of a face lies within the face.
+/// @param x           relative to the shape's centre, world axes [m]
+/// @param clearance2  square of the least distance of the projection from the face's rim [m^2]
 template <std::floating_point T>
 bool projects_within(const Placed<Polyhedron<T>>& shape, std::size_t face,
                      const typename Space<3, T>::Vector& x, T clearance2) {
@@ -40,8 +45,8 @@ bool projects_within(const Placed<Polyhedron<T>>& shape, std::size_t face,
   return true;
 }
 
-/// Whether the foot of the perpendicular from the point, relative to the centre, is within the edge
-/// or face, at least the clearance [m] from its ends or rim.
+/// Whether the projection of a point lies within a face, at least the clearance [m] from its rim.
+/// @param x  relative to the shape's centre, world axes [m]
 template <class ShapeT>
 bool projects_onto(const Placed<ShapeT>& shape, std::size_t face,
                    const typename Placed<ShapeT>::Vector& x,

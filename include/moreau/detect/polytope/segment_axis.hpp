@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Signed gap and axis of two segments, without thickness.
+// Signed gap and axis of two segments without thickness.
 //
-// They are apart by the distance of their nearest points: an end of one and a point of the other,
-// or two inner points. If they meet, C = B - A holds the origin. In the plane it is a
-// parallelogram, of which the nearest side is the axis; in space it is flat, so the gap is 0 along
-// its normal.
+// The gap of segments that are apart is the distance of their nearest points: an end of one segment
+// and a point of the other, or two inner points. If the segments meet, C = B - A holds the origin.
+// In the plane C is a parallelogram, and its side nearest to the origin gives the axis. In space C
+// is flat, and the gap is 0 along its normal.
 #pragma once
 
 #include <algorithm>
@@ -16,27 +16,30 @@
 
 namespace moreau::detail {
 
-/// Two segments relative to the centre of a: s half_a and offset + t half_b, s and t in [-1, 1].
+/// Two segments relative to the centre of a, world axes [m]: the points s half_a and offset + t
+/// half_b with s and t in [-1, 1].
 template <class S>
 struct SegmentPair {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
 
   const Vector half_a, half_b, offset;
-  const T size;  ///< the sum of the half lengths: what tolerances are relative to
+  const T size;  ///< sum of the half lengths [m]: the length that tolerances are relative to
 
   SegmentPair(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b)
       : half_a(a.half()),
         half_b(b.half()),
         offset(b.center() - a.center()),
         size(a.radius() + b.radius()) {}
-  /// @param first,second  the halves, from the middle to an end
-  /// @param between       from the middle of the first to that of the second
+  /// @param first,second  the half segments, from the middle to an end [m]
+  /// @param between       from the middle of the first segment to that of the second one [m]
   SegmentPair(const Vector& first, const Vector& second, const Vector& between)
       : half_a(first), half_b(second), offset(between), size(first.norm() + second.norm()) {}
 
+  /// From the point s of a to the point t of b [m].
   Vector apart(T s, T t) const { return offset + t * half_b - s * half_a; }
-  /// Where on the line of the other the foot of a point is.
+  /// The parameter of the projection of b's point t on the line of a, and of a's point s on that of
+  /// b.
   T project_on_a(T t) const { return half_a.dot(offset + t * half_b) / half_a.squaredNorm(); }
   T project_on_b(T s) const { return half_b.dot(s * half_a - offset) / half_b.squaredNorm(); }
 };
@@ -44,13 +47,14 @@ struct SegmentPair {
 /// The axis of the signed gap, and the points of the segments that are nearest or deepest along it.
 template <class S>
 struct SegmentAxis {
-  typename S::Vector normal;  ///< unit, from a to b
+  typename S::Vector normal;  ///< unit, from a to b, world axes
   typename S::Scalar gap = std::numeric_limits<typename S::Scalar>::infinity();  ///< [m]
-  typename S::Scalar s = 0, t = 0;
+  typename S::Scalar s = 0, t = 0;  ///< parameters of the points on a and on b
 };
 
-/// The inner points of two segments in space where their lines are nearest, if there are any. From
-/// the common normal: its digits last longer than those of a determinant.
+/// Calls take(s, t) with the inner points of two segments in space where their lines are nearest,
+/// if there are any. They are computed from the common normal, which keeps its digits longer than a
+/// determinant does.
 template <std::floating_point T, class Take>
 void take_inner(const SegmentPair<Space<3, T>>& pair, const Take& take) {
   using Vector = typename Space<3, T>::Vector;
@@ -63,7 +67,7 @@ void take_inner(const SegmentPair<Space<3, T>>& pair, const Take& take) {
   const T t = pair.offset.cross(pair.half_a).dot(across) / length2;
   if (std::abs(s) < T(1) && std::abs(t) < T(1)) take(s, t);
 }
-/// In the plane segments without an end nearest to the other cross.
+/// In the plane, segments cross if no end of one is nearest to the other.
 template <std::floating_point T, class Take>
 void take_inner(const SegmentPair<Space<2, T>>&, const Take&) {}
 
@@ -84,7 +88,7 @@ SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
   return best;
 }
 
-/// Of segments that meet, in the plane: the nearest side of C.
+/// The axis of segments that meet, in the plane: the normal of the side of C nearest to the origin.
 template <std::floating_point T>
 SegmentAxis<Space<2, T>> crossing_axis(const SegmentPair<Space<2, T>>& pair,
                                        const SegmentAxis<Space<2, T>>&) {
@@ -96,17 +100,18 @@ SegmentAxis<Space<2, T>> crossing_axis(const SegmentPair<Space<2, T>>& pair,
     if (normal.dot(pair.offset) < T(0)) normal = -normal;
     const T along = normal.dot(other), gap = normal.dot(pair.offset) - std::abs(along);
     if (!(gap > best.gap)) return;
-    const T end = (along < T(0)) == is_of_a ? T(1) : T(-1);  // of the other, the deepest
-    const T foot =
+    const T end = (along < T(0)) == is_of_a ? T(1) : T(-1);  // the deepest end of the other segment
+    const T opposite =
         std::clamp(is_of_a ? pair.project_on_a(end) : pair.project_on_b(end), T(-1), T(1));
-    best = {normal, gap, is_of_a ? foot : end, is_of_a ? end : foot};
+    best = {normal, gap, is_of_a ? opposite : end, is_of_a ? end : opposite};
   };
   take(pair.half_a, pair.half_b, true);
   take(pair.half_b, pair.half_a, false);
   return best;
 }
 
-/// In space: the common normal, towards b's centre; of parallel ones any.
+/// The same in space: the common normal, towards b's centre; of parallel segments any
+/// perpendicular.
 template <std::floating_point T>
 SegmentAxis<Space<3, T>> crossing_axis(const SegmentPair<Space<3, T>>& pair,
                                        const SegmentAxis<Space<3, T>>& nearest) {
@@ -120,8 +125,8 @@ SegmentAxis<Space<3, T>> crossing_axis(const SegmentPair<Space<3, T>>& pair,
   return axis;
 }
 
-/// The normal of segments that pass each other at a small distance, where the difference of the
-/// nearest points has lost its digits. In the plane such segments meet.
+/// Improves the axis of segments that pass each other at a small distance, where the difference of
+/// the nearest points has lost its digits. In the plane such segments meet.
 template <std::floating_point T>
 void refine(const SegmentPair<Space<2, T>>&, SegmentAxis<Space<2, T>>&) {}
 template <std::floating_point T>
@@ -130,7 +135,7 @@ void refine(const SegmentPair<Space<3, T>>& pair, SegmentAxis<Space<3, T>>& axis
   const bool is_inner = std::abs(axis.s) < T(1) && std::abs(axis.t) < T(1);
   const T sine = across.norm() / (pair.half_a.norm() * pair.half_b.norm());
   if (!is_inner || !(axis.gap < sine * pair.size)) return;
-  // Between the feet, where an error of the normal counts in second order only.
+  // At the nearest points, where an error of the normal changes the gap in second order only.
   axis.normal = across.normalized();
   axis.gap = axis.normal.dot(pair.apart(axis.s, axis.t));
   if (axis.gap >= T(0)) return;
@@ -139,14 +144,15 @@ void refine(const SegmentPair<Space<3, T>>& pair, SegmentAxis<Space<3, T>>& axis
 }
 
 /// Whether the segments meet.
-/// @param nearest  of their points
+/// @param nearest  their nearest points
 template <std::floating_point T>
 bool do_meet(const SegmentPair<Space<3, T>>& pair, const SegmentAxis<Space<3, T>>& nearest) {
   return !(nearest.gap > pair.size * DetectionTolerance<T>::rounding);
 }
-/// In the plane the nearest of the ends' distances is how far the origin is from the rim of C,
-/// within it or not. It is within if it is below both pairs of sides, by as much: of segments
-/// almost in line the sides alone do not tell, as they are almost parallel.
+/// In the plane the distance of the nearest end is that of the origin from the rim of C, inside of
+/// C or outside. The origin is inside if it lies below both pairs of sides, by that distance. The
+/// sides alone do not tell it for segments almost in line, because the sides are then almost
+/// parallel.
 template <std::floating_point T>
 bool do_meet(const SegmentPair<Space<2, T>>& pair, const SegmentAxis<Space<2, T>>& nearest) {
   const T rounding = pair.size * DetectionTolerance<T>::rounding;
@@ -155,12 +161,14 @@ bool do_meet(const SegmentPair<Space<2, T>>& pair, const SegmentAxis<Space<2, T>
   return below <= T(0) && nearest.gap + below <= rounding;
 }
 
+/// The axis of two segments, with the points that are nearest or deepest along it.
 template <class S>
 SegmentAxis<S> segment_axis(const SegmentPair<S>& pair) {
   using T = typename S::Scalar;
   SegmentAxis<S> axis = nearest_points(pair);
   if (do_meet(pair, axis)) return crossing_axis(pair, axis);
-  // Across a segment whose end is not the nearest point, whatever rounding adds along it.
+  // The direction is perpendicular to a segment whose nearest point is not an end: remove the part
+  // along the segment, which is rounding.
   typename S::Vector apart = pair.apart(axis.s, axis.t);
   if (std::abs(axis.s) < T(1))
     apart -= apart.dot(pair.half_a) / pair.half_a.squaredNorm() * pair.half_a;

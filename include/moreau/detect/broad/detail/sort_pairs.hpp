@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Sorts pairs of indices, for the broad phases.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 
 namespace moreau::detail {
 
-/// Sorts pairs of indices below `count` in linear time: one pass that deals them out by their first
-/// index, then the few of each by their second.
+/// Sorts pairs of indices below `count` in linear time: a counting sort by the first index, then a
+/// sort of the few pairs of each first index by the second index.
 class PairSorter {
  public:
   void sort(std::vector<IndexPair>& pairs, std::size_t count) {

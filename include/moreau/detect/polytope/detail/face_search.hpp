@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The face of one polyhedron that separates it best from another.
+// The face of one polyhedron that separates it best from another one.
 //
-// For a face f of A with normal n_f the separation is s(n_f) = min over b in B of n_f.b - offset_f,
-// so the height of any single b above the face bounds it. A handful of vertices bounds all faces in
-// one sweep; the face with the largest bound is looked at (a support scan), its deepest vertex
-// joins the handful, and so on until the largest bound is attained. Two or three rounds are usual.
+// For a face f of A with unit normal n_f and the plane n_f . x = offset_f, the separation is
+//     s(n_f) = min over b in B of n_f . b - offset_f,
+// so the height of any single point b above the plane is an upper bound of s(n_f). Algorithm:
+//   1. A set of a few vertices of B bounds s for all faces in one sweep.
+//   2. The face with the largest bound is measured exactly, by the support function of B.
+//   3. Its deepest vertex joins the set, and the search goes back to 1 until the largest bound is
+//      attained. Two or three rounds are usual.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <limits>
 
-#include "moreau/detect/placed.hpp"
-#include "moreau/shape/polyhedron.hpp"
+#include "moreau/detect/polytope/detail/feature_axis.hpp"
 
 namespace moreau::detail {
 
-/// A few vertices of one shape, seen from the other's centre.
+/// A few vertices of one shape, relative to the centre of the other shape, world axes [m].
 template <std::floating_point T>
 class PointSet {
  public:
@@ -28,7 +30,7 @@ class PointSet {
   const Vector& operator[](std::size_t i) const { return points_[i]; }
   const Vector& back() const { return points_[size_ - 1]; }
   bool contains(std::uint32_t id) const { return find(id) < size_; }
-  /// Position of the vertex with this id; size() if it is not here.
+  /// Place of the vertex with this number in the set; size() if it is not in the set.
   std::size_t find(std::uint32_t id) const {
     std::size_t i = 0;
     while (i < size_ && ids_[i] != id) ++i;
@@ -46,7 +48,8 @@ class PointSet {
   std::array<Vector, capacity> points_;
 };
 
-/// Indices below a total; if there are too many to write down, all of them.
+/// A list of indices below a total. If there are more than the list has room for, it stands for all
+/// indices below the total.
 class ShortList {
  public:
   explicit ShortList(std::size_t total) : total_(total) {}
@@ -72,14 +75,7 @@ class ShortList {
   std::array<std::uint32_t, 64> ids_;
 };
 
-/// The height of a point, relative to the centre, above a face's plane.
-template <std::floating_point T>
-T height_above(const Placed<Polyhedron<T>>& shape, std::size_t face,
-               const typename Space<3, T>::Vector& point) {
-  return shape.normals()[face].dot(point) - shape.offset(face);
-}
-
-/// The points, each coordinate in every lane of a register.
+/// A point set with each coordinate in every lane of a register.
 template <std::floating_point T>
 class WidePoints {
  public:
@@ -94,24 +90,30 @@ class WidePoints {
   std::array<Point, PointSet<T>::capacity> points_;
 };
 
-/// For each face of a shape, which points are at most at some height above it: bit k for point k.
+/// For each face of a shape, which points of a set are at most at some height above the face's
+/// plane: bit k of the face's mask is set for point k.
 template <std::floating_point T>
 class FaceMasks {
  public:
   using W = Wide<T>;
 
-  FaceMasks(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points, T height)
-      : shape_(shape), points_(points), height_(height) {
-    const auto& normals = shape.normals();
+  FaceMasks(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points)
+      : shape_(shape), points_(points) {}
+
+  /// Computes the masks.
+  /// @param height  of the points above the faces [m]
+  void update(T height) {
+    height_ = height;
+    const auto& normals = shape_.normals();
     if (normals.padded_size() > capacity) return;
     is_stored_ = true;
-    const WidePoints<T> wide(points);
+    const WidePoints<T> wide(points_);
     typename W::Indices in_common{};
     in_common = ~in_common;
     for (Eigen::Index i = 0; i < normals.padded_size(); i += W::lanes) {
-      const auto level = height + W::load(shape.offsets() + i);
+      const auto level = height_ + W::load(shape_.offsets() + i);
       typename W::Indices mask{};
-      for (std::size_t k = 0; k < points.size(); ++k)
+      for (std::size_t k = 0; k < points_.size(); ++k)
         mask |= (normals.dot(i, wide[k]) <= level) & (typename W::Lane{1} << k);
       in_common &= mask;
       for (int l = 0; l < W::lanes; ++l)
@@ -123,9 +125,10 @@ class FaceMasks {
   std::uint32_t operator[](std::size_t face) const {
     return is_stored_ ? masks_[face] : compute(face);
   }
-  /// The masks of all faces, if there is room for them; else they are computed when asked for.
+  /// The masks of all faces; null if the shape has more faces than there is room for, so that
+  /// operator[] computes each mask when it is asked for.
   const std::uint16_t* stored() const { return is_stored_ ? masks_.data() : nullptr; }
-  /// The points that are at most at that height above every face.
+  /// The points that are at most at the height above every face.
   std::uint32_t in_common() const {
     if (is_stored_) return in_common_;
     std::uint32_t common = ~0U;
@@ -146,18 +149,17 @@ class FaceMasks {
 
   const Placed<Polyhedron<T>>& shape_;
   const PointSet<T>& points_;
-  const T height_;
+  T height_ = 0;
   bool is_stored_ = false;
   std::uint32_t in_common_ = 0;
   std::array<std::uint16_t, capacity> masks_;
 };
 
-/// The face above which the lowest of the points is highest, and its height there.
+/// The face above whose plane the lowest of the points is highest, and the height of that point.
 template <std::floating_point T>
 Extreme<T> highest_above(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points) {
   using W = Wide<T>;
-  std::array<std::array<typename W::Values, 3>, PointSet<T>::capacity> wide;
-  for (std::size_t k = 0; k < points.size(); ++k) wide[k] = Rows<Space<3, T>>::broadcast(points[k]);
+  const WidePoints<T> wide(points);
   WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
   auto index = W::iota();
   for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += W::lanes) {
@@ -172,35 +174,16 @@ Extreme<T> highest_above(const Placed<Polyhedron<T>>& shape, const PointSet<T>& 
   return best.reduce();
 }
 
-/// What a search over the faces of one shape found.
-template <std::floating_point T>
-struct FaceSeparation {
-  T separation;
-  std::uint32_t face, vertex;  ///< of own; the vertex of other that is deepest below it
-  bool is_found;               ///< whether it is larger than what was asked for
-};
-
-/// The separation along the normal of one face. One function for the search and for what is
-/// remembered, so that both give the same bits.
-template <std::floating_point T>
-[[gnu::noinline]] FaceSeparation<T> measure_face(const Placed<Polyhedron<T>>& own,
-                                                 std::uint32_t face,
-                                                 const Placed<Polyhedron<T>>& other,
-                                                 const typename Space<3, T>::Vector& offset) {
-  const typename Space<3, T>::Vector normal = own.normals()[face];
-  const std::uint32_t vertex = other.vertices().farthest(-normal).index;
-  return {height_above(own, face, other.vertices()[vertex] + offset), face, vertex, true};
-}
-
-/// @param offset    centre of other minus centre of own
+/// The face of own along whose normal the separation from other is largest.
+/// @param offset    centre of other minus centre of own, world axes [m]
 /// @param points    vertices of other relative to the centre of own, at least one; grows
-/// @param at_least  only larger separations count
+/// @param at_least  only larger separations count [m]; is_found says whether there was one
 template <std::floating_point T>
 FaceSeparation<T> search_faces(const Placed<Polyhedron<T>>& own, const Placed<Polyhedron<T>>& other,
                                const typename Space<3, T>::Vector& offset, PointSet<T>& points,
                                T at_least) {
   FaceSeparation<T> best{at_least, 0, 0, false};
-  const auto look_at = [&](std::uint32_t face) {
+  const auto measure = [&](std::uint32_t face) {
     const FaceSeparation<T> found = measure_face(own, face, other, offset);
     if (found.separation > best.separation) best = found;
     return found.vertex;
@@ -208,11 +191,11 @@ FaceSeparation<T> search_faces(const Placed<Polyhedron<T>>& own, const Placed<Po
   while (!points.full()) {
     const Extreme<T> bound = highest_above(own, points);
     if (!(bound.value > best.separation)) return best;
-    const std::uint32_t vertex = look_at(bound.index);
+    const std::uint32_t vertex = measure(bound.index);
     if (points.contains(vertex)) return best;
     points.add(vertex, other.vertices()[vertex] + offset);
   }
-  for (std::uint32_t f = 0; f < own.normals().size(); ++f) look_at(f);
+  for (std::uint32_t f = 0; f < own.normals().size(); ++f) measure(f);
   return best;
 }
 

@@ -1,45 +1,50 @@
 // SPDX-License-Identifier: MIT
-// The nearest features of two polyhedra that are apart, by comparing all that can be nearest: the
-// last resort where edges or faces are so parallel that the distance algorithm ends on rounding.
+// The nearest features of two polyhedra that are apart, by comparison of all that can be nearest:
+// for pairs with edges or faces so parallel that GJK ends on rounding.
 //
-// Let n be a unit vector along which the shapes are separated by s, and d a distance of two of
-// their points. The nearest points are no farther apart than d, so along n neither lies more than
-// d - s below its shape's top: features without a vertex up there are out. What is compared are
-// distances between points of the shapes, so that none can be too small.
+// Let n be a unit vector along which the shapes are separated by s, and d the distance of two of
+// their points. The nearest points are no farther apart than d. So along n neither lies more than
+// d - s below the top of its shape, and features without a vertex that high are left out. What is
+// compared are distances between points of the shapes, so that no distance comes out too small.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
-#include "moreau/detect/polytope/detail/nearest_axis.hpp"
+#include "moreau/detect/polytope/detail/feature_axis.hpp"
 #include "moreau/detect/polytope/projection.hpp"
 #include "moreau/detect/polytope/segment_axis.hpp"
 
 namespace moreau::detail {
 
 template <std::floating_point T>
-class NearestFeatures {
+class FeatureComparison {
  public:
   using S = Space<3, T>;
   using Vector = typename S::Vector;
   using Shape = Placed<Polyhedron<T>>;
   using Edge = typename Polyhedron<T>::Edge;
 
-  /// @param direction  unit, from a to b
-  /// @param slab       d - s [m], with what rounding may add
-  NearestFeatures(const PolyhedronPair<T>& pair, const Vector& direction, T slab)
+  /// @param direction  n, unit, from a to b, world axes
+  /// @param slab       d - s, plus what rounding may add [m]
+  FeatureComparison(const PolytopePair<Polyhedron<T>>& pair, const Vector& direction, T slab)
       : pair_(pair),
         high_a_(find_high(pair.a, direction, slab)),
-        high_b_(find_high(pair.b, -direction, slab)) {
+        high_b_(find_high(pair.b, -direction, slab)) {}
+
+  /// The axis of the nearest features; its gap is infinite if there are none.
+  Axis<S> compare() {
     axis_.gap = std::numeric_limits<T>::infinity();
     compare_edges();
-    compare_faces(pair.a, high_a_, pair.b, high_b_, pair.offset, T(1));
-    compare_faces(pair.b, high_b_, pair.a, high_a_, Vector(-pair.offset), T(-1));
+    compare_faces(pair_.a, high_a_, pair_.b, high_b_, pair_.offset, T(1));
+    compare_faces(pair_.b, high_b_, pair_.a, high_a_, Vector(-pair_.offset), T(-1));
+    return axis_;
   }
-  const Axis<S>& axis() const { return axis_; }
 
  private:
+  /// For each vertex, whether it lies at most the slab below the top of the shape.
   static std::vector<bool> find_high(const Shape& shape, const Vector& up, T slab) {
     std::vector<bool> is_high(shape.vertices().size());
     const T lowest = shape.vertices().reach(up) - slab;
@@ -72,15 +77,15 @@ class NearestFeatures {
       const AxisKind kind = !end_a   ? AxisKind::edge_vertex
                             : !end_b ? AxisKind::vertex_edge
                                      : AxisKind::vertices;
-      measure_nearest(pair_, kind, end_a ? a : i, end_b ? b : j, axis_);
+      axis_ = axis_of_nearest(pair_, kind, end_a ? a : i, end_b ? b : j);
       return;
     }
     nearest.normal = segments.apart(nearest.s, nearest.t) / nearest.gap;
     refine(segments, nearest);
     axis_ = {nearest.normal, nearest.gap, AxisKind::edges, i, j};
   }
-  /// The vertices of one over the faces of the other.
-  /// @param sign  1 if the faces are a's
+  /// Compares the faces of one shape with the vertices of the other shape that project onto them.
+  /// @param sign  1 if the faces are those of a, -1 if they are those of b
   void compare_faces(const Shape& own, const std::vector<bool>& high_own, const Shape& other,
                      const std::vector<bool>& high_other, const Vector& offset, T sign) {
     for (std::uint32_t f = 0; f < own.normals().size(); ++f) {
@@ -98,9 +103,19 @@ class NearestFeatures {
     }
   }
 
-  const PolyhedronPair<T>& pair_;
+  const PolytopePair<Polyhedron<T>>& pair_;
   const std::vector<bool> high_a_, high_b_;
   Axis<S> axis_;
 };
+
+/// The axis of the nearest features of two polyhedra that are apart.
+/// @param direction  unit, from a to b, along which the shapes are separated by s, world axes
+/// @param slab       d - s for a distance d of two of their points, plus rounding [m]
+/// @returns an axis with an infinite gap if no features are left to compare
+template <std::floating_point T>
+Axis<Space<3, T>> nearest_features(const PolytopePair<Polyhedron<T>>& pair,
+                                   const typename Space<3, T>::Vector& direction, T slab) {
+  return FeatureComparison<T>(pair, direction, slab).compare();
+}
 
 }  // namespace moreau::detail

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// The axis that a given pair of features makes, in the four cases
+//   face of a, vertex of b   |  vertex of a, face of b  |  edge, edge  |  vertex or edge, vertex.
+// The search (find_axis.hpp) and the proof of remembered features (prove_axis.hpp) both call these
+// functions. They are not inlined, so that both get the same bits.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "moreau/detect/polytope/axis.hpp"
+#include "moreau/detect/polytope/polytope_pair.hpp"
+
+namespace moreau::detail {
+
+/// The height of a point, relative to the shape's centre, above the plane of a face [m].
+template <class ShapeT>
+typename SpaceOf<ShapeT>::Scalar height_above(const Placed<ShapeT>& shape, std::size_t face,
+                                              const typename SpaceOf<ShapeT>::Vector& point) {
+  return shape.normals()[face].dot(point) - shape.offset(face);
+}
+
+/// The separation along the normal of a face.
+template <std::floating_point T>
+struct FaceSeparation {
+  T separation;                ///< [m]
+  std::uint32_t face, vertex;  ///< of the face's shape; the deepest vertex of the other shape
+  bool is_found;               ///< whether a search found a separation that is large enough
+};
+
+/// The separation of two shapes along the normal of a face of one of them.
+/// @param offset  centre of other minus centre of own, world axes [m]
+template <class ShapeT>
+[[gnu::noinline]] FaceSeparation<typename SpaceOf<ShapeT>::Scalar> measure_face(
+    const Placed<ShapeT>& own, std::uint32_t face, const Placed<ShapeT>& other,
+    const typename SpaceOf<ShapeT>::Vector& offset) {
+  const typename SpaceOf<ShapeT>::Vector normal = own.normals()[face];
+  const std::uint32_t vertex = other.vertices().farthest(-normal).index;
+  return {height_above(own, face, other.vertices()[vertex] + offset), face, vertex, true};
+}
+
+/// The axis of a face of a and the vertex of b that is deepest below it.
+template <class ShapeT>
+Axis<SpaceOf<ShapeT>> axis_of_face_a(const PolytopePair<ShapeT>& pair, std::uint32_t face) {
+  const auto found = measure_face(pair.a, face, pair.b, pair.offset);
+  return {pair.a.normals()[face], found.separation, AxisKind::face_a, face, found.vertex};
+}
+/// The axis of a face of b and the vertex of a that is deepest below it.
+template <class ShapeT>
+Axis<SpaceOf<ShapeT>> axis_of_face_b(const PolytopePair<ShapeT>& pair, std::uint32_t face) {
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  const auto found = measure_face(pair.b, face, pair.a, Vector(-pair.offset));
+  return {-pair.b.normals()[face], found.separation, AxisKind::face_b, found.vertex, face};
+}
+
+/// An edge with the normals of its two faces, relative to the centre of its shape.
+template <std::floating_point T>
+struct EdgeView {
+  using Vector = typename Space<3, T>::Vector;
+  Vector from, direction, normal_0, normal_1;
+  std::uint32_t id;
+
+  EdgeView(const Placed<Polyhedron<T>>& shape, std::uint32_t edge_id) : id(edge_id) {
+    const auto& edge = shape.shape().edges()[id];
+    from = shape.vertices()[edge.vertex[0]];
+    direction = shape.vertices()[edge.vertex[1]] - from;
+    normal_0 = shape.normals()[edge.face[0]];
+    normal_1 = shape.normals()[edge.face[1]];
+  }
+};
+
+/// The common normal of two edges, from a to b, if their arcs in the Gauss map cross. The arc of an
+/// edge leads from the normal of one of its faces to that of the other; the arc of b is reversed.
+/// The arcs cross if the plane of directions perpendicular to one edge parts the ends of the other
+/// edge's arc, for both edges. Of the two directions perpendicular to both edges, one is then on
+/// the arc of a and one on the reversed arc of b, and they must be the same.
+template <std::floating_point T>
+bool crossing_normal(const EdgeView<T>& a, const EdgeView<T>& b,
+                     typename Space<3, T>::Vector& normal) {
+  if (a.direction.dot(b.normal_0) * a.direction.dot(b.normal_1) >= T(0)) return false;
+  if (b.direction.dot(a.normal_0) * b.direction.dot(a.normal_1) >= T(0)) return false;
+  // The normal of edges more parallel than this is that of a face to within rounding.
+  constexpr T parallel = T(16) * std::numeric_limits<T>::epsilon();
+  normal = a.direction.cross(b.direction);
+  const T length2 = normal.squaredNorm();
+  if (!(length2 > parallel * parallel * a.direction.squaredNorm() * b.direction.squaredNorm()))
+    return false;
+  const T length = std::sqrt(length2);
+  normal /= normal.dot(a.normal_0 + a.normal_1) < T(0) ? -length : length;
+  return normal.dot(b.normal_0 + b.normal_1) < T(0);
+}
+
+/// Whether two edges are so parallel that their common normal has lost digits.
+template <std::floating_point T>
+bool are_nearly_parallel(const EdgeView<T>& a, const EdgeView<T>& b) {
+  return a.direction.cross(b.direction).squaredNorm() <=
+         T(1e-4) * a.direction.squaredNorm() * b.direction.squaredNorm();
+}
+
+/// The axis of two edges: their common normal and the separation of their ends along it.
+/// @param offset  centre of b minus centre of a, world axes [m]
+/// @returns nothing if the arcs of the edges do not cross
+template <std::floating_point T>
+[[gnu::noinline]] std::optional<Axis<Space<3, T>>> axis_of_edges(
+    const EdgeView<T>& a, const EdgeView<T>& b, const typename Space<3, T>::Vector& offset) {
+  Axis<Space<3, T>> axis;
+  if (!crossing_normal(a, b, axis.normal)) return std::nullopt;
+  const T top = std::max(axis.normal.dot(a.from), axis.normal.dot(a.from + a.direction));
+  const T bottom = std::min(axis.normal.dot(b.from), axis.normal.dot(b.from + b.direction));
+  axis.gap = axis.normal.dot(offset) + (bottom - top);
+  axis.kind = AxisKind::edges;
+  axis.a = a.id;
+  axis.b = b.id;
+  return axis;
+}
+
+/// Where the line of an edge is nearest to a point relative to the shape's centre: as a fraction of
+/// the edge, below 0 or above 1 beyond its ends.
+template <std::floating_point T>
+T fraction_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
+                 const typename Space<3, T>::Vector& x) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto& ends = shape.shape().edges()[edge].vertex;
+  const Vector from = shape.vertices()[ends[0]];
+  const Vector along = shape.vertices()[ends[1]] - from;
+  return along.dot(x - from) / along.squaredNorm();
+}
+/// The point of an edge at a fraction of it, relative to the shape's centre [m].
+template <std::floating_point T>
+typename Space<3, T>::Vector point_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
+                                         T fraction) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto& ends = shape.shape().edges()[edge].vertex;
+  const Vector from = shape.vertices()[ends[0]];
+  return from + fraction * (shape.vertices()[ends[1]] - from);
+}
+
+/// The nearest points of a vertex of each polygon, relative to the centre of a [m].
+template <std::floating_point T>
+std::array<typename Space<2, T>::Vector, 2> nearest_points_of(const PolytopePair<Polygon<T>>& pair,
+                                                              AxisKind, std::uint32_t a,
+                                                              std::uint32_t b) {
+  return {pair.a.vertices()[a], pair.b.vertices()[b] + pair.offset};
+}
+/// The nearest points of two vertices, or of a vertex and an edge, relative to the centre of a [m].
+template <std::floating_point T>
+std::array<typename Space<3, T>::Vector, 2> nearest_points_of(
+    const PolytopePair<Polyhedron<T>>& pair, AxisKind kind, std::uint32_t a, std::uint32_t b) {
+  using Vector = typename Space<3, T>::Vector;
+  if (kind == AxisKind::edge_vertex) {
+    const Vector on_b = pair.b.vertices()[b] + pair.offset;
+    return {point_along(pair.a, a, std::clamp(fraction_along(pair.a, a, on_b), T(0), T(1))), on_b};
+  }
+  const Vector on_a = pair.a.vertices()[a];
+  if (kind == AxisKind::vertices) return {on_a, pair.b.vertices()[b] + pair.offset};
+  const T fraction = fraction_along(pair.b, b, Vector(on_a - pair.offset));
+  return {on_a, point_along(pair.b, b, std::clamp(fraction, T(0), T(1))) + pair.offset};
+}
+
+/// The axis of two vertices, or of a vertex and an edge, that are apart: their distance and its
+/// direction.
+template <class ShapeT>
+[[gnu::noinline]] Axis<SpaceOf<ShapeT>> axis_of_nearest(const PolytopePair<ShapeT>& pair,
+                                                        AxisKind kind, std::uint32_t a,
+                                                        std::uint32_t b) {
+  const auto [on_a, on_b] = nearest_points_of(pair, kind, a, b);
+  const typename SpaceOf<ShapeT>::Vector apart = on_b - on_a;
+  const auto gap = apart.norm();
+  return {apart / gap, gap, kind, a, b};
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// prove_axis: the axis of a pair of polytopes from features remembered from the step before.
+//
+// Remembered features can be proved, from the present poses alone, to give the signed gap. No bound
+// on the motion is needed or assumed.
+//
+// Let C = B - A be the set of differences b - a, and F(m) = min over c in C of m . c the separation
+// along the unit vector m. The signed gap is the largest F(m). Let n be the axis of the remembered
+// features, s = F(n) and d = max(0, -s). Suppose two things about C.
+//
+//   1. The point s n lies in C's facet at n, at least r from the facet's rim: the projection of one
+//      feature on the other lies inside it. The disk of radius r about s n is then in C, and for m
+//      at an angle theta from n
+//          F(m) <= s cos theta - r sin theta.
+//      With tau = tan(theta / 2) this falls short of s by at least 2 tau (r - d tau) / (1 + tau^2).
+//   2. The shapes hold balls about their centres, of radii that add up to rho. C then holds a ball
+//      of radius rho about c, the difference of the centres. With h = c . n and t^2 = |c|^2 - h^2
+//          F(m) <= h cos theta + t sin theta - rho,
+//      which is below -d where (h + rho - d) tau^2 - 2 t tau - (h + d - rho) >= 0, so for all tau
+//      beyond the larger root, tau_0 = (t + sqrt(|c|^2 - (rho - d)^2)) / (h + rho - d).
+//
+// So if r >= d tau_0, the first bound rules out all m up to tau_0 and the second bound all m
+// beyond: no axis separates better than n. In words: an overlap that is shallow, with a projection
+// well inside the features, is the global one. Where the shapes are apart (d = 0), any projection
+// inside the features suffices, because the distance of convex shapes is a convex problem.
+//
+// The answer must also be the one that the full search gives, which takes the first of several axes
+// whose separations tie within rounding. So no other candidate may tie. Axes more than the angle
+// `distinct` from n lose by more than `doubt` if r >= d tau_0 + 2 doubt / distinct, where d
+// includes the doubt, and tau_0 < 100. Nearer axes are ruled out below: no other feature of either
+// shape may be that parallel. A pair that fails any of this is searched in full.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "moreau/detect/polytope/detail/feature_axis.hpp"
+#include "moreau/detect/polytope/projection.hpp"
+
+namespace moreau::detail {
+
+/// How far inside the facet the projection has to be, r [m]; infinite if there is no proof.
+template <class ShapeT>
+typename SpaceOf<ShapeT>::Scalar needed_clearance(const PolytopePair<ShapeT>& pair,
+                                                  const Axis<SpaceOf<ShapeT>>& axis) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  const T height = axis.normal.dot(pair.offset), apart2 = pair.offset.squaredNorm();
+  const T inner = pair.a.shape().inradius() + pair.b.shape().inradius();
+  const T doubt = DetectionTolerance<T>::doubt * pair.size;
+  const T depth = std::max(-axis.gap, T(0)) + doubt;
+  const T aside = std::sqrt(std::max(apart2 - height * height, T(0)));
+  const T within = inner - depth;
+  const T root = std::sqrt(std::max(apart2 - within * within, T(0)));
+  if (!(aside + root < T(100) * (height + within))) return std::numeric_limits<T>::infinity();
+  return depth * (aside + root) / (height + within) +
+         T(2) * doubt / DetectionTolerance<T>::distinct;
+}
+
+/// How many vertices a direction less than the angle [rad] away can have for its top: only they can
+/// belong to a face or an edge perpendicular to such a direction.
+/// @param top  height of the top vertex along the direction [m]
+template <class ShapeT>
+std::ptrdiff_t count_top(const Placed<ShapeT>& shape,
+                         const typename SpaceOf<ShapeT>::Vector& direction,
+                         typename SpaceOf<ShapeT>::Scalar top,
+                         typename SpaceOf<ShapeT>::Scalar angle) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  return shape.vertices().count_above(direction, top - T(2) * angle * shape.radius());
+}
+/// Whether the vertex is the only one at the top.
+template <class ShapeT>
+bool vertex_is_top(const Placed<ShapeT>& shape, std::uint32_t vertex,
+                   const typename SpaceOf<ShapeT>::Vector& direction,
+                   typename SpaceOf<ShapeT>::Scalar angle) {
+  return count_top(shape, direction, direction.dot(shape.vertices()[vertex]), angle) == 1;
+}
+/// Whether the ends of the edge are the only vertices at the top.
+template <std::floating_point T>
+bool edge_is_top(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
+                 const typename Space<3, T>::Vector& direction, T angle) {
+  const auto& ends = shape.shape().edges()[edge].vertex;
+  const T first = direction.dot(shape.vertices()[ends[0]]);
+  const T second = direction.dot(shape.vertices()[ends[1]]);
+  const T top = std::max(first, second);
+  return std::abs(first - second) < T(2) * angle * shape.radius() &&
+         count_top(shape, direction, top, angle) == 2;
+}
+
+/// The search takes a face of a unless another axis is better by more than rounding. So it suffices
+/// that no other face of a is parallel.
+template <class ShapeT>
+std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pair,
+                                                  std::uint32_t face) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  if (pair.a.shape().normal_spacing() < T(2) * DetectionTolerance<T>::distinct) return std::nullopt;
+  const auto axis = axis_of_face_a(pair, face);
+  if (!projects_onto(pair.a, face, Vector(pair.b.vertices()[axis.b] + pair.offset),
+                     needed_clearance(pair, axis)))
+    return std::nullopt;
+  return axis;
+}
+/// Here no face of a may be parallel either. A face has at least as many vertices as the space has
+/// dimensions, so a must have fewer at the top.
+template <class ShapeT>
+std::optional<Axis<SpaceOf<ShapeT>>> prove_face_b(const PolytopePair<ShapeT>& pair,
+                                                  std::uint32_t face) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  constexpr auto distinct = DetectionTolerance<typename S::Scalar>::distinct;
+  if (pair.b.shape().normal_spacing() < 2 * distinct) return std::nullopt;
+  const auto axis = axis_of_face_b(pair, face);
+  const Vector deepest = pair.a.vertices()[axis.a];
+  if (!projects_onto(pair.b, face, Vector(deepest - pair.offset), needed_clearance(pair, axis)) ||
+      count_top(pair.a, axis.normal, axis.normal.dot(deepest), distinct) >= S::dim)
+    return std::nullopt;
+  return axis;
+}
+
+/// Whether features of shapes that are apart by a vertex are far enough apart for a proof. C lies
+/// beyond the plane through gap * n, so an axis at the angle theta from n separates by no more than
+/// gap cos theta: here the angle that tells axes apart is larger.
+template <class ShapeT>
+bool is_far_enough(const PolytopePair<ShapeT>& pair, const Axis<SpaceOf<ShapeT>>& axis) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  constexpr T aligned = DetectionTolerance<T>::aligned;
+  return axis.gap * aligned * aligned > T(8) * pair.rounding();
+}
+template <class ShapeT>
+std::optional<Axis<SpaceOf<ShapeT>>> prove_vertices(const PolytopePair<ShapeT>& pair,
+                                                    std::uint32_t a, std::uint32_t b) {
+  using S = SpaceOf<ShapeT>;
+  constexpr auto aligned = DetectionTolerance<typename S::Scalar>::aligned;
+  const auto axis = axis_of_nearest(pair, AxisKind::vertices, a, b);
+  if (!is_far_enough(pair, axis) || !vertex_is_top(pair.a, a, axis.normal, aligned) ||
+      !vertex_is_top(pair.b, b, typename S::Vector(-axis.normal), aligned))
+    return std::nullopt;
+  return axis;
+}
+/// An edge of one polyhedron and a vertex of the other, or the reverse.
+template <std::floating_point T>
+std::optional<Axis<Space<3, T>>> prove_edge_and_vertex(const PolytopePair<Polyhedron<T>>& pair,
+                                                       AxisKind kind, std::uint32_t a,
+                                                       std::uint32_t b) {
+  using Vector = typename Space<3, T>::Vector;
+  constexpr T aligned = DetectionTolerance<T>::aligned;
+  const bool edge_is_of_a = kind == AxisKind::edge_vertex;
+  const T fraction = edge_is_of_a
+                         ? fraction_along(pair.a, a, Vector(pair.b.vertices()[b] + pair.offset))
+                         : fraction_along(pair.b, b, Vector(pair.a.vertices()[a] - pair.offset));
+  if (!(fraction > aligned && fraction < 1 - aligned)) return std::nullopt;
+  const auto axis = axis_of_nearest(pair, kind, a, b);
+  if (!is_far_enough(pair, axis)) return std::nullopt;
+  const Vector& n = axis.normal;
+  const bool is_top =
+      edge_is_of_a ? edge_is_top(pair.a, a, n, aligned) && vertex_is_top(pair.b, b, -n, aligned)
+                   : vertex_is_top(pair.a, a, n, aligned) && edge_is_top(pair.b, b, -n, aligned);
+  return is_top ? std::optional(axis) : std::nullopt;
+}
+
+/// Whether the crossing of two edges, seen along the normal, is at least the clearance [m] from the
+/// rim of the parallelogram that the edges span. False if they are nearly parallel.
+template <std::floating_point T>
+bool crosses_inside(const EdgeView<T>& a, const EdgeView<T>& b,
+                    const PolytopePair<Polyhedron<T>>& pair,
+                    const typename Space<3, T>::Vector& normal, T clearance) {
+  using Vector = typename Space<3, T>::Vector;
+  const Vector apart = b.from + pair.offset - a.from;
+  const Vector across_a = normal.cross(a.direction);
+  const Vector across_b = normal.cross(b.direction);
+  const T turn = a.direction.dot(across_b), area = std::abs(turn);
+  const T length2_a = a.direction.squaredNorm(), length2_b = b.direction.squaredNorm();
+  if (!(area * area > T(1e-4) * length2_a * length2_b)) return false;
+  const T sign = std::copysign(T(1), turn);
+  const auto is_inside = [&](T along, T length2) {
+    const T inside = std::min(along, area - along);
+    return inside >= T(0) && inside * inside >= clearance * clearance * length2;
+  };
+  return is_inside(sign * apart.dot(across_b), length2_b) &&
+         is_inside(sign * apart.dot(across_a), length2_a);
+}
+/// No face and no other edge may be parallel: the two ends must be the only vertices at the top.
+template <std::floating_point T>
+std::optional<Axis<Space<3, T>>> prove_edges(const PolytopePair<Polyhedron<T>>& pair,
+                                             std::uint32_t id_a, std::uint32_t id_b) {
+  constexpr T distinct = DetectionTolerance<T>::distinct;
+  const EdgeView<T> a(pair.a, id_a), b(pair.b, id_b);
+  const auto axis = axis_of_edges(a, b, pair.offset);
+  if (!axis || !crosses_inside(a, b, pair, axis->normal, needed_clearance(pair, *axis)) ||
+      !edge_is_top(pair.a, id_a, axis->normal, distinct) ||
+      !edge_is_top(pair.b, id_b, -axis->normal, distinct))
+    return std::nullopt;
+  return axis;
+}
+
+/// An axis of edges of two polyhedra.
+template <std::floating_point T>
+std::optional<Axis<Space<3, T>>> prove_edge_axis(const PolytopePair<Polyhedron<T>>& pair,
+                                                 const PairCache<Space<3, T>>& features) {
+  switch (features.kind) {
+    case AxisKind::edges:
+      return prove_edges(pair, features.a, features.b);
+    case AxisKind::vertex_edge:
+    case AxisKind::edge_vertex:
+      return prove_edge_and_vertex(pair, features.kind, features.a, features.b);
+    default:
+      return std::nullopt;
+  }
+}
+/// Edges of polygons are their faces.
+template <std::floating_point T>
+std::optional<Axis<Space<2, T>>> prove_edge_axis(const PolytopePair<Polygon<T>>&,
+                                                 const PairCache<Space<2, T>>&) {
+  return std::nullopt;
+}
+
+/// Whether a shape has the feature.
+template <std::floating_point T>
+bool has_feature(const Placed<Polygon<T>>& shape, FeatureKind, std::uint32_t id) {
+  return id < shape.vertices().size();
+}
+template <std::floating_point T>
+bool has_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint32_t id) {
+  return id < (kind == FeatureKind::face   ? shape.normals().size()
+               : kind == FeatureKind::edge ? shape.shape().edge_count()
+                                           : shape.vertices().size());
+}
+
+/// The axis of remembered features, if they are proved to be those that find_axis would find. It is
+/// then the axis of find_axis to the bit.
+/// @param features  kind and numbers of any features; those of another pair do no harm
+template <class ShapeT>
+std::optional<Axis<SpaceOf<ShapeT>>> prove_axis(const PolytopePair<ShapeT>& pair,
+                                                const PairCache<SpaceOf<ShapeT>>& features) {
+  if (!has_feature(pair.a, feature_of_a(features.kind), features.a) ||
+      !has_feature(pair.b, feature_of_b(features.kind), features.b))
+    return std::nullopt;
+  switch (features.kind) {
+    case AxisKind::face_a:
+      return prove_face_a(pair, features.a);
+    case AxisKind::face_b:
+      return prove_face_b(pair, features.b);
+    case AxisKind::vertices:
+      return prove_vertices(pair, features.a, features.b);
+    default:
+      return prove_edge_axis(pair, features);
+  }
+}
+
+}  // namespace moreau::detail
