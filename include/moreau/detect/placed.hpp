@@ -10,12 +10,12 @@
 #include <variant>
 
 #include "moreau/core/rows.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/shape/segment.hpp"
-#include "moreau/shape/sphere.hpp"
 
 namespace moreau {
 
@@ -121,19 +121,19 @@ class Placed<ShapeT> {
 
 /// A ball or disk.
 template <class S>
-class Placed<Sphere<S>> {
+class Placed<BallIn<S>> {
  public:
   using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
   /// At the origin, not turned.
-  explicit Placed(const Sphere<S>& shape) { update(shape, Pose<S>{}); }
+  explicit Placed(const BallIn<S>& shape) { update(shape, Pose<S>{}); }
   /// At the pose.
-  Placed(const Sphere<S>& shape, const Pose<S>& pose) { update(shape, pose); }
+  Placed(const BallIn<S>& shape, const Pose<S>& pose) { update(shape, pose); }
 
   /// To the pose, world axes [m].
-  void update(const Sphere<S>& shape, const Pose<S>& pose) {
+  void update(const BallIn<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     radius_ = shape.radius();
   }
