@@ -20,7 +20,7 @@
 namespace press {
 
 using S = moreau::Space<2>;
-using Disk = moreau::Sphere<S>;
+using Disk = moreau::BallIn<S>;
 using Vector = S::Vector;
 using Springs = moreau::LinearSpringDashpot<double>;
 using Coulomb = moreau::SignoriniCoulomb<double>;

@@ -54,9 +54,9 @@ double fill(World& world) {
   using S = typename World::S;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
-  const moreau::ShapeId grains[] = {world.add_shape(moreau::Sphere<S>(0.40 * size)),
-                                    world.add_shape(moreau::Sphere<S>(0.45 * size)),
-                                    world.add_shape(moreau::Sphere<S>(0.50 * size))};
+  const moreau::ShapeId grains[] = {world.add_shape(moreau::BallIn<S>(0.40 * size)),
+                                    world.add_shape(moreau::BallIn<S>(0.45 * size)),
+                                    world.add_shape(moreau::BallIn<S>(0.50 * size))};
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> jitter(-0.05 * size, 0.05 * size);
   const int per_side = 5, layers = 8;

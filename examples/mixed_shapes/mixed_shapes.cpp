@@ -14,9 +14,9 @@
 
 using S = moreau::Space<3>;
 using Vector = S::Vector;
-using Ball = moreau::Sphere<S>;
+using Ball = moreau::BallIn<S>;
 using Die = moreau::Polyhedron<double>;
-using Rod = moreau::Capsule<S>;
+using Rod = moreau::CapsuleIn<S>;
 using Grain = moreau::OneOf<Ball, Die, Rod>;
 
 int main() {

@@ -18,7 +18,7 @@
 template <class Integrator>
 double error_of_bounces(double drop, double step) {
   using S = moreau::Space<3>;
-  using Ball = moreau::Sphere<S>;
+  using Ball = moreau::BallIn<S>;
   using Law = moreau::LinearSpringDashpot<double>;
   moreau::Simulation<Ball, Law, Integrator> simulation(0.1, moreau::Materials<Law>(1, Law(1e4)));
   const auto shape = simulation.add_shape(Ball(0.05));

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
 #include "run_impl.hpp"
 
-static const ratcheting::Runner runner("disk", ratcheting::run<moreau::Sphere<moreau::Space<2>>>);
+static const ratcheting::Runner runner("disk", ratcheting::run<moreau::Disk<>>);

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
 #include "run_impl.hpp"
 
-static const ratcheting::Runner runner("sphere", ratcheting::run<moreau::Sphere<moreau::Space<3>>>);
+static const ratcheting::Runner runner("sphere", ratcheting::run<moreau::Ball<>>);

@@ -8,9 +8,9 @@
 
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/size_distribution.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 
 #include "parameters.hpp"
 
@@ -26,8 +26,8 @@ struct SolidTwin<moreau::Polygon<T>> {
   using type = moreau::Polyhedron<T>;
 };
 template <class T>
-struct SolidTwin<moreau::Sphere<moreau::Space<2, T>>> {
-  using type = moreau::Sphere<moreau::Space<3, T>>;
+struct SolidTwin<moreau::Disk<T>> {
+  using type = moreau::Ball<T>;
 };
 
 /// Shapes and sizes of the study, without places.

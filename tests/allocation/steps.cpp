@@ -120,8 +120,7 @@ TEST_CASE("every form of new is counted") {
 }
 
 TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau::Polyhedron<>,
-                   moreau::Polygon<>, moreau::Sphere<moreau::Space<3>>,
-                   moreau::Sphere<moreau::Space<2>>) {
+                   moreau::Polygon<>, moreau::Ball<>, moreau::Disk<>) {
   scenes::BoxOfGrains<ShapeT> scene(std::size_t(rounds(27)));
   for (int k = 0; k < 1500; ++k) scene.simulation.step(5e-4);
   const long before = allocations;
@@ -132,7 +131,7 @@ TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau:
 }
 
 TEST_CASE_TEMPLATE("nor does one that drifts through a periodic cell, in a cylinder", ShapeT,
-                   moreau::Polyhedron<>, moreau::Sphere<moreau::Space<3>>) {
+                   moreau::Polyhedron<>, moreau::Ball<>) {
   using S = moreau::Space<3>;
   using Law = scenes::LawOf<ShapeT>;
   const S::Vector drift(0, 0.5, 0);

@@ -10,6 +10,7 @@
 
 #include "world/assemblies.hpp"
 
+using moreau::BallIn;
 using moreau::BodyId;
 using moreau::ForceDrive;
 using moreau::HarmonicForce;
@@ -18,7 +19,6 @@ using moreau::Polyhedron;
 using moreau::PressureLoad;
 using moreau::PressureServo;
 using moreau::Space;
-using moreau::Sphere;
 using moreau::VelocityDrive;
 
 namespace {
@@ -47,7 +47,7 @@ TEST_CASE("the harmonic force swings between its bounds from the mean downwards"
 }
 
 TEST_CASE_TEMPLATE("a wall without grains moves as the force says, to second order", ShapeT,
-                   Sphere<Space<3>>, Sphere<Space<2>>) {
+                   moreau::Ball<>, moreau::Disk<>) {
   using Vector = typename LoneWall<ShapeT>::Vector;
   const double fmin = -20, fmax = 60, frequency = 4, mass = 2;
   const double w = 2 * std::numbers::pi * frequency;
@@ -73,7 +73,7 @@ TEST_CASE_TEMPLATE("a wall without grains moves as the force says, to second ord
 }
 
 TEST_CASE("a driven velocity is taken in the middle of the step") {
-  LoneWall<Sphere<Space<2>>> scene;
+  LoneWall<moreau::Disk<>> scene;
   const VelocityDrive drive(scene.wall, Space<2>::Vector(1, 0), [](double t) { return 3 * t * t; });
   const double h = 1e-3;
   for (int k = 0; k < 1000; ++k) {
@@ -86,7 +86,7 @@ TEST_CASE("a driven velocity is taken in the middle of the step") {
 }
 
 TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT, Polyhedron<>, Polygon<>,
-                   Sphere<Space<3>>, Sphere<Space<2>>) {
+                   moreau::Ball<>, moreau::Disk<>) {
   using Scene = scenes::BoxOfGrains<ShapeT>;
   using Vector = typename Scene::Vector;
   Scene scene(18);
@@ -109,7 +109,7 @@ TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT, Polyhedron<>, P
 }
 
 TEST_CASE("bad drives and servos are named") {
-  LoneWall<Sphere<Space<2>>> scene;
+  LoneWall<moreau::Disk<>> scene;
   using V = Space<2>::Vector;
   CHECK_THROWS_WITH_AS(HarmonicForce(2, 1, 1), "HarmonicForce: fmax = 1 must be finite and >= fmin",
                        std::invalid_argument);

@@ -15,9 +15,9 @@
 #include "world/assemblies.hpp"
 
 using moreau::Aabb;
+using moreau::BallIn;
 using moreau::Pose;
 using moreau::Space;
-using moreau::Sphere;
 
 namespace {
 
@@ -55,7 +55,7 @@ double turnover(const moreau::EnergyTerms& terms) {
 }  // namespace
 
 TEST_CASE_TEMPLATE("the energy balance closes to rounding where the inertia does not turn", ShapeT,
-                   Sphere<Space<3>>, moreau::Polygon<double>) {
+                   moreau::Ball<>, moreau::Polygon<double>) {
   const auto energy = balance_of<ShapeT>(1e-3);
   const moreau::EnergyTerms& terms = energy.terms();
   CHECK(std::abs(energy.imbalance()) < 1e-12 * turnover(terms));
@@ -94,7 +94,7 @@ TEST_CASE("a balance goes on with a run from its snapshot") {
 }
 
 TEST_CASE("a balance is kept of the bodies that it began with") {
-  scenes::BoxOfGrains<Sphere<Space<3>>> box(2);
+  scenes::BoxOfGrains<moreau::Ball<>> box(2);
   moreau::EnergyBalance<Space<3>> energy(box.simulation);
   const auto report = box.simulation.step(1e-3);
   CHECK_THROWS_AS(energy.add(box.simulation, report, 0), std::invalid_argument);
@@ -102,8 +102,8 @@ TEST_CASE("a balance is kept of the bodies that it began with") {
   CHECK_THROWS_AS(energy.add(box.simulation, report, 1e-3), std::invalid_argument);
 }
 
-TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, Sphere<Space<3>>,
-                   Sphere<Space<2>>) {
+TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, moreau::Ball<>,
+                   moreau::Disk<>) {
   // A chain of three balls that closes through the boundary, squeezed by a shorter cell.
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;

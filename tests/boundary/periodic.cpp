@@ -11,12 +11,12 @@
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
+using moreau::BallIn;
 using moreau::BodyId;
 using moreau::Polygon;
 using moreau::Polyhedron;
 using moreau::Pose;
 using moreau::Space;
-using moreau::Sphere;
 
 namespace {
 
@@ -72,7 +72,7 @@ struct Layers {
 }  // namespace
 
 TEST_CASE_TEMPLATE("a periodic packing knows no origin", ShapeT, Polyhedron<>, Polygon<>,
-                   Sphere<Space<3>>, Sphere<Space<2>>) {
+                   moreau::Ball<>, moreau::Disk<>) {
   using Scene = Layers<ShapeT>;
   Scene one(0), other(0.37 * Scene::length);
   std::size_t across = 0;
@@ -116,8 +116,8 @@ TEST_CASE_TEMPLATE("where nothing reaches the boundary, a periodic cell keeps th
   CHECK(open.simulation.contacts().size() > 0);
 }
 
-TEST_CASE_TEMPLATE("two grains hunt each other around the cell", ShapeT, Sphere<Space<3>>,
-                   Sphere<Space<2>>) {
+TEST_CASE_TEMPLATE("two grains hunt each other around the cell", ShapeT, moreau::Ball<>,
+                   moreau::Disk<>) {
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   const double h = 1e-3, length = 1, half = 0.1, v = 1;
@@ -149,7 +149,7 @@ TEST_CASE_TEMPLATE("two grains hunt each other around the cell", ShapeT, Sphere<
 
 TEST_CASE("bad cells are named") {
   using S = Space<3>;
-  scenes::World<Sphere<S>> world(0.02, moreau::Materials<Law>(1));
+  scenes::World<BallIn<S>> world(0.02, moreau::Materials<Law>(1));
   CHECK_THROWS_WITH_AS(world.set_periodic(3, 0, 1),
                        "Simulation::set_periodic: axis = 3 must be an axis of the space",
                        std::invalid_argument);
@@ -165,7 +165,7 @@ TEST_CASE("bad cells are named") {
                        std::invalid_argument);
   CHECK_THROWS_AS(world.add_cylinder(S::Vector::Zero(), S::Vector::UnitY(), 1),
                   std::invalid_argument);
-  const auto large = world.add_shape(Sphere<S>(0.025)), small = world.add_shape(Sphere<S>(0.02));
+  const auto large = world.add_shape(BallIn<S>(0.025)), small = world.add_shape(BallIn<S>(0.02));
   CHECK_THROWS_WITH_AS(world.add_grain(large, {}, 1000),
                        "Simulation::add_grain: length of the cell = 0.1 must be more than two of "
                        "the widest grain with margin and skin",

@@ -5,10 +5,10 @@
 #include <random>
 #include <utility>
 
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/capsule.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
-#include "moreau/shape/sphere.hpp"
 
 #include "conformance/shape.hpp"
 #include "detect/shapes.hpp"
@@ -26,11 +26,11 @@ void check_all_shapes() {
     check_shape(shape);
     check_box_is_tight(shape);
   };
-  check(Sphere<S>(T(0.7)));
+  check(BallIn<S>(T(0.7)));
   check(grain);
-  check(Capsule<S>(T(1), T(0.3)));
+  check(CapsuleIn<S>(T(1), T(0.3)));
   check(Rounded<Grain>(grain, T(0.2)));
-  check(OneOf<Sphere<S>, Grain>(grain));
+  check(OneOf<BallIn<S>, Grain>(grain));
 }
 
 }  // namespace conformance

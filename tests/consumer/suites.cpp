@@ -5,7 +5,7 @@
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 #include "conformance/broad_phase.hpp"
 #include "conformance/integrator.hpp"
@@ -19,7 +19,7 @@
 using S = moreau::Space<2>;
 
 TEST_CASE("a shape") {
-  conformance::check_shape(moreau::Sphere<S>(1));
+  conformance::check_shape(moreau::BallIn<S>(1));
 }
 TEST_CASE("laws") {
   conformance::set_valued_law<S>(moreau::Frictionless<>(), 100);

@@ -42,7 +42,7 @@ TEST_CASE("nine digits tell apart what a float can hold") {
 }
 
 TEST_CASE("a condition that holds does not throw") {
-  CHECK_NOTHROW(moreau::require(true, "Sphere", "radius", 1.0, "must be positive"));
+  CHECK_NOTHROW(moreau::require(true, "Ball", "radius", 1.0, "must be positive"));
 }
 
 }  // namespace

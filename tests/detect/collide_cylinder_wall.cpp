@@ -11,11 +11,11 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
+using moreau::BallIn;
 using moreau::Polygon;
 using moreau::Polyhedron;
 using moreau::Pose;
 using moreau::Space;
-using moreau::Sphere;
 
 namespace {
 
@@ -71,7 +71,7 @@ auto points_of(const ShapeT& shape, const Pose<moreau::SpaceOf<ShapeT>>& pose, d
 
 TEST_CASE_TEMPLATE("a ball's gap and normal, on the axis too", S, Space<2>, Space<3>) {
   using Vector = typename S::Vector;
-  const Sphere<S> ball(0.25);
+  const BallIn<S> ball(0.25);
   Pose<S> pose;
   pose.position = Vector::Constant(0.3);
   const Vector outward = (0.3 * (Vector::UnitX() + Vector::Unit(S::dim - 1))).eval();
@@ -135,13 +135,13 @@ TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its end
 
 TEST_CASE_TEMPLATE("capsules and shapes of several kinds are seen as what they are", S, Space<2>,
                    Space<3>) {
-  using Grain = moreau::OneOf<Sphere<S>, moreau::Capsule<S>>;
+  using Grain = moreau::OneOf<BallIn<S>, moreau::CapsuleIn<S>>;
   Pose<S> pose;
   pose.position[S::dim - 1] = -0.5;
-  const auto rod = points_of(Grain(moreau::Capsule<S>(0.4, 0.1)), pose, 1, 1);
+  const auto rod = points_of(Grain(moreau::CapsuleIn<S>(0.4, 0.1)), pose, 1, 1);
   REQUIRE(rod.size() == 2);
   for (const auto& point : rod) CHECK(point.gap == doctest::Approx(1 - 0.1 - std::hypot(0.4, 0.5)));
-  const auto ball = points_of(Grain(Sphere<S>(0.2)), pose, 1, 1);
+  const auto ball = points_of(Grain(BallIn<S>(0.2)), pose, 1, 1);
   REQUIRE(ball.size() == 1);
   CHECK(ball[0].gap == doctest::Approx(0.3));
 }

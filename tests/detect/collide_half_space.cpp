@@ -54,8 +54,8 @@ TEST_CASE("walls under polytopes, balls and disks") {
   for (int i = 0; i < 100; ++i) {
     check_above_wall<Space<2>>(samples::grain(Space<2>{}, random), random);
     check_above_wall<Space<3>>(samples::grain(Space<3>{}, random), random);
-    check_above_wall<Space<2>>(Sphere<Space<2>>(0.7), random);
-    check_above_wall<Space<3>>(Sphere<Space<3>>(0.7), random);
+    check_above_wall<Space<2>>(moreau::Disk<>(0.7), random);
+    check_above_wall<Space<3>>(moreau::Ball<>(0.7), random);
   }
 }
 

@@ -46,12 +46,12 @@ template <class S>
 void check_sphere_and_grain(std::mt19937_64& random) {
   using ShapeT = decltype(samples::grain(S{}, random));
   const ShapeT shape = samples::grain(S{}, random);
-  const Sphere<S> sphere(0.3);
+  const BallIn<S> sphere(0.3);
   std::uniform_real_distribution<double> distance_of(0, 2);
   const typename S::Vector origin = 100 * samples::direction<S>(random);
   const Pose<S> pose{origin, samples::rotation(S{}, random)};
   const Pose<S> at{origin + distance_of(random) * samples::direction<S>(random), S::identity()};
-  const Placed<Sphere<S>> a(sphere, at);
+  const Placed<BallIn<S>> a(sphere, at);
   const Placed<ShapeT> b(shape, pose);
   const double truth = point_gap(shape, pose.to_body(at.position)) - sphere.radius();
   const auto found = distance(a, b);
@@ -74,11 +74,11 @@ void check_sphere_and_grain(std::mt19937_64& random) {
 template <class S>
 void check_two_spheres() {
   using Vector = typename S::Vector;
-  const Sphere<S> small(0.5), large(2);
+  const BallIn<S> small(0.5), large(2);
   Pose<S> pose;
   pose.position = 2.6 * Vector::Unit(1);
   Manifold<S> manifold;
-  const Placed<Sphere<S>> a(small), b(large, pose);
+  const Placed<BallIn<S>> a(small), b(large, pose);
   REQUIRE(collide(a, b, 0.2, manifold));
   CHECK(manifold.gap == doctest::Approx(0.1));
   CHECK(manifold.normal == Vector::Unit(1));
@@ -86,7 +86,7 @@ void check_two_spheres() {
   CHECK((manifold.points[0].position - 0.55 * Vector::Unit(1)).norm() < 1e-15);
   CHECK_FALSE(collide(a, b, 0.05, manifold));
   CHECK_FALSE(overlap(a, b));
-  const Placed<Sphere<S>> same(large);
+  const Placed<BallIn<S>> same(large);
   CHECK(overlap(a, same));
   const auto concentric = distance(a, same);
   CHECK(concentric.gap == -2.5);
@@ -111,10 +111,10 @@ TEST_CASE("ball and polyhedron, disk and polygon against exhaustive search") {
 TEST_CASE("ball and box: the class names the feature") {
   using S = Space<3>;
   const auto box = samples::box(2., 2., 2.);
-  const Sphere<S> ball(0.5);
+  const BallIn<S> ball(0.5);
   Manifold<S> manifold;
   const auto class_at = [&](const S::Vector& x) {
-    REQUIRE(collide(Placed<Sphere<S>>(ball, Pose<S>{x, S::identity()}),
+    REQUIRE(collide(Placed<BallIn<S>>(ball, Pose<S>{x, S::identity()}),
                     Placed<Polyhedron<double>>(box), 0.01, manifold));
     return manifold.contact_class;
   };

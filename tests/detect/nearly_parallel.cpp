@@ -127,13 +127,13 @@ TEST_CASE("capsules in the plane, in line or not: the gap separates along the no
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < rounds(20000); ++i) {
-    const Capsule<S> one(1, .01 + unit(random)), other(1, .01 + unit(random));
+    const CapsuleIn<S> one(1, .01 + unit(random)), other(1, .01 + unit(random));
     Pose<S> pose;
     if (i % 2) pose.rotation = Eigen::Rotation2D<double>(3 * unit(random));
     if (i % 4 == 3) pose.rotation = Eigen::Rotation2D<double>(std::pow(10., -12 * unit(random)));
     pose.position = {3 * unit(random) - 1.5, 3 * unit(random) - 1.5};
     if (i % 8 == 7) pose.position = {1 + std::pow(10., -12 * unit(random)), 0};
-    const Placed<Capsule<S>> a(one), b(other, pose);
+    const Placed<CapsuleIn<S>> a(one), b(other, pose);
     const auto found = distance(a, b);
     const auto separation = found.normal.dot(b.center() + b.support(-found.normal) - a.center() -
                                              a.support(found.normal));

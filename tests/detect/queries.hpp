@@ -59,8 +59,8 @@ struct Draw {
   static ShapeT from(std::mt19937_64& random) { return samples::grain(SpaceOf<ShapeT>{}, random); }
 };
 template <class S>
-struct Draw<Sphere<S>> {
-  static Sphere<S> from(std::mt19937_64&) { return Sphere<S>(typename S::Scalar(0.8)); }
+struct Draw<BallIn<S>> {
+  static BallIn<S> from(std::mt19937_64&) { return BallIn<S>(typename S::Scalar(0.8)); }
 };
 template <class S>
 struct Draw<HalfSpace<S>> {

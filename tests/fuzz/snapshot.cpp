@@ -19,14 +19,14 @@ namespace {
 using namespace moreau;
 
 using Law = SignoriniCoulomb<>;
-using Shapes = OneOf<Ball<>, Polyhedron<>, Capsule<Space<3>>>;
+using Shapes = OneOf<Ball<>, Polyhedron<>, moreau::Capsule<>>;
 using World = Simulation<Shapes, Law>;
 
 World small_world() {
   World world(1, Materials<Law>(2, Law(0.5)));
   const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}};
   for (const Shapes& shape : {Shapes(Ball<>(0.5)), Shapes(hull_of<Polyhedron<>>(corners)),
-                              Shapes(Capsule<Space<3>>(0.5, 0.1))})
+                              Shapes(moreau::Capsule<>(0.5, 0.1))})
     world.add_grain(world.add_shape(shape), {}, 1000, MaterialId(1));
   world.add_wall({0, 1, 0}, {0, 0, 0});
   world.add_cylinder({0, 0, 0}, {0, 0, 1}, 5);

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "moreau/law/signorini_coulomb.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 #include "temporary_folder.hpp"
 
@@ -86,15 +86,15 @@ TEST_CASE("a head that is not as it should be may be a corrupted one") {
 
 TEST_CASE("of other types the first that differs is named") {
   using detail::difference;
-  const std::string is = "std::tuple<Sphere<Space<2, double> >, Law, Euler, Options<(Kind)1>, int>";
+  const std::string is = "std::tuple<BallIn<Space<2, double> >, Law, Euler, Options<(Kind)1>, int>";
   CHECK(difference(is, "std::tuple<Polygon<double>, Other, Euler, Options<(Kind)1>>") ==
-        "holds Sphere<Space<2, double> >, not Polygon<double>, as its shape");
-  CHECK(difference(is, "std::tuple<Sphere<Space<2, double> >, Law, Euler, Options<(Kind)2>>") ==
+        "holds BallIn<Space<2, double> >, not Polygon<double>, as its shape");
+  CHECK(difference(is, "std::tuple<BallIn<Space<2, double> >, Law, Euler, Options<(Kind)2>>") ==
         "holds Options<(Kind)1>, not Options<(Kind)2>, as its solver's options");
   CHECK(
-      difference(is, "std::tuple<Sphere<Space<2, double> >, Law, Euler, Options<(Kind)1>, long>") ==
+      difference(is, "std::tuple<BallIn<Space<2, double> >, Law, Euler, Options<(Kind)1>, long>") ==
       "holds int, not long, as its object 1 that goes with the simulation");
-  CHECK(difference(is, "std::tuple<Sphere<Space<2, double> >, Law, Euler, Options<(Kind)1> >") ==
+  CHECK(difference(is, "std::tuple<BallIn<Space<2, double> >, Law, Euler, Options<(Kind)1> >") ==
         "holds 1 objects, not 0, that go with the simulation");
   for (const char* odd : {"", "<", ">", "><", "std::tuple<>", "tuple<A", "A, B, C, D>"})
     CHECK(difference(odd, is) != "");

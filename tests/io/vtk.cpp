@@ -153,10 +153,10 @@ TEST_CASE("polygons are one cell each, disks and balls points") {
 TEST_CASE_TEMPLATE("every shape is drawn by its surface", S, Space<2>, Space<3>) {
   using Core =
       std::remove_cvref_t<decltype(samples::grain(S{}, *std::declval<std::mt19937_64*>()))>;
-  using Shape = OneOf<Sphere<S>, Capsule<S>, Core, Rounded<Core>>;
+  using Shape = OneOf<BallIn<S>, CapsuleIn<S>, Core, Rounded<Core>>;
   std::mt19937_64 random(4);
   const Core core = samples::grain(S{}, random);
-  const Shape shapes[] = {Sphere<S>(0.7), Capsule<S>(1, 0.3), core, Rounded<Core>(core, 0.2)};
+  const Shape shapes[] = {BallIn<S>(0.7), CapsuleIn<S>(1, 0.3), core, Rounded<Core>(core, 0.2)};
   const TemporaryFolder folder("vtk");
   VtkWriter<S>({4}).write_grains(
       folder / "mixed.vtp", 4, [&](std::size_t k) -> const Shape& { return shapes[k]; },
@@ -277,7 +277,7 @@ TEST_CASE_TEMPLATE("what has no place is refused and no file written", S, Space<
   const auto path = folder / "x.vtp";
   std::mt19937_64 random(4);
   const Core core = samples::grain(S{}, random);
-  const Sphere<S> ball(0.5);
+  const BallIn<S> ball(0.5);
   VtkWriter<S> writer;
   const auto write = [&](const auto& shape, const Pose<S>& pose) {
     writer.write_grains(

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "moreau/io/vtk.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 #include "temporary_folder.hpp"
 #include "vtk_samples.hpp"

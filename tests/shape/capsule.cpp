@@ -12,12 +12,12 @@ namespace {
 using namespace moreau;
 constexpr double pi = std::numbers::pi;
 
-static_assert(ConvexShape<Capsule<Space<2>>> && ConvexShape<Capsule<Space<3, float>>>);
+static_assert(ConvexShape<moreau::Stadium<>> && ConvexShape<moreau::Capsule<float>>);
 static_assert(ConvexCore<Segment<Space<3>>> && !Shape<Segment<Space<3>>>);
 
 TEST_CASE_TEMPLATE("a stadium in closed form", T, double, float) {
   const double h = 1.5, r = 0.5;
-  const Capsule<Space<2, T>> stadium(T(1.5), T(0.5));
+  const moreau::Stadium<T> stadium(T(1.5), T(0.5));
   CHECK(stadium.volume() == doctest::Approx(4 * h * r + pi * r * r).epsilon(1e-6));
   const double inertia =
       4 * h * r * (h * h + r * r) / 3 + pi * r * r * (r * r / 2 + h * h + 2 * h * 4 * r / (3 * pi));
@@ -28,7 +28,7 @@ TEST_CASE_TEMPLATE("a stadium in closed form", T, double, float) {
 
 TEST_CASE_TEMPLATE("a capsule in closed form", T, double, float) {
   const double h = 1.5, r = 0.5;
-  const Capsule<Space<3, T>> capsule(T(1.5), T(0.5));
+  const moreau::Capsule<T> capsule(T(1.5), T(0.5));
   const double tube = 2 * h * pi * r * r, ball = 4 * pi / 3 * r * r * r;
   const auto mass = capsule.mass_properties(1);
   CHECK(mass.mass == doctest::Approx(tube + ball).epsilon(1e-6));
@@ -47,13 +47,13 @@ TEST_CASE("a rounded needle is nearly a capsule") {
   const Polyhedron<double> needle(std::vector<Vector>{
       {-1.5, w, 0}, {-1.5, -w, w}, {-1.5, -w, -w}, {1.5, w, 0}, {1.5, -w, w}, {1.5, -w, -w}});
   const auto near = Rounded(needle, 0.5).mass_properties(1);
-  const auto exact = Capsule<Space<3>>(1.5, 0.5).mass_properties(1);
+  const auto exact = moreau::Capsule<>(1.5, 0.5).mass_properties(1);
   CHECK(near.mass == doctest::Approx(exact.mass).epsilon(1e-3));
   CHECK((near.inertia - exact.inertia).norm() < 1e-3 * exact.inertia.norm());
 }
 
 TEST_CASE("bad arguments are named") {
-  using Stadium = Capsule<Space<2>>;
+  using Stadium = moreau::Stadium<>;
   CHECK(message_of([] { Stadium(0, 1); }) ==
         "Segment: half_length = 0 must be finite and greater than zero");
   CHECK(message_of([] { Stadium(1, -1); }) ==

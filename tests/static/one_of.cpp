@@ -2,8 +2,8 @@
 // What a OneOf is, and of what there is none.
 #include "moreau/shape/one_of.hpp"
 
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 
 namespace {
 

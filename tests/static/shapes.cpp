@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Which shape models which concept, for both dimensions and scalars.
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 
 #include "static/archetypes.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"
 
 namespace scenes {

@@ -7,8 +7,8 @@
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
-#include "moreau/shape/sphere.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 #include "conformance/matrix.hpp"
@@ -24,7 +24,7 @@ TEST_CASE(
     "disks of float with an integrator, a broad phase and a solver that are not the default") {
   using S = Space<2, float>;
   using Choice = conformance::With<conformance::Implicit, AllPairs<S>, NonlinearGaussSeidel>;
-  conformance::world<Choice>(Sphere<S>(0.005f), SignoriniCoulomb<float>(0.4f), 0.01f);
+  conformance::world<Choice>(BallIn<S>(0.005f), SignoriniCoulomb<float>(0.4f), 0.01f);
 }
 
 TEST_CASE("frictionless disks") {
@@ -38,5 +38,5 @@ TEST_CASE("disks on springs") {
   conformance::world(Disk<double>(0.005), conformance::stiff_springs(0.08), 0.01);
 }
 TEST_CASE("Hertzian spheres of float") {
-  conformance::world(Sphere<Space<3, float>>(0.005f), conformance::stiff_spheres(5e-4f), 0.01f);
+  conformance::world(moreau::Ball<float>(0.005f), conformance::stiff_spheres(5e-4f), 0.01f);
 }

@@ -89,7 +89,7 @@ std::string with(std::string bytes, std::size_t place, Number number) {
 }  // namespace
 
 TEST_CASE_TEMPLATE("N + M steps are N steps, a restart and M steps", ShapeT, Polyhedron<>,
-                   Polygon<>, Sphere<Space<3>>, Disk<>) {
+                   Polygon<>, moreau::Ball<>, Disk<>) {
   const TemporaryFolder folder("restart");
   const auto path = folder / "run.snapshot";
   BoxOfGrains<ShapeT> box = shaken_box<ShapeT>(150);
@@ -161,7 +161,7 @@ TEST_CASE("a refusal says why") {
   const auto path = folder / "disks.snapshot";
   write_snapshot(path, disks());
   World<Polygon<>> polygons = other_world<Polygon<>>();
-  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains("holds moreau::Sphere<"),
+  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains("holds moreau::BallIn<"),
                        std::runtime_error);
   CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains(path.c_str()),
                        std::runtime_error);

@@ -10,6 +10,7 @@
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
+using moreau::BallIn;
 using moreau::BodyId;
 using moreau::MaterialId;
 using moreau::Polygon;
@@ -17,11 +18,10 @@ using moreau::Polyhedron;
 using moreau::Pose;
 using moreau::ShapeId;
 using moreau::Space;
-using moreau::Sphere;
 using scenes::BoxOfGrains;
 
 TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", ShapeT, Polyhedron<>,
-                   Polygon<>, Sphere<Space<3>>, Sphere<Space<2>>) {
+                   Polygon<>, moreau::Ball<>, moreau::Disk<>) {
   BoxOfGrains<ShapeT> scene(27);
   using Vector = typename BoxOfGrains<ShapeT>::Vector;
   const double h = 5e-4;
@@ -44,8 +44,7 @@ TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", Sh
 }
 
 TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", ShapeT, Polyhedron<>,
-                   Polygon<>, Sphere<Space<3>>, Sphere<Space<2>>, Polyhedron<float>,
-                   Polygon<float>) {
+                   Polygon<>, moreau::Ball<>, moreau::Disk<>, Polyhedron<float>, Polygon<float>) {
   BoxOfGrains<ShapeT> scene(27);
   double overlap = 0;
   for (int k = 0; k < rounds(1500); ++k)
@@ -93,9 +92,9 @@ TEST_CASE_TEMPLATE("a driven wall pushes at its velocity, a wall with mass obeys
 TEST_CASE("the order in which walls and grains are added does not matter to the sorted contacts") {
   using S = Space<2>;
   using Law = moreau::SignoriniCoulomb<double>;
-  scenes::World<Sphere<S>> simulation(0.02, moreau::Materials<Law>(1, Law(0.3)));
+  scenes::World<BallIn<S>> simulation(0.02, moreau::Materials<Law>(1, Law(0.3)));
   simulation.add_wall(S::Vector::UnitY(), S::Vector::Zero());
-  const auto shape = simulation.add_shape(Sphere<S>(0.01));
+  const auto shape = simulation.add_shape(BallIn<S>(0.01));
   for (int k = 0; k < 3; ++k)
     simulation.add_grain(shape, {S::Vector(0.02 * k, 0.01), S::identity()}, 1000);
   simulation.set_gravity(S::Vector(0, -9.81));
@@ -126,16 +125,16 @@ struct NoNumber {
 
 TEST_CASE("a step that comes to no numbers ends in an error, before anything has moved") {
   using S = Space<3>;
-  moreau::Simulation<Sphere<S>, NoNumber> world(0.02, moreau::Materials<NoNumber>(1));
-  const BodyId ball = world.add_grain(world.add_shape(Sphere<S>(0.01)), {}, 1000);
+  moreau::Simulation<BallIn<S>, NoNumber> world(0.02, moreau::Materials<NoNumber>(1));
+  const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(0.01)), {}, 1000);
   world.add_wall(S::Vector::UnitZ(), S::Vector(0, 0, -0.01));
   world.set_velocity(ball, S::Vector(0, 0, -5));
   CHECK_THROWS_WITH_AS(world.step(1e-3), doctest::Contains("Simulation::step: velocity of body 0"),
                        std::runtime_error);
   CHECK(world.bodies().pose[ball.index()].is_finite());
 
-  scenes::World<Sphere<S>> far(0.02, moreau::Materials<moreau::SignoriniCoulomb<double>>(1));
-  far.add_grain(far.add_shape(Sphere<S>(0.01)), {}, 1000);
+  scenes::World<BallIn<S>> far(0.02, moreau::Materials<moreau::SignoriniCoulomb<double>>(1));
+  far.add_grain(far.add_shape(BallIn<S>(0.01)), {}, 1000);
   far.set_gravity(S::Vector(0, 0, -1e308));
   CHECK_THROWS_AS(far.step(10), std::runtime_error);
 }
@@ -143,7 +142,7 @@ TEST_CASE("a step that comes to no numbers ends in an error, before anything has
 TEST_CASE("bad input is named") {
   using S = Space<3>;
   using Law = moreau::SignoriniCoulomb<double>;
-  using Sim = scenes::World<Sphere<S>>;
+  using Sim = scenes::World<BallIn<S>>;
   const moreau::Materials<Law> laws(1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(Sim(0, laws), "Simulation: grain_size = 0 must be finite and > 0",
@@ -152,7 +151,7 @@ TEST_CASE("bad input is named") {
   CHECK_THROWS_WITH_AS(simulation.add_grain(ShapeId(0), {}, 1000),
                        "Simulation::add_grain: shape = 0 must be the id of a shape",
                        std::invalid_argument);
-  const ShapeId shape = simulation.add_shape(Sphere<S>(0.01));
+  const ShapeId shape = simulation.add_shape(BallIn<S>(0.01));
   CHECK_THROWS_WITH_AS(simulation.add_grain(shape, {}, -1),
                        "Simulation::add_grain: density = -1 must be finite and > 0",
                        std::invalid_argument);

@@ -7,9 +7,9 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
 #include "moreau/world/simulation.hpp"
 

@@ -11,7 +11,7 @@
 namespace moreau {
 
 /// The set lower <= x <= upper [m] in world axes.
-template <class S>
+template <EuclideanSpace S>
 struct Aabb {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
@@ -53,7 +53,7 @@ struct Aabb {
     return box;
   }
 
-  auto state() { return std::tie(lower, upper); }  ///< see core/state.hpp
+  auto serialized_members() { return std::tie(lower, upper); }  ///< see core/serialize.hpp
 };
 
 }  // namespace moreau

@@ -10,7 +10,7 @@
 namespace moreau {
 
 /// Maps body coordinates to world coordinates: x = position + rotation x_body. Lengths in metres.
-template <class S>
+template <EuclideanSpace S>
 struct Pose {
   using Vector = typename S::Vector;
   using Rotation = typename S::Rotation;
@@ -31,7 +31,7 @@ struct Pose {
   /// Whether all its numbers are finite.
   bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }
 
-  auto state() { return std::tie(position, rotation); }  ///< see core/state.hpp
+  auto serialized_members() { return std::tie(position, rotation); }  ///< see core/serialize.hpp
 };
 
 }  // namespace moreau

@@ -26,13 +26,12 @@ namespace moreau {
 template <int Dim, std::floating_point T = double>
 struct Space;
 
-/// A Space<2, T> or Space<3, T>: what templates of both dimensions take as their argument.
-template <class S>
-concept EuclideanSpace = requires {
-  []<int Dim, class T>(Space<Dim, T>) {}(S{});
-};
-
 namespace detail {
+
+template <class S>
+inline constexpr bool is_space = false;
+template <int Dim, class T>
+inline constexpr bool is_space<Space<Dim, T>> = true;
 
 /// The types of a space. A = D(D-1)/2 numbers make an angular quantity.
 template <int Dim, class T, class RotationT>
@@ -54,6 +53,10 @@ struct SpaceTypes {
 };
 
 }  // namespace detail
+
+/// A Space<2, T> or Space<3, T>: the argument of templates for both dimensions.
+template <class S>
+concept EuclideanSpace = detail::is_space<S>;
 
 /// The plane. Rotations are angles, positive from x to y; angular quantities are 1-vectors.
 template <std::floating_point T>

@@ -42,7 +42,7 @@ namespace moreau {
 template <class Shape>
 inline constexpr int collide_rank = 2;
 template <class S>
-inline constexpr int collide_rank<Sphere<S>> = 0;
+inline constexpr int collide_rank<BallIn<S>> = 0;
 template <class S>
 inline constexpr int collide_rank<Segment<S>> = 1;
 template <class S>

@@ -12,12 +12,12 @@
 #include <variant>
 
 #include "moreau/core/rows.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/shape/segment.hpp"
-#include "moreau/shape/sphere.hpp"
 
 namespace moreau {
 
@@ -116,13 +116,13 @@ class Placement<ShapeT> {
 
 /// What is kept of a ball or disk.
 template <class S>
-class Placement<Sphere<S>> {
+class Placement<BallIn<S>> {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
   /// Places the shape at a pose, world axes [m].
-  void update(const Sphere<S>& shape, const Pose<S>& pose) {
+  void update(const BallIn<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
     radius_ = shape.radius();
   }

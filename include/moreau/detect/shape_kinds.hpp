@@ -2,19 +2,19 @@
 // Concepts and traits that select the functions of the narrow phase for a pair of shapes.
 #pragma once
 
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/shape/segment.hpp"
-#include "moreau/shape/sphere.hpp"
 
 namespace moreau {
 
-/// Whether a shape is a Sphere.
+/// Whether a shape is a Ball or a Disk.
 template <class ShapeT>
 inline constexpr bool is_sphere = false;
 template <class S>
-inline constexpr bool is_sphere<Sphere<S>> = true;
+inline constexpr bool is_sphere<BallIn<S>> = true;
 
 /// Whether a shape is a Segment.
 template <class ShapeT>

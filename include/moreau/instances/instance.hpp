@@ -14,8 +14,8 @@
 #define MOREAU_WORLD_INSTANCES(SpaceT, PolytopeT)                                             \
   MOREAU_INSTANCE class PolytopeT;                                                            \
   MOREAU_INSTANCE class ContactDetector<PolytopeT, SweepAndPrune<SpaceT>>;                    \
-  MOREAU_INSTANCE class ContactDetector<Sphere<SpaceT>, SweepAndPrune<SpaceT>>;               \
+  MOREAU_INSTANCE class ContactDetector<BallIn<SpaceT>, SweepAndPrune<SpaceT>>;               \
   MOREAU_INSTANCE class detail::ImpulseDynamics<SpaceT, SignoriniCoulomb<double>, MoreauJean, \
                                                 ColouredGaussSeidel>;                         \
   MOREAU_INSTANCE StepReport Simulation<PolytopeT, SignoriniCoulomb<double>>::step(double);   \
-  MOREAU_INSTANCE StepReport Simulation<Sphere<SpaceT>, SignoriniCoulomb<double>>::step(double);
+  MOREAU_INSTANCE StepReport Simulation<BallIn<SpaceT>, SignoriniCoulomb<double>>::step(double);

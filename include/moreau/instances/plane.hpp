@@ -7,8 +7,8 @@
 
 #include "moreau/instances/instance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
-#include "moreau/shape/sphere.hpp"
 #include "moreau/world/simulation.hpp"
 
 namespace moreau {

@@ -26,8 +26,8 @@
 #include "moreau/io/vtk_poly_data.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/measure/grid_field.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
-#include "moreau/shape/sphere.hpp"
 #include "moreau/shape/surface_mesh.hpp"
 
 namespace moreau {
@@ -63,7 +63,7 @@ class VtkWriter {
     using Shape = std::remove_cvref_t<decltype(shape_of(std::size_t{}))>;
     clear();
     bool as_points = false;
-    if constexpr (std::same_as<Shape, Sphere<S>>) as_points = options_.spheres_as_points;
+    if constexpr (std::same_as<Shape, BallIn<S>>) as_points = options_.spheres_as_points;
     for (std::size_t k = 0; k < grain_count; ++k) {
       const Shape& shape = shape_of(k);
       const Pose<S>& pose = pose_of(k);

@@ -26,7 +26,7 @@
 #include <numbers>
 
 #include "moreau/measure/clip.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 namespace moreau {
 
@@ -79,7 +79,7 @@ typename Vector::Scalar signed_unit_ball_in_orthant(const Vector& corner) {
 /// @param control_volume  in world axes [m]
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <class S>
-typename S::Scalar clipped_volume(const Sphere<S>& shape, const Pose<S>& pose,
+typename S::Scalar clipped_volume(const BallIn<S>& shape, const Pose<S>& pose,
                                   const Aabb<S>& control_volume, ClipWorkspace<S>&) {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;

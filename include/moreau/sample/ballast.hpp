@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 
 namespace moreau {
 
@@ -152,9 +152,9 @@ struct Ballast<Polygon<T>> {
 
 /// The reference without corners: all the same.
 template <class S>
-struct Ballast<Sphere<S>> {
+struct Ballast<BallIn<S>> {
   /// That of radius 1.
-  static Sphere<S> draw(std::mt19937_64&) { return Sphere<S>(1); }
+  static BallIn<S> draw(std::mt19937_64&) { return BallIn<S>(1); }
 };
 
 /// Random grain shapes of circumradius 1, each drawn by Ballast<Shape>.

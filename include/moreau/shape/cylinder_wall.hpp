@@ -13,7 +13,7 @@ namespace moreau {
 /// All points farther than a radius from an axis through the body's origin: in space the outside of
 /// an infinite cylinder, in the plane of a circle. It models a drum that grains are in; like
 /// HalfSpace it has no mass and no box, so it is no Shape.
-template <class S>
+template <EuclideanSpace S>
 class CylinderWall {
  public:
   using Space = S;

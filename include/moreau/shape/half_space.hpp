@@ -9,7 +9,7 @@ namespace moreau {
 
 /// All points on one side of a plane (in the plane: of a line) through the body's origin: the solid
 /// is { x : normal . x <= 0 }. It models a wall; it has no mass and no box, so it is no Shape.
-template <class S>
+template <EuclideanSpace S>
 class HalfSpace {
  public:
   using Space = S;

@@ -9,7 +9,7 @@ namespace moreau {
 /// What the equations of motion need of a shape at a uniform density.
 /// The inertia is about the centre of mass, in the axes of the shape's own frame. In the plane the
 /// density is per area [kg/m^2].
-template <class S>
+template <EuclideanSpace S>
 struct MassProperties {
   typename S::Scalar mass = 0;                       ///< [kg]
   typename S::Vector center = S::Vector::Zero();     ///< centre of mass in the shape's frame [m]

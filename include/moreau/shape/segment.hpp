@@ -8,15 +8,16 @@
 namespace moreau {
 
 /// The points of the x axis up to half_length() from the origin; vertex 0 is the end at -x, vertex
-/// 1 that at +x. It has no volume and no mass, so it is no Shape but the core of one: Capsule.
-template <class S>
+/// 1 that at +x. A segment has no volume and no mass, so it is no Shape: it is the core
+/// of a capsule.
+template <EuclideanSpace S>
 class Segment {
  public:
   using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Not explicit, so that Capsule<S>(half_length, radius) can be said.
+  /// Not explicit, so that CapsuleIn<S>(half_length, radius) can be written.
   /// @param half_length [m], > 0
   /// @throws std::invalid_argument unless the half length is finite and greater than zero
   Segment(Scalar half_length) : half_length_(half_length) {
@@ -24,11 +25,11 @@ class Segment {
   }
 
   Scalar half_length() const { return half_length_; }   ///< [m]
-  Scalar circumradius() const { return half_length_; }  ///< of the ball around it [m]
-  Scalar inradius() const { return 0; }                 ///< 0: it is its own surface [m]
+  Scalar circumradius() const { return half_length_; }  ///< of the ball around the segment [m]
+  Scalar inradius() const { return 0; }                 ///< 0: the origin lies on the segment [m]
 
   /// An end that is farthest in the direction (any length but zero), body coordinates [m].
-  Vector support(const Vector& direction) const {
+  Vector support(const VectorArgument<S>& direction) const {
     MOREAU_ASSERT(direction.squaredNorm() > 0);
     return direction.x() < 0 ? -half_length_ * Vector::UnitX() : half_length_ * Vector::UnitX();
   }

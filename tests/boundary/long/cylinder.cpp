@@ -6,12 +6,12 @@
 
 #include "world/assemblies.hpp"
 
+using moreau::BallIn;
 using moreau::BodyId;
 using moreau::Polygon;
 using moreau::Polyhedron;
 using moreau::Pose;
 using moreau::Space;
-using moreau::Sphere;
 
 namespace {
 
@@ -54,7 +54,7 @@ struct InCylinder {
 }  // namespace
 
 TEST_CASE_TEMPLATE("a ball (disk) without slip swings at sqrt(5 g / 7 (R - r)), (2 g / 3 (R - r))",
-                   ShapeT, Sphere<Space<3>>, Sphere<Space<2>>) {
+                   ShapeT, moreau::Ball<>, moreau::Disk<>) {
   using Scene = InCylinder<ShapeT>;
   using Vector = typename Scene::Vector;
   constexpr bool solid = Scene::S::angular_dim == 3;
@@ -82,8 +82,8 @@ TEST_CASE_TEMPLATE("a ball (disk) without slip swings at sqrt(5 g / 7 (R - r)), 
   }
 }
 
-TEST_CASE_TEMPLATE("a ball rolls on the spot in a spinning cylinder", ShapeT, Sphere<Space<3>>,
-                   Sphere<Space<2>>) {
+TEST_CASE_TEMPLATE("a ball rolls on the spot in a spinning cylinder", ShapeT, moreau::Ball<>,
+                   moreau::Disk<>) {
   using Scene = InCylinder<ShapeT>;
   using S = typename Scene::S;
   using Vector = typename Scene::Vector;
@@ -130,7 +130,7 @@ TEST_CASE_TEMPLATE("a box rests in a cylinder on its corners", ShapeT, Polyhedro
 
 TEST_CASE("bad cylinders are named") {
   using S = Space<3>;
-  scenes::World<Sphere<S>> world(0.02, moreau::Materials<Law>(1));
+  scenes::World<BallIn<S>> world(0.02, moreau::Materials<Law>(1));
   const S::Vector zero = S::Vector::Zero();
   CHECK_THROWS_WITH_AS(world.add_cylinder(zero, S::Vector(0, 0, 2), 1),
                        "Simulation::add_cylinder: axis = (0, 0, 2) must be unit",

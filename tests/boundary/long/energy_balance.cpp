@@ -14,7 +14,7 @@ namespace {
 
 using namespace moreau;
 using S = Space<2>;
-using DiskT = Sphere<S>;
+using DiskT = BallIn<S>;
 using Vector = S::Vector;
 
 /// Disks of two sizes thrown into a box.

@@ -7,11 +7,11 @@
 #include "boundary/grain_of_radius.hpp"
 #include "world/assemblies.hpp"
 
+using moreau::BallIn;
 using moreau::Polygon;
 using moreau::Polyhedron;
 using moreau::Pose;
 using moreau::Space;
-using moreau::Sphere;
 
 namespace {
 
@@ -20,7 +20,7 @@ using Law = moreau::SignoriniCoulomb<double>;
 }  // namespace
 
 TEST_CASE_TEMPLATE("gas in a cell periodic along all axes: momentum and energy stay", ShapeT,
-                   Polyhedron<>, Polygon<>, Sphere<Space<3>>, Sphere<Space<2>>) {
+                   Polyhedron<>, Polygon<>, moreau::Ball<>, moreau::Disk<>) {
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   scenes::World<ShapeT> gas(0.02, moreau::Materials<Law>(1, Law(0.3, 0.9)));

@@ -6,26 +6,26 @@
 
 #include "moreau/boundary/servo.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 namespace {
 
+using moreau::BallIn;
 using moreau::BodyId;
 using moreau::Pose;
 using moreau::Space;
-using moreau::Sphere;
 using Law = moreau::LinearSpringDashpot<double>;
 
 template <class S>
-using Springs = moreau::Simulation<Sphere<S>, Law>;
+using Springs = moreau::Simulation<BallIn<S>, Law>;
 
 /// Balls of radius 1 cm on a grid of 22 mm, in layers along the last axis, in a cell that is
 /// periodic along the others.
 template <class S>
 Springs<S> periodic_layers(int per_side, int layers, const Law& law) {
   Springs<S> world(0.02, moreau::Materials<Law>(1, law));
-  const auto ball = world.add_shape(Sphere<S>(0.01));
+  const auto ball = world.add_shape(BallIn<S>(0.01));
   int count = layers;
   for (int axis = 0; axis + 1 < S::dim; ++axis) {
     world.set_periodic(axis, 0, 0.022 * per_side);
@@ -77,7 +77,7 @@ TEST_CASE_TEMPLATE("springs across the boundary keep momentum and energy", S, Sp
   using Vector = typename S::Vector;
   Springs<S> ring(0.02, moreau::Materials<Law>(1, Law(1e4)));
   ring.set_periodic(0, -0.3, -0.2);
-  const auto ball = ring.add_shape(Sphere<S>(0.01));
+  const auto ball = ring.add_shape(BallIn<S>(0.01));
   const double speeds[] = {1, -0.5, 0.2};
   double momentum = 0, energy = 0;
   for (int k = 0; k < 3; ++k) {
@@ -109,7 +109,7 @@ TEST_CASE_TEMPLATE("a soft ball swings in a cylinder", S, Space<2>, Space<3>) {
   Pose<S> pose;
   pose.position =
       (R - r) * (std::sin(angle) * Vector::UnitX() - std::cos(angle) * Vector::Unit(up));
-  const BodyId ball = world.add_grain(world.add_shape(Sphere<S>(r)), pose, 1000);
+  const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(r)), pose, 1000);
   world.add_cylinder(Vector::Zero(), S::Angular::Unit(S::angular_dim / 2), R);
   world.set_gravity(-g * Vector::Unit(up));
   const double quarter = std::numbers::pi / 2 / rate;

@@ -9,7 +9,7 @@ namespace {
 template <class S>
 using PolytopeOf = decltype(samples::grain(S{}, std::declval<std::mt19937_64&>()));
 template <class S>
-using Mixed = OneOf<Sphere<S>, PolytopeOf<S>, Capsule<S>, Rounded<PolytopeOf<S>>>;
+using Mixed = OneOf<BallIn<S>, PolytopeOf<S>, CapsuleIn<S>, Rounded<PolytopeOf<S>>>;
 
 TEST_CASE("every query for every pair of kinds in space") {
   std::mt19937_64 random(21);

@@ -8,7 +8,7 @@ namespace {
 
 template <class S, class PolytopeT>
 void check() {
-  using Mixed = OneOf<Sphere<S>, Capsule<S>, Rounded<PolytopeT>>;
+  using Mixed = OneOf<BallIn<S>, CapsuleIn<S>, Rounded<PolytopeT>>;
   std::mt19937_64 random(23);
   check_pair<Mixed, Mixed>(random, 1000);
   check_pair<Mixed, HalfSpace<S>>(random, 200);

@@ -20,7 +20,7 @@ using S3 = Space<3>;
 using S2 = Space<2>;
 using V3 = S3::Vector;
 using V2 = S2::Vector;
-using Rod = Capsule<S3>;
+using Rod = CapsuleIn<S3>;
 constexpr double pi = std::numbers::pi;
 
 template <class A, class B>
@@ -69,7 +69,7 @@ TEST_CASE("a rod lying on a wall, on a face, along a rod: two points") {
 }
 
 TEST_CASE("a stadium on a wall, on an edge, along a stadium: two points") {
-  const Capsule<S2> rod(1, 0.2);
+  const CapsuleIn<S2> rod(1, 0.2);
   const auto on_wall = contact(rod, at(V2(0, 0.2)), HalfSpace<S2>(V2(0, 1)), at(V2(0, 0)));
   check_points(on_wall, {V2(-1, 0), V2(1, 0)}, 0);
   CHECK(on_wall.contact_class == ContactClass::edge_edge);
@@ -91,7 +91,7 @@ TEST_CASE("crossing rods touch in one point, however deep") {
     CHECK(found.contact_class == ContactClass::edge_edge);
   }
   // In the plane crossing segments overlap; the axis is the shorter way to separate them.
-  const Capsule<S2> flat(1, 0.2);
+  const CapsuleIn<S2> flat(1, 0.2);
   const auto found = contact(flat, at(V2(0, 0)), flat, at(V2(0.2, 0.7), pi / 2));
   CHECK(found.gap == doctest::Approx(-0.3 - 0.4));
   CHECK((found.normal - V2(0, 1)).norm() < 1e-12);
@@ -105,7 +105,7 @@ TEST_CASE("rods in line, end to end, and one inside the other") {
   const auto inside = distance(Placed<Rod>(rod), Placed<Rod>(rod, at(V3(0.5, 0, 0))));
   CHECK(inside.gap == doctest::Approx(-0.4));
   CHECK(std::abs(inside.normal.x()) < 1e-12);
-  using Flat = Capsule<S2>;
+  using Flat = CapsuleIn<S2>;
   const Flat flat(1, 0.2);
   const auto row = distance(Placed<Flat>(flat), Placed<Flat>(flat, at(V2(2.5, 0))));
   CHECK(row.gap == doctest::Approx(0.1));

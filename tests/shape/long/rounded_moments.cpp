@@ -30,7 +30,7 @@ Moments<SpaceOf<Core>> counted(const Core& core, double r, int samples, std::mt1
   for (int i = 0; i < samples; ++i) {
     Vector x;
     for (double& c : x) c = coordinate(random);
-    const Placed<Sphere<S>> point(Sphere<S>(tiny), Pose<S>{x, S::identity()});
+    const Placed<BallIn<S>> point(BallIn<S>(tiny), Pose<S>{x, S::identity()});
     if (distance(point, placed).gap + tiny > r) continue;
     sum += {1, x, x * x.transpose()};
   }

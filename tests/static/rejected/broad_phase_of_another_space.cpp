@@ -3,7 +3,7 @@
 // expect: Broad is no BroadPhase in the space of the shape
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 #ifdef MOREAU_CORRECTED

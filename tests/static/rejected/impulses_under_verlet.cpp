@@ -3,7 +3,7 @@
 // expect: a set-valued law gives impulses, which an integrator of forces such as VelocityVerlet
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 #ifdef MOREAU_CORRECTED

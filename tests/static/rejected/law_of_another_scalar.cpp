@@ -3,7 +3,7 @@
 // expect: Law offers neither velocity_offset, solve and natural_map
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 #ifdef MOREAU_CORRECTED

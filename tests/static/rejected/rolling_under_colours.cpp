@@ -3,7 +3,7 @@
 // expect: Solver cannot take this set-valued law
 // and no other error
 #include "moreau/law/rolling_resistance.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 #ifdef MOREAU_CORRECTED

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simulation of a shape without mass properties names the expression that is missing.
 // expect: shape.mass_properties\(density\)
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 struct Bubble {
   using Space = moreau::Space<3>;

@@ -2,7 +2,7 @@
 // The same mistake where it first shows: in a simulation.
 // expect: shape.support\(direction\)
 #include "moreau/law/signorini_coulomb.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 struct Ball : moreau::Ball<double> {

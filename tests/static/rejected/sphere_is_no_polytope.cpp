@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // expect: shape.vertices\(\)
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
 
 template <moreau::Polytope T>
 struct Clipped {};

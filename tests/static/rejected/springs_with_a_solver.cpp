@@ -3,7 +3,7 @@
 // expect: a regularized law leaves nothing to solve
 // and no other error
 #include "moreau/law/linear_spring_dashpot.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 #ifdef MOREAU_CORRECTED

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A support function with the return type auto hands out an Eigen expression of its argument.
 // expect: shape.support\(direction\)
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 struct Ball : moreau::Ball<double> {
 #ifdef MOREAU_CORRECTED

@@ -4,5 +4,5 @@
 #include "conformance/matrix.hpp"
 
 TEST_CASE_TEMPLATE("capsules under every law", T, double, float) {
-  conformance::all_laws(moreau::Capsule<moreau::Space<3, T>>(T(0.0025), T(0.0025)), T(0.01));
+  conformance::all_laws(moreau::Capsule<T>(T(0.0025), T(0.0025)), T(0.01));
 }

@@ -4,5 +4,5 @@
 #include "conformance/matrix.hpp"
 
 TEST_CASE_TEMPLATE("stadiums under every law", T, double, float) {
-  conformance::all_laws(moreau::Capsule<moreau::Space<2, T>>(T(0.0025), T(0.0025)), T(0.01));
+  conformance::all_laws(moreau::Stadium<T>(T(0.0025), T(0.0025)), T(0.01));
 }

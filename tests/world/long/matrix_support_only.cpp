@@ -10,7 +10,7 @@ using DeepFloat = moreau::Space<3, float>;
 TEST_CASE_TEMPLATE("a shape known by its farthest points under every law", S, moreau::Space<2>,
                    moreau::Space<3>, FlatFloat, DeepFloat) {
   using T = typename S::Scalar;
-  using Grain = conformance::SupportOnly<moreau::Capsule<S>>;
+  using Grain = conformance::SupportOnly<moreau::CapsuleIn<S>>;
   static_assert(moreau::ConvexShape<Grain> && !moreau::HasCircumradius<Grain>);
-  conformance::all_laws(Grain(moreau::Capsule<S>(T(0.0025), T(0.0025))), T(0.01));
+  conformance::all_laws(Grain(moreau::CapsuleIn<S>(T(0.0025), T(0.0025))), T(0.01));
 }

@@ -18,7 +18,7 @@ using namespace moreau;
 using S = Space<3>;
 using Vector = S::Vector;
 using Rock = Polyhedron<double>;
-using Grain = OneOf<Sphere<S>, Capsule<S>, Rounded<Rock>>;
+using Grain = OneOf<BallIn<S>, CapsuleIn<S>, Rounded<Rock>>;
 using Law = SignoriniCoulomb<double>;
 using World = Simulation<Grain, Law>;
 
@@ -28,7 +28,7 @@ World box_of_grains(int count) {
   World world(0.02, Materials<Law>(1, Law(0.4)));
   for (int k = 0; k < count; ++k) {
     const Rock rock = samples::grain(S{}, random).scaled(0.01);
-    const Grain kinds[] = {Sphere<S>(0.01), Capsule<S>(0.006, 0.006),
+    const Grain kinds[] = {BallIn<S>(0.01), CapsuleIn<S>(0.006, 0.006),
                            Rounded(rock.scaled(0.7), 0.004)};
     const Vector center(0.015 + 0.025 * (k % 2), 0.015 + 0.025 * (k / 2 % 2),
                         0.015 + 0.03 * (k / 4));
@@ -74,7 +74,7 @@ TEST_CASE("balls, rods and rounded rocks come to rest, momentum balanced at ever
 }
 
 TEST_CASE("a rod that is given a kick rolls on as far as its spin says") {
-  using Rod = Capsule<S>;
+  using Rod = CapsuleIn<S>;
   Simulation<Grain, Law> world(0.02, Materials<Law>(1, Law(0.5)));
   const BodyId rod =
       world.add_grain(world.add_shape(Rod(0.02, 0.01)), {Vector(0, 0, 0.01), S::identity()}, 1000);
@@ -91,7 +91,7 @@ TEST_CASE("a rod that is given a kick rolls on as far as its spin says") {
 
 TEST_CASE("a plank of two rods does not tip, a ball on a rounded box stays") {
   Simulation<Grain, Law> world(0.02, Materials<Law>(1, Law(0.5)));
-  const ShapeId rod = world.add_shape(Capsule<S>(0.03, 0.01));
+  const ShapeId rod = world.add_shape(CapsuleIn<S>(0.03, 0.01));
   const ShapeId board = world.add_shape(Rounded(samples::box(0.06, 0.06, 0.01), 0.002));
   for (const double y : {-0.02, 0.02})
     world.add_grain(rod, {Vector(0, y, 0.01), S::identity()}, 1000);

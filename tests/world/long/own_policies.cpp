@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The policies of the examples through the suite that the library's own pass.
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
-#include "moreau/shape/sphere.hpp"
 
 #include "../../../examples/own_integrator/symplectic_euler.hpp"
 #include "../../../examples/own_law/greased.hpp"
@@ -16,11 +16,11 @@ TEST_CASE("the greased faces of own_law") {
 }
 TEST_CASE("the rubber of own_law") {
   // Stiff enough for a drop of a centimetre: 2e-3 kg of a ball, 0.08 kg/m of a disk.
-  conformance::world(Sphere<Space<3>>(0.005), Rubber{2e4, 1e-4, 0.5, 1, 0.4}, 0.01);
+  conformance::world(moreau::Ball<>(0.005), Rubber{2e4, 1e-4, 0.5, 1, 0.4}, 0.01);
   conformance::world(Disk<double>(0.005), Rubber{3e6, 1e-4, 100, 50, 0.4}, 0.01);
 }
 TEST_CASE("symplectic Euler of own_integrator") {
   using Choice = conformance::With<SymplecticEuler>;
   conformance::world<Choice>(Disk<double>(0.005), conformance::stiff_springs(0.08), 0.01);
-  conformance::world<Choice>(Sphere<Space<3>>(0.005), conformance::stiff_springs(5e-4), 0.01);
+  conformance::world<Choice>(moreau::Ball<>(0.005), conformance::stiff_springs(5e-4), 0.01);
 }

@@ -27,10 +27,10 @@ ShapeT grain(int) {
   return ShapeT(0.01);
 }
 template <>
-Capsule<Plane> grain(int k) {
-  return Capsule<Plane>(0.004 + 0.001 * (k % 3), 0.004);
+CapsuleIn<Plane> grain(int k) {
+  return CapsuleIn<Plane>(0.004 + 0.001 * (k % 3), 0.004);
 }
-using Mixed = OneOf<Disk<>, Polygon<>, Capsule<Plane>, Rounded<Polygon<>>>;
+using Mixed = OneOf<Disk<>, Polygon<>, CapsuleIn<Plane>, Rounded<Polygon<>>>;
 template <>
 Mixed grain(int k) {
   switch (k % 4) {
@@ -39,7 +39,7 @@ Mixed grain(int k) {
     case 1:
       return square(0.015);
     case 2:
-      return Capsule<Plane>(0.005, 0.004);
+      return CapsuleIn<Plane>(0.005, 0.004);
     default:
       return Rounded<Polygon<>>(square(0.01), 0.003);
   }
@@ -94,7 +94,7 @@ TEST_CASE("static friction, of disks, capsules and mixtures") {
   using Law = SignoriniCoulomb<>;
   const auto laws = two(Law(0.3, 0.2, 0.5), Law(0.1));
   check(Simulation<Disk<>, Law>(0.01, laws), 5e-4, 400);
-  check(Simulation<Capsule<Plane>, Law>(0.01, laws), 5e-4, 400);
+  check(Simulation<CapsuleIn<Plane>, Law>(0.01, laws), 5e-4, 400);
   check(Simulation<Mixed, Law>(0.01, laws), 5e-4, 400);
 }
 

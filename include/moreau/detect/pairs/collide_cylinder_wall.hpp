@@ -115,7 +115,7 @@ void for_each_outermost(const Placed<ShapeT>& a, const Placed<CylinderWall<Space
   for (std::uint32_t v = 0; v < count; ++v) use(v, a.vertices()[v], T(0));
 }
 template <class S, class Use>
-void for_each_outermost(const Placed<Sphere<S>>& a, const Placed<CylinderWall<S>>&, Use&& use) {
+void for_each_outermost(const Placed<BallIn<S>>& a, const Placed<CylinderWall<S>>&, Use&& use) {
   use(0u, S::Vector::Zero().eval(), a.radius());
 }
 template <class S, class Use>

@@ -15,7 +15,7 @@ namespace moreau {
 /// Signed distance of a ball from a segment. If the centre of the ball lies on the segment, the
 /// normal is any perpendicular of the segment.
 template <class S>
-SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b) {
+SignedDistance<S> distance(const Placed<BallIn<S>>& a, const Placed<Segment<S>>& b) {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
   const Vector offset = a.center() - b.center();
@@ -33,7 +33,7 @@ SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Segment<S>>&
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
 template <class S>
-bool collide(const Placed<Sphere<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,
+bool collide(const Placed<BallIn<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,
              Manifold<S>& out, PairCache<S>&) {
   using Kind = FeatureKey::Kind;
   MOREAU_ASSERT(margin >= 0);

@@ -117,7 +117,7 @@ PointDistance<SpaceOf<ShapeT>> point_distance(const Placed<ShapeT>& shape,
 /// Signed distance of a ball from a polytope: that of its centre less the radius.
 template <class ShapeT>
 requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
-    const Placed<Sphere<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b) {
+    const Placed<BallIn<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b) {
   const auto found = detail::point_distance(b, a.center() - b.center(), a.radius() + b.radius());
   return {found.distance - a.radius(), -found.outward, a.center() - a.radius() * found.outward,
           a.center() - found.distance * found.outward};
@@ -129,7 +129,7 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
 /// @returns whether the signed gap is at most the margin
 template <class ShapeT>
 requires Polytope<ShapeT>
-bool collide(const Placed<Sphere<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b,
+bool collide(const Placed<BallIn<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b,
              typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out,
              PairCache<SpaceOf<ShapeT>>&) {
   MOREAU_ASSERT(margin >= 0);

@@ -31,7 +31,7 @@ typename Vector::Scalar stable_length(const Vector& v) {
 
 /// Signed distance of two balls. The normal of concentric balls is the x axis.
 template <class S>
-SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& b) {
+SignedDistance<S> distance(const Placed<BallIn<S>>& a, const Placed<BallIn<S>>& b) {
   using Vector = typename S::Vector;
   const Vector offset = b.center() - a.center();
   const auto between = detail::stable_length(offset);
@@ -45,7 +45,7 @@ SignedDistance<S> distance(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& 
 /// @param out     filled if the pair is in contact, left alone otherwise
 /// @returns whether the signed gap is at most the margin
 template <class S>
-bool collide(const Placed<Sphere<S>>& a, const Placed<Sphere<S>>& b, typename S::Scalar margin,
+bool collide(const Placed<BallIn<S>>& a, const Placed<BallIn<S>>& b, typename S::Scalar margin,
              Manifold<S>& out, PairCache<S>&) {
   MOREAU_ASSERT(margin >= 0);
   const auto reach = a.radius() + b.radius() + margin;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -44,16 +44,15 @@ TEST_CASE_TEMPLATE("ball and disk: volume, inertia, box, support, for every spac
 TEST_CASE_TEMPLATE("bad arguments are named", Shape, Ball<double>, Disk<float>) {
   using T = typename Shape::Scalar;
   const T inf = std::numeric_limits<T>::infinity();
-  CHECK(message_of([] { Shape{0}; }) == "Sphere: radius = 0 must be finite and greater than zero");
-  CHECK(message_of([] { Shape{-1}; }) ==
-        "Sphere: radius = -1 must be finite and greater than zero");
+  CHECK(message_of([] { Shape{0}; }) == "Ball: radius = 0 must be finite and greater than zero");
+  CHECK(message_of([] { Shape{-1}; }) == "Ball: radius = -1 must be finite and greater than zero");
   CHECK(message_of([=] { Shape{inf}; }) ==
-        "Sphere: radius = inf must be finite and greater than zero");
+        "Ball: radius = inf must be finite and greater than zero");
   const Shape sphere(1);
   CHECK(message_of([&] { sphere.mass_properties(-3); }) ==
-        "Sphere::mass_properties: density = -3 must be finite and greater than zero");
+        "Ball::mass_properties: density = -3 must be finite and greater than zero");
   CHECK(message_of([&] { sphere.scaled(0); }) ==
-        "Sphere::scaled: factor = 0 must be finite and greater than zero");
+        "Ball::scaled: factor = 0 must be finite and greater than zero");
 }
 
 }  // namespace

@@ -10,9 +10,10 @@
 
 namespace moreau {
 
-/// A full ball in space, a full disk in the plane, about the body's origin.
-template <class S>
-class Sphere {
+/// A solid ball in space, a solid disk in the plane, about the origin of the body frame: Ball<T> or
+/// Disk<T> where the dimension is known.
+template <EuclideanSpace S>
+class BallIn {
  public:
   using Space = S;
   using Scalar = typename S::Scalar;
@@ -20,13 +21,17 @@ class Sphere {
 
   /// @param radius [m], > 0
   /// @throws std::invalid_argument unless the radius is finite and greater than zero
-  explicit Sphere(Scalar radius) : radius_(radius) {
-    detail::require_positive(radius, "Sphere", "radius");
+  explicit BallIn(Scalar radius) : radius_(radius) {
+    detail::require_positive(radius, "Ball", "radius");
   }
 
-  Scalar radius() const { return radius_; }        ///< [m]
-  Scalar circumradius() const { return radius_; }  ///< radius(), under its uniform name [m]
-  Scalar inradius() const { return radius_; }      ///< radius(), under its uniform name [m]
+  Scalar radius() const { return radius_; }  ///< [m]
+  Scalar circumradius() const {
+    return radius_;
+  }  ///< the radius, by the name that all shapes share [m]
+  Scalar inradius() const {
+    return radius_;
+  }  ///< the radius, by the name that all shapes share [m]
   /// [m^D]: pi r^2 in the plane, pi r^2 (4 r / 3) in space.
   Scalar volume() const {
     return std::numbers::pi_v<Scalar> * radius_ * radius_ *
@@ -34,7 +39,7 @@ class Sphere {
   }
 
   /// The farthest point in the direction (any length but zero), body coordinates [m].
-  Vector support(const Vector& direction) const {
+  Vector support(const VectorArgument<S>& direction) const {
     MOREAU_ASSERT(direction.squaredNorm() > 0);
     return radius_ * direction.normalized();
   }
@@ -42,7 +47,7 @@ class Sphere {
   /// @param density [kg/m^D], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero
   MassProperties<S> mass_properties(Scalar density) const {
-    detail::require_positive(density, "Sphere::mass_properties", "density");
+    detail::require_positive(density, "Ball::mass_properties", "density");
     MassProperties<S> properties;
     properties.mass = density * volume();
     // 2/5 m r^2 in space, 1/2 m r^2 in the plane.
@@ -56,27 +61,30 @@ class Sphere {
     return {pose.position.array() - radius_, pose.position.array() + radius_};
   }
 
-  /// A sphere of radius() times the factor [-], > 0.
+  /// A ball of radius() times the factor [-], > 0.
   /// @throws std::invalid_argument unless the factor, and then the radius, is finite and greater
   ///         than zero
-  Sphere scaled(Scalar factor) const {
-    detail::require_positive(factor, "Sphere::scaled", "factor");
-    return Sphere(radius_ * factor);
+  BallIn scaled(Scalar factor) const {
+    detail::require_positive(factor, "Ball::scaled", "factor");
+    return BallIn(radius_ * factor);
   }
 
  private:
   friend struct SerializationAccess;
-  Sphere() = default;
+  BallIn() = default;
   auto serialized_members() { return std::tie(radius_); }
 
   Scalar radius_ = 0;
 };
 
-/// The sphere of the plane.
+/// The ball of the plane.
 template <std::floating_point T = double>
-using Disk = Sphere<moreau::Space<2, T>>;
-/// The sphere of space.
+using Disk = BallIn<Space<2, T>>;
+/// The ball of space.
 template <std::floating_point T = double>
-using Ball = Sphere<moreau::Space<3, T>>;
+using Ball = BallIn<Space<3, T>>;
+/// A ball is solid; a sphere is its surface.
+template <std::floating_point T = double>
+using Sphere [[deprecated("write Ball<T>, in the plane Disk<T>")]] = Ball<T>;
 
 }  // namespace moreau
