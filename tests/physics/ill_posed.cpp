@@ -64,7 +64,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Squeeze {
   int claimed = 0;  ///< steps reported as converged
   int insane = 0;
-  double velocity = infinity;  ///< least approach left over [m/s]
+  double velocity = infinity;  ///< least remaining approach velocity [m/s]
 };
 template <class ShapeT>
 Squeeze squeeze(double friction, double speed) {
