@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Contact problems for the benchmarks of solvers, all from fixed seeds: steps of packings, of the
 // study's box and of masonry, with the warm start of the step; and problems from files (matrices
-// without bodies). A library creates them, so that all programs have the same problems: a sum that
-// another compiler call orders differently gives another packing after some hundred steps.
+// without bodies). They are compiled once, in a library. Compiled in each program, they would
+// differ by rounding, and the packings would differ after some hundred steps.
 #pragma once
 
 #include <cstdint>
