@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cost of the broad phases per body: boxes of one size and of sizes 1 : 20 mixed, in a region of
-// their total volume. Made from a fixed seed outside the timed loop.
+// Time of the broad phases per body: boxes of one size, and boxes of sizes 1 : 20 mixed, in a
+// region of their total volume. The boxes are created from a fixed seed outside the timed loop.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <random>
@@ -15,7 +15,8 @@ namespace {
 
 using namespace moreau;
 
-/// Sizes between 1 / ratio and 1, as many in volume of each; together they fill the region.
+/// Boxes with sizes between 1 / ratio and 1: the total volume is equal in equal intervals of
+/// log(size). Together they fill the region.
 template <class S>
 std::vector<Aabb<S>> random_boxes(std::size_t count, double ratio) {
   using T = typename S::Scalar;

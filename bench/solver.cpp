@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The contact solvers on the problems of contact_problems/: time and sweeps to a residual, and
-// time per contact point and sweep. Making a problem is not timed. Every solution starts from the
-// warm start that the step had, or from zero where there is none. The residual is that of
-// SolveReport for all. "converged" is 0 where the cap came first, and the time then that of the
-// cap, or where the remaining approach velocity is too large; see
-// SolveReport::relative_approach.
+// Times the contact solvers on the problems of contact_problems/: time and sweeps to a given
+// residual, and time per contact point and sweep. The creation of a problem is not timed. Every
+// solution starts from the warm start of the step, or from zero if there is none. All solvers use
+// the residual of SolveReport. The counter "converged" is 0 if the solver reached its cap, or if
+// relative_approach exceeds its bound (SolveReport); the time is then not comparable.
 #include <benchmark/benchmark.h>
 #include <cstddef>
 #include <cstdint>

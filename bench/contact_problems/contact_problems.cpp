@@ -22,11 +22,11 @@ namespace contact_problems {
 
 namespace {
 
-/// Where the next step's problem is written down; null: nowhere.
+/// Destination for the problem of the next step; null: none.
 template <class S>
 StepProblem<S>* wanted = nullptr;
 
-/// The study's solver, which keeps a step's problem when it is told to.
+/// The study's solver, which also stores the problem of a step if asked to.
 struct Keeping : ratcheting::StudySolver {
   using StudySolver::StudySolver;
 
@@ -41,7 +41,7 @@ struct Keeping : ratcheting::StudySolver {
   }
 };
 
-/// The problem that the next step of a simulation solves.
+/// Returns the problem that the next step of a simulation solves.
 template <class S>
 StepProblem<S> problem_of(const std::function<void()>& step) {
   StepProblem<S> problem;
@@ -50,8 +50,8 @@ StepProblem<S> problem_of(const std::function<void()>& step) {
   return problem;
 }
 
-/// Grains on a lattice fall into a box, for as long as the highest takes to fall through half of
-/// it, then a wall presses from the side with ten weights.
+/// Grains fall from a lattice into a box for the time that the highest grain needs to fall through
+/// half of the box. Then a wall compresses them from the side with ten times their weight.
 template <class ShapeT>
 StepProblem<SpaceOf<ShapeT>> packing(std::size_t count) {
   using S = SpaceOf<ShapeT>;
@@ -95,13 +95,13 @@ StepProblem<SpaceOf<ShapeT>> packing(std::size_t count) {
   return problem_of<S>([&] { world.step(step); });
 }
 
-/// The study with its solver replaced.
+/// The study with another solver.
 struct KeepingDynamics : ratcheting::ContactDynamics {
   using Solver = Keeping;
 };
 
-/// Two steps of the study's box: at the least force, with the wall on its way out, and at the
-/// largest, jammed. The force is the study's per grain.
+/// Two steps of the study's box: at the least force, while the wall opens, and at the largest
+/// force, while it is jammed. The force per grain is that of the study.
 template <class ShapeT>
 std::array<StepProblem<SpaceOf<ShapeT>>, 2> drive(std::size_t grains) {
   using S = SpaceOf<ShapeT>;
@@ -122,14 +122,14 @@ std::array<StepProblem<SpaceOf<ShapeT>>, 2> drive(std::size_t grains) {
   };
   return {step_at(0.25), step_at(0.75)};
 }
-/// Both from one run.
+/// Both steps come from one run.
 template <class ShapeT, std::size_t grains>
 const std::array<StepProblem<SpaceOf<ShapeT>>, 2>& driven() {
   static const auto steps = drive<ShapeT>(grains);
   return steps;
 }
 
-/// The first step of a structure of dry blocks, of which nothing is known before.
+/// The first step of a structure of dry blocks, without a warm start.
 template <class ShapeT>
 StepProblem<SpaceOf<ShapeT>> first_step(masonry::Structure<ShapeT, Keeping> structure) {
   structure.simulation.set_solver(Keeping(ColouredOptions{.max_sweeps = 1}));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The contact problems of the benches of solvers, all from fixed seeds: steps of packings, of the
-// study's driven box and of masonry, with the warm start that the step had; and problems from
-// files, which have matrices and no bodies. They are made in a library, so that all programs have
-// the same: what a compiler makes of a sum elsewhere is another packing after some hundred steps.
+// Contact problems for the benchmarks of solvers, all from fixed seeds: steps of packings, of the
+// study's box and of masonry, with the warm start of the step; and problems from files (matrices
+// without bodies). They are compiled once, in a library. Compiled in each program, they would
+// differ by rounding, and the packings would differ after some hundred steps.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ namespace contact_problems {
 using namespace moreau;
 using Law = SignoriniCoulomb<double>;
 
-/// The problem of one step, as a solver gets it.
+/// The problem of one step, as a solver receives it.
 template <class S>
 struct StepProblem {
   ContactProblem<BodyDelassus<S>, Law> problem;
   std::vector<typename S::Vector> guess;  ///< the warm start
 };
 
-/// A problem that is made when it is first asked for.
+/// A problem that is created on first use.
 template <class Problem>
 struct Named {
   std::string name;
@@ -46,15 +46,15 @@ struct Named {
           if (!*made) made->emplace(make());
           return **made;
         }) {}
-  /// It takes minutes to hours to make.
+  /// Whether its creation takes minutes to hours.
   bool is_large() const { return name.starts_with("large/"); }
 };
 
-/// @tparam ShapeT of the grains and blocks, Polyhedron<> or Polygon<>
+/// @tparam ShapeT shape of grains and blocks: Polyhedron<> or Polygon<>
 template <class ShapeT>
 std::vector<Named<StepProblem<SpaceOf<ShapeT>>>> step_problems();
 
-/// Those from the test data of Siconos; see tests/data/fclib/README.md.
+/// Problems from the test data of Siconos; see tests/data/fclib/README.md.
 std::vector<Named<AnyFrictionProblem>> file_problems();
 
 }  // namespace contact_problems

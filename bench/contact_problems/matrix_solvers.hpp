@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Solvers of problems that are given by their matrices, asked for the residual that SolveReport
-// has.
+// Solvers for problems given by matrices. They solve to a residual as SolveReport defines it.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +13,8 @@ namespace contact_problems {
 
 using namespace moreau;
 
-/// SolveReport::residual of a problem that has no bodies.
-/// @param impulses in the units of the problem, D n [N s]
+/// The residual of SolveReport for a problem without bodies.
+/// @param impulses in the units of the problem, D per contact [N s]
 template <class S>
 double residual(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
   const Eigen::VectorXd u = problem.delassus * impulses + problem.free_velocity;
@@ -24,7 +23,7 @@ double residual(const FrictionProblem<S>& problem, const Eigen::VectorXd& impuls
   return error.relative(error.impulse);
 }
 
-/// Plain sweeps over the blocks of W: what NonlinearGaussSeidel does where there are bodies.
+/// Plain sweeps over the blocks of W, like NonlinearGaussSeidel for bodies.
 struct BlockGaussSeidel {
   double tolerance;  ///< on residual() [-]
   int max_sweeps;
@@ -47,12 +46,13 @@ struct BlockGaussSeidel {
   }
 };
 
-/// ProximalSolver, asked for residual(). Its own is relative to the largest of |b|, |r| and |u|;
-/// what that makes of |r| alone is known once there is a result, from which it then goes on.
+/// ProximalSolver with a tolerance for residual(). The solver's own residual is relative to the
+/// largest of |b|, |r| and |u|. After a first solution the tolerance is converted to |r| alone, and
+/// the solver continues from that solution.
 struct Proximal {
   double tolerance;  ///< on residual() [-]
   int max_sweeps;
-  double max_seconds;  ///< at a time [s]
+  double max_seconds;  ///< per call of the solver [s]
 
   template <class S>
   ProblemReport solve(const FrictionProblem<S>& problem, Eigen::VectorXd& impulses) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of each case: the formula that it is held to, and where it stands.
+// The known answer of each case: its formula and its source.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct Answer {
   const char* source;
 };
 
-/// @throws std::logic_error for a case that has none
+/// @throws std::logic_error if a case has no formula
 const Answer& answer_of(const std::string& name);
 
 }  // namespace validation

@@ -12,7 +12,7 @@
 
 namespace validation {
 
-/// In a scalar.
+/// The cases of this group in the scalar T.
 template <class T>
 std::vector<Case> closed_forms_in() {
   return {{"free_fall", free_fall<T>, false},

@@ -8,7 +8,8 @@
 
 namespace validation {
 
-/// In a scalar; energy over 1e5 steps, in double only, is in invariants.cpp.
+/// The cases of this group in the scalar T. The energy over 1e5 steps, in double only, is in
+/// invariants.cpp.
 template <class T>
 std::vector<Case> invariants_in() {
   return {{"symmetries", symmetries_of_experiments<T>, false},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the cases with known answers and writes what came out as a table.
+// Runs the validation cases and writes a table of expected and measured values.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -58,7 +58,7 @@ void print(const Result& result) {
   std::fflush(stdout);
 }
 
-/// @returns 0 if everything passed that is not known to miss
+/// @returns 0 if every comparison passes or is a known miss, else 1
 int run(const Options& options) {
   std::filesystem::create_directories(options.output);
   std::vector<Result> results;
@@ -84,12 +84,18 @@ int main(int argc, char** argv) {
   validation::Options options;
   std::vector<std::string> names;
   for (const validation::Case& one : validation::all_cases()) names.emplace_back(one.name);
-  CLI::App app{"Runs the cases with known answers and writes what came out as a table."};
+  CLI::App app{
+      "Compares the library with known answers and writes a table of expected and measured "
+      "values."};
   app.set_version_flag("--version", MOREAU_VERSION_STRING);
-  app.add_option("--only", options.only, "these cases, by name")->check(CLI::IsMember(names));
-  app.add_option("--output", options.output, "folder, made if missing; its files are overwritten")
+  app.add_option("--only", options.only, "run only the cases with these names")
+      ->check(CLI::IsMember(names));
+  app.add_option(
+         "--output", options.output,
+         "folder for the results; created if it does not exist, files in it are overwritten")
       ->capture_default_str();
-  app.add_flag("--quick", options.quick, "smaller samples, and without the cases that take long");
+  app.add_flag("--quick", options.quick,
+               "run smaller samples, without the cases that take minutes");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

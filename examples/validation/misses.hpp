@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Comparisons that are known not to pass.
+// Comparisons that are known to fail.
 #pragma once
 
 #include "cases/record.hpp"
 
 namespace validation {
 
-/// Why a comparison does not pass, where it is known not to: mostly that float has seven digits.
-/// Null for all others.
+/// Reason why a comparison is known to fail; null for a comparison that should pass. In most cases
+/// the reason is that single precision has seven digits.
 const char* known_miss(const Row& row);
 
 }  // namespace validation

@@ -30,7 +30,7 @@ std::string today() {
   return text.data();
 }
 
-/// Compiler and kind of build.
+/// Compiler, flags and commit of this program.
 std::string build() {
 #if defined(__clang__)
   std::string text = "clang " __clang_version__;
@@ -111,10 +111,11 @@ void write(const std::filesystem::path& folder, std::span<const Result> results)
 void plot(const std::filesystem::path& folder) {
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
   const std::string place = std::filesystem::absolute(folder).string();
-  if (place.find_first_of("'\"\\") != std::string::npos) return;  // no name for a command line
+  if (place.find_first_of("'\"\\") != std::string::npos) return;  // not safe on a command line
   const std::string command =
       "gnuplot -e \"folder='" + place + "'\" '" VALIDATION_PLOTS "/all.gp' >/dev/null 2>&1";
-  if (std::system(command.c_str()) != 0) std::fprintf(stderr, "gnuplot: not all plots drawn\n");
+  if (std::system(command.c_str()) != 0)
+    std::fprintf(stderr, "gnuplot: some plots could not be drawn\n");
 }
 
 }  // namespace validation

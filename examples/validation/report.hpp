@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table and the curves of a run as files.
+// Writes the results of a run: the table and the curves.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace validation {
 
-/// What ran, under which name.
+/// A case that was run, with its name.
 struct Result {
   std::string name;
   Record record;
@@ -21,7 +21,7 @@ struct Result {
 /// @throws std::system_error naming the file if one cannot be written
 void write(const std::filesystem::path& folder, std::span<const Result> results);
 
-/// Draws the curves that are there, where gnuplot is.
+/// Draws the curves of the run, if gnuplot is installed.
 void plot(const std::filesystem::path& folder);
 
 }  // namespace validation

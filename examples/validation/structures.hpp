@@ -8,7 +8,7 @@
 
 namespace validation {
 
-/// In a scalar; the arch, in double only, is in structures.cpp.
+/// The cases of this group in the scalar T. The arch, in double only, is in structures.cpp.
 template <class T>
 std::vector<Case> structures_in() {
   return {{"column", column_of_bodies<T>, false},

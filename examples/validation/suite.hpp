@@ -11,19 +11,19 @@ namespace validation {
 struct Case {
   const char* name;
   void (*run)(Record&, Effort);
-  bool takes_long;  ///< left out by --quick
+  bool takes_long;  ///< skipped with --quick
 };
 
-/// Cases whose answer is a closed form.
+/// Cases with an answer in closed form.
 std::vector<Case> closed_forms();
-/// Blocks and balls that stand or fall.
+/// Structures of blocks and balls that stand or fall.
 std::vector<Case> structures();
-/// What holds for any experiment.
+/// Properties of every experiment: symmetries and conservation.
 std::vector<Case> invariants();
-/// Many grains.
+/// Packings and flows of many grains.
 std::vector<Case> packings();
 
-// The same in single precision, where they have an answer there; by the same names.
+// The cases that run in single precision, with the same names.
 std::vector<Case> closed_forms_in_float();
 std::vector<Case> structures_in_float();
 std::vector<Case> invariants_in_float();

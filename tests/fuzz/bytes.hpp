@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a fuzz target makes of the bytes that it is given, and how it says that something is wrong.
+// Shared by the fuzz targets: numbers from the input bytes, and the report of a finding.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 #include <cstdlib>
 #include <cstring>
 
-/// Ends the program with a message unless the condition holds: a finding.
+/// Reports a finding: ends the program with a message unless the condition holds.
 inline void hold(bool condition, const char* what) {
   if (condition) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
   std::abort();
 }
 
-/// Numbers from bytes, taken one after the other; zeros once they have run out.
+/// Takes numbers from the input bytes one after the other; zeros after the end of the input.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
@@ -32,12 +32,12 @@ class Bytes {
     left_ -= count;
     return value;
   }
-  /// A whole number in [lowest, highest], at most 256 of them.
+  /// An integer in [lowest, highest], a range of at most 256 values.
   int between(int lowest, int highest) {
     return lowest + raw<std::uint8_t>() % (highest - lowest + 1);
   }
-  /// A number on a grid of quarters, that number and a little more or less, a number of three
-  /// digits, or (if wild) any bits: infinities and denormals are among them.
+  /// A number on a grid of quarters, that number plus or minus a little, a number of three digits,
+  /// or (if wild) arbitrary bits, including infinities and denormals.
   double number(bool wild = false) {
     switch (between(0, wild ? 3 : 2)) {
       case 0:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A well-formed HDF5 file with any numbers and any lengths where FCLIB's are: a valid problem or an
-// error. What HDF5's own library does with malformed files is not looked for here.
+// Input: a well-formed HDF5 file with arbitrary numbers and arbitrary sizes in the place of
+// FCLIB's. Expected: a valid problem or an error. The target does not look for errors of the HDF5
+// library in malformed files.
 #include "moreau/io/fclib.hpp"
 
 #include <filesystem>
@@ -16,7 +17,7 @@ namespace {
 
 using namespace moreau::detail;
 
-/// Mostly near zero, now and then anything.
+/// A number: mostly near zero, sometimes arbitrary.
 int take_integer(Bytes& bytes) {
   const int value = bytes.between(-3, 200);
   return value < 180 ? value % 12 : bytes.raw<int>();
@@ -58,7 +59,7 @@ void put_file(Bytes& bytes, const std::filesystem::path& path) {
   for (const char* name : {"q", "f", "w", "mu"}) put(bytes, vectors, name, take_numbers(bytes));
 }
 
-/// One file for all inputs.
+/// The same file is used for all inputs.
 const std::filesystem::path& path() {
   static const std::filesystem::path path = [] {
     std::string name = std::filesystem::temp_directory_path() / "moreau_fuzz_XXXXXX";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any points: a convex hull that encloses them, of which every number is finite, or an error.
+// Input: arbitrary points. Expected: a convex hull that contains them and whose numbers are finite,
+// or an error.
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -27,7 +28,7 @@ std::vector<Vector> take_points(Bytes& bytes) {
   return points;
 }
 
-/// What a shape says of itself, in the coordinates of the input.
+/// The properties of a shape in the coordinates of the input.
 template <class ShapeT>
 void check_shape(const ShapeT& shape, const std::vector<typename ShapeT::Vector>& points) {
   using T = typename ShapeT::Scalar;
@@ -45,8 +46,8 @@ void check_shape(const ShapeT& shape, const std::vector<typename ShapeT::Vector>
   hold((mass.inertia.diagonal().array() > 0).all(), "positive moments of inertia");
   hold(std::isfinite(shape.circumradius()) && shape.circumradius() > 0, "positive circumradius");
   hold(shape.inradius() <= shape.circumradius(), "inradius <= circumradius");
-  // The tolerance of a hull may have been raised 64 times, and bounds half of the deviation; planes
-  // then are rounded to the scalar.
+  // The hull may have raised its tolerance by a factor of up to 64, and the tolerance bounds half of
+  // the deviation. The planes are then rounded to the scalar.
   const T close = T(2 * 64 + 2) * static_cast<T>(HullTolerance{}.flat) *
                   std::numeric_limits<T>::epsilon() * size;
   for (const auto& x : points) {

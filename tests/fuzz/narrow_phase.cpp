@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two shapes anywhere: the narrow phase agrees with the exhaustive search, and what it remembers of
-// the pair changes no bit.
+// Input: two shapes at arbitrary poses. Expected: the narrow phase agrees with the exhaustive
+// search, and the pair cache changes no bit.
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -71,7 +71,7 @@ std::optional<ShapeT> take_shape(Bytes& bytes) {
   }
 }
 
-/// Quarter and eighth turns about axes, any turn, or a little one.
+/// Rotations by quarter and eighth turns about axes, by an arbitrary angle, or by a small angle.
 template <class S>
 typename S::Rotation take_rotation(Bytes& bytes) {
   typename S::Angular turn = S::Angular::Zero();
@@ -90,7 +90,7 @@ typename S::Rotation take_rotation(Bytes& bytes) {
   return S::normalized(S::exp(turn));
 }
 
-/// The three queries of a pair against each other and against the truth.
+/// Compares the three queries of a pair with each other and with the exact answer.
 template <class ShapeT>
 class Trial {
  public:

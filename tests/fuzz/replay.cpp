@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Takes the place of libFuzzer where there is none: runs the target on every file that is named,
-// and on every file in the folders that are.
+// Replaces libFuzzer where it is not available: runs the target on every file that is an argument,
+// and on every file in the folders that are arguments.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

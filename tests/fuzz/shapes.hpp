@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shapes that fuzz targets build, compiled once for all of them: under sanitizers it is most of
-// their time.
+// The shapes that fuzz targets build, compiled once for all targets: with sanitizers they take most
+// of the compile time.
 #pragma once
 
 #include <span>
@@ -8,6 +8,6 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
-/// The constructor.
+/// Calls the constructor.
 template <class ShapeT>
 ShapeT hull_of(std::span<const typename ShapeT::Vector> points);

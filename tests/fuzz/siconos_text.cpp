@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any text: a valid problem or an error.
+// Input: an arbitrary text. Expected: a valid problem or an error.
 #include "moreau/io/siconos_text.hpp"
 
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any bytes, or those of a snapshot with some of them changed and the checksum put right: a
-// simulation whose own snapshot reads back to itself, or an error. What is read takes no step: a
-// file that was forged with care is not what the format guards against.
+// Input: arbitrary bytes, or the bytes of a snapshot with some of them changed and a correct
+// checksum. Expected: a simulation whose own snapshot can be read back, or an error. The simulation
+// makes no step: the format does not protect against carefully forged files.
 #include "moreau/io/snapshot.hpp"
 
 #include <random>
@@ -46,7 +46,7 @@ void put_right(std::string& bytes) {
   put(bytes, end, crc64(std::string_view(bytes).substr(0, end)));
 }
 
-/// Changes, cuts out and repeats bytes.
+/// Changes, removes and repeats bytes.
 std::string changed(std::string bytes, Bytes& how) {
   while (!how.is_empty() && !bytes.empty()) {
     const std::size_t place = how.raw<std::uint16_t>() % bytes.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What may happen to those who write files.
+// Faults while a file is written: a full disk, a folder without write permission, a killed process.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <utility>
 
-/// While it lives no file grows beyond so many bytes: a disk that is full.
+/// While the object exists, files cannot grow beyond `bytes`, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(std::uintmax_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -33,8 +33,8 @@ class FullDisk {
   void (*signal_)(int);
 };
 
-/// While it lives a folder may be looked into but not written to; root, who may do anything, is
-/// nobody.
+/// While the object exists, the folder can be read but not written. If the test runs as root, the
+/// object changes to the user nobody, because root can write everywhere.
 class UnwritableFolder {
  public:
   explicit UnwritableFolder(std::filesystem::path path) : path_(std::move(path)), user_(geteuid()) {
@@ -55,7 +55,7 @@ class UnwritableFolder {
   bool changed_ = false;
 };
 
-/// Has another process do something again and again until it is killed, after this time.
+/// Calls does() repeatedly in another process and kills that process after `time`.
 template <class F>
 void kill_while(std::chrono::microseconds time, F&& does) {
   const pid_t child = fork();

@@ -177,7 +177,7 @@ TEST_CASE("bad files are refused") {
       doctest::Contains("w.hdf5: read_fclib: column of an entry of W = 7 must lie in the matrix"),
       std::invalid_argument);
   write_storage(path, 1, {0}, {0}, {1}, 2, 2000000000);
-  CHECK_THROWS_WITH_AS(read_fclib(path), doctest::Contains("W/n = 2000000000 must be as many"),
+  CHECK_THROWS_WITH_AS(read_fclib(path), doctest::Contains("W/n = 2000000000 must equal the size"),
                        std::invalid_argument);
   {
     write_storage(path, 1, {0}, {0}, {1});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is said of a file that is no snapshot to go on with; the rest is in world/restart.cpp.
+// Messages for files that cannot be continued from. The other tests of snapshots are in
+// world/restart.cpp.
 #include "moreau/io/snapshot.hpp"
 
 #include <cstring>
@@ -18,7 +19,7 @@ using namespace moreau;
 
 namespace {
 
-/// What is said of a file.
+/// The message for a file.
 std::string said(const std::function<void()>& reads) {
   try {
     reads();
@@ -30,7 +31,7 @@ std::string said(const std::function<void()>& reads) {
 std::string said_of_head(const std::string& bytes) {
   return said([&] { detail::checked_head(bytes, "it"); });
 }
-/// A head, no objects, and the checksum.
+/// A head without objects, and the checksum.
 std::string smallest() {
   detail::SnapshotHead head;
   detail::ArchiveWriter archive;

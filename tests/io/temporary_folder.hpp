@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-/// An empty folder of its own, gone with the object.
+/// Creates an empty folder and removes it with the object.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)
@@ -28,7 +28,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// All bytes of a file.
+/// Reads all bytes of a file.
 inline std::string read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

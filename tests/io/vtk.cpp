@@ -24,7 +24,7 @@ using namespace moreau;
 using namespace vtk_samples;
 using On = VtkPolyData::On;
 
-/// Reads back what VtkPolyData writes; knows of XML only that.
+/// Reads the files of VtkPolyData. It understands only as much XML as they contain.
 class Vtp {
  public:
   explicit Vtp(const std::filesystem::path& path) : text_(read(path)) {
@@ -40,7 +40,7 @@ class Vtp {
   std::size_t count(const std::string& what) const {
     return std::stoul(attribute(text_.find("<Piece"), "NumberOf" + what));
   }
-  /// The array of a name within a section, e.g. "CellData".
+  /// The array with a name in a section, e.g. "CellData".
   template <class T>
   std::vector<T> array(const std::string& section, const std::string& name) const {
     const auto begin = text_.find("<" + section + ">");
@@ -101,7 +101,8 @@ TEST_CASE("polyhedra are written as their faces with the grain's values on each"
         doctest::Approx(2 * shape.circumradius()).epsilon(1e-6));
   CHECK(file.array<float>("CellData", "speed")[7] == doctest::Approx(std::sqrt(3.0)));
 
-  // The surface that was written encloses each grain's volume: points, faces and their sense.
+  // The written surface encloses the volume of each grain: this checks points, faces and their
+  // orientation.
   for (int grain = 0; grain < 2; ++grain) {
     double volume = 0;
     for (int f = 4 * grain; f < 4 * grain + 4; ++f) {
@@ -173,7 +174,8 @@ TEST_CASE_TEMPLATE("every shape is drawn by its surface", S, Space<2>, Space<3>)
   const auto x = [&](std::int32_t point, int axis) {
     return double(points[std::size_t(3 * point + axis)]);
   };
-  // What the faces enclose: fans of triangles, over any line or point.
+  // The volume that the faces enclose, as a sum of fans of triangles relative to an arbitrary line
+  // or point.
   double enclosed[4] = {};
   std::size_t first = 0;
   for (std::size_t f = 0; f < ends.size(); ++f) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where VTK's Python module is installed, its own reader has the last word; elsewhere the test
+// Reads the files with VTK's own reader, if VTK's Python module is installed; otherwise the test
 // counts as skipped.
 #include <cstdlib>
 #include <doctest/doctest.h>

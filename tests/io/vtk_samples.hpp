@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests of files for ParaView draw.
+// Data that the tests of files for ParaView write.
 #pragma once
 
 #include <span>

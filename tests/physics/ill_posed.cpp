@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Problems without a solution, with many, and arguments that make none: they end in a report or an
-// exception, and no position is lost.
+// Problems without a solution, problems with many solutions, and arguments that are not valid. They
+// end in a report or an exception, and no position is lost.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -29,7 +29,7 @@ struct Scene {
   explicit Scene(double friction, double size = 0.1)
       : simulation(size, moreau::Materials<Law>(1, Law(friction))) {}
 
-  /// In the plane of the first axis and the last.
+  /// A vector in the plane of the first and the last axis.
   static Vector vector(double across, double height) {
     Vector x = Vector::Zero();
     x[0] = across;
@@ -60,11 +60,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-/// A box that two driven walls press from both sides: no velocity of it satisfies both.
+/// A box between two driven walls that approach each other: no velocity of the box satisfies both
+/// contacts.
 struct Squeeze {
   int claimed = 0;  ///< steps reported as converged
   int insane = 0;
-  double velocity = infinity;  ///< least approach left over [m/s]
+  double velocity = infinity;  ///< least remaining approach velocity [m/s]
 };
 template <class ShapeT>
 Squeeze squeeze(double friction, double speed) {
@@ -80,7 +81,7 @@ Squeeze squeeze(double friction, double speed) {
     scene.simulation.set_velocity(wall, -side * speed * Vector::UnitX());
   }
   Squeeze result;
-  // The walls meet after half a second.
+  // The walls touch each other after half a second.
   for (int k = 0; k < rounds(400); ++k) {
     const moreau::StepReport report = scene.simulation.step(h);
     result.insane += !is_sane(report) || !scene.is_finite();
@@ -95,8 +96,9 @@ TEST_CASE_TEMPLATE("a grain between walls driven together: all numbers stay fini
   for (const double friction : {0.0, 0.5}) CHECK(squeeze<ShapeT>(friction, 0.1).insane == 0);
 }
 
-// May fail: acceleration lets the impulses grow until they drown the velocities in rounding.
-// The first step is reported as unsolved; those that start from its velocities are not.
+// May fail: the acceleration lets the impulses grow until the velocities are lost in their
+// rounding. The first step is reported as not converged; steps that start from its velocities are
+// not.
 TEST_CASE_TEMPLATE("a grain between walls driven together: the report says that nothing solves it" *
                        doctest::may_fail(),
                    ShapeT, Polyhedron<>, Polygon<>) {
@@ -104,13 +106,13 @@ TEST_CASE_TEMPLATE("a grain between walls driven together: the report says that 
     const Squeeze result = squeeze<ShapeT>(friction, 0.1);
     CAPTURE(friction);
     CHECK(result.claimed == 0);
-    // Of two walls that approach at v each, one approaches the grain at v or more.
+    // Each wall moves with v, so one of them approaches the grain with v or more.
     CHECK(result.velocity >= 0.05);
   }
 }
 
-// The walls open by 30 degrees; the friction angle, 45 degrees, is more than half of that, so that
-// the wedge holds itself under any load within and by any self-stress: many solutions.
+// The walls form an angle of 30 degrees. The friction angle, 45 degrees, is more than half of that,
+// so the wedge carries any load and any self-stress: the problem has many solutions.
 TEST_CASE_TEMPLATE("a heavy grain in a self-locking wedge stays", ShapeT, Polyhedron<>, Polygon<>) {
   using Box = Scene<ShapeT>;
   using Vector = typename Box::Vector;
@@ -143,7 +145,7 @@ TEST_CASE_TEMPLATE("a heavy grain in a self-locking wedge stays", ShapeT, Polyhe
   const double moved = (scene.simulation.bodies().pose[grain.index()].position - start).norm();
   CHECK(insane == 0);
   CHECK(unsolved == 0);
-  // Residual x g h x |r| / (m g h); the walls' push needs no more than ten weights.
+  // Residual x g h x |r| / (m g h); a push of the walls of ten weights is enough.
   CHECK(moved <= 10 * 9.81 * h * allowed);
 }
 
@@ -194,7 +196,7 @@ TEST_CASE_TEMPLATE("what no body can be is refused where it is said", ShapeT, Po
     stretched.rotation.coeffs() *= 2;
     refuses("rotation", [&] { simulation.set_pose(grain, stretched); });
   }
-  // Nothing of what was refused stays.
+  // Nothing of what was rejected was stored.
   CHECK(is_sane(simulation.step(1e-3)));
   CHECK(scene.is_finite());
 }

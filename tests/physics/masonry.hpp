@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structures of dry blocks on a floor, drawn once in the vertical plane and extruded in space.
+// Structures of dry blocks on a floor. They are drawn in the vertical plane and extruded in space.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline moreau::ColouredOptions tight(int max_sweeps = 10000) {
   return options;
 }
 
-/// @tparam Solver of the contacts
+/// @tparam Solver of the contact problem
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 struct Structure {
   using S = moreau::SpaceOf<ShapeT>;
@@ -45,14 +45,15 @@ struct Structure {
   Structure(double size, double friction, double prism_depth, double tilt = 0)
       : simulation(size, moreau::Materials<Law>(1, Law(friction)), Solver(tight())),
         depth(prism_depth) {
-    // Three points of a rectangle leave the load on the edge of their triangle: it would rock.
+    // Three of the four points of a rectangle leave the load on the edge of their triangle: the
+    // block would rock.
     simulation.set_contact_points(moreau::ContactPoints::all);
     simulation.add_wall(Vector::Unit(up), Vector::Zero());
     simulation.set_gravity(gravity *
                            (std::sin(tilt) * Vector::UnitX() - std::cos(tilt) * Vector::Unit(up)));
   }
 
-  /// A block by its corners in the plane, any order.
+  /// Adds a block by its corners in the plane, in any order.
   void add(const std::vector<Point>& corners) {
     std::vector<Vector> vertices;
     for (const auto& [across, height] : corners)
@@ -75,7 +76,7 @@ struct Structure {
          {left + width, bottom + height}});
   }
 
-  /// Every vertex of every block [m].
+  /// Every vertex of every block, world axes [m].
   std::vector<Vector> vertices() const {
     std::vector<Vector> all;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
@@ -90,7 +91,8 @@ struct Structure {
     for (const double weight : simulation.bodies().weight) sum += weight;
     return sum;
   }
-  /// What the residual of the last step is relative to: |r| times the mean of diag W [m/s].
+  /// The velocity that the residual of the last step is relative to: |r| times the mean of diag W
+  /// [m/s].
   double impulse_velocity() const {
     const auto& bodies = simulation.bodies();
     const auto& contacts = simulation.contacts();
@@ -109,8 +111,8 @@ struct Structure {
   }
 };
 
-/// Boxes on each other, the floor tilted by 0.01: the resultant leaves the base when the tilt is
-/// 1/count.
+/// Boxes on top of each other on a floor that is tilted by 0.01. The resultant force leaves the
+/// base when the tilt is 1/count.
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 Structure<ShapeT, Solver> column(int count) {
   Structure<ShapeT, Solver> structure(0.1, 0.5, 0.1, std::min(0.01, 0.4 / count));
@@ -121,8 +123,9 @@ Structure<ShapeT, Solver> column(int count) {
   return structure;
 }
 
-/// Courses of bricks, every other one shifted by half a brick and closed by two halves; joints are
-/// dry on all sides. The floor is tilted along the wall, below the friction angle.
+/// Courses of bricks; every second course is shifted by half a brick and closed by two half bricks.
+/// Joints are dry on all sides. The floor is tilted along the wall, by less than the friction
+/// angle.
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 Structure<ShapeT, Solver> wall(int courses, int bricks) {
   constexpr double length = 0.2, height = 0.06;
@@ -141,23 +144,24 @@ Structure<ShapeT, Solver> wall(int courses, int bricks) {
   return structure;
 }
 
-/// tan of the lean of a card to the vertical, half of its run over the rise.
+/// tan of the angle of a card to the vertical: half of its horizontal extent over its height.
 constexpr double card_lean = 0.36;
 
 /// The friction that the lower storey of a card house needs, in the limit of thin cards. A leaning
-/// card of weight W carries Q on its ridge, at the run a and the rise b from its foot. By symmetry
-/// the ridge transmits only a thrust T, and the moment about the foot gives T b = W a/2 + Q a; the
-/// foot carries W + Q. So mu >= T/(W + Q) = (a/b)(W/2 + Q)/(W + Q). Above the lower ridges lie one
-/// level card and one pair, 3 W on four cards: Q = 3/4 W and mu >= 5/7 a/b. The upper storey,
-/// Q = 0, needs 1/2 a/b.
+/// card of weight W carries the load Q at its top, at the horizontal distance a and the height b
+/// from its base. By symmetry the top transmits only a horizontal thrust T. The moment about the
+/// base gives T b = W a/2 + Q a, and the base carries W + Q. So mu >= T/(W + Q) = (a/b)(W/2 + Q)/(W
+/// + Q). The lower storey carries one level card and one pair of cards, 3 W on four cards: Q = 3/4
+/// W and mu >= 5/7 a/b. The upper storey, with Q = 0, needs 1/2 a/b.
 constexpr double card_friction = 5.0 / 7 * card_lean;
 
-/// A leaning card, cut level at its foot and its top and plumb at the ridge, as a rafter is.
+/// Adds a leaning card. It is cut horizontally at its base and its top, and vertically at the
+/// ridge.
 /// @param side -1 left, 1 right of the ridge
 template <class ShapeT>
 void add_card(Structure<ShapeT>& house, double ridge, double foot, double rise, double thickness,
               double side) {
-  // From the plumb cut down the lower face, along the foot, up the upper face, along the top.
+  // From the vertical cut down the lower face, along the base, up the upper face, along the top.
   const double wide = thickness * std::hypot(1.0, card_lean);  // measured level
   const double run = card_lean * rise;
   const double cut = wide / 2;  // level width of the top
@@ -169,7 +173,7 @@ void add_card(Structure<ShapeT>& house, double ridge, double foot, double rise, 
              {ridge, foot + rise - plumb}});
 }
 
-/// Two storeys: two pairs, a level card across their ridges, a pair on it.
+/// Two storeys: two pairs of cards, a level card across their ridges, and a pair on it.
 template <class ShapeT>
 Structure<ShapeT> card_house(double friction) {
   constexpr double rise = 1, thickness = 0.04;
@@ -189,8 +193,9 @@ Structure<ShapeT> card_house(double friction) {
   return house;
 }
 
-/// A semicircular arch of equal voussoirs, mean radius 1, on the floor.
-/// @param thickness over the mean radius; 0.1075 is the least that stands (M. Milankovitch, 1907)
+/// A semicircular arch of equal voussoirs with mean radius 1 on the floor.
+/// @param thickness relative to the mean radius; the least that stands is 0.1075 (M. Milankovitch,
+///                  1907)
 template <class ShapeT>
 Structure<ShapeT> arch(int voussoirs, double thickness) {
   Structure<ShapeT> structure(thickness, 0.7, 0.3);

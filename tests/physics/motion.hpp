@@ -7,7 +7,7 @@
 
 namespace scenes {
 
-/// Of all grains of a simulation [J].
+/// Kinetic energy of all grains of a simulation [J].
 template <class Simulation>
 double kinetic_energy(const Simulation& simulation) {
   using S = typename Simulation::S;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A packing that has come to rest, and what it means that it rests.
+// A packing at rest, and the criterion for rest.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace packing {
 
 using Law = moreau::SignoriniCoulomb<double>;
 
-/// 60 grains fall into a box and settle; then overlap and kinetic energy are followed. The second
-/// half of the time must not be worse than the first, where that is more than what a packing at
-/// rest may show: overlaps up to the slop of the correction, and velocities of the residual, as the
-/// residual is relative to some g h times the number of grains that a contact carries.
+/// 60 grains fall into a box and settle; then overlap and kinetic energy are recorded. The second
+/// half of the time must not be worse than the first half, as far as it exceeds what a packing at
+/// rest may show: overlaps up to the slop of the correction, and velocities of the size of the
+/// residual, which is relative to about g h times the number of grains that a contact carries.
 template <class ShapeT>
 void check_rests(double duration) {
   constexpr double h = 1e-3, size = 0.02, gravity = 9.81;

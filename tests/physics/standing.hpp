@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What it means that a structure stands.
+// The criterion for a structure that stands.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,17 @@
 
 namespace masonry {
 
-/// Lets a structure stand. Each step has to be solved to the tolerance, and what moves has to lie
-/// within the residual:
+/// Runs a structure. Every step must converge to the tolerance, and every motion must be within the
+/// residual:
 ///
-/// In the natural map a contact strictly inside its cone leaves its velocity alone, so the sticking
-/// points slip by |u| <= e := residual x impulse velocity (some g h for one block; a joint that
-/// carries n blocks has n times that), together in the 2-norm. Joints of width w then turn by
-/// 2 u/w at most. A block that reaches the floor by n joints within a structure of diameter D moves
-/// by sum u (1 + 2 D/w) <= e sqrt(n) (1 + 2 D/w). Steps do not add up velocities, so the
-/// displacement is the sum of h times that, and the kinetic energy below m/2 of its square.
-/// Position moves by the correction of overlaps besides, as far as it reports.
+/// In the natural map a contact strictly inside its cone does not change its velocity. The sticking
+/// points therefore slip by |u| <= e := residual x impulse velocity (about g h for one block; a
+/// joint that carries n blocks has n times that), together in the 2-norm. Joints of width w then
+/// rotate by at most 2 u/w. A block that is connected to the floor by n joints in a structure of
+/// diameter D moves by sum u (1 + 2 D/w) <= e sqrt(n) (1 + 2 D/w). Velocities do not accumulate
+/// over steps. The displacement is therefore the sum of h times that bound, and the kinetic energy
+/// is below m/2 of its square. In addition, positions move by the overlap correction, by as much as
+/// it reports.
 template <class ShapeT, class Solver>
 void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle, int count) {
   const double lever =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structures that statics says stand. The sizes that take minutes are in long/structures.cpp.
+// Structures that stand according to statics. The sizes that take minutes are in
+// long/structures.cpp.
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 

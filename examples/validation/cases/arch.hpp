@@ -10,7 +10,7 @@ namespace validation {
 namespace detail {
 
 /// A block of an arch of mean radius 1 between two radial cuts.
-/// @param thickness over the radius
+/// @param thickness relative to the radius
 template <class ShapeT>
 ShapeT voussoir(double from, double to, double thickness, bool starts, bool ends) {
   using S = SpaceOf<ShapeT>;
@@ -30,10 +30,10 @@ ShapeT voussoir(double from, double to, double thickness, bool starts, bool ends
   return ShapeT(corners);
 }
 
-/// What an arch did under its weight.
+/// Behaviour of an arch under its weight.
 struct ArchRun {
-  double fall;   ///< of the crown [m]
-  int unsolved;  ///< steps
+  double fall;   ///< displacement of the crown, downwards [m]
+  int unsolved;  ///< steps that did not converge
 };
 template <class ShapeT>
 ArchRun stand_arch(int blocks, double thickness, double time) {
@@ -62,8 +62,8 @@ ArchRun stand_arch(int blocks, double thickness, double time) {
 }  // namespace detail
 
 /// A semicircular arch with radial joints stands iff its thickness is at least 0.1075 of its mean
-/// radius (M. Milankovitch, Z. Math. Phys. 55 (1907) 1; H. Alexakis and N. Makris, Arch. Appl.
-/// Mech. 85 (2015) 1363), for friction enough not to slip.
+/// radius and friction prevents sliding (M. Milankovitch, Z. Math. Phys. 55 (1907) 1; H. Alexakis
+/// and N. Makris, Arch. Appl. Mech. 85 (2015) 1363).
 template <class ShapeT>
 void arch(Record& record, int blocks, int bisections) {
   using S = SpaceOf<ShapeT>;

@@ -8,8 +8,8 @@ namespace validation {
 
 namespace detail {
 
-/// When a ball dropped from `drop` above its radius last moves faster than gravity makes it in a
-/// step [s].
+/// Time [s] after which a ball, dropped from `drop` above its position of rest, never moves faster
+/// than gravity accelerates it in one step.
 template <class ShapeT>
 double time_to_rest(double drop, double restitution, double h, double latest, bool correct) {
   OnFloor<ShapeT> scene(ShapeT(0.05), 0.05 + drop, Coulomb<ShapeT>(0, restitution));
@@ -26,13 +26,15 @@ double time_to_rest(double drop, double restitution, double h, double latest, bo
 
 }  // namespace detail
 
-/// A ball that keeps the share e of its speed at each impact bounces infinitely often and rests at
-/// sqrt(2 h0/g)(1 + e)/(1 - e). Time stepping errs by a part of a step at each impact that it
-/// resolves: mean over drops between h0 and 1.1 h0 for the order, the worst of them for the error.
-/// An impact comes up to h late and up to g h too fast or slow, which makes 2 e/(1 - e) h of the
-/// time that is left: 3 h for e = 1/2, and some ten impacts are resolved with the finest step. Half
-/// of these 30 h is what is asked for. With the correction of overlaps, which lifts the ball out of
-/// what it sank in, and without.
+/// A ball with restitution e bounces infinitely often and comes to rest at the time sqrt(2 h0/g)(1
+/// + e)/(1 - e). Time stepping has an error of a part of a step at each impact that it resolves.
+/// The order is measured for the mean over drops between h0 and 1.1 h0, the error for the worst of
+/// them.
+///
+/// An impact is late by up to h and its velocity is wrong by up to g h, which changes the remaining
+/// time by 2 e/(1 - e) h: 3 h in all for e = 1/2. The finest step resolves about ten impacts, so
+/// the error is up to 30 h. Half of it is required. The case runs with the overlap correction,
+/// which lifts the ball out of its overlap, and without.
 template <class ShapeT>
 void time_to_rest(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -61,7 +63,7 @@ void time_to_rest(Record& record) {
   }
 }
 
-/// Without restitution a ball that lands closes its gap, whatever the step, and stays.
+/// Without restitution a ball that lands closes its gap, for any step, and stays.
 template <class ShapeT>
 void landing(Record& record) {
   double gap = 0;
@@ -74,10 +76,10 @@ void landing(Record& record) {
                   SpaceOf<ShapeT>{}, gap, 1e-12);
 }
 
-/// One impact on springs with dashpots, gravity off: v' = -e v whatever the speed. Where in a step
-/// it begins makes an error of the order of the step: mean over sixteen heights of what changes
-/// with half the step. (Hertz's contact ends a little early, where damping would pull: e is 2e-4
-/// less.)
+/// One impact on springs with dashpots and without gravity: v' = -e v for any speed. The phase of
+/// the step at which the contact begins causes an error of the order of the step. Compared is the
+/// mean over sixteen heights of the change with half the step. (A Hertz contact ends a little
+/// early, where damping would attract: its e is smaller by 2e-4.)
 template <class ShapeT, class Law>
 void spring_restitution(Record& record, const Law& law, double e) {
   using S = SpaceOf<ShapeT>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A block that tips or rocks about its edges.
+// A block that topples or rocks about its edges.
 #pragma once
 
 #include <numbers>
@@ -10,7 +10,7 @@ namespace validation {
 
 namespace detail {
 
-/// Half the base and half the height of the blocks here [m].
+/// Half the base and half the height of the blocks [m].
 constexpr double half_base = 0.03, half_height = 0.05;
 
 template <class ShapeT>
@@ -21,8 +21,8 @@ ShapeT block() {
   return cuboid<ShapeT>(half);
 }
 
-/// Whether a block on a tilted floor has turned by more than a degree within a second. It starts at
-/// rest and turns like exp(t sqrt(3 g/4 R)), a factor of 1e4 and more.
+/// Whether a block on a tilted floor rotates by more than one degree within a second. It starts at
+/// rest. The angle grows as exp(t sqrt(3 g/4 R)), by a factor of 1e4 and more.
 template <class ShapeT>
 bool tips(double tilt) {
   OnFloor<ShapeT> scene(block<ShapeT>(), half_height, Coulomb<ShapeT>(1), tilt);
@@ -35,14 +35,14 @@ bool tips(double tilt) {
   return turned >= 0.02;
 }
 
-/// Angular velocity after a block that rocks about its left edge has come down flat, over that
-/// before.
+/// Ratio of the angular velocities after and before the moment at which a block that rocks about
+/// its left edge lands on its base.
 template <class ShapeT>
 double housner() {
   using S = SpaceOf<ShapeT>;
   const double h = 1e-3, spin = 1;
   const auto velocity = in_plane<S>(half_height * spin, -half_base * spin);  // clockwise
-  // Half a step later, where contacts are detected, it is flat on the floor.
+  // At the next detection, half a step later, the block lies flat on the floor.
   const Pose<S> pose{in_plane<S>(0, half_height) - h / 2 * velocity, S::exp(turn<S>(h / 2 * spin))};
   OnFloor<ShapeT> scene(block<ShapeT>(), pose, Coulomb<ShapeT>(10));
   scene.world.set_contact_points(moreau::ContactPoints::all);
@@ -55,7 +55,7 @@ double housner() {
 
 }  // namespace detail
 
-/// A block of base b and height h on an incline with mu > b/h tips iff tan(tilt) > b/h.
+/// A block of base b and height h on an incline with mu > b/h topples iff tan(tilt) > b/h.
 template <class ShapeT>
 void toppling(Record& record) {
   const double exact = std::atan(detail::half_base / detail::half_height),
@@ -65,8 +65,9 @@ void toppling(Record& record) {
                  exact / degree, found / degree, 0.05);
 }
 
-/// A block that rocks from one edge to the other without a bounce keeps 1 - 3/2 sin^2(alpha) of its
-/// angular velocity, tan(alpha) = b/h (G. W. Housner, Bull. Seismol. Soc. Am. 53 (1963) 403).
+/// A block that rocks from one edge to the other without a bounce keeps the share 1 - 3/2
+/// sin^2(alpha) of its angular velocity, tan(alpha) = b/h (G. W. Housner, Bull. Seismol. Soc. Am.
+/// 53 (1963) 403).
 template <class ShapeT>
 void rocking(Record& record) {
   const double sine = std::sin(std::atan(detail::half_base / detail::half_height));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frictionless grains pressed together by the walls of a box.
+// Frictionless grains compressed by the walls of a box.
 #pragma once
 
 #include <random>
@@ -12,15 +12,16 @@
 namespace validation {
 
 struct Packing {
-  double fraction;      ///< of solid, away from the walls
-  double coordination;  ///< contacts per grain times two, walls included, without rattlers
-  double overlap;       ///< mean over the size
+  double fraction;      ///< solid fraction, away from the walls
+  double coordination;  ///< mean contacts per grain, walls included, rattlers excluded
+  double overlap;       ///< mean, relative to the size
   bool settled;
 };
 
 namespace detail {
 
-/// Balls at random places, no two overlapping, in a box; then three (two) of its walls press.
+/// Spheres at random positions without overlap in a box. Then three (in the plane two) of the walls
+/// compress them.
 template <class ShapeT, class Law>
 class Compression {
  public:
@@ -28,7 +29,7 @@ class Compression {
   using Vector = typename S::Vector;
   static constexpr double size = 1, pressure = 1, density = 1;
 
-  /// @param ratio of the larger half's size to the smaller one's
+  /// @param ratio size of the larger half of the grains / size of the smaller half
   Compression(std::size_t count, double ratio, std::uint64_t seed, const Law& law)
       : world_(world_of<ShapeT, Law>(size, law, options(), tolerances())) {
     std::mt19937_64 random(seed);
@@ -50,7 +51,7 @@ class Compression {
     }
   }
 
-  /// Until nothing but rattlers moves, or the time is over.
+  /// Runs until only rattlers move, or until the time limit.
   Packing press(double step, double time) {
     bool settled = false;
     for (int k = 0; !settled && world_.time() < time; ++k) {
@@ -96,7 +97,8 @@ class Compression {
     for (int axis = 0; axis < S::dim; ++axis)
       world_.set_force(piston(axis), -pressure * box.prod() / box[axis] * Vector::Unit(axis));
   }
-  /// Whether the walls and nine grains in ten stand still, compared with sqrt(pressure/density).
+  /// Whether the walls and 90 % of the grains are at rest, relative to the velocity
+  /// sqrt(pressure/density).
   bool still() const {
     std::size_t moving = 0;
     for (std::size_t k = 0; k < world_.grain_count(); ++k)
@@ -117,7 +119,7 @@ class Compression {
         },
         workspace);
   }
-  /// Contacts that carry less than a thousandth of the mean carry nothing.
+  /// Contacts with less than a thousandth of the mean force count as open.
   double coordination() const {
     const auto& contacts = world_.contacts();
     std::vector<Vector> impulses = contacts.impulses;
@@ -148,10 +150,10 @@ class Compression {
 
 }  // namespace detail
 
-/// Frictionless balls jam at random close packing: 0.64 of equal spheres (J. D. Bernal and J.
-/// Mason, Nature 188 (1960) 910), 0.84 of disks half of which are 1.4 times larger (C. S. O'Hern et
-/// al., Phys. Rev. E 68 (2003) 011306); isostatic, so with 2 D contacts per grain that is no
-/// rattler.
+/// Frictionless spheres jam at random close packing: solid fraction 0.64 for equal spheres (J. D.
+/// Bernal and J. Mason, Nature 188 (1960) 910), 0.84 for disks half of which are 1.4 times larger
+/// (C. S. O'Hern et al., Phys. Rev. E 68 (2003) 011306). The packing is isostatic: 2 D contacts per
+/// grain, rattlers excluded.
 template <class ShapeT>
 void close_packing(Record& record, double expected, const std::vector<std::size_t>& counts) {
   using S = SpaceOf<ShapeT>;
@@ -181,10 +183,10 @@ inline void random_close_packing(Record& record, Effort effort) {
       quick ? std::vector<std::size_t>{300} : std::vector<std::size_t>{300, 600, 1000});
 }
 
-/// The stiffer the springs, the nearer their packings come to those of contact dynamics: mean over
-/// samples from the same places, for stiffnesses k over pressure x size. The coordination exceeds
-/// the isostatic 2 D by the root of the compression (C. S. O'Hern et al., Phys. Rev. E 68 (2003)
-/// 011306: exponent 0.49).
+/// Packings on springs tend to the packings of contact dynamics as the stiffness grows. Compared is
+/// the mean over samples with the same initial positions, for stiffnesses k relative to pressure x
+/// size. The coordination exceeds the isostatic 2 D by the square root of the compression (C. S.
+/// O'Hern et al., Phys. Rev. E 68 (2003) 011306: exponent 0.49).
 template <class ShapeT>
 void stiff_springs(Record& record, std::size_t count, int samples) {
   using S = SpaceOf<ShapeT>;
@@ -207,7 +209,7 @@ void stiff_springs(Record& record, std::size_t count, int samples) {
   Packing soft{}, softer{};
   std::vector<double> stiffness, overlap, excess;
   for (const double k : {1e2, 1e3, 1e4}) {
-    // A twentieth of the time that a contact of two unit balls lasts, or less.
+    // At most a twentieth of the duration of a contact of two unit spheres.
     softer = soft;
     soft = mean_of(Springs<ShapeT>(k, 0, 0, 0.2), 0.1 / std::sqrt(k));
     curve.rows.push_back({k, soft.fraction, soft.coordination, soft.overlap, rigid.fraction});
@@ -215,7 +217,8 @@ void stiff_springs(Record& record, std::size_t count, int samples) {
     overlap.push_back(soft.overlap);
     excess.push_back(soft.coordination - 2 * S::dim);
   }
-  // Neighbours that springs bring into touch grow with the root of the overlap.
+  // The number of contacts that exist only because of overlaps grows with the square root of the
+  // overlap.
   const double share = std::sqrt(soft.overlap / softer.overlap);
   const double stiffest = (soft.coordination - share * softer.coordination) / (1 - share);
   const std::string name = with_shape<ShapeT>("stiff springs") + ": ";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies that touch nothing.
+// Motion without contacts.
 #pragma once
 
 #include "scene.hpp"
@@ -8,8 +8,8 @@ namespace validation {
 
 namespace detail {
 
-/// A grain thrown at an angle: the error of its place after half a second [m], and of its velocity
-/// [m/s], with the step 1/steps_per_second.
+/// Errors of the position [m] and of the velocity [m/s] of a thrown grain after half a second, with
+/// the step 1/steps_per_second.
 struct FlightError {
   double position, velocity;
 };
@@ -34,7 +34,8 @@ FlightError fly(World<ShapeT, Law>& world, int steps_per_second) {
 
 }  // namespace detail
 
-/// Free fall: v = v0 + g t in any scheme, x = x0 + v0 t + g t^2/2 at theta = 1/2 and in Verlet's.
+/// Free fall: v = v0 + g t in every scheme; x = x0 + v0 t + g t^2/2 for theta = 1/2 and velocity
+/// Verlet.
 template <class ShapeT, class Law>
 void free_fall_exact(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -45,7 +46,7 @@ void free_fall_exact(Record& record) {
   record.vanishes(name + ": position [m]", S{}, error.position, 1e-12);
 }
 
-/// At theta = 1 the place is off by g t h/2.
+/// For theta = 1 the error of the position is g t h/2.
 template <class ShapeT>
 void free_fall_implicit(Record& record) {
   std::vector<double> steps, errors;
@@ -78,13 +79,13 @@ void free_fall(Record& record, Effort) {
   free_fall_of<Disk<T>>(record);
 }
 
-/// A free body with three different moments of inertia, spinning about the middle axis, y, at
-/// Omega. A disturbance (a, b) of the spin about (x, z) obeys
+/// A free body with three different moments of inertia rotates about the middle axis y with Omega.
+/// A disturbance (a, b) of the angular velocity about (x, z) obeys
 ///
 ///     a' = (I_y - I_z)/I_x Omega b,     b' = (I_x - I_y)/I_z Omega a
 ///
-/// and grows at Omega sqrt((I2 - I1)(I3 - I2)/(I1 I3)) (L. Euler; Landau and Lifshitz, Mechanics,
-/// section 37).
+/// and grows with the rate Omega sqrt((I2 - I1)(I3 - I2)/(I1 I3)) (L. Euler; Landau and Lifshitz,
+/// Mechanics, section 37).
 template <class ShapeT, class Law>
 struct Top {
   using S = SpaceOf<ShapeT>;
@@ -92,9 +93,9 @@ struct Top {
   World<ShapeT, Law> world;
   moreau::MassProperties<S> mass;
   typename S::Rotation start = S::exp({0.3, -0.7, 1.1});
-  double rate, ratio;  ///< of growth [1/s]; b/a of what grows
+  double rate, ratio;  ///< growth rate [1/s]; b/a of the growing mode
 
-  /// @param disturbance a/Omega
+  /// @param disturbance initial a/Omega
   explicit Top(double disturbance, double theta = 0.5)
       : world(world_of<ShapeT, Law>(0.1, Law{}, tight(), {}, theta)) {
     const ShapeT box = cuboid<ShapeT>({0.03, 0.05, 0.08});
@@ -144,10 +145,11 @@ void top_growth(Record& record) {
   record.compare(name + "order of the growth rate", space, 2, order_of(steps, errors), 0.1);
 }
 
-/// Angular momentum and energy of a body that tumbles, for some thirty turns at theta = 1/2.
+/// Angular momentum and energy of a tumbling body over about thirty revolutions for theta = 1/2.
 template <class ShapeT, class Law>
 void top_conserved(Record& record, double theta = 0.5) {
-  const double time = theta == 1 ? 1 : 20;  // [s]; theta = 1 soon turns about the largest axis
+  // [s]; with theta = 1 the body soon rotates about the axis of largest inertia.
+  const double time = theta == 1 ? 1 : 20;
   std::vector<double> steps, drifts;
   double worst = 0;
   for (const double h : {2e-3, 1e-3, 5e-4}) {
@@ -173,7 +175,7 @@ void top_conserved(Record& record, double theta = 0.5) {
 template <class T>
 void asymmetric_top(Record& record, Effort) {
   using Shape = Polyhedron<T>;
-  if constexpr (std::is_same_v<T, double>) {  // to a float 1e-6 is a few roundings
+  if constexpr (std::is_same_v<T, double>) {  // in float 1e-6 is a few roundings
     top_growth<Shape, Coulomb<Shape>>(record);
     top_growth<Shape, Springs<Shape>>(record);
   }

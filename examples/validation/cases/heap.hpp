@@ -14,12 +14,12 @@ namespace validation {
 struct HeapOptions {
   std::size_t count = 9;
   double friction = 0.4;
-  double tolerance = 1e-12;  ///< of the solver
+  double tolerance = 1e-12;  ///< tolerance of the solver
   std::uint64_t seed = 1;
 };
 
-/// @tparam Law    rigid contacts, or springs
-/// @tparam Solver of rigid contacts
+/// @tparam Law    set-valued or regularized
+/// @tparam Solver for a set-valued law
 template <class ShapeT, class Law = Coulomb<ShapeT>,
           class Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>>
 struct Heap {
@@ -29,16 +29,16 @@ struct Heap {
   static constexpr double size = 0.02;  ///< [m]
 
   World<ShapeT, Law, Solver> world;
-  std::vector<std::size_t> place;  ///< of grain k in the order in which they were added
+  std::vector<std::size_t> place;  ///< place[k]: position of grain k in the order of addition
 
-  /// @param frame the experiment is moved by this, with its gravity
-  /// @param order in which the grains are added; as they are drawn if empty
+  /// @param frame moves the experiment together with its gravity
+  /// @param order order in which the grains are added; if empty, as they are drawn
   explicit Heap(const HeapOptions& options, const Pose<S>& frame = {},
                 std::vector<std::size_t> order = {})
       : world(
             world_of<ShapeT, Law, Solver>(size, law(options.friction), sweeps(options.tolerance))),
         place(options.count) {
-    // Springs on few points lose some and gain others as rounding has it.
+    // With few contact points, springs appear and disappear with rounding.
     if (!is_rigid<ShapeT, Law>) world.set_contact_points(moreau::ContactPoints::all);
     if (order.empty()) {
       order.resize(options.count);
@@ -60,7 +60,7 @@ struct Heap {
     world.set_gravity(frame.rotation * (-gravity * Vector::Unit(up)));
   }
 
-  /// Of grain k as drawn.
+  /// Pose of grain k in the order in which the grains are drawn.
   const Pose<S>& pose(std::size_t k) const {
     return world.bodies().pose[world.grain(place[k]).index()];
   }
@@ -70,7 +70,7 @@ struct Heap {
     if constexpr (is_rigid<ShapeT, Law>)
       return Law(friction);
     else
-      return Law(1e5, 2e5 / 7, friction, 0.5);  // sags by less than a thousandth of a grain
+      return Law(1e5, 2e5 / 7, friction, 0.5);  // overlaps by less than a thousandth of a grain
   }
   static moreau::ColouredOptions sweeps(double tolerance) {
     moreau::ColouredOptions options = tight(tolerance);

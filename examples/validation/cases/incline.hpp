@@ -8,7 +8,7 @@ namespace validation {
 
 namespace detail {
 
-/// A cube on a floor tilted against gravity [rad]: what it does behind the first 50 ms.
+/// Motion of a cube on a floor that is tilted against gravity [rad], after the first 50 ms.
 struct Slide {
   double acceleration, velocity, spin;
   int unsolved;
@@ -19,8 +19,8 @@ Slide slide(const Law& law, double tilt, double theta) {
   scene.world.set_contact_points(moreau::ContactPoints::all);
   const double h = is_rigid<ShapeT, Law> ? 1e-3 : 2e-5;
   const int steps = static_cast<int>(std::lround(0.05 / h));
-  // Within a millionth of the friction angle the first steps from rest run into the cap on sweeps
-  // (and say so), and springs tremble; the acceleration is taken behind that.
+  // Within a millionth of the friction angle the first steps from rest reach the cap on sweeps, and
+  // springs oscillate. The acceleration is measured after that.
   for (int k = 0; k < steps; ++k) scene.world.step(h);
   const double start = scene.along();
   int unsolved = 0;
@@ -33,8 +33,9 @@ Slide slide(const Law& law, double tilt, double theta) {
 
 }  // namespace detail
 
-/// A block on an incline sticks iff tan(tilt) <= mu, else slides at g (sin - mu cos). Springs let
-/// go a little of it while they take up its weight: it is what speeds up that slides.
+/// A block on an incline sticks iff tan(tilt) <= mu, else it slides with the acceleration g (sin -
+/// mu cos). On springs the block moves a little while the springs take up its weight; it slides iff
+/// it accelerates.
 template <class ShapeT, class Law>
 void block_on_incline(Record& record, double mu, const Law& law, double theta = 0.5) {
   using S = SpaceOf<ShapeT>;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What static friction, adhesion and rolling resistance add to Coulomb's law.
+// Static friction, adhesion and rolling resistance in addition to Coulomb's law.
 #pragma once
 
 #include "scene.hpp"
 
 namespace validation {
 
-/// On a floor that speeds up by a, a ball that is pressed on it by N rolls without slip iff
-/// a <= (1 + 1/k) mu_s N/m, k = I/(m R^2); where it slips it speeds up by mu N/m. (Blocks do not
-/// tell mu_s: which of their points sits on its cone is not unique, and one that slips has less
-/// friction from then on.)
-/// @param press N over the weight: an adhesion presses too
+/// On a floor with acceleration a, a ball that is pressed on the floor by N rolls without slip iff
+/// a <= (1 + 1/k) mu_s N/m, k = I/(m R^2). A ball that slips has the acceleration mu N/m. (Blocks
+/// cannot measure mu_s: which of their contact points lies on its cone is not unique, and a point
+/// that slips has less friction from then on.)
+/// @param press N relative to the weight; an adhesion contributes to N
 template <class ShapeT, class Law>
 void static_friction_of(Record& record, const std::string& name, const Law& law, double press) {
   using S = SpaceOf<ShapeT>;
@@ -51,9 +51,9 @@ void static_friction(Record& record) {
                              2);
 }
 
-/// A ball under a ceiling falls iff it weighs more than the adhesion. On a floor without gravity
-/// the adhesion N alone presses a sliding ball, which then rolls at v0/(1 + k) from the time
-/// v0 k/((1 + k) mu N/m) on.
+/// A ball under a ceiling falls iff its weight exceeds the adhesion. On a floor without gravity the
+/// adhesion N alone presses a sliding ball, which rolls with v0/(1 + k) after the time v0 k/((1 +
+/// k) mu N/m).
 template <class ShapeT>
 void adhesion(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -83,7 +83,7 @@ void adhesion(Record& record) {
                                  Law(Coulomb<ShapeT>(mu), mass * pull, range));
       scene.world.set_gravity(S::Vector::Zero());
       scene.world.set_velocity(scene.grain, v0 * S::Vector::UnitX());
-      double start = 0, time = 0;  // not the world's time, which is of its scalar
+      double start = 0, time = 0;  // in double, unlike world.time()
       while (time < 0.4) {
         scene.world.step(h);
         time += h;
@@ -105,8 +105,9 @@ void adhesion(Record& record) {
   record.vanishes(name + "relative error of the speed of rolling", S{}, speed, 1e-9);
 }
 
-/// A ball on an incline stays iff tan(tilt) <= eta, else rolls at g (sin - eta cos)/(1 + k): a
-/// couple of at most eta R N resists (K. Iwashita and M. Oda, J. Eng. Mech. 124 (1998) 285).
+/// A ball on an incline stays iff tan(tilt) <= eta, else it rolls with the acceleration g (sin -
+/// eta cos)/(1 + k): the couple of rolling resistance is at most eta R N (K. Iwashita and M. Oda,
+/// J. Eng. Mech. 124 (1998) 285).
 template <class ShapeT>
 void rolling_resistance(Record& record) {
   using S = SpaceOf<ShapeT>;

@@ -31,7 +31,8 @@ bool is_finite(const World<ShapeT>& world) {
 }  // namespace detail
 
 /// A rod as a cuboid whose long axis, of length `length`, stands at an angle to the floor. In space
-/// it touches with its lowest edge, so at two points, or turned about itself with a corner.
+/// it touches the floor with its lowest edge, at two points, or with a corner if it is rotated
+/// about its axis.
 template <class ShapeT>
 struct Rod {
   using S = SpaceOf<ShapeT>;
@@ -40,7 +41,8 @@ struct Rod {
 
   double half_width, height;
   OnFloor<ShapeT> scene;
-  // Of the lowest point, times the mass: from the centre to it, and the Delassus block of t and n.
+  // Of the lowest point: the vector from the centre of mass, and the Delassus block of t and n
+  // times the mass.
   double x, z, inertia = (length * length + thickness * thickness) / 12, w_nn, w_tt, w_nt;
 
   explicit Rod(bool on_corner = false)
@@ -67,10 +69,10 @@ struct Rod {
   }
 };
 
-/// One step from the speed `speed` along the floor. Slipping, the impulse is r_t = -+ mu r_n with
-/// r_n = g h / (W_nn -+ mu W_nt); where that is negative, Painleve's paradox, the tip sticks and
-/// W r = -u. In space on a corner: with two points the paradox has more solutions, and one is found
-/// in which one of them slips.
+/// One step from the velocity `speed` along the floor. If the tip slips, r_t = -+ mu r_n with r_n =
+/// g h / (W_nn -+ mu W_nt). If this r_n is negative (Painleve's paradox), the tip sticks and W r =
+/// -u. In space the rod stands on a corner: with two points the paradox has several solutions, and
+/// the solver finds one in which one point slips.
 template <class ShapeT>
 void painleve_step(Record& record, double speed) {
   Rod<ShapeT> rod(true);
@@ -95,11 +97,11 @@ void painleve_step(Record& record, double speed) {
   record.vanishes(name + "not solved", S{}, !report.solve.converged, 0);
 }
 
-/// The tip of a slender rod of half length l, inertia m l^2/3, at the angle t to a floor
-/// accelerates by N/m (1 + 3 cos t (cos t - mu sin t)) away from it if the rod slides with its
-/// centre behind the tip. At mu = 2 and tan t = 2 that is -0.8 N/m: pushing draws the tip in, and a
-/// force that holds the contact closed does not exist (P. Painleve, 1895; mu > 4/3 is needed). Over
-/// one step an impulse exists, the tip sticks, and no energy comes of it.
+/// A slender rod with half length l and inertia m l^2/3 stands at the angle t to a floor and slides
+/// with its centre behind the tip. Its tip has the acceleration N/m (1 + 3 cos t (cos t - mu sin
+/// t)) away from the floor. For mu = 2 and tan t = 2 this is -0.8 N/m: a normal force N pulls the
+/// tip into the floor, so no force keeps the contact closed (P. Painleve, 1895; this needs mu >
+/// 4/3). Over one step an impulse exists, the tip sticks, and the energy does not grow.
 template <class ShapeT>
 void painleve(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -126,8 +128,8 @@ void painleve(Record& record) {
   const std::string name = with_shape<ShapeT>("Painleve's rod") + ": ";
   record.vanishes(name + "steps with numbers that are not finite", S{}, insane, 0);
   record.vanishes(name + "steps not solved", S{}, unsolved, 0);
-  // The gap of a rotating tip is linear in a step up to (w h)^2/2 of the lever, w at most some v/l:
-  // an energy of m g l (v h/l)^2 per step, 2.5e-5 of m g l.
+  // The gap of a rotating tip is linear in a step up to (w h)^2/2 of the lever, with w about v/l at
+  // most: an energy of m g l (v h/l)^2 per step, 2.5e-5 of m g l.
   record.vanishes(name + "energy gained over m g l", S{}, gained, 200 * 2.5e-5);
 }
 

@@ -11,7 +11,7 @@ namespace validation {
 
 namespace detail {
 
-/// A polygon, or the prism of it between two planes of constant y.
+/// A polygon, or its prism between two planes of constant y.
 template <class ShapeT>
 ShapeT extruded(const Polygon<ScalarOf<ShapeT>>& base, double depth) {
   using S = SpaceOf<ShapeT>;
@@ -26,7 +26,7 @@ ShapeT extruded(const Polygon<ScalarOf<ShapeT>>& base, double depth) {
   return ShapeT(corners);
 }
 
-/// Polygons that fall on a floor and on each other, or prisms that do.
+/// Polygons, or their prisms, that fall on a floor and on each other.
 template <class ShapeT, class Law>
 World<ShapeT, Law> fall_of_prisms(std::uint64_t seed, const Law& law) {
   using S = SpaceOf<ShapeT>;
@@ -34,7 +34,7 @@ World<ShapeT, Law> fall_of_prisms(std::uint64_t seed, const Law& law) {
   const double depth = 0.02, density = 2700;
   auto world = world_of<ShapeT>(0.02, law);
   world.set_contact_points(moreau::ContactPoints::all);
-  // Ten sweeps of the correction of overlaps do not converge: it would break the symmetry.
+  // The ten sweeps of the overlap correction do not converge and would break the symmetry.
   without_correction(world);
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -52,11 +52,11 @@ World<ShapeT, Law> fall_of_prisms(std::uint64_t seed, const Law& law) {
 
 }  // namespace detail
 
-/// Extruded polygons do what the polygons do, for as long as rounding has not grown: 0.1 s. The
-/// contact of two edges is one of two faces, its two points are four. Symmetry holds the prisms in
-/// their plane as long as the solution is unique, so friction is small. (Between two smooth walls
-/// at the prisms' ends every solution has a self-stress, and the sweeps stall at a residual of
-/// 1e-7.) A point of a contact of polygons is two of prisms, so their springs are half as stiff.
+/// Prisms move like their polygons until rounding has grown: for 0.1 s. A contact of two edges with
+/// two points becomes a contact of two faces with four points, so the springs of prisms are half as
+/// stiff. Symmetry keeps the prisms in their plane as long as the solution is unique, so friction
+/// is small. (Between two smooth walls at the ends of the prisms every solution has a self-stress,
+/// and the sweeps stall at a residual of 1e-7.)
 template <class T, class Law2, class Law3>
 void prisms_against_polygons(Record& record, const Law2& flat_law, const Law3& deep_law) {
   using Vector = Eigen::Matrix<T, 3, 1>;
@@ -75,7 +75,7 @@ void prisms_against_polygons(Record& record, const Law2& flat_law, const Law3& d
         const auto& flat = polygons.bodies().pose[i].position;
         const auto& deep = prisms.bodies().pose[i];
         const Vector y = Vector::UnitY();
-        // The first axis of either, in the plane.
+        // The first axis of the body, in the plane.
         const Vector across = deep.rotation * Vector::UnitX();
         const auto flat_across =
             (polygons.bodies().pose[i].rotation * Eigen::Matrix<T, 2, 1>::UnitX()).eval();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One ball on three, one disk on two.
+// One sphere on three, one disk on two.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@ namespace validation {
 
 namespace detail {
 
-/// Whether a ball on three (a disk on two) that touch each other stays up, from rest, for a third
-/// of a second.
-/// @param between friction of balls on each other
-/// @param floor   friction of balls on the floor
+/// Whether a sphere on three spheres (a disk on two disks) that touch each other stays up for a
+/// third of a second, from rest.
+/// @param between friction between the balls
+/// @param floor   friction between balls and floor
 template <class ShapeT>
 bool pyramid_stands(double between, double floor) {
   using S = SpaceOf<ShapeT>;
@@ -26,7 +26,7 @@ bool pyramid_stands(double between, double floor) {
   materials.set(moreau::MaterialId(0), moreau::MaterialId(1), Law(floor));
   World<ShapeT> world(2 * radius, materials, solver_of<ShapeT, Law>(tight(1e-9)));
   const auto ball = world.add_shape(ShapeT(radius));
-  // Feet at the corners of a simplex of side 2 R; the height of the next corner over their plane.
+  // The lower centres form a simplex of side 2 R; the height of the upper centre above their plane.
   const double side = 2 * radius, spread = side * std::sqrt((S::dim - 1.0) / (2.0 * S::dim));
   const double rise = side * std::sqrt((S::dim + 1.0) / (2.0 * S::dim));
   for (int k = 0; k < S::dim; ++k) {
@@ -46,11 +46,12 @@ bool pyramid_stands(double between, double floor) {
 
 }  // namespace detail
 
-/// A ball of weight W is pushed by N and T at the top, at beta to the vertical, and at the floor.
-/// Its moments ask for the same T at both; the top's weight for N (cos + tan(beta/2) sin) = N = W/D
-/// with T = tan(beta/2) N; the floor carries W + W/D. So, the other friction being ample, the
-/// pyramid stands iff mu between balls >= tan(beta/2) and mu of the floor >= tan(beta/2)/(D + 1).
-/// beta is asin(1/sqrt 3) in space, 30 degrees in the plane.
+/// The forces N and T act on a lower ball of weight W at the contact with the top ball, at the
+/// angle beta to the vertical, and at the floor. The balance of moments requires the same T at both
+/// contacts. The weight of the top ball requires N (cos + tan(beta/2) sin) = N = W/D with T =
+/// tan(beta/2) N. The floor carries W + W/D. If the other friction is large enough, the pyramid
+/// therefore stands iff mu between balls >= tan(beta/2), and iff mu of the floor >= tan(beta/2)/(D
+/// + 1). beta is asin(1/sqrt 3) in space and 30 degrees in the plane.
 template <class ShapeT>
 void pyramid(Record& record) {
   using S = SpaceOf<ShapeT>;

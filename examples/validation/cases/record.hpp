@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a validation case leaves behind: rows of a table and curves.
+// Results of a validation case: rows of the table and curves.
 #pragma once
 
 #include <algorithm>
@@ -14,52 +14,54 @@
 
 namespace validation {
 
-/// How much of a case is run: quick takes seconds, full what the answer needs.
+/// Size of a case: quick takes seconds, full is as large as the answer requires.
 enum class Effort { quick, full };
 
-/// One comparison. It passes iff error <= tolerance, so never where something is not a number.
+/// One comparison. It passes iff error <= tolerance, so a NaN does not pass.
 struct Row {
-  std::string name, space;  ///< space: 3D, or 3D float
+  std::string name, space;  ///< space: "3D" or "3D float"
   double expected, measured, error, tolerance;
   bool pass() const { return error <= tolerance; }
 };
 
-/// Numbers to be drawn; every row has one for each column.
+/// Points of a curve; every row has one number per column.
 struct Curve {
   std::string name;
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
 };
 
-/// No comparison asks for less than 1000 roundings (1.2e-4 in float), unless for none at all.
+/// The tolerance of a comparison: at least 1000 roundings (1.2e-4 in float), unless it is 0.
 template <class S>
 double tolerance_in(double tolerance) {
   const double roundings = 1000 * double(std::numeric_limits<typename S::Scalar>::epsilon());
   return tolerance == 0 ? 0 : std::max(tolerance, roundings);
 }
 
-/// Every comparison names the space, and with it the dimension and the scalar.
+/// Collects the results of a case. Every comparison has the name of its space: dimension and
+/// scalar.
 class Record {
  public:
-  /// |measured - expected| <= tolerance.
+  /// Compares: |measured - expected| <= tolerance.
   template <class S>
   void compare(const std::string& name, S, double expected, double measured, double tolerance) {
     add({name, text<S>(), expected, measured, std::abs(measured - expected),
          tolerance_in<S>(tolerance)});
   }
-  /// |measured - expected| <= tolerance |expected|.
+  /// Compares: |measured - expected| <= tolerance |expected|.
   template <class S>
   void compare_relative(const std::string& name, S, double expected, double measured,
                         double tolerance) {
     add({name, text<S>(), expected, measured, std::abs(measured / expected - 1),
          tolerance_in<S>(tolerance)});
   }
-  /// What should vanish: |measured| <= most.
+  /// Compares a value that should vanish: |measured| <= most.
   template <class S>
   void vanishes(const std::string& name, S space, double measured, double most) {
     compare(name, space, 0, measured, most);
   }
-  /// A curve to be filled, name_2d or name_3d, in float name_2d_float; the reference stays valid.
+  /// Adds an empty curve named name_2d, name_3d, name_2d_float or name_3d_float. The reference
+  /// stays valid.
   template <class S>
   Curve& curve(const std::string& name, S, std::initializer_list<const char*> columns) {
     const std::string kind = std::to_string(S::dim) + (is_float<S> ? "d_float" : "d");
@@ -83,7 +85,7 @@ class Record {
   std::deque<Curve> curves_;
 };
 
-/// Slope of log(error) over log(step) by least squares: the order of convergence.
+/// Order of convergence: slope of log(error) over log(step) by least squares.
 inline double order_of(const std::vector<double>& steps, const std::vector<double>& errors) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -93,9 +95,9 @@ inline double order_of(const std::vector<double>& steps, const std::vector<doubl
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/// Where a property that holds on one side of a threshold changes, by bisection.
-/// @param holds number -> bool, true at `high`, false at `low`
-/// @returns the middle of the last interval, not a number if it does not change in between
+/// Threshold at which a property begins to hold, by bisection.
+/// @param holds number -> bool; false at `low`, true at `high`
+/// @returns the middle of the last interval; NaN if holds(low) or not holds(high)
 double threshold(double low, double high, int bisections, const auto& holds) {
   if (holds(low) || !holds(high)) return std::nan("");
   for (int k = 0; k < bisections; ++k) {

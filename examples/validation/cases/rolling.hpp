@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ball or disk that slides and spins on a floor.
+// A sphere or disk that slides and spins on a floor.
 #pragma once
 
 #include <limits>
@@ -8,9 +8,9 @@
 
 namespace validation {
 
-/// A ball (disk) set sliding at v0 rolls at v0/(1 + k) from the time v0 k/((1 + k) mu g) on,
-/// k = I/(m R^2): 5/7 (2/3) of v0. The step in which it comes to roll is wrong by up to h; mean
-/// over nearby v0.
+/// A sphere (disk) that starts with the velocity v0 without spin rolls with v0/(1 + k) after the
+/// time v0 k/((1 + k) mu g), k = I/(m R^2): 5/7 (2/3) of v0. The time at which rolling begins is
+/// wrong by up to h; compared is the mean over several v0.
 template <class ShapeT>
 void slip_to_roll_rigid(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -23,7 +23,7 @@ void slip_to_roll_rigid(Record& record) {
       const double v0 = 1 + 0.007 * n, exact = k / (1 + k) * v0 / (mu * gravity);
       OnFloor<ShapeT> scene(ShapeT(0.05), 0.05, Coulomb<ShapeT>(mu));
       scene.world.set_velocity(scene.grain, S::Vector::UnitX() * v0);
-      double start = 0, time = 0;  // not the world's time, which is of its scalar
+      double start = 0, time = 0;  // in double, unlike world.time()
       while (time < 0.2) {
         scene.world.step(h);
         time += h;
@@ -43,8 +43,8 @@ void slip_to_roll_rigid(Record& record) {
   record.compare(name + "order of the start of rolling", S{}, 1, order_of(steps, errors), 0.25);
 }
 
-/// The same on springs, for an overlap of `sag` radii under its weight: the arm of friction is
-/// shorter by that share, and the speed of rolling off by its order.
+/// The same on springs, with an overlap of `sag` radii under the weight. The overlap shortens the
+/// lever of friction, and changes the speed of rolling to the same order.
 template <class ShapeT, class Law>
 void slip_to_roll_on_springs(Record& record, const auto& law_of_sag) {
   using S = SpaceOf<ShapeT>;
@@ -68,9 +68,9 @@ void slip_to_roll_on_springs(Record& record, const auto& law_of_sag) {
                  0.1);
 }
 
-/// A ball (disk) hits a wall without spin: it slips iff v_t/v_n >= (1 + 1/k) mu (1 + e), and then
-/// v_t falls by mu (1 + e) v_n; else v_t' = v_t/(1 + k) (W. Goldsmith, Impact, 1960). In space it
-/// comes along neither axis of the wall.
+/// A sphere (disk) without spin hits a wall. It slips iff v_t/v_n >= (1 + 1/k) mu (1 + e), and then
+/// v_t decreases by mu (1 + e) v_n; else v_t' = v_t/(1 + k) (W. Goldsmith, Impact, 1960). In space
+/// the velocity is along neither tangential axis of the wall.
 template <class ShapeT>
 void oblique_impact(Record& record, double theta) {
   using S = SpaceOf<ShapeT>;
@@ -83,7 +83,7 @@ void oblique_impact(Record& record, double theta) {
   const std::string name = with_theta(theta, with_shape<ShapeT>("oblique impact"));
   double worst_along = 0, worst_up = 0;
   for (const double v_t : {0.3, 1.0, 1.34, 1.36, 1.57, 1.58, 4.0}) {
-    // Detection happens (1 - theta) h later: there the gap is just closed, so the lever is the
+    // Detection happens (1 - theta) h later. The gap is then exactly closed, so the lever is the
     // radius.
     OnFloor<ShapeT> scene(ShapeT(0.05), 0.05 + v_n * h * (1 - theta) - closed,
                           Coulomb<ShapeT>(mu, e), 0, theta);
@@ -101,7 +101,8 @@ void oblique_impact(Record& record, double theta) {
   record.vanishes(name + ": relative error of v_n'", S{}, worst_up, 1e-10);
 }
 
-/// On springs, steep enough to slide throughout: v_t falls by mu times what v_n changes by.
+/// On springs, at an angle at which the contact slides throughout: v_t decreases by mu times the
+/// change of v_n.
 template <class ShapeT, class Law>
 void oblique_impact_on_springs(Record& record, const Law& law, double friction) {
   using S = SpaceOf<ShapeT>;

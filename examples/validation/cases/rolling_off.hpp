@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ball that rolls off another one.
+// A ball that rolls off another ball.
 #pragma once
 
 #include "scene.hpp"
@@ -9,13 +9,13 @@ namespace validation {
 namespace detail {
 
 struct Departure {
-  double cosine;  ///< of the angle to the vertical where it leaves
-  double gain;    ///< of energy over m g R, at most
+  double cosine;  ///< cosine of the angle to the vertical at separation
+  double gain;    ///< largest gain of energy / m g R
 };
 
-/// A ball on a fixed one, which is a million million times as heavy and weightless: from rest at
-/// `angle` [rad] off the top, `overlap` deep, until they part. Units: radii, mass of the upper
-/// ball, gravity.
+/// A ball on a fixed ball (1e12 times its mass, without weight): from rest at `angle` [rad] from
+/// the top, with the initial overlap `overlap`, until the balls separate. Units: radius, mass of
+/// the upper ball, gravity.
 template <class ShapeT, class Law>
 Departure roll_off(const Law& law, double angle, double h, double overlap = 0) {
   using S = SpaceOf<ShapeT>;
@@ -44,11 +44,11 @@ Departure roll_off(const Law& law, double angle, double h, double overlap = 0) {
 
 }  // namespace detail
 
-/// A ball that starts at rest at the angle a leaves where (3 + k) cos = 2 cos a, with k = I/(m R^2)
-/// if it rolls (10/17 of spheres, 4/7 of disks that start on top) and k = 0 without friction
-/// (2/3); in a step of h within h, mean over sixteen angles. On a contact that turns, the velocity
-/// before a step points out of the frame after it, by v h/R, and the scheme gains energy, to second
-/// order in h.
+/// A ball that starts at rest at the angle a separates where (3 + k) cos = 2 cos a. k = I/(m R^2)
+/// if it rolls (cos = 10/17 for spheres and 4/7 for disks that start on top), and k = 0 without
+/// friction (2/3). The angle is exact to h; compared is the mean over sixteen angles. On a contact
+/// that rotates, the velocity before a step points out of the contact frame after it, by v h/R. The
+/// scheme therefore gains energy, of second order in h.
 template <class ShapeT, class Law>
 void roll_off_ball(Record& record, const Law& law, double k, const std::string& how) {
   using S = SpaceOf<ShapeT>;
@@ -71,11 +71,11 @@ void roll_off_ball(Record& record, const Law& law, double k, const std::string& 
   record.vanishes(name + "error of the cosine where it leaves, over h", S{}, worst, 1);
   record.compare(name + "order of the cosine where it leaves", S{}, 1, order_of(steps, errors),
                  0.25);
-  if (std::is_same_v<ScalarOf<ShapeT>, float>) return;  // the gain is below its rounding
+  if (std::is_same_v<ScalarOf<ShapeT>, float>) return;  // the gain is smaller than its rounding
   record.compare(name + "order of the gain of energy", S{}, 2, order_of(steps, gains), 0.1);
 }
 
-/// The same on springs that sag by 1e-6: within a thousandth.
+/// The same on springs with an overlap of 1e-6 under the weight, to a thousandth.
 template <class ShapeT, class Law>
 void roll_off_springs(Record& record, const Law& law, double k, double overlap,
                       const std::string& how) {

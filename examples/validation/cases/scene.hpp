@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What several cases are built from, written once for plane and space.
+// Shared by several cases, written once for plane and space.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using moreau::SpaceOf;
 
 constexpr double gravity = 9.81;  ///< [m/s^2]
 
-/// For answers that are exact.
+/// Options of the solver for answers that are exact.
 inline moreau::ColouredOptions tight(double tolerance = 1e-12) {
   moreau::ColouredOptions options;
   options.tolerance = tolerance;
@@ -33,13 +33,13 @@ inline moreau::ColouredOptions tight(double tolerance = 1e-12) {
   return options;
 }
 
-/// What is smaller than some roundings of the scalar is nothing: `fine`, or at least so many.
+/// A bound that is at least some roundings of the scalar.
 template <class S>
 double resolved(double fine, double roundings = 100) {
   return std::max(fine, roundings * double(std::numeric_limits<typename S::Scalar>::epsilon()));
 }
 
-/// The solver, by default the one that goes with the law.
+/// The solver; the default is the one that goes with the law.
 template <class ShapeT, class Law, class Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>>
 Solver solver_of(const moreau::ColouredOptions& options) {
   typename Solver::Options own;
@@ -48,11 +48,11 @@ Solver solver_of(const moreau::ColouredOptions& options) {
   return Solver(own);
 }
 
-/// Whether the law gives impulses of rigid contacts, so that theta and solver mean something.
+/// Whether the law is set-valued, so that theta and the solver have an effect.
 template <class ShapeT, class Law>
 constexpr bool is_rigid = moreau::SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
-/// @param theta of the integrator of a law that gives impulses
+/// @param theta of the integrator, for a set-valued law
 template <class ShapeT, class Law, class Solver = moreau::DefaultSolver<Law, SpaceOf<ShapeT>>>
 World<ShapeT, Law, Solver> world_of(double size, const Law& law,
                                     const moreau::ColouredOptions& options = tight(),
@@ -65,8 +65,8 @@ World<ShapeT, Law, Solver> world_of(double size, const Law& law,
     return World<ShapeT, Law>(size, materials, tolerances);
 }
 
-/// Some ten sweeps of the correction of overlaps do not converge, depend on the order of the bodies
-/// and move them without regard to their velocities.
+/// Turns off the overlap correction. Its ten sweeps do not converge, depend on the order of the
+/// bodies, and move bodies independently of their velocities.
 template <class ShapeT, class Law, class Solver>
 void without_correction(World<ShapeT, Law, Solver>& world) {
   if constexpr (is_rigid<ShapeT, Law>) {
@@ -102,26 +102,26 @@ ShapeT regular(double radius) {
     return cuboid<ShapeT>(SpaceOf<ShapeT>::Vector::Constant(radius));
 }
 
-/// ", polygon", after the name of a case.
+/// Suffix of the name of a case, such as ", polygon".
 template <class ShapeT>
 std::string with_shape(const std::string& name) {
   constexpr bool plane = SpaceOf<ShapeT>::dim == 2;
   return name + (is_round<ShapeT> ? (plane ? ", disk" : ", sphere")
                                   : (plane ? ", polygon" : ", polyhedron"));
 }
-/// ", linear springs", after that.
+/// Suffix of the name of a case, such as ", linear springs".
 template <class Law>
 std::string with_law(const std::string& name) {
   if constexpr (requires(const Law& law) { law.stiffness(); }) return name + ", linear springs";
   if constexpr (requires(const Law& law) { law.young(); }) return name + ", Hertz-Mindlin";
   return name;
 }
-/// ", theta = 1", where it is not 1/2.
+/// Suffix of the name of a case: ", theta = 1", or nothing for 1/2.
 inline std::string with_theta(double theta, const std::string& name) {
   return theta == 1 ? name + ", theta = 1" : name;
 }
 
-/// In the plane of the first axis and the last.
+/// A vector in the plane of the first and the last axis.
 template <class S>
 typename S::Vector in_plane(double across, double height) {
   typename S::Vector x = S::Vector::Zero();
@@ -129,12 +129,12 @@ typename S::Vector in_plane(double across, double height) {
   x[S::dim - 1] = height;
   return x;
 }
-/// Angular quantity of that plane, positive from the first axis towards the last.
+/// An angular quantity of that plane, positive from the first axis towards the last.
 template <class S>
 typename S::Angular turn(double angle) {
   return S::moment(in_plane<S>(1, 0), in_plane<S>(0, angle));
 }
-/// Gravity on a floor tilted towards +x [m/s^2].
+/// Gravity relative to a floor that is tilted towards +x [m/s^2].
 template <class S>
 typename S::Vector tilted_gravity(double tilt) {
   return gravity * in_plane<S>(std::sin(tilt), -std::cos(tilt));
@@ -147,14 +147,14 @@ moreau::BodyMotion<SpaceOf<ShapeT>> motion_of(const World<ShapeT, Law>& world, s
   return {bodies.weight[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
           bodies.velocity[i]};
 }
-/// Of all grains [J].
+/// Kinetic energy of all grains [J].
 template <class ShapeT, class Law>
 double kinetic_energy(const World<ShapeT, Law>& world) {
   return moreau::kinetic_energy<SpaceOf<ShapeT>>(world.grain_count(),
                                                  [&](std::size_t k) { return motion_of(world, k); })
       .total();
 }
-/// Kinetic, and potential in the field of gravity [J].
+/// Kinetic and potential energy of all grains [J].
 template <class ShapeT, class Law>
 double energy(const World<ShapeT, Law>& world) {
   double sum = kinetic_energy(world);
@@ -169,7 +169,7 @@ moreau::Momentum<SpaceOf<ShapeT>> momentum(const World<ShapeT, Law>& world) {
   return moreau::momentum<SpaceOf<ShapeT>>(world.grain_count(),
                                            [&](std::size_t k) { return motion_of(world, k); });
 }
-/// Of all grains [kg].
+/// Mass of all grains [kg].
 template <class ShapeT, class Law>
 double mass(const World<ShapeT, Law>& world) {
   double sum = 0;
@@ -177,7 +177,7 @@ double mass(const World<ShapeT, Law>& world) {
   return sum;
 }
 
-/// One grain above a floor through the origin; gravity tilted by an angle towards +x.
+/// One grain above a floor through the origin; gravity is tilted by an angle towards +x.
 template <class ShapeT, class Law = Coulomb<ShapeT>>
 struct OnFloor {
   using S = SpaceOf<ShapeT>;
@@ -203,7 +203,7 @@ struct OnFloor {
   double spin() const { return twist().template tail<S::angular_dim>().norm(); }  ///< [rad/s]
 };
 
-/// 2/(D + 2), the I/(m R^2) of a ball and a disk.
+/// 2/(D + 2), the ratio I/(m R^2) of a sphere and a disk.
 template <class S>
 constexpr double gyration = 2.0 / (S::dim + 2);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Disks sheared between two rough walls.
+// Disks that are sheared between two rough walls.
 #pragma once
 
 #include <numbers>
@@ -13,24 +13,24 @@ namespace validation {
 
 /// Means over the steady state.
 struct ShearFlow {
-  double number;    ///< I = rate sqrt(m/P), with the rate of shear in the middle half
-  double friction;  ///< shear stress of the walls, mean of both, over the pressure
-  double bulk;      ///< shear stress over normal stress of the contacts in the middle half
-  double fraction;  ///< of solid
-  double unsolved;  ///< share of the steps
+  double number;    ///< I = shear rate sqrt(m/P), with the shear rate in the middle half
+  double friction;  ///< shear stress of the walls (mean of both) / pressure
+  double bulk;      ///< shear stress / normal stress from the contacts in the middle half
+  double fraction;  ///< solid fraction
+  double unsolved;  ///< share of the steps that did not converge
 };
 
 namespace detail {
 
-/// Disks of 0.8 to 1.2 diameters in a cell that is periodic along x, between a floor at rest and a
-/// lid that slides and presses; no gravity. Units: mean diameter, mean mass, pressure of the lid.
-/// The walls are rough because the disks on them neither slip nor roll.
+/// Disks with diameters of 0.8 to 1.2 in a cell that is periodic along x, between a floor at rest
+/// and a lid that slides and compresses; no gravity. Units: mean diameter, mean mass, pressure of
+/// the lid. The walls are rough because the disks on them neither slip nor roll.
 class ShearCell {
  public:
   using S = moreau::Space<2>;
   using Vector = S::Vector;
 
-  /// @param number the I for which the lid slides if all of the sample turns alike
+  /// @param number I that determines the speed of the lid, for a uniform shear rate
   ShearCell(int across, int layers, double friction, double number)
       : length_(across * 1.02),
         rate_(number),
@@ -57,7 +57,7 @@ class ShearCell {
     world_.set_velocity(lid_, {rate_ * 0.8 * height, 0});
   }
 
-  /// @param before,during how far the sample is sheared before the means and during them
+  /// @param before,during strain before and during the averages
   ShearFlow run(double before, double during) {
     for (double strain = 0; strain < before; strain += rate_ * h_) world_.step(h_);
     ShearFlow sum{};
@@ -107,7 +107,7 @@ class ShearCell {
         world_.contacts(), h_, middle(), [&](std::size_t i) { return pose[i].position; },
         [&](std::size_t i) { return world_.is_grain(i); }, world_.cell());
   }
-  /// Slope of v_x over y of the grains in the middle half, by least squares.
+  /// Slope of v_x over y by least squares, grains in the middle half.
   double shear_rate() const {
     double n = 0, y = 0, v = 0, yy = 0, yv = 0;
     const auto box = middle();
@@ -127,7 +127,7 @@ class ShearCell {
 
 }  // namespace detail
 
-/// The effective friction of a dense flow of disks grows with the inertial number: mu* = 0.25 +
+/// The effective friction of a dense flow of disks grows with the inertial number I: mu* = 0.25 +
 /// 1.1 I for 0.02 <= I <= 0.2 and a friction of 0.4 (F. da Cruz, S. Emam, M. Prochnow, J.-N. Roux
 /// and F. Chevoir, Phys. Rev. E 72 (2005) 021309).
 inline void plane_shear(Record& record, Effort effort) {

@@ -9,15 +9,15 @@ namespace validation {
 
 namespace detail {
 
-/// Balls of slightly different sizes in a square silo (a channel in the plane) with rough walls and
-/// a smooth floor.
+/// Spheres of slightly different sizes in a square silo (in the plane a channel) with rough walls
+/// and a smooth floor.
 template <class ShapeT>
 struct Silo {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
   static constexpr double h = 5e-4, size = 0.02;  ///< step [s], mean diameter [m]
-  static constexpr double mu = 0.5;               ///< of grains on each other and on the walls
+  static constexpr double mu = 0.5;  ///< friction between grains, and between grains and walls
 
   double width;  ///< [m]
   World<ShapeT> world;
@@ -65,19 +65,19 @@ struct Silo {
     return t;
   }
 
-  int unsolved = 0;  ///< steps
+  int unsolved = 0;  ///< steps that did not converge
 
   void run(double time) {
     for (const double end = world.time() + time; world.time() < end;)
       unsolved += !world.step(h).solve.converged;
   }
-  /// Walls sliding upwards hang the grains on their friction, all of it.
+  /// Moves the walls upwards until their friction is fully mobilised.
   void lift_walls(double speed) {
     for (const BodyId wall : sides) world.set_velocity(wall, speed * Vector::Unit(up));
   }
 
-  /// Adds to weight[j], friction[j] and push[j] what stands, what the walls carry and what they
-  /// push inwards above the height j x `spacing` [N].
+  /// Adds the weight of the grains, the friction of the walls and the push of the walls above the
+  /// height j x `spacing` to weight[j], friction[j] and push[j] [N].
   void add_forces(double spacing, std::vector<double>& weight, std::vector<double>& friction,
                   std::vector<double>& push) const {
     const auto& bodies = world.bodies();
@@ -102,18 +102,19 @@ struct Silo {
 
 }  // namespace detail
 
-/// Where wall friction is fully mobilised the mean vertical stress at the depth z is
-/// rho g lambda (1 - exp(-z/lambda)) (H. A. Janssen, Z. Ver. dt. Ing. 39 (1895) 1045); rho g z is
-/// the weight above per area, lambda the only number that is fitted. The stress is what the weight
-/// above and the walls leave. It speaks of a mean: in one packing, eight grains wide, the stress
-/// wanders by a tenth about the profile, so several are taken, while the walls slide from a quarter
-/// of a diameter to one. A rough floor would shear the lowest two widths, which slices do not know.
+/// If wall friction is fully mobilised, the mean vertical stress at the depth z is rho g lambda (1
+/// - exp(-z/lambda)) (H. A. Janssen, Z. Ver. dt. Ing. 39 (1895) 1045). rho g z is the weight above
+/// per area, and lambda is the only fitted parameter. The stress is computed from the weight above
+/// and the friction of the walls. The formula is for a mean: in one packing, eight grains wide, the
+/// stress fluctuates by a tenth about the profile. Several packings are averaged while the walls
+/// slide from a quarter of a diameter to one diameter. The floor is smooth, because a rough floor
+/// shears the lowest two widths, which the formula ignores.
 ///
-/// And lambda is what the walls say: a slice loses mu K s P/A per height to them, P/A the perimeter
-/// over the area, if all their friction is mobilised and they push with K s. With s over the weight
-/// w above, in forces, lambda = s dw / (mu dN), dN the push of the walls per slice: here over all
-/// slices at once, sum(s dw) / (mu N). Both misses: balls roll on the walls too, and half of mu
-/// times the push is what the walls carry.
+/// lambda also follows from the walls. If their friction is fully mobilised and their push is K s,
+/// a slice loses mu K s P/A per height to them, with the perimeter P and the area A. With s as a
+/// function of the weight w above, in forces, lambda = s dw / (mu dN), where dN is the push of the
+/// walls per slice. Here the sum is over all slices: sum(s dw) / (mu N). Both comparisons are known
+/// misses: spheres also roll on the walls, whose friction is half of mu times their push.
 template <class ShapeT>
 void janssen(Record& record, int across, int layers, int packings) {
   using S = SpaceOf<ShapeT>;
@@ -127,14 +128,14 @@ void janssen(Record& record, int across, int layers, int packings) {
     silo.run(0.8);
     silo.lift_walls(speed);
     silo.run(0.25);
-    silo.unsolved = 0;  // count where it is measured
+    silo.unsolved = 0;  // count only during the measurement
     for (int k = 0; k < 150; ++k, ++samples) {
       silo.run(10 * Silo::h);
       silo.add_forces(Silo::size, weight, friction, push);
     }
     unsolved += silo.unsolved;
   }
-  // In weights of grains over the whole area: depth w, stress s.
+  // In units of the weight of the grains over the whole area: depth w, stress s.
   std::vector<double> w, s;
   for (std::size_t j = 0; j < weight.size(); ++j) {
     if (weight[j] == 0) break;
@@ -162,7 +163,7 @@ void janssen(Record& record, int across, int layers, int packings) {
   const std::string name = with_shape<ShapeT>("Janssen's silo");
   record.compare(name + ": R^2 of the profile", S{}, 1, 1 - misfit(lambda) / spread, 0.02);
   record.vanishes(name + ": lambda over the depth", S{}, lambda / w[0], 0.5);
-  double slices = 0;  // of s dw
+  double slices = 0;  // sum of s dw
   for (std::size_t j = 0; j + 1 < w.size(); ++j)
     slices += (s[j] + s[j + 1]) / 2 * (w[j] - w[j + 1]);
   record.compare(name + ": friction of the walls over mu times their push", S{}, 1,

@@ -8,12 +8,12 @@ namespace validation {
 
 namespace detail {
 
-/// `count` bodies of half height 0.05 on each other and on a floor tilted by `tilt`.
+/// `count` bodies of half height 0.05 on top of each other on a floor that is tilted by `tilt`.
 template <class ShapeT, class Law>
 World<ShapeT, Law> column(int count, const Law& law, double tilt, double theta = 0.5) {
   using S = SpaceOf<ShapeT>;
   auto world = world_of<ShapeT>(0.1, law, tight(), {}, theta);
-  // Few of the points carry what all do, but are not as stiff.
+  // Few points carry the same load as all points, but their springs are less stiff.
   if (!is_rigid<ShapeT, Law>) world.set_contact_points(moreau::ContactPoints::all);
   const auto id = world.add_shape(regular<ShapeT>(0.05));
   for (int k = 0; k < count; ++k) world.add_grain(id, {in_plane<S>(0, 0.05 + 0.1 * k)}, 1000);
@@ -24,17 +24,17 @@ World<ShapeT, Law> column(int count, const Law& law, double tilt, double theta =
 
 }  // namespace detail
 
-/// Contact k of a column of N, counted from the floor, carries (N - k) m g h. Where the impulses
-/// are unique, with one point per contact, those of the step before solve a step at rest: the
-/// solver's first check, after 20 sweeps, says so. On springs the forces do it once the column
-/// has come to rest.
+/// Contact k of a column of N, counted from the floor, carries (N - k) m g h. If the impulses are
+/// unique (one point per contact), the impulses of the last step solve a step at rest, and the
+/// first check of the solver, after 20 sweeps, passes. On springs the forces are compared after the
+/// column has come to rest.
 template <class ShapeT, class Law>
 void column(Record& record, int count, const Law& law, double theta = 0.5) {
   constexpr bool rigid = is_rigid<ShapeT, Law>;
   const double h = rigid ? 1e-3 : 1e-5;
   auto world = detail::column<ShapeT>(count, law, 0, theta);
-  // From rest without a guess a step takes some 7.5 N^2 sweeps and more; springs swing for N^2
-  // times the time of one.
+  // From rest without a warm start a step takes 7.5 N^2 sweeps and more. Springs oscillate for N^2
+  // times the duration of one contact.
   const int before = rigid ? 20 : 1500 * count * count;
   for (int k = 0; k < before; ++k) world.step(h);
   int unsolved = 0, sweeps = 0;
@@ -63,8 +63,8 @@ void column(Record& record, int count, const Law& law, double theta = 0.5) {
     record.vanishes(name + ": sweeps of a step at rest", SpaceOf<ShapeT>{}, sweeps, 20);
 }
 
-/// Three boxes on a floor tilted to half the friction angle: ten seconds without creep. (On
-/// springs, whose dashpots four to a face ask for a short step, one second.)
+/// Three boxes on a floor that is tilted by half the friction angle do not drift in ten seconds.
+/// (On springs, one second: with four dashpots per face they need a short step.)
 template <class ShapeT, class Law>
 void stack(Record& record, const Law& law) {
   using S = SpaceOf<ShapeT>;
@@ -91,7 +91,8 @@ template <class ShapeT>
 void columns_of(Record& record, int count) {
   column<ShapeT>(record, count, Coulomb<ShapeT>(0.4));
   column<ShapeT>(record, count, Coulomb<ShapeT>(0.4), 1);
-  // Round bodies on springs fall off each other within two seconds, which twelve take to rest.
+  // Round bodies on springs fall off each other within two seconds, and they take twelve seconds to
+  // come to rest.
   const double mass = regular<ShapeT>(0.05).mass_properties(1000).mass;
   column<ShapeT>(record, 6, Springs<ShapeT>(4e6 * mass, 1e6 * mass, 0.4, 0.2));
   if constexpr (is_round<ShapeT>)

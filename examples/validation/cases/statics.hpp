@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packings left to themselves.
+// Packings without a drive.
 #pragma once
 
 #include "heap.hpp"
@@ -9,11 +9,11 @@ namespace validation {
 namespace detail {
 
 struct Balance {
-  double left;  ///< largest force on a grain that contacts and weight leave over, or largest torque
-                ///< over the grain size
+  double left;  ///< largest sum of contact forces and weight of a grain, or largest sum of torques
+                ///< divided by the grain size
   double all;   ///< sum of all contact forces
 };
-/// Both over the mean weight; recomputed from the contacts alone.
+/// Both relative to the mean weight, computed from the contacts alone.
 template <class ShapeT>
 Balance balance(const World<ShapeT>& world, double h) {
   using S = SpaceOf<ShapeT>;
@@ -44,8 +44,8 @@ Balance balance(const World<ShapeT>& world, double h) {
 
 }  // namespace detail
 
-/// In a packing at rest the forces on every grain balance: what is left over is the residual of the
-/// step, or of the one before it, times the sum of all contact forces, and rounding.
+/// In a packing at rest the forces on every grain balance. The imbalance is the residual of this
+/// step or of the last step, times the sum of all contact forces, and rounding.
 template <class ShapeT>
 void force_balance(Record& record, std::size_t count) {
   HeapOptions options;
@@ -78,8 +78,8 @@ void balance_of_forces(Record& record, Effort effort) {
   force_balance<Disk<T>>(record, quick ? 12 : 40);
 }
 
-/// Largest rise of kinetic and potential energy together over the least so far, less the work of
-/// the correction of overlaps where that lifts and `raw` is not asked for [J].
+/// Largest rise of the total energy above its minimum so far [J]. Unless `raw`, the work of the
+/// overlap correction is subtracted where the correction lifts grains.
 template <class ShapeT>
 double rise_of_energy(Heap<ShapeT>& heap, int steps, double h = 5e-4, bool raw = false) {
   double least = energy(heap.world), rise = 0, work = 0;
@@ -93,13 +93,13 @@ double rise_of_energy(Heap<ShapeT>& heap, int steps, double h = 5e-4, bool raw =
   return rise;
 }
 
-/// Without drive and with restitution 0 energy never grows: in the packing that grains have made
-/// after a second of fall, and over all its steps. Over M g d.
+/// Without a drive and with restitution 0 the energy never grows: in the packing that grains have
+/// formed after falling for a second, and over all its steps. Relative to M g d.
 template <class ShapeT>
 void energy_without_drive(Record& record, std::size_t count, int steps) {
   HeapOptions options;
   options.count = count;
-  options.tolerance = 1e-8;  // what the residual leaves of an impulse makes energy, too
+  options.tolerance = 1e-8;  // a residual impulse changes the energy
   Heap<ShapeT> heap(options);
   using S = SpaceOf<ShapeT>;
   const double unit = mass(heap.world) * gravity * Heap<ShapeT>::size;
@@ -110,10 +110,10 @@ void energy_without_drive(Record& record, std::size_t count, int steps) {
   record.vanishes(name + ": kinetic at the end", S{}, kinetic_energy(heap.world) / unit, 1e-9);
 }
 
-/// The same while the grains come down: on contacts that turn, the velocity before a step points
-/// out of the frame after it, by v h/R, and what grains that roll down each other gain by that goes
-/// with the step (off_a_ball() measures the order on one pair). As it is with steps of 0.5 ms, and
-/// with steps a quarter as long less the work of the correction.
+/// The same while the grains fall. On contacts that rotate, the velocity before a step points out
+/// of the contact frame after it, by v h/R. Grains that roll down each other therefore gain energy,
+/// to first order in the step (off_a_ball() measures the order for one pair). Compared with a step
+/// of 0.5 ms, and with a quarter of the step without the work of the correction.
 template <class ShapeT>
 void energy_of_fall(Record& record, std::size_t count) {
   HeapOptions options;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What must not change an experiment: its place and direction in the world, the order of its
-// bodies. And what a collision must not change: momentum.
+// Changes that must not affect an experiment: its position and orientation in the world and the
+// order of its bodies. Momentum, which a collision must not change.
 #pragma once
 
 #include "heap.hpp"
@@ -9,11 +9,10 @@ namespace validation {
 
 namespace detail {
 
-/// A tenth of a second of a heap, on springs half of that: grains come down on the floor and on
-/// each other.
+/// A heap for 0.1 s (on springs 0.05 s): grains fall on the floor and on each other.
 struct Fall {
-  std::size_t pushes = 0;    ///< pairs of grains that pushed each other, summed over the steps
-  std::size_t unsolved = 0;  ///< steps
+  std::size_t pushes = 0;    ///< pairs of grains in compression, summed over the steps
+  std::size_t unsolved = 0;  ///< steps that did not converge
 };
 template <class ShapeT, class Law, class Solver>
 Fall fall(Heap<ShapeT, Law, Solver>& heap) {
@@ -30,7 +29,8 @@ Fall fall(Heap<ShapeT, Law, Solver>& heap) {
   return seen;
 }
 
-/// Largest distance of places over the size, the second brought back from its frame.
+/// Largest distance between positions relative to the grain size, after the second experiment is
+/// moved back from its frame.
 template <class HeapT>
 double distance(const HeapT& one, const HeapT& other, const Pose<typename HeapT::S>& frame) {
   double most = 0;
@@ -40,8 +40,8 @@ double distance(const HeapT& one, const HeapT& other, const Pose<typename HeapT:
   return most / HeapT::size;
 }
 
-/// What four experiments with their grains aside by four roundings of a metre come to: the largest
-/// distance from `reference`, over the size.
+/// Growth of rounding errors: the largest distance from `reference`, relative to the grain size, in
+/// four experiments whose grains are displaced by four roundings of a metre.
 template <class HeapT>
 double growth_of_rounding(const HeapT& reference, const HeapOptions& options) {
   using S = typename HeapT::S;
@@ -62,8 +62,8 @@ double growth_of_rounding(const HeapT& reference, const HeapOptions& options) {
   return most;
 }
 
-/// The largest distance over the size of a heap from itself in so many frames, and the steps of all
-/// these that were not solved.
+/// The largest distance, relative to the grain size, of a heap from itself in several frames; the
+/// number of steps that did not converge.
 struct Frames {
   double distance = 0;
   Fall seen;
@@ -84,8 +84,8 @@ Frames in_frames(const HeapOptions& options, std::initializer_list<double> turns
   return frames;
 }
 
-/// How far a heap, moved and turned, and one whose bodies come in another order are from it, over
-/// the size; and what they are compared with.
+/// Distances, relative to the grain size, of a heap that is moved and rotated, and of a heap whose
+/// bodies have another order; and the distances that they are compared with.
 template <class ShapeT, class Law>
 struct SymmetricHeaps {
   using S = SpaceOf<ShapeT>;
@@ -118,14 +118,15 @@ struct SymmetricHeaps {
 
 }  // namespace detail
 
-/// The experiment moved and turned gives the result moved and turned; the bodies in another order
-/// give the same, without friction if they are rigid: with it a step can have several solutions,
-/// and which of them is found goes by the order. Rounding grows with each collision of rough
-/// bodies, by less than a hundred in those of a tenth of a second in a heap of two layers: 1e-9 of
-/// a grain for 1e-12 in the velocities. In three layers it grows more, and the measure is what the
-/// same experiment does with its grains aside by some roundings of a metre, the largest of several
-/// such: no more than ten times that, and than 1e-6. In float rounding leaves nothing to compare
-/// there.
+/// An experiment that is moved and rotated gives the moved and rotated result. Another order of the
+/// bodies gives the same result, for rigid bodies without friction: with friction a step can have
+/// several solutions, and the order decides which one is found.
+///
+/// Rounding errors grow with each collision of rough bodies. In a heap of two layers they grow by
+/// less than a hundred in 0.1 s: to 1e-9 of a grain for 1e-12 in the velocities. In three layers
+/// they grow more. There the result is compared with the largest difference of several experiments
+/// whose grains are displaced by some roundings of a metre: at most ten times as much, and at most
+/// 1e-6. In float, rounding leaves nothing to compare there.
 template <class ShapeT, class Law>
 void symmetries(Record& record) {
   using S = SpaceOf<ShapeT>;
@@ -147,9 +148,9 @@ void symmetries(Record& record) {
   }
 }
 
-/// Sweeps alone leave some steps in which rough polyhedra lock unsolved, and what such a step then
-/// gives is chosen by rounding. With the proximal point method behind them every step is solved,
-/// and heaps of 12, 13, 14 and 27 grains are in five frames what they are in one.
+/// With sweeps alone, some steps in which rough polyhedra lock do not converge, and their result
+/// depends on rounding. With the proximal point method after the sweeps every step converges, and
+/// heaps of 12, 13, 14 and 27 grains agree in five frames.
 inline void solved_frames(Record& record, Effort effort) {
   using ShapeT = Polyhedron<double>;
   using S = SpaceOf<ShapeT>;
@@ -182,8 +183,8 @@ void symmetries_of_experiments(Record& record, [[maybe_unused]] Effort effort) {
   symmetries_of<Disk<T>>(record);
 }
 
-/// A cloud of random grains flies together, with friction and restitution, and apart: linear and
-/// angular momentum stay, without the correction of overlaps.
+/// A cloud of random grains moves together, collides with friction and restitution, and moves
+/// apart. Linear and angular momentum are conserved without the overlap correction.
 template <class ShapeT, class Law>
 void momentum_in_collisions(Record& record, const Law& law, double theta = 0.5) {
   using S = SpaceOf<ShapeT>;
@@ -228,8 +229,8 @@ void momentum_in_collisions(Record& record, const Law& law, double theta = 0.5) 
       with_theta(theta, with_law<Law>(with_shape<ShapeT>("collisions"))) + ": ";
   record.vanishes(name + "relative change of linear momentum", S{}, linear, 1e-12);
   record.vanishes(name + "relative change of angular momentum", S{}, angular, 1e-11);
-  // Restitution 0.3 leaves of the energy of approach, which is most of it, 0.09; 0.95 means that
-  // they did collide.
+  // Restitution 0.3 leaves 0.09 of the energy of approach, which is most of the energy. A value
+  // below 0.95 shows that the grains collided.
   record.vanishes(name + "energy left, at most 0.95 of it", S{}, kinetic_energy(world) / before,
                   0.95);
 }

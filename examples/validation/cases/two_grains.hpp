@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two grains that collide, without gravity: what a contact makes of two masses and two radii.
+// Two grains that collide without gravity: effective mass and effective radius of a contact.
 #pragma once
 
 #include <numbers>
@@ -10,7 +10,7 @@ namespace validation {
 
 namespace detail {
 
-/// A grain at rest below another one that comes down on it.
+/// A grain at rest below, and a second grain that moves down onto it.
 template <class ShapeT, class Law>
 struct Encounter {
   using S = SpaceOf<ShapeT>;
@@ -19,7 +19,7 @@ struct Encounter {
   World<ShapeT, Law> world;
   BodyId lower, upper;
 
-  /// @param gap    at first [m]
+  /// @param gap    initial gap [m]
   /// @param v_n,v_t of the upper grain, towards the lower one and across [m/s]
   Encounter(const Law& law, double gap, double v_n, double v_t = 0)
       : world(world_of<ShapeT, Law>(0.05, law)) {
@@ -28,12 +28,14 @@ struct Encounter {
                             Pose<S>{in_plane<S>(0, below + above + gap)}, 1000);
     world.set_velocity(upper, in_plane<S>(v_t, -v_n));
   }
-  double mass() const {  ///< effective [kg]
+  double mass() const {  ///< effective mass [kg]
     return 1 /
            (1 / world.bodies().weight[lower.index()] + 1 / world.bodies().weight[upper.index()]);
   }
-  static constexpr double radius() { return 1 / (1 / below + 1 / above); }  ///< effective [m]
-  typename S::Vector velocity() const {  ///< of the upper centre against the lower one [m/s]
+  /// Effective radius [m].
+  static constexpr double radius() { return 1 / (1 / below + 1 / above); }
+  /// Velocity of the upper centre relative to the lower one [m/s].
+  typename S::Vector velocity() const {
     return (world.bodies().velocity[upper.index()] - world.bodies().velocity[lower.index()])
         .template head<S::dim>();
   }
@@ -41,7 +43,8 @@ struct Encounter {
     const auto& pose = world.bodies().pose;
     return (pose[upper.index()].position - pose[lower.index()].position).norm() - below - above;
   }
-  /// Through the contact, until they are apart. @returns the largest overlap [m]
+  /// Runs until the grains have separated.
+  /// @returns the largest overlap [m]
   double pass(double step) {
     double deepest = 0;
     do {
@@ -54,10 +57,10 @@ struct Encounter {
 
 }  // namespace detail
 
-/// Grains of two sizes part with e times the speed at which they met. Without damping the overlap
-/// is v sqrt(m/k) on linear springs, (15 m v^2/(16 E sqrt R))^(2/5) on Hertz's with E = Y/(2(1 -
-/// nu^2)) of two like bodies (H. Hertz, J. reine angew. Math. 92 (1882) 156); m and R are 1/(1/a +
-/// 1/b).
+/// Grains of two sizes separate with e times the velocity of approach v. Without damping the
+/// overlap is v sqrt(m/k) on linear springs and (15 m v^2/(16 E sqrt R))^(2/5) on Hertz's, with E =
+/// Y/(2(1 - nu^2)) for two equal materials (H. Hertz, J. reine angew. Math. 92 (1882) 156). m and R
+/// are effective: 1/(1/a + 1/b).
 template <class ShapeT, class Law, class Depth>
 void head_on(Record& record, const auto& law, const Depth& depth) {
   using Encounter = detail::Encounter<ShapeT, Law>;
@@ -86,11 +89,11 @@ void head_on_rigid(Record& record) {
                  encounter.velocity()[Encounter::up] / v, 1e-10);
 }
 
-/// A contact that sticks on linear springs without damping swings across, too: with k = I/(m R^2)
-/// and the mass k/(1 + k) m of the slip, through sqrt(k_t/k_n (1 + 1/k)) half periods while it
-/// lasts. So the speed across becomes v_t (1 + k/(1 + k) (cos(pi sqrt(..)) - 1)) (N. Maw, J. R.
-/// Barber and J. N. Fawcett, Wear 38 (1976) 101, for the contact of spheres; here its springs are
-/// linear).
+/// A contact that sticks on linear springs without damping also oscillates in the tangential
+/// direction. With k = I/(m R^2) and the mass k/(1 + k) m of the slip, it oscillates for
+/// sqrt(k_t/k_n (1 + 1/k)) half periods during the contact. The tangential velocity becomes v_t (1
+/// + k/(1 + k) (cos(pi sqrt(..)) - 1)) (N. Maw, J. R. Barber and J. N. Fawcett, Wear 38 (1976) 101,
+/// for the contact of spheres; here the springs are linear).
 template <class ShapeT>
 void sticks_across(Record& record) {
   using Encounter = detail::Encounter<ShapeT, Springs<ShapeT>>;
@@ -112,7 +115,7 @@ void encounters_of(Record& record) {
   head_on<ShapeT, Springs<ShapeT>>(
       record, [](double e) { return Springs<ShapeT>(1e6, 0, 0, T(e)); },
       [](double mass, double, double v) { return v * std::sqrt(mass / 1e6); });
-  const double young = 1e11, poisson = 0.3;  // levers are shorter by the overlap: 1e-4 of R at most
+  const double young = 1e11, poisson = 0.3;  // the overlap shortens the levers, by at most 1e-4 R
   head_on<ShapeT, Hertz<ShapeT>>(
       record, [&](double e) { return Hertz<ShapeT>::of_material(T(young), T(poisson), 0, T(e)); },
       [&](double mass, double radius, double v) {

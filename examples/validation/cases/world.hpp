@@ -13,7 +13,7 @@
 #include "moreau/solve/proximal_fallback.hpp"
 #include "moreau/world/simulation.hpp"
 
-// Compiled once, in worlds/ and in_float/.
+// The steps are compiled once, in worlds/ and in_float/.
 extern template class moreau::Polyhedron<double>;
 extern template class moreau::Polygon<double>;
 extern template class moreau::Polyhedron<float>;
@@ -26,7 +26,7 @@ using moreau::Disk;
 using moreau::Polygon;
 using moreau::Polyhedron;
 
-// The laws of a shape's scalar.
+// The laws in the scalar of a shape.
 template <class ShapeT>
 using ScalarOf = typename moreau::SpaceOf<ShapeT>::Scalar;
 template <class ShapeT>
@@ -43,7 +43,7 @@ template <class ShapeT>
 using Hertz = moreau::HertzMindlin<ScalarOf<ShapeT>>;
 
 /// A simulation whose step is compiled once for each shape, law and solver, in worlds/ and
-/// in_float/, and not again in every case.
+/// in_float/, and not in every case.
 template <class ShapeT, class Law = Coulomb<ShapeT>,
           class Solver = moreau::DefaultSolver<Law, moreau::SpaceOf<ShapeT>>>
 struct World

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What takes long to compile of world.hpp; included by one source file per shape, law and solver.
+// The part of world.hpp that takes long to compile. One source file per shape, law and solver
+// includes it.
 #pragma once
 
 #include "world.hpp"

@@ -139,9 +139,9 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::si
   const std::vector<int> p = read_hdf5<int>(matrix, "p"), index = read_hdf5<int>(matrix, "i");
   const std::vector<double> x = read_hdf5<double>(matrix, "x");
   require(rows >= 0 && std::size_t(rows) == rows_wanted, self, name + "/m", rows,
-          "must be as many as the vectors have numbers");
+          "must equal the size of the vectors");
   require(columns >= 0 && std::size_t(columns) == columns_wanted, self, name + "/n", columns,
-          "must be as many as the vectors have numbers");
+          "must equal the size of the vectors");
   Triplets entries;
   if (form >= 0) {
     const auto count = std::size_t(form);

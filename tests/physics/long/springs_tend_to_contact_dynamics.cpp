@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Largest distance between two cumulated distributions (Kolmogorov's).
+/// Kolmogorov distance: the largest distance between two cumulative distributions.
 double distance(const moreau::ForceDistribution<double>& a,
                 const moreau::ForceDistribution<double>& b) {
   double sum = 0, most = 0;
@@ -22,9 +22,10 @@ double distance(const moreau::ForceDistribution<double>& a,
 
 }  // namespace
 
-// Springs of rising stiffness come to the packing of contact dynamics: the wall, the solid fraction
-// away from the walls and the distribution of forces, in the mean of several packings. In a single
-// one they may settle beside it: rigid grains with friction have many packings.
+// With growing stiffness the packing on springs tends to the packing of contact dynamics: the wall,
+// the solid fraction away from the walls and the distribution of forces, in the mean over several
+// packings. A single packing may settle beside the rigid one: rigid grains with friction have many
+// packings.
 TEST_CASE("springs tend to contact dynamics as they stiffen") {
   constexpr int samples = 4;
   std::vector<double> wall, solid, forces;
@@ -49,7 +50,8 @@ TEST_CASE("springs tend to contact dynamics as they stiffen") {
     solid.push_back(s);
     forces.push_back(f);
   }
-  // With each decade nearer, until what is left is another packing near by.
+  // Each decade brings the packings nearer, until the remaining difference is that of another
+  // packing.
   for (std::size_t k = 1; k < 3; ++k) {
     CHECK(wall[k] < 0.5 * wall[k - 1]);
     CHECK(solid[k] < 0.5 * solid[k - 1]);

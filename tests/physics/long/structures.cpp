@@ -14,7 +14,7 @@ constexpr double step = 5e-3;
 constexpr int settle = 20, ten_seconds = 2000;
 }  // namespace
 
-// Sweeps are slow on the bending of a slender column: 10000 of them leave 1e-6.
+// Sweeps converge slowly for the bending of a slender column: 10000 sweeps leave 1e-6.
 TEST_CASE_TEMPLATE("a column of 40 boxes stands for ten seconds", ShapeT, Polyhedron<>, Polygon<>) {
   auto structure = masonry::column<ShapeT, moreau::ProximalFallback<>>(40);
   masonry::check_stands(structure, step, settle, ten_seconds);
