@@ -39,18 +39,18 @@ inline constexpr int most_points = 1000;
 
 /// The polytope in the plane: a ring of points, counter-clockwise.
 template <std::floating_point T, class Reach>
-class ExpandingPolygon {
+class EpaPolygon {
  public:
   using Vector = typename Space<2, T>::Vector;
   using Face = NearestFace<Vector>;
 
   /// @param reach    reach(n) -> the ExtremePoint of C with the largest n . point
   /// @param precise  differences below this are ignored [m]
-  ExpandingPolygon(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
+  EpaPolygon(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
 
   /// Starts from three points of C and grows until C reaches no farther than `precise` beyond the
   /// nearest side.
-  void expand() {
+  void run() {
     for (int k = 0; k < 3; ++k) {
       const T angle = T(2.0943951) * static_cast<T>(k);
       ring_.push_back(reach_(Vector(std::cos(angle), std::sin(angle))));
@@ -99,16 +99,16 @@ class ExpandingPolygon {
 
 /// The polytope in space: a hull of triangles, counter-clockwise from outside.
 template <std::floating_point T, class Reach>
-class ExpandingPolytope {
+class EpaPolytope {
  public:
   using Vector = typename Space<3, T>::Vector;
 
-  /// Arguments as those of ExpandingPolygon.
-  ExpandingPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
+  /// Arguments as those of EpaPolygon.
+  EpaPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
 
   /// Starts from four points of C and grows until C reaches no farther than `precise` beyond the
   /// nearest face.
-  void expand() {
+  void run() {
     start();
     while (grow()) {
     }
@@ -257,15 +257,15 @@ class ExpandingPolytope {
 /// @param reach  reach(n) -> the ExtremePoint of C with the largest n . point; must outlive the
 /// answer
 template <std::floating_point T, class Reach>
-ExpandingPolygon<T, Reach> epa(Space<2, T>, const Reach& reach, T precise) {
-  ExpandingPolygon<T, Reach> polytope(reach, precise);
-  polytope.expand();
+EpaPolygon<T, Reach> epa(Space<2, T>, const Reach& reach, T precise) {
+  EpaPolygon<T, Reach> polytope(reach, precise);
+  polytope.run();
   return polytope;
 }
 template <std::floating_point T, class Reach>
-ExpandingPolytope<T, Reach> epa(Space<3, T>, const Reach& reach, T precise) {
-  ExpandingPolytope<T, Reach> polytope(reach, precise);
-  polytope.expand();
+EpaPolytope<T, Reach> epa(Space<3, T>, const Reach& reach, T precise) {
+  EpaPolytope<T, Reach> polytope(reach, precise);
+  polytope.run();
   return polytope;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a point projects onto a face of a polytope: whether the foot of the perpendicular from
-// the point to the face's plane lies within the face. Faces of polygons are their edges.
+// Whether a point projects onto a face of a polytope: whether its orthogonal projection on the plane
+// of the face lies within the face. Faces of polygons are their edges.
 #pragma once
 
 #include <algorithm>
