@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <span>
 
+#include "moreau/core/twist.hpp"
 #include "moreau/integrate/concepts.hpp"
 
 /// v += h M^-1 F, then q += h v; the angular momentum L += h torque is the same about all axes.
@@ -17,19 +18,19 @@ struct SymplecticEuler {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       typename S::Twist& v = bodies.velocity[i];
       const typename S::Twist load = loads[i] + bodies.force[i];
-      const typename S::Vector force = load.template head<S::dim>() + bodies.weight[i] * gravity;
+      const typename S::Vector force = moreau::linear<S>(load) + bodies.weight[i] * gravity;
       const typename S::Matrix axes = bodies.axes(i);  // a wall with mass moves along one of them
-      v.template head<S::dim>() +=
+      moreau::linear<S>(v) +=
           step * (axes * bodies.inverse_mass[i].cwiseProduct(axes.transpose() * force));
-      bodies.pose[i].position += step * v.template head<S::dim>();
+      bodies.pose[i].position += step * moreau::linear<S>(v);
       auto& rotation = bodies.pose[i].rotation;
-      auto spin = v.template tail<S::angular_dim>();
+      auto spin = moreau::angular<S>(v);
       if (!bodies.rotates(i)) {
         rotation = S::normalized(S::exp(step * spin) * rotation);
         continue;
       }
       const typename S::Angular momentum =
-          bodies.inertia(i, rotation) * spin + step * load.template tail<S::angular_dim>();
+          bodies.inertia(i, rotation) * spin + step * moreau::angular<S>(load);
       spin = bodies.inertia(i, rotation).inverse() * momentum;
       rotation = S::normalized(S::exp(step * spin) * rotation);
       spin = bodies.inertia(i, rotation).inverse() * momentum;

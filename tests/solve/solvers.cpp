@@ -147,8 +147,7 @@ TEST_CASE("options out of range are refused") {
                        std::invalid_argument);
 }
 
-TEST_CASE_TEMPLATE("a warm start that is no number, or beyond them, is none", S, Space<2>,
-                   Space<3>) {
+TEST_CASE_TEMPLATE("a warm start that is not finite counts as zero", S, Space<2>, Space<3>) {
   Assembly<S> problem(3);
   std::vector<typename S::Vector> cold;
   const SolveReport expected =

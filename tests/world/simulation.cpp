@@ -123,7 +123,7 @@ struct NoNumber {
 
 }  // namespace
 
-TEST_CASE("a step that comes to no numbers ends in an error, before anything has moved") {
+TEST_CASE("a step whose velocities are not finite throws before any body has moved") {
   using S = Space<3>;
   moreau::Simulation<BallIn<S>, NoNumber> world(0.02, moreau::Materials<NoNumber>(1));
   const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(0.01)), {}, 1000);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// State and inertia of all bodies, arrays by field. Grains and walls alike: a wall is a body some
-// of whose axes have no inverse mass.
+// State and inertia of all bodies, grains and walls, in one array per field. A wall is a body with
+// zero inverse mass along some or all axes.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -17,7 +17,8 @@
 
 namespace moreau {
 
-/// I^-1/2, A x A [kg^-1/2 m^-1], of a symmetric positive definite inertia [kg m^2]; in its axes.
+/// I^-1/2, A x A [kg^-1/2 m^-1], of a symmetric positive definite inertia [kg m^2], in the same
+/// axes.
 template <class S>
 typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
   return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
@@ -34,15 +35,15 @@ struct Bodies {
   std::vector<Pose<S>> pose;          ///< of the centre of mass and the body's axes [m]
   std::vector<Twist> velocity;        ///< (v, w) in world axes [m/s, rad/s]
   std::vector<Twist> force;           ///< external (force, torque) in world axes [N, N m]
-  std::vector<Vector> inverse_mass;   ///< along the body's axes; zero: prescribed [1/kg]
-  std::vector<Inertia> inertia_body;  ///< about the centre, body axes [kg m^2]; zero: prescribed
-  /// I^-1/2, body axes [kg^-1/2 m^-1]; zero: prescribed.
+  std::vector<Vector> inverse_mass;   ///< along the axes of the body; 0: prescribed motion [1/kg]
+  std::vector<Inertia> inertia_body;  ///< about the centre, body axes [kg m^2]; 0: prescribed
+  /// I^-1/2, body axes [kg^-1/2 m^-1]; 0: prescribed rotation.
   std::vector<Inertia> inverse_inertia_root_body;
-  std::vector<typename S::Scalar> weight;  ///< mass that gravity acts on; 0 for walls [kg]
+  std::vector<typename S::Scalar> weight;  ///< mass that gravity acts on, 0 for walls [kg]
   std::vector<MaterialId> material;        ///< of the surface
 
   std::size_t size() const { return pose.size(); }  ///< grains and walls
-  /// Adds a body at rest that no force moves: a wall, until set_mass() makes it a grain.
+  /// Adds a body at rest that no force moves. set_mass() makes it a grain.
   void push_back(const Pose<S>& at, MaterialId of) {
     pose.push_back(at);
     velocity.push_back(Twist::Zero());
@@ -53,7 +54,7 @@ struct Bodies {
     weight.push_back(0);
     material.push_back(of);
   }
-  /// Makes body i a free one. Its arguments are not checked.
+  /// Makes body i a free body. The arguments are not checked.
   /// @param mass    [kg], > 0
   /// @param inertia about the centre, body axes [kg m^2], positive definite
   void set_mass(std::size_t i, typename S::Scalar mass, const Inertia& inertia) {
@@ -62,7 +63,7 @@ struct Bodies {
     inverse_inertia_root_body[i] = inverse_root<S>(inertia);
     weight[i] = mass;
   }
-  /// Whether all arrays are as long, and all materials of so many.
+  /// Whether all arrays have one size and all materials are below this number.
   bool are_valid(std::size_t materials) const {
     for (const std::size_t count :
          {velocity.size(), force.size(), inverse_mass.size(), inertia_body.size(),
@@ -71,17 +72,17 @@ struct Bodies {
     return std::all_of(material.begin(), material.end(),
                        [&](MaterialId one) { return one.index() < materials; });
   }
-  /// Whether forces can turn it; a body without inertia keeps the spin it is given.
+  /// Whether torques change the angular velocity of body i.
   bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
 
-  /// D x D, the body's axes as columns, unit, world axes.
+  /// D x D, the axes of body i as columns: unit vectors, world axes.
   typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
   /// A x A, inertia about the centre in world axes at the rotation q from body to world [kg m^2].
   Inertia inertia(std::size_t i, const typename S::Rotation& q) const {
     const Inertia a = S::adjoint(q), turned = a * inertia_body[i];
     return turned * a.transpose();
   }
-  /// M^-1/2 in world axes, as the body stands.
+  /// M^-1/2 of body i in world axes, at its present rotation.
   MobilityRoot<S> mobility_root(std::size_t i) const {
     typename S::Matrix r = axes(i), linear;
     const Inertia a = S::adjoint(pose[i].rotation), turned = a * inverse_inertia_root_body[i];

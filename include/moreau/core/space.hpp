@@ -166,4 +166,24 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   }
 };
 
+namespace detail {
+
+template <int Dofs, class T>
+struct SpaceOfDofs;
+template <class T>
+struct SpaceOfDofs<3, T> {
+  using type = Space<2, T>;
+};
+template <class T>
+struct SpaceOfDofs<6, T> {
+  using type = Space<3, T>;
+};
+
+}  // namespace detail
+
+/// The space whose twists have the type of this vector, D + A entries.
+template <class Twist>
+using SpaceOfTwist =
+    typename detail::SpaceOfDofs<Twist::RowsAtCompileTime, typename Twist::Scalar>::type;
+
 }  // namespace moreau

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Objects to bytes and back. transfer(archive, object) is the one description of what an object is
-// made of, number by number; an archive writes them, reads them, or only notes their kinds. So
-// reading cannot disagree with writing.
+// Serialization of objects to bytes and back. transfer(archive, object) visits the numbers of an
+// object in order. An archive writes them, reads them, or notes their types. One function for all
+// three: reading cannot disagree with writing.
 //
-// Numbers have the bytes of the machine. A class takes part as core/serialize.hpp says.
+// Numbers have the byte order of the machine. core/serialize.hpp describes how a class takes part.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@
 
 namespace moreau::detail {
 
-/// Converts to any member of an aggregate; only to be asked for, never done.
+/// Converts to any member of an aggregate; only for use in unevaluated expressions.
 struct AnyMember {
   template <class Member>
   operator Member() const;  // NOLINT(google-explicit-constructor): it stands for an initializer
@@ -43,7 +43,7 @@ constexpr bool takes_members(std::index_sequence<Member...>) {
     X{(static_cast<void>(Member), AnyMember{})...};
   };
 }
-/// How many members an aggregate has, if not more than Most.
+/// Number of members of an aggregate, if it is not above Most.
 template <class X, std::size_t Most = 8>
 constexpr std::size_t member_count() {
   if constexpr (Most == 0)
@@ -57,9 +57,8 @@ constexpr std::size_t member_count() {
 template <class X>
 auto members(X& x) {
   constexpr std::size_t count = std::is_aggregate_v<X> ? member_count<X>() : 0;
-  static_assert(
-      count > 0,
-      "a class that is to be written to a file needs core/serialize.hpp's serialized_members()");
+  static_assert(count > 0,
+                "a serializable class needs serialized_members(), see core/serialize.hpp");
   if constexpr (count == 0) {
     return std::tuple<>();
   } else if constexpr (count == 1) {
@@ -93,7 +92,7 @@ template <class X>
 concept Number = std::is_arithmetic_v<X> || std::is_enum_v<X>;
 template <class X>
 concept EigenArray = std::derived_from<X, Eigen::PlainObjectBase<X>>;
-/// A generator of random numbers, whose state is a text of the standard's.
+/// A generator of random numbers, whose state the standard library writes as text.
 template <class X>
 concept RandomEngine = std::uniform_random_bit_generator<X> && requires(X x, std::stringstream s) {
   s << x;
@@ -144,7 +143,7 @@ void transfer(Archive& archive, X& x) {
   }
 }
 
-/// Appends what it is given to its bytes. Objects are not changed.
+/// Appends objects to its bytes. Does not change the objects.
 class ArchiveWriter {
  public:
   std::string bytes;
@@ -175,8 +174,8 @@ class ArchiveWriter {
   void done(auto&) {}
 };
 
-/// Reads what an ArchiveWriter wrote. Throws std::runtime_error where the bytes cannot be that of
-/// the object; asks for no more memory than some times their number.
+/// Reads the bytes of an ArchiveWriter. Throws std::runtime_error if they cannot be those of the
+/// object. Its memory is limited to some times the number of bytes.
 class ArchiveReader {
  public:
   explicit ArchiveReader(std::string_view bytes) : left_(bytes) {}
@@ -244,7 +243,7 @@ class ArchiveReader {
   static X blank() {
     return SerializationAccess::blank<X>();
   }
-  /// Of what follows, each of a byte at least.
+  /// The size of a list, whose items have at least one byte each.
   std::size_t count() {
     std::uint64_t count = 0;
     number(count);
@@ -255,8 +254,8 @@ class ArchiveReader {
   std::string_view left_;
 };
 
-/// Notes of which kinds of numbers an object is made. Two objects of one type have the same outline
-/// unless the type's members have changed between them.
+/// Notes the types of the numbers of an object. Objects of one type have the same outline, unless
+/// the members of the type have changed between two versions of the program.
 class ArchiveOutline {
  public:
   std::uint64_t checksum() const { return crc64(kinds_); }

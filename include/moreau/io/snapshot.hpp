@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The whole state of a simulation in one file: a run that is stopped and taken up again goes on
-// with the same bits as one that was not.
+// The state of a simulation in one file. A run that is stopped and restarted from the file
+// continues with the same bits as a run without interruption.
 //
-//   write_snapshot("run.snapshot", world, steps, random);   // with what else belongs to the run
+//   write_snapshot("run.snapshot", world, steps, random);   // and other objects of the run
 //
 //   moreau::Simulation<..> world(..);                       // an empty one of the same type
 //   if (resume) read_snapshot("run.snapshot", world, steps, random);
 //   else        build(world);
 //
-// In the file is all that the next step depends on: bodies, shapes as they were built, materials,
-// walls, periodic cell, solver's options, contacts with their impulses and the laws' memories, the
-// list of pairs with what the narrow phase remembers of them. Not in it are functions of the user,
-// such as those of drives, which take their time from the simulation, and the number of threads,
-// which changes no bit.
+// The file contains everything that the next step depends on: bodies, shapes as they were built,
+// materials, walls, periodic cell, options of the solver, contacts with their impulses and the
+// memories of the laws, the list of pairs with their caches. It does not contain functions of the
+// user, such as those of drives, which take their time from the simulation, or the number of
+// threads, which changes no bit.
 //
 //   "\x89MOREAU\n" | byte order | format | size of the file | outline of the objects
 //   | version of moreau | types | objects | CRC-64 of all before
 //
-// The checksum tells a file that was damaged, not one that was forged: take no snapshots from those
-// whose programs you would not run.
+// The checksum detects damage, not forgery: do not read snapshots of people whose programs you
+// would not run.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ namespace moreau {
 
 namespace detail {
 
-/// What every snapshot begins with, whatever its format.
+/// The beginning of every snapshot, in every format.
 struct SnapshotHead {
   static constexpr std::uint32_t this_order = 0x01020304, this_format = 1;
 
@@ -73,7 +73,7 @@ struct OptionsOf<Solver> {
   using type = typename Solver::Options;
 };
 
-/// The types of a snapshot. Which broad phase there is and who visits the contacts does not matter.
+/// The types of a snapshot. The broad phase and the threads of the solver are not among them.
 template <class World, class... More>
 struct SnapshotTypes;
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
@@ -116,7 +116,7 @@ inline std::vector<std::string_view> parts_of(std::string_view tuple) {
   return parts;
 }
 
-/// The first thing in which two lists of types differ.
+/// Describes the first difference of two lists of types.
 inline std::string difference(std::string_view found, std::string_view wanted) {
   constexpr std::array<std::string_view, 4> of_world{"shape", "law", "integrator",
                                                      "solver's options"};
@@ -134,7 +134,7 @@ inline std::string difference(std::string_view found, std::string_view wanted) {
          std::to_string(want.size() - of_world.size()) + ", that go with the simulation";
 }
 
-/// @throws std::runtime_error unless these are all bytes of a snapshot of this format
+/// @throws std::runtime_error unless these are the bytes of a complete snapshot of this format
 inline SnapshotHead checked_head(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& why) { throw std::runtime_error(name + why); };
   if (bytes.empty()) refuse(" is empty");
@@ -167,7 +167,7 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
   const SnapshotHead head = checked_head(bytes, name);
   bytes.remove_suffix(sizeof(std::uint64_t));
   ArchiveReader archive(bytes.substr(sizeof head));
-  // On copies: what is refused has changed nothing.
+  // On copies, so that an error changes nothing.
   World loaded = world;
   std::tuple<More...> loaded_more(more...);
   try {
@@ -193,13 +193,13 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
 }  // namespace detail
 
 /// The state of a simulation as bytes: the same bytes if and only if the state has the same bits.
-/// @param more whatever else belongs to the run: numbers, strings, vectors, generators of random
-///             numbers, classes that core/serialize.hpp describes
+/// @param more other objects of the run: numbers, strings, vectors, generators of random numbers,
+///             classes with serialized_members(), see core/serialize.hpp
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
                      const More&... more) {
   using World = Simulation<ShapeT, Law, Integrator, Broad, Solver>;
-  // An archive takes references that can be written through; this one only reads.
+  // An archive takes references to objects that are not const; this one only reads them.
   auto& open = const_cast<World&>(world);
   detail::SnapshotHead head;
   head.outline = detail::outline_of(open, const_cast<More&>(more)...);
@@ -217,12 +217,13 @@ std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& w
   return std::move(archive.bytes);
 }
 
-/// Gives a simulation, and what else there is, the state that snapshot() took. Everything the
-/// simulation had is replaced but its solver's threads.
-/// @param bytes as snapshot() gave them
-/// @param world of the same type as then; it need not have bodies
-/// @param more  of the same types and in the same order as then
-/// @throws std::runtime_error saying why if the bytes are no snapshot, truncated, corrupted, of
+/// Restores the state of a simulation, and of other objects of the run, from the bytes of
+/// snapshot(). It replaces everything in the simulation except the threads of its solver.
+/// @param bytes that snapshot() returned
+/// @param world of the same type as in snapshot(); it need not have bodies
+/// @param more  of the same types and in the same order as in snapshot()
+/// @throws std::runtime_error with the reason if the bytes are no snapshot, truncated, corrupted,
+/// of
 ///         another format or of other types; nothing is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void restore_snapshot(std::string_view bytes,
@@ -230,11 +231,12 @@ void restore_snapshot(std::string_view bytes,
   detail::restore(bytes, "restore_snapshot: what is given", world, more...);
 }
 
-/// Writes a snapshot. A file that is there is replaced as a whole: a reader, or a run that is
-/// killed at any time, finds the old one or the new one.
-/// @param more as for snapshot()
-/// @throws std::system_error naming the path if the file cannot be written; one that was there is
-///         as it was
+/// Writes a snapshot. An existing file is replaced as a whole: a reader finds the old file or the
+/// new one, even if the run is killed while it writes.
+/// @param more other objects of the run, see snapshot()
+/// @throws std::system_error naming the path if the file cannot be written; an existing file is
+/// then
+///         unchanged
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void write_snapshot(const std::filesystem::path& path,
                     const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
@@ -242,10 +244,10 @@ void write_snapshot(const std::filesystem::path& path,
   write_atomically(path, snapshot(world, more...));
 }
 
-/// Reads what write_snapshot() wrote, into a simulation of the same type; see restore_snapshot().
+/// Restores a simulation of the same type from a file of write_snapshot(), see restore_snapshot().
 /// @throws std::system_error naming the path and the reason if the file cannot be read
-/// @throws std::runtime_error naming the path and saying why if the file is refused; nothing is
-///         changed then
+/// @throws std::runtime_error naming the path and the reason if restore_snapshot() would throw;
+///         nothing is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void read_snapshot(const std::filesystem::path& path,
                    Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {

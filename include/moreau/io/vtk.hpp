@@ -23,6 +23,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/io/vtk_poly_data.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/measure/grid_field.hpp"
@@ -79,13 +80,13 @@ class VtkWriter {
       else
         append_surface(shape, pose);
       const typename S::Twist twist = velocity_of(k);
-      const Vector v = twist.template head<S::dim>();
+      const Vector v = linear<S>(twist);
       for (std::size_t cell = before; cell < data_.cell_count(); ++cell) {
         numbers_.push_back(static_cast<std::int32_t>(k));
         lengths_.push_back(static_cast<float>(2 * reach(shape)));
         append_vector(v, vectors_);
         first_.push_back(static_cast<float>(v.norm()));
-        second_.push_back(static_cast<float>(twist.template tail<S::angular_dim>().norm()));
+        second_.push_back(static_cast<float>(angular<S>(twist).norm()));
       }
     }
     const auto place = as_points ? VtkPolyData::On::points : VtkPolyData::On::cells;

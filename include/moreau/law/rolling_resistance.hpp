@@ -107,10 +107,9 @@ class RollingResistance {
   /// @param u,r D + A, in one unit, which is that of the result
   template <class Vector>
   Vector natural_map(const Vector& u, const Vector& r) const {
-    constexpr int d = point_rows<Vector>;
+    using S = SpaceOfTwist<Vector>;
     Vector x = r - u;
-    x[0] -= friction() * u.template segment<d - 1>(1).norm() +
-            rolling_ * u.template tail<Vector::RowsAtCompileTime - d>().norm();
+    x[0] -= friction() * u.template segment<S::dim - 1>(1).norm() + rolling_ * angular<S>(u).norm();
     return r - project(x);
   }
 
@@ -118,8 +117,9 @@ class RollingResistance {
   /// of x.
   template <class Vector>
   Vector project(const Vector& x) const {
-    constexpr int d = point_rows<Vector>, spins = Vector::RowsAtCompileTime - d;
-    const T slide = x.template segment<d - 1>(1).norm(), roll = x.template tail<spins>().norm();
+    using S = SpaceOfTwist<Vector>;
+    constexpr int tangents = S::dim - 1;
+    const T slide = x.template segment<tangents>(1).norm(), roll = angular<S>(x).norm();
     const T mu = friction(), eta = rolling_;
     // x_n of the projection: the two limits may bind or not, so there are four cases.
     T normal = 0;
@@ -132,20 +132,15 @@ class RollingResistance {
     Vector p = Vector::Zero();
     if (!(normal > 0)) return p;
     p[0] = normal;
-    p.template segment<d - 1>(1) =
-        x.template segment<d - 1>(1) * (slide > mu * normal ? mu * normal / slide : T(1));
-    p.template tail<spins>() =
-        x.template tail<spins>() * (roll > eta * normal ? eta * normal / roll : T(1));
+    p.template segment<tangents>(1) =
+        x.template segment<tangents>(1) * (slide > mu * normal ? mu * normal / slide : T(1));
+    angular<S>(p) = angular<S>(x) * (roll > eta * normal ? eta * normal / roll : T(1));
     return p;
   }
 
  private:
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(point_, rolling_); }
-
-  /// D of a vector of D + A rows: 3 = 2 + 1, 6 = 3 + 3.
-  template <class Vector>
-  static constexpr int point_rows = (Vector::RowsAtCompileTime + 1) / 2;
 
   /// solve() for b whose largest entry is 1.
   template <class S>

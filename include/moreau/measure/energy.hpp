@@ -7,6 +7,7 @@
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/twist.hpp"
 
 namespace moreau {
 
@@ -47,8 +48,8 @@ struct Momentum {
 /// m v^2/2 and w.I w/2 of one body [J].
 template <class S>
 KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
-  const auto v = body.velocity.template head<S::dim>();
-  const auto w = body.velocity.template tail<S::angular_dim>();
+  const auto v = linear<S>(body.velocity);
+  const auto w = angular<S>(body.velocity);
   return {body.mass * v.squaredNorm() / 2, w.dot(body.inertia * w) / 2};
 }
 
@@ -57,9 +58,8 @@ KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
 template <class S>
 Momentum<S> momentum(const BodyMotion<S>& body,
                      const VectorArgument<S>& origin = S::Vector::Zero()) {
-  const typename S::Vector linear = body.mass * body.velocity.template head<S::dim>();
-  return {linear, body.inertia * body.velocity.template tail<S::angular_dim>() +
-                      S::moment(body.position - origin, linear)};
+  const typename S::Vector p = body.mass * linear<S>(body.velocity);
+  return {p, body.inertia * angular<S>(body.velocity) + S::moment(body.position - origin, p)};
 }
 
 /// Sum over bodies [J].

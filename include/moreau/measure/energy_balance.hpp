@@ -25,6 +25,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {
@@ -75,7 +76,7 @@ class EnergyBalance {
             bodies.size(), "must be that of the start");
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector way = bodies.pose[i].position - positions_[i];
-      const Vector force = bodies.force[i].template head<S::dim>();
+      const Vector force = linear<S>(bodies.force[i]);
       terms_.gravity += double(bodies.weight[i] * simulation.gravity().dot(way));
       terms_.forces += double(with_mass(bodies, i, force).dot(way));
     }
@@ -106,8 +107,8 @@ class EnergyBalance {
     return axes * along;
   }
   static double kinetic_energy(const Bodies<S>& bodies, std::size_t i) {
-    const Vector v = bodies.axes(i).transpose() * bodies.velocity[i].template head<S::dim>();
-    const typename S::Angular w = bodies.velocity[i].template tail<S::angular_dim>();
+    const Vector v = bodies.axes(i).transpose() * linear<S>(bodies.velocity[i]);
+    const typename S::Angular w = angular<S>(bodies.velocity[i]);
     double energy = double(w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) / 2;
     for (int k = 0; k < S::dim; ++k)
       if (bodies.inverse_mass[i][k] > 0)
@@ -120,11 +121,10 @@ class EnergyBalance {
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
                         const Vector& impulse, const typename S::Angular& couple) {
     if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;
-    const Vector v = bodies.velocity[i].template head<S::dim>();
+    const Vector v = linear<S>(bodies.velocity[i]);
     double work = double(impulse.dot(v - with_mass(bodies, i, v)));
     if (!bodies.rotates(i))
-      work += double(bodies.velocity[i].template tail<S::angular_dim>().dot(
-          S::moment(lever, impulse) + couple));
+      work += double(angular<S>(bodies.velocity[i]).dot(S::moment(lever, impulse) + couple));
     return work;
   }
   static double work_of_drives(const Bodies<S>& bodies, const Contacts<S>& contacts) {

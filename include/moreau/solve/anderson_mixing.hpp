@@ -11,14 +11,14 @@
 namespace moreau::detail {
 
 /// D. G. Anderson's mixing of a fixed-point iteration x -> g(x) (J. ACM 12 (1965) 547): the next x
-/// is the combination of the last results whose change g - x, were g linear, would be least. It
-/// asks for no stability: a mode that grows by itself is removed like any other.
+/// is the combination of the last results whose change g - x would be least if g were linear. The
+/// iteration need not be stable: growing modes are removed as decaying ones are.
 template <class T>
 class AndersonMixing {
  public:
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-  /// Forgets what was before; the iteration starts at x.
+  /// Starts the iteration at x.
   void start(const Vector& x) {
     x_ = x;
     known_ = next_ = 0;
@@ -51,8 +51,8 @@ class AndersonMixing {
     next_ = (next_ + 1) % memory;
   }
 
-  /// Least squares | f - sum_k w_k (change of f)_k |, each change scaled to 1 and none trusted
-  /// beyond `share` of the others.
+  /// Minimizes | f - sum_k w_k (change of f)_k | with each change scaled to 1; regularized by
+  /// `share`, relative to the scaled changes.
   Weights weights() const {
     constexpr double share = 1e-10;
     Weights scale{}, right{};
@@ -69,7 +69,7 @@ class AndersonMixing {
     return right;
   }
 
-  /// A x = b by A = L D L^T, A positive definite. A is used up, b becomes x.
+  /// Solves A x = b by A = L D L^T, A positive definite. Overwrites A, and b by x.
   static void solve(Gram& a, Weights& b, std::size_t n) {
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = k + 1; i < n; ++i) {

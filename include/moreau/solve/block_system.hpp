@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A friction problem with W in D x D blocks, in units in which the mean of diag W is 1, and
-// shifted:
+// A friction problem with W in D x D blocks, scaled so that the mean of diag W is 1, and shifted:
 //
 //     u = (W + epsilon I) r + b - epsilon centre
 //
-// With the centre at the last result these are the steps of the proximal point method
+// With the last result as the centre, the solutions are the steps of the proximal point method
 // (R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877).
 #pragma once
 
@@ -20,6 +19,7 @@
 
 namespace moreau::detail {
 
+/// The shifted problem; the head of this file has its equation.
 template <class S>
 class BlockSystem {
  public:
@@ -55,12 +55,12 @@ class BlockSystem {
     shift(0, Eigen::VectorXd::Zero(free_.size()));
   }
 
-  /// Contacts.
+  /// Number of contacts.
   Eigen::Index size() const { return friction_.size(); }
   double friction(Eigen::Index c) const { return friction_[c]; }
   double epsilon() const { return epsilon_; }
 
-  /// Moves the problem to another shift and centre.
+  /// Sets epsilon and the centre.
   void shift(double epsilon, const Eigen::VectorXd& centre) {
     epsilon_ = epsilon;
     shifted_free_ = free_ - epsilon * centre;
@@ -72,7 +72,7 @@ class BlockSystem {
     }
   }
 
-  /// Calls f(column, block) for each block of row c, the first on the diagonal; without the shift.
+  /// Calls f(column, block) for the blocks of row c without the shift, the diagonal block first.
   template <class F>
   void for_each_block(Eigen::Index c, F&& f) const {
     for (std::size_t b = first_[std::size_t(c)]; b < first_[std::size_t(c) + 1]; ++b)
@@ -81,7 +81,7 @@ class BlockSystem {
   /// W_cc with the shift.
   const Matrix& diagonal(Eigen::Index c) const { return local_[std::size_t(c)].matrix(); }
 
-  /// W r + epsilon r of one contact.
+  /// (W + epsilon I) r of one contact.
   Vector product(Eigen::Index c, const Eigen::VectorXd& r) const {
     Vector u = epsilon_ * r.template segment<dim>(dim * c);
     for (std::size_t b = first_[std::size_t(c)]; b < first_[std::size_t(c) + 1]; ++b)

@@ -2,11 +2,11 @@
 // Newton's method on the non-smooth equations of P. Alart and A. Curnier (Comput. Methods Appl.
 // Mech. Engrg. 92 (1991) 353): with x = r - rho u of a contact, normal first,
 //
-//     F_n = r_n - max(0, x_n),     F_t = r_t - (the point of the disk of radius mu max(0, x_n)
-//                                              nearest to x_t).
+//     F_n = r_n - max(0, x_n),
+//     F_t = r_t - (projection of x_t onto the disk of radius mu max(0, x_n)).
 //
-// Each contact is open (x_n <= 0, F = r), sticks (F = rho u) or slips; the derivative of its piece
-// is taken. Contacts that are open drop out of the linear system.
+// Each contact is open (x_n <= 0, F = r), sticks (F = rho u) or slips, which selects the derivative
+// of F. Open contacts are not in the linear system.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +22,7 @@
 
 namespace moreau::detail {
 
+/// Newton's method for a BlockSystem; the head of this file has its equations.
 template <class S>
 class CoulombNewton {
  public:
@@ -31,11 +32,11 @@ class CoulombNewton {
 
   explicit CoulombNewton(const BlockSystem<S>& system) : system_(system) {}
 
-  /// Linear systems solved so far.
+  /// Number of linear systems solved so far.
   int steps() const { return steps_; }
 
-  /// Steps while they reduce F, at most `iterations` of them, and leaves the best result in r.
-  /// @returns its residual
+  /// Makes at most `iterations` steps while they reduce F; r gets the best result.
+  /// @returns the residual of r
   double improve(Eigen::VectorXd& r, double tolerance, int iterations) {
     double best = system_.residual(r);
     recent_.clear();
@@ -99,7 +100,7 @@ class CoulombNewton {
 
   /// One step with a line search: |F| below the largest of the last few (L. Grippo,
   /// F. Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986) 707).
-  /// @returns false where the derivative is singular or no step reduces |F|
+  /// @returns false if the derivative is singular or no step reduces |F|
   bool step(Eigen::VectorXd& r) {
     constexpr int halvings = 12;
     constexpr double decrease = 1e-4;
@@ -150,7 +151,8 @@ class CoulombNewton {
     return direction.allFinite();
   }
 
-  /// The rows of the contacts that are not open; `direction` holds the steps of those that are.
+  /// Assembles the rows of the contacts that are not open; `direction` has the steps of open
+  /// contacts.
   void assemble(const Eigen::VectorXd& direction, Eigen::VectorXd& right, Eigen::Index active) {
     entries_.clear();
     for (Eigen::Index c = 0; c < system_.size(); ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contact problem of one step as matrices, to be written to a file or handed to another solver.
+// The contact problem of one step as matrices, to write to a file or to pass to another solver.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,8 @@
 
 namespace moreau {
 
-/// A law whose impulses are those of Coulomb's with this friction, so that matrices and
-/// coefficients of friction say all of a problem.
+/// A law whose local problem is Coulomb's law with the coefficient friction(), so that matrices and
+/// coefficients of friction define the contact problem.
 template <class L, class S>
 concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
@@ -35,7 +35,7 @@ struct GatheredProblem {
 
 namespace detail {
 
-/// The entries of one block of W.
+/// Adds the entries of one block of W.
 template <int rows, class Block>
 void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
                std::vector<Eigen::Triplet<double>>& entries) {
@@ -48,15 +48,15 @@ void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
 
 }  // namespace detail
 
-/// W = J M^-1 J^T over the contacts of a step that can act in it, each in its own frame. Contacts
-/// that a law switches off (their free velocity is infinite) are left out.
+/// Forms the matrix W = J M^-1 J^T, each contact in its own frame. Contacts whose free velocity is
+/// infinite, which cannot act in the step, are left out.
 /// @param step its laws have friction()
 /// @returns a GatheredProblem in double
 /// @throws std::invalid_argument if step.law_of has another size than the operator
 template <class Operator, class Law>
 auto gather_problem(const ContactProblem<Operator, Law>& step) {
   constexpr int rows = Operator::Space::dim;
-  using S = Space<rows>;  // in double, whatever the step has
+  using S = Space<rows>;  // in double for every scalar of the step
   const Operator& op = step.delassus;
   require(step.law_of.size() == op.size(), "gather_problem", "law_of.size()", step.law_of.size(),
           "must be the number of contacts");

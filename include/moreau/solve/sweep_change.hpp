@@ -8,8 +8,8 @@
 
 namespace moreau::detail {
 
-/// What one plain sweep changed, in LMGC90's measures: dv = W (r_new - r_old) of each contact, sums
-/// and maxima over the contacts with r != 0.
+/// Changes by one plain sweep in the measures of LMGC90: dv = W (r_new - r_old) of each contact,
+/// sums and maxima over the contacts with r != 0.
 struct SweepChange {
   double acting = 0;   ///< contacts with r != 0
   double dv2 = 0;      ///< sum |dv|^2
@@ -19,7 +19,7 @@ struct SweepChange {
   double wr2 = 0;  ///< sum |W r|^2
   double rwr = 0;  ///< sum r . W r
 
-  /// Counts a contact in, if it acts. All squared norms.
+  /// Adds a contact if its r != 0. All arguments but work are squared norms.
   /// @param change2 |dv|^2
   /// @param own2    |r|^2
   /// @param pushed2 |W r|^2

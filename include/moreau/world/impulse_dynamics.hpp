@@ -8,7 +8,7 @@
 //   5. variants: the law of each contact in this step, where it depends on the impulse before
 //   6. correct overlaps: bodies and gaps move, velocities do not
 //   7. offset velocities: what each law adds to the normal velocity, from the corrected gaps
-//   8. solve the contact problem
+//   8. solve the contact problem; by default with solve/coloured_gauss_seidel.hpp
 //   9. velocities after the impulses
 //  10. measure the dissipation
 //  11. advance to the end of the step
