@@ -2,18 +2,15 @@
 // Ten grains fall on a floor and come to rest.
 #include <iostream>
 #include <moreau/moreau.hpp>
-#include <vector>
 
 int main() {
-  const moreau::Polyhedron<double> grain(  // or moreau::Ball<double> grain(0.01), Disk, Polygon
-      std::vector<Eigen::Vector3d>{{0, 0, 0}, {0.02, 0, 0}, {0, 0.02, 0}, {0, 0, 0.02}});
-  using Shape = std::remove_const_t<decltype(grain)>;
+  using Shape = moreau::Polyhedron<double>;  // or moreau::Polygon, moreau::Ball, moreau::Disk
   using S = moreau::SpaceOf<Shape>;
   using Law = moreau::SignoriniCoulomb<double>;
   const S::Vector aside = S::Vector::UnitX(), up = S::Vector::Unit(S::dim - 1);
 
   moreau::Simulation<Shape, Law> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
-  const moreau::ShapeId shape = world.add_shape(grain);
+  const moreau::ShapeId shape = world.add_shape(moreau::regular_shape<Shape>(0.02));
   for (int k = 0; k < 10; ++k) {
     const S::Vector position = 0.003 * (k % 3) * aside + (0.03 + 0.03 * k) * up;
     world.add_grain(shape, {position, S::exp(S::Angular::Constant(0.2 * k))}, 2700);

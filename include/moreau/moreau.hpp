@@ -12,6 +12,7 @@
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/version.hpp"

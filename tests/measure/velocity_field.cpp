@@ -87,7 +87,7 @@ TEST_CASE_TEMPLATE("a grid holds the weighted means of its cells, along every ax
                    Space<3>) {
   using V = typename S::Vector;
   typename GridField<S>::Cells cells;
-  for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = k + 2;
+  for (int k = 0; k < S::dim; ++k) cells[k] = std::size_t(k) + 2;
   const Aabb<S> box{V::Zero(), V::Constant(6)};
   GridField<S> field(box, cells);
   // The displacement of a homogeneous strain, sampled at the centres of the cells.

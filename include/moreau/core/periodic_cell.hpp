@@ -16,18 +16,17 @@ namespace moreau {
 /// Which axes of the world are periodic, and the bounds of the cell along them. Open along all axes
 /// until set() is called. The images of a point x are x + k length(axis) Unit(axis) for all whole
 /// k.
-template <class S>
+template <EuclideanSpace S>
 class PeriodicCell {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
-  using Angular = typename S::Angular;
 
-  /// Makes an axis periodic, or open again by infinite bounds.
+  /// Makes an axis periodic. Infinite bounds open it again.
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]
-  /// @param function     whose arguments these are, for the error
-  /// @throws std::invalid_argument for an axis that does not exist or bounds out of order
+  /// @param function     public name of the caller, for the error
+  /// @throws std::invalid_argument for an axis that does not exist, or unless lower < upper
   void set(int axis, Scalar lower, Scalar upper, const char* function = "PeriodicCell::set") {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     require(axis >= 0 && axis < S::dim, function, "axis", axis, "must be an axis of the space");
@@ -46,10 +45,10 @@ class PeriodicCell {
   const Vector& lower() const { return lower_; }  ///< zero where it is open [m]
 
   /// The image of x in the cell, world axes [m].
-  Vector wrap(const Vector& x) const { return image_from(lower_, x); }
+  Vector wrap(const VectorArgument<S>& x) const { return image_from(lower_, x); }
   /// The image y of x with from <= y < from + length() on the periodic axes; on the others, x.
   /// World axes [m].
-  Vector image_from(const Vector& from, const Vector& x) const {
+  Vector image_from(const VectorArgument<S>& from, const VectorArgument<S>& x) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
       if (is_periodic(axis))
@@ -59,7 +58,7 @@ class PeriodicCell {
   }
   /// The image of x nearest to a point, at most half a cell away along every periodic axis, world
   /// axes [m].
-  Vector nearest(const Vector& x, const Vector& to) const {
+  Vector nearest(const VectorArgument<S>& x, const VectorArgument<S>& to) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
       if (is_periodic(axis))
@@ -81,7 +80,7 @@ class PeriodicCell {
   /// @param normal   of a wall, unit, world axes
   /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the wall bounds a periodic axis
-  void require_along(const Vector& normal, const char* function) const {
+  void require_along(const VectorArgument<S>& normal, const char* function) const {
     for (int axis = 0; axis < S::dim; ++axis)
       require(!is_periodic(axis) || std::abs(normal[axis]) <= Scalar(1e-5), function, "normal",
               normal, "must be perpendicular to the periodic axes");
@@ -91,7 +90,7 @@ class PeriodicCell {
   ///                 all axes
   /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if it bounds a periodic axis
-  void require_around(const Angular& axis, const char* function) const {
+  void require_around(const AngularArgument<S>& axis, const char* function) const {
     for (int k = 0; k < S::dim; ++k)
       require(!is_periodic(k) || S::spin(axis, Vector::Unit(k)).norm() <= Scalar(1e-5), function,
               "axis", axis, "must be parallel to the periodic axes");

@@ -9,7 +9,6 @@
 // The poses of a periodic simulation are not wrapped, so that their differences are displacements.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -35,13 +34,13 @@ class GridField {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
-  using Cells = std::array<std::size_t, std::size_t{S::dim}>;
+  using Cells = Eigen::Matrix<std::size_t, S::dim, 1>;
 
   /// @param control_volume world axes [m]
   /// @param cells          number of them along every axis, > 0
   /// @throws std::invalid_argument for no cells along an axis, or a control volume that is empty,
   ///         inverted or not finite
-  GridField(const Aabb<S>& control_volume, const Cells& cells)
+  GridField(const Aabb<S>& control_volume, const Components<S::dim, std::size_t>& cells)
       : box_(control_volume), cells_(cells) {
     require_control_volume(control_volume, "GridField");
     std::size_t count = 1;
@@ -74,7 +73,7 @@ class GridField {
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
     std::size_t index = 0;
     for (int axis = S::dim; axis-- > 0;) {
-      const std::size_t n = cells_[std::size_t(axis)];
+      const std::size_t n = cells_[axis];
       const auto k = static_cast<std::size_t>(share[axis] * Scalar(n));
       index = index * n + (k < n ? k : n - 1);
     }
@@ -94,7 +93,7 @@ class GridField {
     const Sum& sum = sums_[k];
     Vector share;
     for (int axis = 0; axis < S::dim; ++axis) {
-      const std::size_t n = cells_[std::size_t(axis)];
+      const std::size_t n = cells_[axis];
       share[axis] = (Scalar(k % n) + Scalar(0.5)) / Scalar(n);
       k /= n;
     }

@@ -54,7 +54,7 @@ requires(sizeof...(Shapes) > 0 &&
     return visit([](const auto& shape) { return shape.inradius(); });
   }
   /// The farthest point in the direction (any length but zero), body coordinates [m].
-  Vector support(const Vector& direction) const requires(ConvexShape<Shapes>&&...) {
+  Vector support(const VectorArgument<Space>& direction) const requires(ConvexShape<Shapes>&&...) {
     return visit([&](const auto& shape) -> Vector { return shape.support(direction); });
   }
   /// @param density [kg/m^D], > 0

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Polygon {
   /// @throws std::invalid_argument for fewer than 3, one that is not finite, ones that coincide or
   ///         are collinear, or moments that the scalar cannot hold
   explicit Polygon(std::span<const Vector> vertices);
+  /// The same from a list of points: Polygon<double>({{0, 0}, {1, 0}, ..}).
+  explicit Polygon(std::initializer_list<VectorArgument<Space>> vertices)
+      : Polygon(std::span<const Vector>(std::vector<Vector>(vertices.begin(), vertices.end()))) {}
 
   const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 2 [m]
   const VertexMatrix<Space>& face_normals() const {
@@ -51,11 +55,11 @@ class Polygon {
   T normal_spacing() const { return normal_spacing_; }
 
   /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
-  std::size_t support_vertex(const Vector& direction) const {
+  std::size_t support_vertex(const VectorArgument<Space>& direction) const {
     return farthest_vertex<Space>(vertices_, direction);
   }
   /// A vertex that is farthest in the direction (any length but zero), body coordinates [m].
-  Vector support(const Vector& direction) const {
+  Vector support(const VectorArgument<Space>& direction) const {
     return vertices_.row(static_cast<Eigen::Index>(support_vertex(direction))).transpose();
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
@@ -37,6 +38,10 @@ class Polyhedron {
   /// @throws std::invalid_argument for fewer than 4, one that is not finite, ones that coincide,
   ///         are collinear or coplanar, or moments that the scalar cannot hold
   explicit Polyhedron(std::span<const Vector> vertices);
+  /// The same from a list of points: Polyhedron<double>({{0, 0, 0}, {1, 0, 0}, ..}).
+  explicit Polyhedron(std::initializer_list<VectorArgument<Space>> vertices)
+      : Polyhedron(std::span<const Vector>(std::vector<Vector>(vertices.begin(), vertices.end()))) {
+  }
 
   /// From vertices [m] and faces given as cycles of them, counter-clockwise from outside.
   /// @param vertices N points, in any frame [m]
@@ -85,11 +90,13 @@ class Polyhedron {
   T normal_spacing() const { return normal_spacing_; }
 
   /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
-  std::size_t support_vertex(const Vector& direction) const {
+  std::size_t support_vertex(const VectorArgument<Space>& direction) const {
     return farthest_vertex<Space>(vertices_, direction);
   }
   /// A vertex that is farthest in the direction (any length but zero), body coordinates [m].
-  Vector support(const Vector& direction) const { return vertex(support_vertex(direction)); }
+  Vector support(const VectorArgument<Space>& direction) const {
+    return vertex(support_vertex(direction));
+  }
 
   /// @param density [kg/m^3], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero

@@ -73,7 +73,7 @@ class Rounded {
   }
 
   /// The farthest point in the direction (any length but zero), body coordinates [m].
-  Vector support(const Vector& direction) const {
+  Vector support(const VectorArgument<Space>& direction) const {
     return core_position_ + core_.support(direction) + radius_ * direction.normalized();
   }
 

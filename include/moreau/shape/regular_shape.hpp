@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/concepts.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// A shape that is the convex hull of the points it is constructed from.
+template <class T>
+concept HullOfPoints =
+    Polytope<T> && std::constructible_from<T, std::span<const typename T::Space::Vector>>;
+
+}  // namespace detail
+
+/// The simplest grain of each shape, so that a program changes its shape in one line: for polyhedra
+/// a cube, for polygons a square.
+/// @param size length of an edge [m], > 0
+/// @throws std::invalid_argument for a size that is not finite or not positive
+template <detail::HullOfPoints Shape>
+Shape regular_shape(typename Shape::Space::Scalar size) {
+  using S = SpaceOf<Shape>;
+  detail::require_positive(size, "regular_shape", "size");
+  std::vector<typename S::Vector> corners(std::size_t{1} << S::dim);
+  for (std::size_t bits = 0; bits < corners.size(); ++bits)
+    for (int axis = 0; axis < S::dim; ++axis)
+      corners[bits][axis] = size * static_cast<typename S::Scalar>(bits >> axis & 1);
+  return Shape(std::span<const typename S::Vector>(corners));
+}
+
+/// A ball, in the plane a disk.
+/// @param size diameter [m], > 0
+/// @throws std::invalid_argument for a size that is not finite or not positive
+template <class Shape>
+requires std::same_as<Shape, BallIn<SpaceOf<Shape>>> Shape
+regular_shape(typename Shape::Space::Scalar size) {
+  detail::require_positive(size, "regular_shape", "size");
+  return Shape(size / 2);
+}
+
+}  // namespace moreau
