@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The run from end to end; included by one source file per shape.
-#pragma once
-
+// The run from end to end, with grains of one shape. CMake compiles this file once for each of
+// RATCHETING_SHAPES, with the shape's name as RATCHETING_SHAPE.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +14,10 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+
 #include "experiment.hpp"
 #include "methods.hpp"
 #include "progress.hpp"
@@ -23,7 +26,20 @@
 #include "run_json.hpp"
 #include "views.hpp"
 
+#define RATCHETING_TEXT_OF(name) #name
+#define RATCHETING_TEXT(name) RATCHETING_TEXT_OF(name)
+
 namespace ratcheting {
+
+namespace {
+
+/// The types of the grains, under the names of --shape.
+namespace shapes {
+using polyhedron = moreau::Polyhedron<double>;
+using polygon = moreau::Polygon<double>;
+using sphere = moreau::Ball<>;
+using disk = moreau::Disk<>;
+}  // namespace shapes
 
 /// Thickness of the plane's grains such that the sample weighs what the same sample weighs in space
 /// [m]; 1 in space.
@@ -35,7 +51,7 @@ double thickness_of(const Parameters& p) {
 }
 
 /// @throws std::invalid_argument if the folder cannot be made or a file cannot be made in it
-inline void require_writable(const std::string& folder) {
+void require_writable(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
@@ -103,14 +119,14 @@ double lightest_grain(const Parameters& p, double thickness) {
 }
 
 /// All that decides the results of a run.
-inline std::string identity(const Parameters& p) {
+std::string identity(const Parameters& p) {
   Json json = to_json(p);
   json.erase("threads");
   return json.dump();
 }
 
 /// All that decides the packing: not what the force, the wall and the study's solver do to it.
-inline std::string packing_identity(const Parameters& p) {
+std::string packing_identity(const Parameters& p) {
   Json json = to_json(p);
   for (const char* later : {"frequency", "fmax", "fmin", "gravity", "wall_mass_ratio", "duration",
                             "step", "lid_raise", "tolerance", "stop_test", "max_sweeps",
@@ -241,5 +257,9 @@ int run(const Parameters& p) {
   return p.method == "springs" ? run_method<ShapeT, SpringDynamics>(p)
                                : run_method<ShapeT, ContactDynamics>(p);
 }
+
+const Runner runner(RATCHETING_TEXT(RATCHETING_SHAPE), run<shapes::RATCHETING_SHAPE>);
+
+}  // namespace
 
 }  // namespace ratcheting
