@@ -127,9 +127,10 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(positive);
   bool no_correction = false;
   app.add_flag("--no-correction", no_correction, "do not correct overlaps");
-  app.add_option("--solver", p.solver,
-                 "coloured: sweeps by colours with momentum; plain: nonlinear Gauss-Seidel, the "
-                 "reference. The preparation always uses coloured")
+  app.add_option(
+         "--solver", p.solver,
+         "coloured: sweeps by colours with Nesterov momentum; plain: nonlinear Gauss-Seidel, the "
+         "reference. The preparation always uses coloured")
       ->check(CLI::IsMember({"coloured", "plain"}));
   app.add_option("--threads", p.threads,
                  "number of threads of the solver; the results do not depend on it")

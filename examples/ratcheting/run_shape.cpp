@@ -79,7 +79,7 @@ void require_experiment(const Parameters& p, const ExperimentT& experiment) {
 /// Time between two lines of packing.csv [s].
 constexpr double packing_interval = 1e-3;
 
-/// A few closing lines: what came out, what to be wary of, where the files are.
+/// Prints a summary: results, warnings, and where the files are.
 template <class ExperimentT>
 void conclude(const Parameters& p, const ExperimentT& experiment, const SolverTotals& totals,
               const Json& results) {
@@ -108,7 +108,7 @@ void conclude(const Parameters& p, const ExperimentT& experiment, const SolverTo
   std::printf("files in %s\n", p.output.c_str());
 }
 
-/// Mass of the lightest grain that the study can have, times the thickness [kg].
+/// Mass of the lightest grain of the sample [kg].
 template <class ShapeT>
 double lightest_grain(const Parameters& p, double thickness) {
   std::mt19937_64 random(p.seed);
@@ -118,14 +118,15 @@ double lightest_grain(const Parameters& p, double thickness) {
   return p.density * thickness * volume;
 }
 
-/// All that decides the results of a run.
+/// The parameters that determine the results of a run, as a text.
 std::string identity(const Parameters& p) {
   Json json = to_json(p);
   json.erase("threads");
   return json.dump();
 }
 
-/// All that decides the packing: not what the force, the wall and the study's solver do to it.
+/// The parameters that determine the packing, as a text: not force, wall and solver of the
+/// experiment.
 std::string packing_identity(const Parameters& p) {
   Json json = to_json(p);
   for (const char* later : {"frequency", "fmax", "fmin", "gravity", "wall_mass_ratio", "duration",
@@ -145,7 +146,7 @@ void read_packing(const Parameters& p, ExperimentT& experiment) {
                                 " was made with other parameters: " + made_by);
 }
 
-/// Several runs may do so at once: they write the same, each to a file of its own first.
+/// Several runs may write the same packing at once, so each writes its own file and renames it.
 template <class ExperimentT>
 void write_packing(const Parameters& p, const ExperimentT& experiment) {
   const std::string own = p.packing + "." + std::to_string(::getpid());
@@ -153,8 +154,8 @@ void write_packing(const Parameters& p, const ExperimentT& experiment) {
   std::filesystem::rename(own, p.packing);
 }
 
-/// The packing before the force starts, and the first line of packing.csv.
-/// @returns whether it came about: not if it was interrupted
+/// Makes or reads the packing, and writes the first line of packing.csv.
+/// @returns false if it was interrupted
 template <class ExperimentT>
 bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>& recorder,
              RunJson& json, Progress& progress, Stopwatch& watch) {

@@ -4,7 +4,7 @@
 load system("dirname '".ARG0."'")."/style.gp"
 set output folder."/".name.".png"
 
-# The wall's displacement above the force on it.
+# Displacement of the wall and force on it, over time.
 if (name eq "x_t") {
   set multiplot layout 2, 1 margins 0.10, 0.97, 0.11, 0.96 spacing 0, 0.03
   set format x ""
@@ -70,7 +70,7 @@ if (name eq "one_period") {
   unset multiplot
 }
 
-# The force of the grains on the wall over its displacement: the loop of each period.
+# Force of the grains on the wall over its displacement: the loop of each period.
 if (name eq "f_g_x") {
   set lmargin screen 0.12
   set rmargin screen 0.85
@@ -89,7 +89,7 @@ if (name eq "f_g_x") {
   plot wall using ($1 >= start ? mm($3) : NaN):(kN($5)):1 skip 1 with lines linewidth 0.9 linecolor palette notitle
 }
 
-# The change of the solid fraction since the start, in the inner control volume and in the box.
+# Change of the solid fraction since the start, in the control volume and in the box, over time.
 if (name eq "rho_t") {
   stats packing every ::0::0 using 2 skip 1 nooutput
   inner = STATS_min
@@ -103,7 +103,7 @@ if (name eq "rho_t") {
        packing using 1:($2 - inner) skip 1 with lines linecolor rgb green linewidth 1.6 title sprintf("inner control volume, from %.4f", inner)
 }
 
-# The change of the inner solid fraction over the wall's displacement.
+# Change of the solid fraction in the control volume over the displacement of the wall.
 if (name eq "rho_x") {
   # Rows of packing.csv with the x of the same time in wall.csv.
   joined = "< awk -F, 'FNR == 1 {next} FNR == NR {x[$1] = $3; next} $1 in x {print $1 \",\" x[$1] \",\" $2}' '".wall."' '".packing."'"
@@ -126,7 +126,7 @@ if (name eq "rho_x") {
   plot joined using ($1 >= start ? mm($2) : NaN):($3 - inner):1 with linespoints pointtype 7 pointsize 0.35 linewidth 0.8 linecolor palette notitle
 }
 
-# The wall's velocity over its displacement.
+# Velocity of the wall over its displacement.
 if (name eq "phase_portrait") {
   set lmargin screen 0.12
   set rmargin screen 0.85
