@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The same packing by contact dynamics and by springs of rising stiffness: where the lid comes to
-// stand, how dense the packing is and how its forces are distributed, with the time step that each
-// takes and what a simulated second costs. Writes contact_dynamics_vs_springs.csv and
-// force_distribution.csv, which `gnuplot plot.gp` draws. With the argument --quick it stops at a
-// moderate stiffness.
+// Compares contact dynamics with springs of increasing stiffness, for the same packing: height of
+// the lid, solid fraction, distribution of the forces, time step, and cost of a simulated second.
+// Writes contact_dynamics_vs_springs.csv and force_distribution.csv, which `gnuplot plot.gp` draws.
+// With the argument --quick it stops at a moderate stiffness.
 #include <cstdio>
 #include <cstring>
 

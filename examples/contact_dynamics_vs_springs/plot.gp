@@ -5,7 +5,8 @@ set output 'contact_dynamics_vs_springs.png'
 runs = 'contact_dynamics_vs_springs.csv'
 forces = 'force_distribution.csv'
 set multiplot layout 2,2
-# The second line is contact dynamics with the finer step; the first tells how far the step matters.
+# The second line is contact dynamics with the finer step; compared with the first it shows the
+# influence of the step.
 stats runs using 3 every ::2::2 nooutput
 rigid = STATS_min
 stats runs using 2 every ::1::1 nooutput

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Disks between three walls under a lid that is pressed down, by contact dynamics or on springs.
+// Disks between three walls under a lid that is pressed down, by contact dynamics or with springs.
 #pragma once
 
 #include <chrono>
@@ -34,16 +34,16 @@ struct State {
   double lid = 0;  ///< height [m]
 };
 
-/// What came out of one method.
+/// Results of one method.
 struct Outcome {
   double lid = 0;                            ///< height [m]
   double solid = 0;                          ///< solid fraction away from the walls
-  moreau::ForceDistribution<double> forces;  ///< of the contacts that push
-  double overlap = 0;                        ///< mean over diameter
-  double seconds = 0;                        ///< wall clock per simulated second
+  moreau::ForceDistribution<double> forces;  ///< of the contacts with a force
+  double overlap = 0;                        ///< mean overlap / diameter
+  double seconds = 0;                        ///< wall-clock time of a simulated second
   double contacts = 0;                       ///< per grain
 
-  /// Share of the contacts that push with more than twice the mean.
+  /// Share of the contacts whose force is more than twice the mean.
   double strong() const {
     double sum = forces.beyond;
     for (std::size_t k = 0; k < forces.density.size(); ++k)
@@ -69,7 +69,7 @@ class Press {
     simulation.set_force(lid, {0, -lid_force});
     simulation.set_gravity({0, -9.81});
   }
-  /// What is compared are states of rest: they are solved for to the last digit that counts.
+  /// The tolerance is small, because states of rest are compared.
   void solve_to(double tolerance) {
     moreau::ColouredOptions options;
     options.tolerance = tolerance;
@@ -109,7 +109,7 @@ inline State loose(int count, std::uint64_t seed) {
   return state;
 }
 
-/// From the packing on, for half a second.
+/// Simulates half a second from the packing on and measures the result.
 template <class Law>
 Outcome settle(const State& packing, const Law& law, double step) {
   Press<Law> press(packing, law);
@@ -142,8 +142,8 @@ Outcome settle(const State& packing, const Law& law, double step) {
   return out;
 }
 
-/// The packing that contact dynamics makes of `count` disks.
-/// @param duration that it settles for [s]
+/// The packing of `count` disks, by contact dynamics.
+/// @param duration of the simulation [s]
 inline State packed(int count, double duration, std::uint64_t seed = 1) {
   const State start = loose(count, seed);
   Press<Coulomb> press(start, Coulomb(friction));
@@ -152,7 +152,7 @@ inline State packed(int count, double duration, std::uint64_t seed = 1) {
   return press.state(start);
 }
 
-/// Springs of this stiffness [N/m] with the step that they take, a twentieth of a contact.
+/// Springs of this stiffness [N/m], and their time step: a twentieth of the duration of a contact.
 inline std::pair<Springs, double> springs_of(double stiffness) {
   const Springs law(stiffness, 0.8 * stiffness, friction, 0.3);
   const double lightest = density * std::numbers::pi * 0.004 * 0.004;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The wall's way out, apart from what it creeps while the force holds it.
+// The opening displacement of the wall in a period, without the numerical drift of the jammed wall.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,16 @@
 
 namespace ratcheting {
 
-/// f_g over the acceleration a of the wall: a constant thrust, less what it takes to accelerate the
-/// grains that move along, f_g = thrust - mass a. nan if that cannot be told. SI units.
+/// Fit of the force of the grains on the wall as a function of the wall's acceleration a: a
+/// constant thrust minus the inertia of the grains that move along, f_g = thrust - mass a. nan if
+/// there is no fit. SI units.
 struct CarriedGrains {
   double thrust = std::nan("");     ///< [N]
   double mass = std::nan("");       ///< [kg]
-  double explained = std::nan("");  ///< share of the variance of f_g, 1 if the two say all of it
+  double explained = std::nan("");  ///< share of the variance of f_g that the fit explains
 };
 
-/// By least squares over the steps first..last.
+/// Fit by least squares over the steps first..last.
 inline CarriedGrains carried_grains(const std::vector<double>& t, const std::vector<double>& v,
                                     const std::vector<double>& f_g, std::size_t first,
                                     std::size_t last) {
@@ -42,22 +43,23 @@ inline CarriedGrains carried_grains(const std::vector<double>& t, const std::vec
   return {f - af / aa * a, -af / aa, af * af / (aa * ff)};
 }
 
-/// The way out within a period, from where the falling force is the weight of the grains: above the
-/// active thrust, and so low that what moves before is no active motion. SI units.
+/// The outward motion of the wall in a period. It is measured from the time when the falling force
+/// equals the weight of the grains: the force is then still above the force of the grains on the
+/// moving wall, so motion before this time is numerical drift. SI units.
 struct ActivePhase {
-  double creep = 0;   ///< x there - x_j
-  double dx = 0;      ///< largest x after it - x there
-  double thrust = 0;  ///< mean f_g where the wall moves out at more than a fifth of its best speed;
-                      ///< nan if it does not move out
-  double onset = 0;   ///< time when the motion starts that goes on to the largest x without a halt
-  double peak = 0;    ///< time of the largest x
-  double v_out = 0;   ///< largest outward speed on the way there
-  double v_in = 0;    ///< largest inward speed after it
-  CarriedGrains carried;  ///< from onset to peak
+  double creep = 0;       ///< numerical drift: x at this time - x_j
+  double dx = 0;          ///< opening displacement: largest x later - x at this time
+  double thrust = 0;      ///< mean f_g while the wall moves out at more than a fifth of its largest
+                          ///< outward speed; nan if it does not move out
+  double onset = 0;       ///< start of the motion that leads to the largest x without a stop [s]
+  double peak = 0;        ///< time of the largest x [s]
+  double v_out = 0;       ///< largest outward speed before the peak
+  double v_in = 0;        ///< largest inward speed after the peak
+  CarriedGrains carried;  ///< fit from onset to peak
 };
 
-/// How long before its minimum f is at the weight [s]; at most half a period, 0 if f is never
-/// below.
+/// Time between the moment when f falls below the weight and the minimum of f [s]: at most half a
+/// period, 0 if f is never below the weight.
 inline double time_before_minimum(double weight, double fmin, double fmax, double frequency) {
   const double share = std::clamp((weight - fmin) / (fmax - fmin), 0.0, 1.0);
   return std::acos(1 - 2 * share) / (2 * std::numbers::pi * frequency);

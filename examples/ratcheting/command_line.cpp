@@ -49,98 +49,119 @@ const CLI::Validator whole(
 std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   Parameters p;
   CLI::App app{
-      "Grains in a box whose right wall is pushed by a harmonic force: the ratcheting study of "
-      "Azema "
-      "et al. (arXiv 0711.1081), by contact dynamics. Defaults are the paper's."};
+      "Simulates grains in a box whose right wall is pushed inward by a harmonic force, by contact "
+      "dynamics: the experiment of Azema et al. (arXiv 0711.1081). The defaults are the paper's.",
+      "ratcheting"};
   app.set_version_flag("--version", MOREAU_VERSION_STRING);
   app.option_defaults()->always_capture_default();
-  app.add_option("--shape", p.shape, "shape of the grains; polygon and disk run in the plane")
+  app.add_option("--shape", p.shape,
+                 "shape of the grains; polygon and disk are simulated in the plane")
       ->check(CLI::IsMember({"polyhedron", "polygon", "sphere", "disk"}));
   app.add_option("--grains", p.grains, "number of grains")->check(CLI::Range(4, 1000000));
-  app.add_option("--frequency", p.frequency, "of the force [Hz]")->check(positive);
-  app.add_option("--fmax", p.fmax, "largest force on the wall [N]")->check(positive);
-  app.add_option("--fmin", p.fmin, "smallest force on the wall [N]")->check(not_negative);
-  app.add_option("--gravity", p.gravity, "[m/s^2]")->check(not_negative);
-  app.add_option("--density", p.density, "of the material [kg/m^3]")->check(positive);
-  app.add_option("--wall-mass-ratio", p.wall_mass_ratio, "mass of the wall / mass of the grains")
+  app.add_option("--frequency", p.frequency, "frequency of the force [Hz]")->check(positive);
+  app.add_option("--fmax", p.fmax, "maximum of the force on the wall [N]")->check(positive);
+  app.add_option("--fmin", p.fmin, "minimum of the force on the wall [N]")->check(not_negative);
+  app.add_option("--gravity", p.gravity, "acceleration of gravity [m/s^2]")->check(not_negative);
+  app.add_option("--density", p.density, "density of the grains [kg/m^3]")->check(positive);
+  app.add_option("--wall-mass-ratio", p.wall_mass_ratio, "mass of the wall / mass of all grains")
       ->check(positive);
-  app.add_option("--duration", p.duration, "of the vibration [s]")->check(positive);
+  app.add_option("--duration", p.duration,
+                 "duration of the simulation under the harmonic force [s]")
+      ->check(positive);
   app.add_option("--step", p.step, "time step [s]")->check(positive);
   const std::map<std::string, moreau::SizeReading> readings{
       {"circumdiameter", moreau::SizeReading::circumdiameter},
       {"circumradius", moreau::SizeReading::circumradius}};
   std::string reading = "circumdiameter";
-  app.add_option(
-         "--size-reading", reading,
-         "what the sizes 2.5, 3.75 and 5 cm are: twice the largest distance from barycentre "
-         "to vertex, or that distance")
+  app.add_option("--size-reading", reading,
+                 "meaning of the sizes 2.5, 3.75 and 5 cm: twice the largest distance from the "
+                 "barycentre to a vertex (circumdiameter), or this distance (circumradius)")
       ->check(CLI::IsMember({"circumdiameter", "circumradius"}));
-  app.add_option("--size-scale", p.size_scale, "factor on the sizes of all grains")
+  app.add_option("--size-scale", p.size_scale,
+                 "factor by which the sizes of all grains are multiplied")
       ->check(positive);
   app.add_option("--box-ratio", p.box_ratio, "height / length of the box")->check(positive);
-  app.add_option("--box-length", p.box_length, "length and width [m]; 0: from the volume")
+  app.add_option("--box-length", p.box_length,
+                 "length and width of the box [m]; 0: computed from the volume of the grains")
       ->check(not_negative);
-  app.add_option("--lid-force", p.lid_force, "of the preparation, in weights of the sample at 9.81")
+  app.add_option("--lid-force", p.lid_force,
+                 "force on the lid in the preparation / weight of the grains at 9.81 m/s^2")
       ->check(positive);
-  app.add_option("--lid-raise", p.lid_raise, "of the lid after the preparation [m]")
+  app.add_option("--lid-raise", p.lid_raise,
+                 "distance by which the lid is raised after the preparation [m]")
       ->check(not_negative);
-  app.add_option("--method", p.method,
-                 "contact-dynamics, or springs and dashpots over the same grains, whose steps are "
-                 "no longer than a twentieth of an impact")
+  app.add_option(
+         "--method", p.method,
+         "contact dynamics, or molecular dynamics with springs and dashpots, whose time step "
+         "is at most a twentieth of the duration of an impact")
       ->check(CLI::IsMember({"contact-dynamics", "springs"}));
-  app.add_option("--stiffness", p.stiffness, "of a spring [N/m]")->check(positive);
-  app.add_option("--restitution", p.restitution, "of an impact of springs, 0 to 1")
+  app.add_option("--stiffness", p.stiffness, "normal stiffness of a spring [N/m]")->check(positive);
+  app.add_option("--restitution", p.restitution,
+                 "coefficient of restitution of springs and dashpots")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--tolerance", p.tolerance, "of the stopping test, below 1")->check(below_one);
+  app.add_option("--tolerance", p.tolerance, "tolerance of the stopping test")->check(below_one);
   std::string test = "qm16";
   app.add_option(
          "--stop-test", test,
-         "qm16: change per sweep, as in LMGC90; residual: the natural map of the contact law")
+         "stopping test. qm16: change of the impulses in a sweep, as in LMGC90; residual: natural "
+         "map of the contact law")
       ->check(CLI::IsMember({"qm16", "residual"}));
-  app.add_option("--max-sweeps", p.max_sweeps, "cap per step; capped steps are counted")
+  app.add_option("--max-sweeps", p.max_sweeps,
+                 "largest number of sweeps in a step; run.json counts the steps that reach it")
       ->check(CLI::Range(1, 100000000));
   app.add_option("--preparation-step", p.preparation_step, "time step of the preparation [s]")
       ->check(positive);
-  app.add_option("--preparation-tolerance", p.preparation_tolerance, "of its stopping test, qm16")
+  app.add_option("--preparation-tolerance", p.preparation_tolerance,
+                 "tolerance of the stopping test (qm16) in the preparation")
       ->check(below_one);
-  app.add_option("--preparation-sweeps", p.preparation_sweeps, "its cap per step")
+  app.add_option("--preparation-sweeps", p.preparation_sweeps,
+                 "largest number of sweeps in a step of the preparation")
       ->check(CLI::Range(1, 100000000));
-  app.add_option("--preparation-time", p.preparation_time,
-                 "longest time under the lid's force [s]; run.json says whether the sample settled")
+  app.add_option(
+         "--preparation-time", p.preparation_time,
+         "longest time under the force on the lid [s]; run.json says whether the grains came to "
+         "rest")
       ->check(positive);
-  app.add_option("--margin", p.margin, "alert distance / smallest size")->check(positive);
+  app.add_option("--margin", p.margin,
+                 "distance at which contacts are detected / size of the smallest grain")
+      ->check(positive);
   bool no_correction = false;
-  app.add_flag("--no-correction", no_correction, "leave overlaps as they are");
-  app.add_option("--solver", p.solver,
-                 "coloured sweeps with momentum, or plain ones, the reference; the preparation "
-                 "takes the first")
+  app.add_flag("--no-correction", no_correction, "do not correct overlaps");
+  app.add_option(
+         "--solver", p.solver,
+         "coloured: sweeps by colours with Nesterov momentum; plain: nonlinear Gauss-Seidel, the "
+         "reference. The preparation always uses coloured")
       ->check(CLI::IsMember({"coloured", "plain"}));
-  app.add_option("--threads", p.threads, "threads of the solver; they do not change the results")
+  app.add_option("--threads", p.threads,
+                 "number of threads of the solver; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
-  app.add_flag("--cold-start", p.cold_start,
-               "solve every step from zero: how unique are the solutions?");
-  app.add_option("--order", p.order,
-                 "not 0: seed of another order of grains and contacts after the preparation, for "
-                 "the same question")
+  app.add_flag(
+      "--cold-start", p.cold_start,
+      "start the solver from zero impulses in every step, to see how unique the solutions are");
+  app.add_option(
+         "--order", p.order,
+         "seed of a random order of grains and contacts after the preparation, for the same "
+         "purpose; 0: order of the preparation")
       ->check(whole);
-  app.add_option("--seed", p.seed, "of the sample")->check(whole);
-  app.add_option("--snapshots", p.snapshots, "ParaView files over the run; 0: none")
+  app.add_option("--seed", p.seed, "seed of the random numbers that make the sample")->check(whole);
+  app.add_option("--snapshots", p.snapshots, "number of ParaView files in the simulation; 0: none")
       ->check(CLI::Range(0, 100000));
   bool no_pictures = false;
-  app.add_flag("--no-pictures", no_pictures, "do not draw the packing and its force chains");
+  app.add_flag("--no-pictures", no_pictures, "do not draw pictures of the grains and force chains");
   bool no_plots = false;
-  app.add_flag("--no-plots", no_plots, "do not call gnuplot");
+  app.add_flag("--no-plots", no_plots, "do not draw plots with gnuplot");
   app.add_option("--checkpoint-every", p.checkpoint_every,
-                 "steps after which all is written down, to be taken up by --resume; 0: never")
+                 "number of steps between two checkpoints, from which --resume continues; 0: none")
       ->check(CLI::Range(0, 1000000000));
   app.add_flag("--resume", p.resume,
-               "go on from the checkpoint in the output folder, if there is one: same parameters, "
-               "same results");
+               "continue from the checkpoint in the output folder, if there is one; the parameters "
+               "must be the same, and the results are");
   app.add_option(
       "--packing", p.packing,
-      "file of the packing that the lid makes: read if it is there, else written, so that "
-      "runs which differ in what comes after prepare once");
-  app.add_option("--output", p.output, "folder, made if missing; its files are overwritten");
+      "file of the prepared packing: read if it exists, else written, so that simulations "
+      "which differ only after the preparation share it");
+  app.add_option("--output", p.output,
+                 "folder of the results, created if missing; files in it are overwritten");
 
   try {
     app.parse(argc, argv);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The box, its walls and the sample; preparation by the lid; one step under the harmonic force.
-// x is the first axis and points out of the moving wall; up is the last axis.
+// The box with its walls and grains, the preparation by the lid, and a step under the harmonic
+// force. The first axis, x, points outward through the moving wall; the last axis points up.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@
 
 namespace ratcheting {
 
-/// Thrown by a progress callback's wish to stop; everything written so far is complete.
+/// A progress callback throws it to stop the preparation. Everything written so far is complete.
 struct Interrupted {};
 
 /// @tparam ShapeT of the grains
@@ -65,11 +65,13 @@ class Experiment {
     add_walls(top);
   }
 
-  /// The paper's preparation, first half: compression by the lid without gravity, until the kinetic
-  /// energy per grain is below 1e-6 of lid force times grain size.
-  /// The lid first closes in at a speed that the alert distance can follow, then its force takes
-  /// over, for preparation_time at most.
-  /// Its steps are capped at preparation_sweeps: the way to the packing needs no converged history.
+  /// First half of the paper's preparation: compression by the lid without gravity.
+  /// 1. The lid moves down at constant speed, so slowly that contacts are detected in time, until
+  ///    the grains react with the lid force.
+  /// 2. The lid force acts until the kinetic energy per grain is below 1e-6 of lid force times
+  ///    grain size, for preparation_time at most.
+  /// The solver makes at most preparation_sweeps sweeps in a step, because the packing needs no
+  /// converged history.
   void compress(const Progress& progress) {
     const double step = parameters_.preparation_step;
     if constexpr (Method::solves) {
@@ -106,7 +108,8 @@ class Experiment {
     }
   }
 
-  /// Second half: the study's solver; gravity on, the lid raised and fixed, the wall free.
+  /// Second half of the preparation: sets the solver of the experiment, switches on gravity, raises
+  /// and fixes the lid, and frees the wall.
   void release() {
     if constexpr (Method::solves) {
       simulation_.set_solver(study_solver(parameters_));
@@ -116,7 +119,7 @@ class Experiment {
     fix_lid();
   }
 
-  /// Fixes the lid where the preparation left it plus the raise, lets gravity act, frees the wall.
+  /// Raises and fixes the lid, switches on gravity, and gives the wall its mass.
   void fix_lid() {
     simulation_.set_wall_mass(lid_, std::numeric_limits<double>::infinity());
     simulation_.set_velocity(lid_, Vector::Zero());
@@ -138,23 +141,25 @@ class Experiment {
     return simulation_.step(parameters_.step);
   }
 
-  /// Writes down what compress() made.
+  /// Writes the packing that compress() made.
   void write_packing(const std::filesystem::path& path, const std::string& made_by) const {
     moreau::write_snapshot(path, simulation_, made_by, settled_);
   }
-  /// In place of compress(), by an experiment of the same preparation.
-  /// @throws std::runtime_error naming the path for a file that is none of those
+  /// Reads such a packing, in place of compress(). The parameters of the preparation must be the
+  /// same.
+  /// @throws std::runtime_error naming the path if the file is not such a packing
   void read_packing(const std::filesystem::path& path, std::string& made_by) {
     moreau::read_snapshot(path, simulation_, made_by, settled_);
   }
 
-  /// Writes down the state, with what else belongs to the run.
+  /// Writes the state of the experiment and more members of the run.
   template <class... More>
   void write_checkpoint(const std::filesystem::path& path, const More&... more) const {
     moreau::write_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
   }
-  /// In place of compress() and release(), by an experiment of the same parameters.
-  /// @throws std::runtime_error naming the path for a file that is none of those
+  /// Reads such a checkpoint, in place of compress() and release(). The parameters must be the
+  /// same.
+  /// @throws std::runtime_error naming the path if the file is not such a checkpoint
   template <class... More>
   void read_checkpoint(const std::filesystem::path& path, More&... more) {
     moreau::read_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
@@ -168,7 +173,7 @@ class Experiment {
   double wall_velocity() const { return simulation_.bodies().velocity[wall_.index()][0]; }
   /// Force of the grains on the wall over the last step, outward positive [N].
   double wall_force() const { return simulation_.contact_impulse(wall_)[0] / parameters_.step; }
-  /// Of the grains [J].
+  /// Kinetic energy of the grains [J].
   double kinetic_energy() const {
     const auto& bodies = simulation_.bodies();
     return moreau::kinetic_energy<S>(simulation_.grain_count(),
@@ -183,14 +188,14 @@ class Experiment {
   }
 
   const Simulation& simulation() const { return simulation_; }
-  /// What the overlap correction moved the wall by in the last step [m].
+  /// Displacement of the wall by the overlap correction in the last step, outward positive [m].
   double corrected_displacement() const {
     if constexpr (Method::solves)
       return simulation_.correction().shifts()[wall_.index()][0];
     else
       return 0;
   }
-  /// Whether the preparation ended because the sample was still, not because its time was over.
+  /// Whether the preparation ended because the grains were at rest, not because its time was over.
   bool settled() const { return settled_; }
   double mass() const { return mass_; }
   double wall_mass() const { return wall_mass_; }
@@ -199,7 +204,7 @@ class Experiment {
   double height() const { return height_; }
   double thickness() const { return thickness_; }
   moreau::BodyId wall() const { return wall_; }
-  /// The whole box as it stands, with the wall where it is.
+  /// The box with the moving wall at its present position.
   moreau::Aabb<S> box() const {
     moreau::Aabb<S> box;
     box.lower.setZero();
@@ -210,7 +215,8 @@ class Experiment {
   }
 
  private:
-  static constexpr double slowest_step = 2e-4;  ///< whose speed the closing lid keeps below it [s]
+  /// The speed of the lid in the preparation is that of steps of at least this length [s].
+  static constexpr double slowest_step = 2e-4;
 
   static Solver study_solver(const Parameters& p) requires solves {
     moreau::ColouredOptions options;
@@ -237,14 +243,15 @@ class Experiment {
       return Simulation(size, laws, tolerances);
   }
 
-  /// L = W from V = rho L^D H/L at the solid fraction that the lid's compression leaves: about 0.53
-  /// in space and 0.80 in the plane for angular grains. Only the target of H/L depends on it.
+  /// L = W from V = rho L^D H/L, where rho is the solid fraction after the compression: about 0.53
+  /// in space and 0.80 in the plane for angular grains. An error of rho only changes H/L.
   double length_from_volume() const {
     constexpr double packed[] = {0.80, 0.53};
     return std::pow(volume_ / (packed[S::dim - 2] * parameters_.box_ratio), 1.0 / S::dim);
   }
 
-  /// The same packing as a new simulation, its grains in another order; walls at rest.
+  /// Makes a new simulation with the same packing, with the grains in another order and the walls
+  /// at rest.
   void reorder() {
     const Simulation old = std::move(simulation_);
     simulation_ = make_simulation(parameters_);

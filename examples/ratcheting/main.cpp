@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <csignal>
-#include <cstdio>
-#include <exception>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -43,13 +41,5 @@ int main(int argc, char** argv) {
   const auto parameters = ratcheting::parse(argc, argv, status);
   if (!parameters) return status;
   ratcheting::catch_interrupts();
-  try {
-    return ratcheting::Runner::run(*parameters);
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return ratcheting::exit_status([&] { return ratcheting::Runner::run(*parameters); });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The policies of the study beside the shape: contact dynamics, as in the paper, or molecular
-// dynamics with springs over the same shapes, walls, drive and measures.
+// Law, integrator and solver of an experiment: contact dynamics, as in the paper, or molecular
+// dynamics with springs. Shapes, walls, force and measures are the same.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@
 
 namespace ratcheting {
 
-/// The library's solver on threads. To see how unique its solutions are it can be told to begin
-/// every step without the impulses of the last; to see what its speed costs, to leave the step to
-/// the reference solver.
+/// The threaded solver of the library, with two options. `cold` starts every step from zero
+/// impulses, to see how unique the solutions are. `plain` solves with the reference solver instead,
+/// to see what the speed costs.
 class StudySolver : public moreau::ParallelGaussSeidel {
  public:
   explicit StudySolver(const Options& options = {}, int threads = 1, bool cold = false,
@@ -75,8 +75,9 @@ struct SpringDynamics {
   static Law law(const Parameters& p, double friction) {
     return Law(p.stiffness, 0.8 * p.stiffness, friction, p.restitution);
   }
-  /// Steps no longer than a twentieth of the impact of the lightest grain on a wall.
-  /// @param lightest [kg]
+  /// The parameters with time steps of at most a twentieth of the duration of an impact of the
+  /// lightest grain on a wall.
+  /// @param lightest mass of this grain [kg]
   static Parameters settled(const Parameters& p, double lightest) {
     Parameters out = p;
     const double longest = law(p, p.friction).duration(lightest / 2) / 20;

@@ -39,7 +39,7 @@ Json to_json(const Parameters& p) {
       {"cold_start", p.cold_start},
       {"order", p.order},
       {"seed", p.seed}};
-  // Runs that were kept before there was a choice stay comparable.
+  // The default is left out, as in the runs that were made before there was a choice.
   if (p.solver != Parameters{}.solver) json["solver"] = p.solver;
   return json;
 }

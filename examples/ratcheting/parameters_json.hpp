@@ -9,8 +9,8 @@ namespace ratcheting {
 
 using Json = nlohmann::ordered_json;
 
-/// What decides a run's results, as it stands under "parameters" in run.json; SI units. Snapshots,
-/// pictures, plots and the folder are left out.
+/// The parameters that determine the results of a run, as under "parameters" in run.json; SI units.
+/// Snapshots, pictures, plots and the folder are left out.
 Json to_json(const Parameters& p);
 
 }  // namespace ratcheting

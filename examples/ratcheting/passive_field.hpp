@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The velocity field while the wall pushes the grains back in: the instant of its largest inward
-// speed, after the box has filled.
+// The velocity field of the grains at the time of the wall's largest inward speed, after the box
+// has filled.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class PassiveField {
   using S = typename ExperimentT::S;
   using Field = moreau::VelocityField<S>;
 
-  /// Looks at the state after a step and keeps its field if the wall was never faster inward since
+  /// Call after every step. Stores the field if the wall is faster inward than at any time since
   /// the first maximum of the force.
   void look(const Parameters& p, const ExperimentT& experiment) {
     if (experiment.time() < 0.75 / p.frequency) return;
@@ -42,7 +42,8 @@ class PassiveField {
   double wall_velocity() const { return wall_velocity_; }  ///< outward positive [m/s]
   auto roll() const { return field_->roll(); }
 
-  /// velocity_field.csv: cells of the section, x to the right and z up, mean velocity, grains.
+  /// Writes velocity_field.csv: cells of the section (x to the right, z up), mean velocity, number
+  /// of grains.
   void write(const std::filesystem::path& folder) const {
     if (!field_) return;
     moreau::CsvWriter file(folder / "velocity_field.csv", {"x", "z", "v_x", "v_z", "grains"});
@@ -56,7 +57,7 @@ class PassiveField {
   }
 
  private:
-  static constexpr std::size_t cells = 10;  ///< each way
+  static constexpr std::size_t cells = 10;  ///< in each direction
 
   std::optional<Field> field_;
   double time_ = 0, wall_velocity_ = 0;

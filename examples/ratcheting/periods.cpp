@@ -9,7 +9,7 @@ namespace ratcheting {
 
 namespace {
 
-/// Index of the first sample at or after a time; the samples end each step.
+/// Index of the first sample at or after a time. There is a sample at the end of each step.
 std::size_t index_at(const std::vector<WallSample>& wall, double t, double step) {
   const double k = std::round(t / step) - 1;
   return static_cast<std::size_t>(std::clamp(k, 0.0, double(wall.size() - 1)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the wall's trajectory says, period by period.
+// The periods of the wall's trajectory.
 #pragma once
 
 #include <vector>
@@ -22,14 +22,14 @@ struct Period {
   double jam_before = 0;         ///< x_j: position at the force maximum before [m]
   double jam_after = 0;          ///< x_j': position at the force maximum after [m]
   double dx_max = 0;             ///< largest x - jam_before [m]
-  ActivePhase active;            ///< from a, its onset, to b, its peak
+  ActivePhase active;            ///< from its onset to its peak
 
   double delay() const { return active.peak - force_minimum; }             ///< delta t_r [s]
-  double x_peak() const { return jam_before + active.creep + active.dx; }  ///< of b [m]
+  double x_peak() const { return jam_before + active.creep + active.dx; }  ///< largest x [m]
 };
 
-/// Whole periods from the first force maximum on; the first extension is part of the filling
-/// transient and is left out.
+/// The complete periods from the first force maximum on. The extension before it belongs to the
+/// filling of the box and is left out.
 /// @param weight of the grains, m g [N]
 std::vector<Period> find_periods(const std::vector<WallSample>& wall, const Parameters& p,
                                  double weight);

@@ -59,8 +59,8 @@ void plot(const std::string& folder) {
   }
   for (const char* name :
        {"x_t", "one_period", "f_g_x", "rho_t", "rho_x", "phase_portrait", "solver"}) {
-    const std::string command = "gnuplot -e \"folder='" + folder + "'\" '" +
-                                std::string(RATCHETING_PLOTS) + "/" + name + ".gp' 2>&1";
+    const std::string command = "gnuplot -e \"folder='" + folder + "'; name='" + name + "'\" '" +
+                                RATCHETING_PLOTS + "/run.gp' 2>&1";
     if (std::system(command.c_str()) != 0) std::printf("plot %s failed\n", name);
   }
 }

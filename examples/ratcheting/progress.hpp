@@ -23,7 +23,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// One line that rewrites itself on a terminal; elsewhere a plain line now and then.
+/// Prints the progress: on a terminal one line that is overwritten, else a line every few seconds.
 class Progress {
  public:
   Progress();
@@ -41,7 +41,7 @@ class Progress {
   bool vibrating_ = false;
 };
 
-/// Draws the plots of a run's folder with gnuplot, if there is one; says so if there is none.
+/// Draws the plots of a run's folder with gnuplot. Prints a message if gnuplot is not installed.
 void plot(const std::string& folder);
 
 }  // namespace ratcheting

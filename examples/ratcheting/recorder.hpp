@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files of one run. Every line is complete as soon as it is written; an interrupted run keeps
-// them.
+// The tables of a run. Every line is complete as soon as it is written, so the tables of an
+// interrupted run are complete, too.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Recorder {
   using S = typename ExperimentT::S;
   static constexpr int up = S::dim - 1;
 
-  /// What has been recorded, with the sizes of the four tables, which a checkpoint keeps.
+  /// The members of a checkpoint: what has been recorded, and the sizes of the four tables.
   struct Record {
     std::array<std::uint64_t, 4> sizes{};
     moreau::Aabb<S> inner;
@@ -45,7 +45,7 @@ class Recorder {
     SolverTotals totals;
   };
 
-  /// @param record what to go on from; none makes new tables
+  /// @param record from a checkpoint, to continue its tables; an empty one makes new tables
   Recorder(const Parameters& p, const ExperimentT& experiment, const Record& record = {})
       : parameters_(p),
         experiment_(experiment),
@@ -65,11 +65,11 @@ class Recorder {
         packing_samples_(record.packing_samples),
         totals_(record.totals) {}
 
-  /// Of the control volume from the side walls, 2 d [m].
+  /// Distance of the control volume from the side walls, 2 d [m].
   static double inset(const ExperimentT& experiment) {
     return 2 * experiment.simulation().grain_size();
   }
-  /// Fixes the control volume: 2 d from the side walls, 0.1 H to 0.7 H.
+  /// Sets the control volume: 2 d from the side walls, 0.1 H to 0.7 H.
   void set_control_volume() {
     inner_ = experiment_.box();
     inner_.lower.array() += inset(experiment_);

@@ -8,18 +8,17 @@
 
 namespace ratcheting {
 
-/// A shape that the program was built with: its source file registers how to run the study with it.
+/// The shapes that the program was built with: run_shape.cpp registers a Runner for each of them.
 class Runner {
  public:
-  /// Runs the study with one shape, by the method that is asked for, and writes all files.
-  /// @returns exit status: 0, or 130 if interrupted (what was written is complete)
-  /// @throws std::runtime_error if a file cannot be written, std::invalid_argument for values that
-  /// make
-  ///         no experiment
+  /// Runs an experiment with one shape and writes all files.
+  /// @returns exit status: 0, or 130 if it was interrupted (the files are complete)
+  /// @throws std::runtime_error if a file cannot be written, std::invalid_argument if an experiment
+  ///         with these values is not possible
   using Function = int (*)(const Parameters&);
 
   Runner(const char* shape, Function function) { all()[shape] = function; }
-  /// Runs the study with the shape that is asked for.
+  /// Runs an experiment with the shape in p.shape.
   /// @throws std::invalid_argument if the program was built without it; std::exception as the run
   static int run(const Parameters& p);
 
@@ -27,7 +26,7 @@ class Runner {
   static std::map<std::string, Function>& all();
 };
 
-/// Set by the signal handler of Ctrl-C; asked after every step.
+/// Whether Ctrl-C or SIGTERM has been received since catch_interrupts().
 bool interrupted();
 void catch_interrupts();
 

@@ -55,7 +55,8 @@ Json versions() {
 #else
   constexpr const char* compiler = "g++ " __VERSION__;
 #endif
-  // Other instructions round otherwise, and another rounding is, in time, another packing.
+  // The instructions belong to the versions: they change the rounding, and after some time the
+  // packing.
 #if defined(__AVX512F__)
   constexpr const char* instructions = "AVX-512";
 #elif defined(__AVX2__) && defined(__FMA__)
@@ -73,7 +74,7 @@ Json versions() {
 
 namespace {
 
-/// The first inner solid fraction recorded at t or after [-].
+/// The first recorded solid fraction of the control volume at or after t [-].
 double rho_at(const std::vector<PackingSample>& packing, double t) {
   const auto after = std::find_if(packing.begin(), packing.end(),
                                   [&](const PackingSample& s) { return s.t >= t - 1e-9; });
@@ -113,7 +114,7 @@ Json results(const Parameters& p, double mass, double wall_mass, double length,
   json["contracting_periods"] =
       std::count_if(periods.begin(), periods.end(),
                     [](const Period& period) { return period.jam_after < period.jam_before; });
-  // Compaction from jam to jam, at the force maxima that bound the periods.
+  // Compaction between the first and the last force maximum that bounds a period.
   const double first = 0.75 / p.frequency, last = first + n / p.frequency;
   json["compaction_per_period"] = (rho_at(packing, last) - rho_at(packing, first)) / n / rho0;
   json["compaction_rate"] =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// run.json: everything that went into a run and what came out. SI units, named in the keys where
-// they are not obvious.
+// run.json: the parameters, versions and results of a run. SI units; the keys give the unit where
+// it is not obvious.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,12 +29,12 @@ Json to_json(const Period& period);
 Json to_json(const SolverTotals& totals, double size);
 Json versions();
 
-/// Means over periods, with what row 13 and 17 of the study ask for.
-/// @param packing the state over time, for the compaction
+/// Means over the periods, the compaction rate and the constant C.
+/// @param packing solid fractions over time, for the compaction
 Json results(const Parameters& p, double mass, double wall_mass, double length,
              const std::vector<Period>& periods, const std::vector<PackingSample>& packing);
 
-/// events.csv: when and where the wall jams, unjams and turns, for the plots.
+/// Writes events.csv for the plots: when and where the wall jams, starts to move and turns.
 void write_events(const std::filesystem::path& folder, const std::vector<Period>& periods);
 
 class RunJson {
@@ -52,7 +52,7 @@ class RunJson {
   void resumed(std::size_t step) { json_["resumed_at_step"] = step; }
   void stage(const char* name, double seconds) { json_["wall_clock_seconds"][name] = seconds; }
 
-  /// Of a run that ended within the preparation.
+  /// Writes the file of a run that ended in the preparation.
   void write_unprepared(const Parameters& p) {
     json_["interrupted"] = true;
     write(p);
@@ -86,7 +86,7 @@ class RunJson {
   const Json& results() const { return json_.at("results"); }
 
  private:
-  /// How many grains there are of each circumradius, and the ranges of vertices and faces.
+  /// Adds the number of grains of each circumradius, and the ranges of vertices and faces.
   template <class ExperimentT>
   void add_counts(const ExperimentT& experiment) {
     std::map<double, std::size_t> sizes;

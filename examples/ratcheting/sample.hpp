@@ -16,7 +16,8 @@
 
 namespace ratcheting {
 
-/// The shape in space whose sample weighs what a plane sample is meant to weigh; in space, itself.
+/// The shape in space that corresponds to a shape in the plane: a sample in the plane gets the
+/// weight of the sample in space. For a shape in space, the shape itself.
 template <class Shape>
 struct SolidTwin {
   using type = Shape;
@@ -30,15 +31,15 @@ struct SolidTwin<moreau::Disk<T>> {
   using type = moreau::Ball<T>;
 };
 
-/// Shapes and sizes of the study, without places.
+/// The grains of a sample, without positions.
 template <class Shape>
 struct Grains {
-  std::vector<Shape> shapes;        ///< one per grain, to size
+  std::vector<Shape> shapes;        ///< one per grain, with its size
   std::vector<double> circumradii;  ///< [m]
   double volume = 0;                ///< sum [m^3], in the plane [m^2]
 };
 
-/// 50 / 34 / 16 % of 2.5 / 3.75 / 5 cm, each grain one of 30 base shapes. Seeded by the parameters.
+/// Grains of the sizes 2.5, 3.75 and 5 cm (50, 34 and 16 % by number), of 30 different shapes.
 template <class Shape>
 Grains<Shape> make_grains(const Parameters& p, std::mt19937_64& random) {
   const std::vector<Shape> bases = moreau::ballast_shapes<Shape>(30, random);

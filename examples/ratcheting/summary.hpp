@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Running totals of the solver over a run, and the results that go into run.json.
+// Totals of the solver over a run.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 
 namespace ratcheting {
 
-/// What the reports of all vibrating steps add up to.
+/// Sums over the reports of all steps under the force.
 struct SolverTotals {
   std::size_t steps = 0, capped = 0;
   int most_sweeps = 0;
   double sweeps = 0, residual = 0, worst_residual = 0, pairs = 0, points = 0;
   double max_overlap = 0;         ///< deepest of the run [m]
   double mean_overlap = 0;        ///< mean over steps of the mean depth [m]
-  double mean_overlap_first = 0;  ///< the same over the first and the last tenth: does it grow?
+  double mean_overlap_first = 0;  ///< the same over the first and over the last tenth of the steps
   double mean_overlap_last = 0;
   double dissipation = 0;        ///< by the contacts [J]
   double correction_work = 0;    ///< sum of |work| of the overlap correction [J]

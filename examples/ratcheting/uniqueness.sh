@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# How unique is the answer? The same packing under the same force, solved from the impulses of the last
-# step, from nothing, and with the contacts in two other orders. Writes x and f_g of all of them over
-# time as uniqueness.png and their spread as spread.md. What has been run is not run again.
+# How unique is the solution? Simulates the same packing under the same force four times: with a warm
+# start of the solver, with a cold start, and with the contacts in two other orders. Plots x and f_g over
+# time in uniqueness.png and writes their spread to spread.md. A simulation that is done is not repeated.
 #
-#   uniqueness.sh PROGRAM FOLDER [OPTIONS OF THE STUDY]
-#   uniqueness.sh build/study/examples/ratcheting /tmp/uniqueness --shape polygon
+#   uniqueness.sh PROGRAM FOLDER [OPTIONS OF THE PROGRAM]
+#   uniqueness.sh build/study/examples/ratcheting uniqueness --shape polygon
 set -euo pipefail
 program=$(realpath "$1") && folder=$2 && shift 2
 plots=$(cd "$(dirname "$0")/plots" && pwd)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Snapshots that ParaView opens, and the pictures of a run.
+// ParaView files and pictures of a run.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,8 @@ class Views {
         grains_(folder / "grains.pvd"),
         contacts_(folder / "contacts.pvd") {}
 
-  /// vtk/grains_NNNN.vtp with velocities, vtk/contacts_NNNN.vtp with forces, and their series.
+  /// Writes vtk/grains_NNNN.vtp with velocities and vtk/contacts_NNNN.vtp with forces, and adds
+  /// them to their series.
   void snapshot(int number) {
     std::filesystem::create_directories(folder_ / "vtk");
     char name[32];
@@ -49,8 +50,8 @@ class Views {
     contacts_.add(experiment_.time(), contacts);
   }
 
-  /// chains.csv, or with a suffix to its name: contacts under force in the middle quarter of the
-  /// box, as lines from centre to centre in the section with x to the right and z up.
+  /// Writes chains.csv, or a file with a suffix in its name: the contacts with a force in the
+  /// middle quarter of the box, as lines from centre to centre (x to the right, z up).
   void write_chains(const std::string& suffix) {
     constexpr double section = 0.25;
     const auto& simulation = experiment_.simulation();
@@ -70,11 +71,11 @@ class Views {
     }
     file.close();
   }
-  /// The series of grains and of contacts, which a checkpoint keeps.
+  /// The series of grains and of contacts, as members of a checkpoint.
   moreau::PvdSeries& grains() { return grains_; }
   moreau::PvdSeries& contacts() { return contacts_; }
 
-  /// packing.png and force_chains.png, or with a suffix to their names.
+  /// Draws packing.png and force_chains.png, or files with a suffix in their names.
   void picture(const std::string& suffix) {
     const auto& simulation = experiment_.simulation();
     moreau::force_chains<S>(simulation.contacts(), step_, position(), is_grain(), segments_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flat shapes painted over each other in a plane: x to the right, y up.
+// A drawing of convex polygons and lines in the plane, each painted over the earlier ones. x points
+// to the right, y up.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ class Drawing {
  public:
   static constexpr int oversampling = 4;
 
-  /// Shows lower..upper with a margin, as large as fits.
+  /// Shows the rectangle lower..upper with a margin, as large as possible.
   Drawing(const Vector2d& lower, const Vector2d& upper, int width, int height, double margin = 0.04)
       : image_(oversampling * width, oversampling * height, screen_color(0xFFFFFF)),
         middle_((lower + upper) / 2) {
@@ -28,7 +29,7 @@ class Drawing {
     scale_ = (1 - 2 * margin) * room.cwiseQuotient(upper - lower).minCoeff();
   }
 
-  /// A convex polygon.
+  /// Fills a convex polygon.
   void fill(std::span<const Vector2d> corners, const Color& color) {
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
       paint({pixel(corners[0]), pixel(corners[k]), pixel(corners[k + 1])}, color);
@@ -37,7 +38,7 @@ class Drawing {
     for (std::size_t k = 0; k < corners.size(); ++k)
       line(corners[k], corners[(k + 1) % corners.size()], color, width);
   }
-  /// A line with round ends.
+  /// Draws a line with round ends.
   void line(const Vector2d& from, const Vector2d& to, const Color& color, double width) {
     const Vector3f a = pixel(from), b = pixel(to);
     const auto radius = static_cast<float>(width * oversampling / 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture in linear light, and the PNG file it is saved as.
+// A picture in linear light, and its PNG file.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ namespace rendering {
 
 using Color = Eigen::Vector3f;  ///< red, green, blue in linear light, 0..1
 
-/// The linear light of a colour given as on a screen, 0xRRGGBB.
+/// The colour in linear light of a screen colour 0xRRGGBB.
 inline Color screen_color(unsigned rgb) {
   const auto linear = [](unsigned byte) {
     return std::pow(static_cast<float>(byte & 255u) / 255.0f, 2.2f);
@@ -43,11 +43,11 @@ class Image {
   }
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Column from the left, row from above.
+  /// The pixel in a column, from the left, and a row, from the top.
   Color& operator()(int column, int row) { return pixels_[index(column, row)]; }
   const Color& operator()(int column, int row) const { return pixels_[index(column, row)]; }
 
-  /// Mean over squares of factor x factor pixels.
+  /// The picture reduced by a factor: means over squares of factor x factor pixels.
   Image reduced(int factor) const {
     Image small(width_ / factor, height_ / factor, Color::Zero());
     const float share = 1.0f / static_cast<float>(factor * factor);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A scene as it looks under a sun and an overcast sky, with the edges of its surfaces drawn.
+// Shading of a scene under a sun and an overcast sky, with the edges of its surfaces drawn.
 //
-// The light that reaches a point comes from parallel lights, each with a depth buffer of its own
-// that says what it reaches: one sun, and many faint ones spread over the upper hemisphere that
-// make up the sky and leave the gaps between grains dark.
+// The lights are parallel lights, each with its own depth buffer for the shadows: one sun, and many
+// weak lights spread over the upper hemisphere. They represent the sky and leave the gaps between
+// grains dark (ambient occlusion).
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace rendering {
 
 class Lighting {
  public:
-  /// @param center,radius of a ball around all that casts shadows [m]
+  /// @param center,radius of a ball around everything that casts shadows [m]
   Lighting(const Scene& scene, const Vector3f& center, float radius)
       : texel_(2 * radius / sky_pixels) {
     sun_.push_back(lamp(scene, center, radius, sun_direction(), 3 * sky_pixels));
@@ -30,7 +30,7 @@ class Lighting {
     }
   }
 
-  /// The light that a point with that normal receives; about one in the open, facing up.
+  /// The light that a point with this normal receives; about 1 in the open, facing up.
   float at(const Vector3f& point, const Vector3f& normal) const {
     float sky = 0;
     const Vector3f raised = point + 1.5f * texel_ * normal;
@@ -47,7 +47,7 @@ class Lighting {
  private:
   static constexpr int sky_lamps = 48, sky_pixels = 500;
   struct Lamp {
-    Vector3f direction;  ///< towards it
+    Vector3f direction;  ///< towards the light
     DepthBuffer depth;
   };
 
@@ -64,8 +64,8 @@ class Lighting {
   std::vector<Lamp> sun_, sky_;
 };
 
-/// Paints the surfaces that are seen. The light is worked out once for each square of
-/// `block` x `block` pixels and triangle.
+/// Paints the visible surfaces. The light is computed once for each triangle in a square of
+/// `block` x `block` pixels.
 inline void shade(const Scene& scene, const DepthBuffer& seen, const Lighting& light, int block,
                   Image& image) {
   const auto& triangles = scene.triangles();
@@ -93,8 +93,8 @@ inline void shade(const Scene& scene, const DepthBuffer& seen, const Lighting& l
     for (int left = 0; left < image.width(); left += block) paint_block(left, top);
 }
 
-/// Darkens the pixels, `width` wide, where the surface changes: much between objects, less between
-/// faces of one.
+/// Draws edges, `width` pixels wide, where the visible surface changes: dark between objects, less
+/// dark between faces of one object.
 inline void draw_edges(const Scene& scene, const DepthBuffer& seen, int width, Image& image) {
   const auto& triangles = scene.triangles();
   const auto differ = [&](std::uint32_t a, std::uint32_t b) {

@@ -18,11 +18,11 @@ namespace rendering {
 
 using Eigen::Vector3f;
 
-/// A piece of a surface, corners counter-clockwise from outside, world axes [m].
+/// A triangle of a surface, with corners counter-clockwise seen from outside, world axes [m].
 struct Triangle {
   std::array<Vector3f, 3> corner;
   std::array<Vector3f, 3> normal;  ///< at the corners
-  std::uint32_t object;            ///< which grain or wall
+  std::uint32_t object;            ///< number of the grain or wall
   std::uint32_t face;              ///< of the object: edges are drawn between faces
 
   /// Unit normal at a point of the triangle.
@@ -37,8 +37,8 @@ struct Triangle {
   }
 };
 
-/// Maps world points to (column, row, nearness); nearness is linear on the screen along a plane and
-/// larger for what is nearer.
+/// Maps world points to (column, row, nearness). Nearness is larger for nearer points, and linear
+/// on the screen along a plane.
 struct View {
   Eigen::Matrix3f axes;  ///< rows: right, down, forward
   Vector3f eye;          ///< any point in front of the scene for a parallel view
@@ -46,7 +46,7 @@ struct View {
   bool parallel;
   int width, height;
 
-  /// From `eye` towards `target`, up as z where possible.
+  /// The view from `eye` towards `target`, with z up where possible.
   static View towards(const Vector3f& eye, const Vector3f& target, float focal, bool parallel,
                       int width, int height) {
     View view{{}, eye, focal, parallel, width, height};
@@ -65,7 +65,7 @@ struct View {
     return {0.5f * static_cast<float>(width) + scale * x.x(),
             0.5f * static_cast<float>(height) + scale * x.y(), parallel ? -x.z() : 1 / x.z()};
   }
-  /// The world point seen at a pixel with that nearness; the inverse of operator().
+  /// The world point at a pixel with this nearness: the inverse of operator().
   Vector3f world(const Vector3f& screen) const {
     const float depth = parallel ? -screen.z() : 1 / screen.z();
     const float scale = (parallel ? 1.0f : depth) / focal;
@@ -75,8 +75,8 @@ struct View {
   }
 };
 
-/// Calls fragment(column, row, b) for the pixels whose centres lie in a triangle given in screen
-/// coordinates, with b the barycentric coordinates there; either orientation.
+/// Calls fragment(column, row, b) for the pixels whose centres lie in a triangle in screen
+/// coordinates of either orientation. b are the barycentric coordinates.
 template <class Fragment>
 void for_each_pixel(const std::array<Vector3f, 3>& screen, int width, int height,
                     const Fragment& fragment) {
@@ -133,16 +133,16 @@ class DepthBuffer {
 
   const View& view() const { return view_; }
   float nearness(int column, int row) const { return nearness_[index(column, row)]; }
-  /// Number of the triangle seen there, or `nothing`.
+  /// Number of the visible triangle at a pixel, or `nothing`.
   std::uint32_t triangle(int column, int row) const { return triangle_[index(column, row)]; }
-  /// The world point seen there.
+  /// The visible world point at a pixel.
   Vector3f point(int column, int row) const {
     return view_.world(
         {static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f, nearness(column, row)});
   }
 
-  /// For a light from a parallel view: how much of it reaches a point, 0 to 1, over the four
-  /// pixels around; what is less than `slack` [m] in front does not shade.
+  /// If the view is that of a parallel light: the share of the light that reaches a point, 0 to 1,
+  /// interpolated between four pixels. Surfaces less than `slack` [m] in front cast no shadow.
   float reaches(const Vector3f& world, float slack) const {
     const Vector3f at = view_(world);
     const float x = at.x() - 0.5f, y = at.y() - 0.5f;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a packing: in space as ballast in a box, in the plane as a drawing; and its force
-// chains. World axes: x to the right, the last axis up. The wall at the upper end of x is the one
-// that moves.
+// Pictures of a packing and its force chains: in space a rendered scene, in the plane a drawing.
+// World axes: x to the right, the last axis up. The moving wall is at the upper end of x.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +20,8 @@
 
 namespace rendering {
 
-/// Colours of stone, from small to large grains (share 0..1), varied a little by the grain's number
-/// so that neighbours can be told apart.
+/// Colours of stone, from small (share 0) to large grains (1). They vary a little with the number
+/// of the grain, so that neighbours can be distinguished.
 inline Color stone_color(double share, std::size_t id) {
   static const std::array<Color, 3> stones = {screen_color(0xD3C1A5), screen_color(0xA9AEB4),
                                               screen_color(0x9A7A66)};
@@ -34,7 +33,7 @@ inline Color stone_color(double share, std::size_t id) {
   return shade * ((1 - weight) * stones[low] + weight * stones[low + 1]);
 }
 
-/// From dark blue (share 0) over green to yellow (1), for speeds.
+/// Colours of speeds, from dark blue (share 0) over green to yellow (1).
 inline Color speed_color(double share) {
   static const std::array<Color, 5> stops = {screen_color(0x440154), screen_color(0x3B528B),
                                              screen_color(0x21918C), screen_color(0x5EC962),
@@ -50,7 +49,7 @@ struct Picture {
   int width = 1200, height = 1000;  ///< [pixels]
   double azimuth = 32;              ///< of the eye, from the front towards +x [degrees]
   double elevation = 22;            ///< of the eye above the middle of the box [degrees]
-  bool walls = true;                ///< whether the box is drawn, too, with its moving wall
+  bool walls = true;                ///< whether the box and its moving wall are drawn
 };
 
 namespace detail {
@@ -64,7 +63,7 @@ inline Vector3f corner_of(const moreau::Aabb<moreau::Space<3>>& box, int bits) {
   return x;
 }
 
-/// A perspective view that holds the whole box.
+/// A perspective view that shows the whole box.
 inline View view_of(const moreau::Aabb<moreau::Space<3>>& box, const Picture& picture) {
   const float degree = std::numbers::pi_v<float> / 180;
   const float a = degree * static_cast<float>(picture.azimuth);
@@ -84,7 +83,7 @@ inline View view_of(const moreau::Aabb<moreau::Space<3>>& box, const Picture& pi
   return view;
 }
 
-/// Mixes a colour into what is not nearer than a triangle.
+/// Blends the colour of a triangle with the pixels behind it.
 inline void tint(const std::array<Vector3f, 3>& screen, const DepthBuffer& seen, const Color& color,
                  float opacity, Image& image) {
   const Vector3f near(screen[0].z(), screen[1].z(), screen[2].z());
@@ -96,7 +95,7 @@ inline void tint(const std::array<Vector3f, 3>& screen, const DepthBuffer& seen,
                  });
 }
 
-/// A line in space, `width` pixels wide.
+/// Draws a line in space, `width` pixels wide.
 inline void draw_line(const Vector3f& from, const Vector3f& to, float width,
                       const DepthBuffer& seen, const Color& color, Image& image) {
   const Vector3f a = seen.view()(from), b = seen.view()(to);
@@ -107,7 +106,7 @@ inline void draw_line(const Vector3f& from, const Vector3f& to, float width,
   tint({a + side, b - side, a - side}, seen, color, 1, image);
 }
 
-/// The edges of the box and, tinted, the wall that moves.
+/// Draws the edges of the box and tints the moving wall.
 inline void draw_box(const moreau::Aabb<moreau::Space<3>>& box, const DepthBuffer& seen,
                      Image& image) {
   const Color wall = screen_color(0x2F6FB0), frame = screen_color(0x4A4F57);
@@ -147,8 +146,8 @@ void draw_walls(const moreau::Aabb<S>& box, Drawing& drawing) {
   drawing.line(corners[1], corners[2], screen_color(0x2F6FB0), 7);
 }
 
-/// Each contact as a line whose width grows with its normal force: `width` pixels at six times the
-/// mean force, never more than twice that.
+/// Draws each contact as a line whose width is proportional to its normal force: `width` pixels at
+/// six times the mean force, at most twice as wide.
 template <class S>
 void draw_chains(std::span<const moreau::ContactSegment<S>> chains, double width,
                  Drawing& drawing) {
@@ -171,7 +170,7 @@ void draw_grain(const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& 
   drawing.outline(corners, 0.25f * color, 1);
 }
 
-/// With a radius drawn, to show how it has turned.
+/// Draws a disk with a radius, which shows its rotation.
 template <class T>
 void draw_grain(const moreau::Disk<T>& disk, const moreau::Pose<moreau::Space<2, T>>& pose,
                 const Color& color, Drawing& drawing) {
@@ -188,7 +187,7 @@ void draw_grain(const moreau::Disk<T>& disk, const moreau::Pose<moreau::Space<2,
 
 }  // namespace detail
 
-/// Grains in space, as ballast in a box.
+/// A picture of grains in a box in space.
 /// @param box      the container; its wall at the upper end of x is tinted
 /// @param shape_of,pose_of,color_of k -> shape, pose, Color of grain k
 template <class T, class ShapeOf, class PoseOf, class ColorOf>
@@ -215,7 +214,7 @@ Image render_packing(const moreau::Aabb<moreau::Space<3, T>>& box, std::size_t g
   return image.reduced(detail::oversampling);
 }
 
-/// Grains in the plane, with the force chains on top.
+/// A drawing of grains in the plane, with the force chains over them.
 /// @param chains may be empty
 template <class T, class ShapeOf, class PoseOf, class ColorOf>
 Image render_packing(const moreau::Aabb<moreau::Space<2, T>>& box, std::size_t grain_count,
@@ -231,8 +230,9 @@ Image render_packing(const moreau::Aabb<moreau::Space<2, T>>& box, std::size_t g
 }
 
 /// The force chains alone, seen from the front.
-/// @param section what is shown of the axes across the picture: contacts whose point lies in this
-///                share of the box about its middle, 0..1; in the plane there are none
+/// @param section in space, only contacts in this share of the depth of the box about its middle
+///          are
+///                shown, 0..1
 template <class S>
 Image render_force_chains(const moreau::Aabb<S>& box,
                           std::span<const moreau::ContactSegment<S>> chains, double section = 0.25,

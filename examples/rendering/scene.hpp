@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grains and the ground they stand on, in space, as triangles.
+// Grains and the ground in space, as triangles.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@
 
 namespace rendering {
 
-/// What is seen in space.
+/// The objects of a picture.
 class Scene {
  public:
-  /// A polyhedron of any scalar type.
+  /// Adds a polyhedron of any scalar type.
   template <moreau::Polytope Shape>
   void add_grain(const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose,
                  const Color& color) {
@@ -42,7 +42,7 @@ class Scene {
     colors_.push_back(color);
   }
 
-  /// A round body, known by its farthest points.
+  /// Adds a round body, by its support function.
   template <moreau::ConvexShape Shape>
   requires(!moreau::Polytope<Shape>) void add_grain(
       const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose, const Color& color) {
@@ -76,8 +76,8 @@ class Scene {
     shape.visit([&](const auto& held) { add_grain(held, pose, color); });
   }
 
-  /// The ground: a square at the height of `middle` that fades into the background between
-  /// `radius` and twice as far from it [m].
+  /// Adds the ground: a square at the height of `middle` that fades into the background between the
+  /// distances `radius` and 2 `radius` [m] from it.
   void add_ground(const Vector3f& middle, float radius, const Color& color) {
     const float reach = 2 * radius;
     const Vector3f n = Vector3f::UnitZ();
@@ -89,7 +89,7 @@ class Scene {
     ground_ = {object(), middle, radius};
     colors_.push_back(color);
   }
-  /// How much of an object is seen at a point, the rest being background: one but for the ground.
+  /// Opacity of an object at a point: 1, except for the ground.
   float opacity(std::uint32_t object, const Vector3f& point) const {
     if (object != ground_.object) return 1;
     const float way = (point - ground_.middle).norm() / ground_.radius;

@@ -6,6 +6,11 @@ set -u
 program=$1
 source "$(dirname "$0")/failures.sh"
 
+# run.sh answers --help with a file, without a build; the file says what the program says.
+sources=$(cd "$(dirname "$0")/../../examples/ratcheting" && pwd)
+diff "$sources/help.txt" <("$program" --help) || fail "help.txt is not what --help says"
+diff "$sources/help.txt" <(timeout 5 "$sources/run.sh" --seed 2 --help) || fail "run.sh --help"
+
 # refuse "part of the message" options...
 refuse() {
   local wanted=$1 said status

@@ -19,6 +19,11 @@ wait_for() {
   done
 }
 
+# run.sh answers --help with a file, without a build; the file says what the program says.
+sources=$(cd "$(dirname "$0")/../../examples/ratcheting" && pwd)
+diff "$sources/study/help.txt" <("$program" --help) || fail "help.txt is not what --help says"
+diff "$sources/study/help.txt" <(timeout 5 "$sources/study/run.sh" --help) || fail "run.sh --help"
+
 for wrong in "--plan large" "--set nothing" "--case 999" "--shape cube" "--jobs 0" "--figure none"; do
   # shellcheck disable=SC2086
   "$program" $wrong --output "$folder/wrong" --list >/dev/null 2>&1
@@ -149,7 +154,7 @@ for signal in TERM INT; do
 done
 
 # The results of the repository are those of its table.
-results=$(cd "$(dirname "$0")/../../examples/ratcheting/results" && pwd)
+results=$sources/results
 mkdir -p "$folder/study/figures"
 cp "$results"/{runs.jsonl,wall_clock.csv} "$folder/study"
 (cd "$results/figures" && for name in *.png; do : >"$folder/study/figures/$name"; done)

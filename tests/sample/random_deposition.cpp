@@ -70,8 +70,9 @@ TEST_CASE("radii that do not fit are refused by their number") {
   CHECK(said({0.5}, 1) == "nothing thrown");
 }
 
-TEST_CASE_TEMPLATE("random rotations: normalized, and with the mean that the header gives", S,
-                   Space<2>, Space<3>, Space<3, float>) {
+TEST_CASE_TEMPLATE(
+    "random rotations are normalized; the mean is 0 in the plane and 1/27 of the identity in space",
+    S, Space<2>, Space<3>, Space<3, float>) {
   using T = typename S::Scalar;
   constexpr int count = 4000;
   std::mt19937_64 random(2);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Common to all plots. Call: gnuplot -e "folder='...'" <name>.gp; writes <folder>/<name>.png.
+# Terminal, colours and the names of the tables, for run.gp and uniqueness.gp. `folder` is the folder of the
+# run.
 if (!exists("folder")) folder = "."
 wall = folder."/wall.csv"        # t,f,x,v,f_g
 packing = folder."/packing.csv"  # t,rho_inner,rho_box,kinetic_energy,contacts,coordination

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The wall's displacement and the grains' force on it, of runs that differ in the solver's start and
-# order alone (uniqueness.sh).
+# Displacement of the wall and force of the grains on it, for runs that differ only in the start of
+# the solver and the order of the contacts (uniqueness.sh).
 load system("dirname '".ARG0."'")."/style.gp"
 set output folder."/uniqueness.png"
 array names = ["warm start", "cold start", "another order", "a third order"]

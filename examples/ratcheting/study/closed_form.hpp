@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far the wall moves out under a constant thrust of the grains, and how fast it comes back.
+// Opening displacement of the wall under a constant thrust of the grains, and its speed inward.
 //
 // With f = f0 + f1 (1 - cos w t), f0 = fmin, f1 = (fmax - fmin)/2, t from the minimum of f, and a
 // constant thrust f_a, the wall of moving mass M starts at -t0, where f falls to f_a,
@@ -27,15 +27,14 @@ struct Push {
   double moving_mass(double beta) const { return wall_mass + beta * mass; }
 };
 
-/// Largest displacement [m] by the parabola.
+/// Opening displacement [m] with the parabola for f.
 inline double parabola_displacement(const Push& p, double beta) {
   const double pi = std::numbers::pi, thrust = p.thrust - p.fmin;
   return 9 / (4 * pi * pi) * thrust * thrust /
          (p.moving_mass(beta) * (p.fmax - p.fmin) * p.frequency * p.frequency);
 }
 
-/// The wall's free motion under the full sine, for a thrust between the smallest and the mean
-/// force.
+/// Motion of the wall under the full sine, for a thrust between the smallest and the mean force.
 struct Flight {
   double omega, f1, drift, t0;
 
@@ -48,14 +47,14 @@ struct Flight {
   double momentum(double t) const {  ///< outward [N s]
     return drift * (t + t0) + f1 * (std::sin(omega * t) + std::sin(omega * t0)) / omega;
   }
-  /// The integral of the momentum, the moving mass times the place [kg m].
+  /// Integral of the momentum over time: moving mass times displacement [kg m].
   double way(double t) const {
     return drift * (t + t0) * (t + t0) / 2 +
            f1 / omega *
                ((std::cos(omega * t0) - std::cos(omega * t)) / omega +
                 std::sin(omega * t0) * (t + t0));
   }
-  /// Where a falling function of time crosses zero.
+  /// Zero of a decreasing function of time.
   static double crossing(double low, double high, const auto& falls) {
     for (int k = 0; k < 200; ++k) {
       const double middle = (low + high) / 2;
@@ -69,8 +68,8 @@ struct Flight {
   }
 };
 
-/// Largest displacement [m] by the full sine; infinite if the thrust is above the mean force (the
-/// wall does not come back within the period), 0 if it is not above the smallest force.
+/// Opening displacement [m] with the full sine. Infinite if the thrust is above the mean force (the
+/// wall does not return within the period), 0 if the thrust is not above the smallest force.
 inline double sine_displacement(const Push& p, double beta) {
   if (!(p.thrust > p.fmin)) return 0;
   if (p.thrust >= (p.fmin + p.fmax) / 2) return std::numeric_limits<double>::infinity();
@@ -78,7 +77,7 @@ inline double sine_displacement(const Push& p, double beta) {
   return flight.way(flight.turn()) / p.moving_mass(beta);
 }
 
-/// The thrust that moves the wall out by so much [N]; the thrust of the push is not read.
+/// The thrust that gives this opening displacement [N]. The thrust of the push is not used.
 inline double thrust_of_displacement(Push p, double displacement, double beta) {
   return Flight::crossing(p.fmin, (p.fmin + p.fmax) / 2, [&](double thrust) {
     p.thrust = thrust;
@@ -86,8 +85,8 @@ inline double thrust_of_displacement(Push p, double displacement, double beta) {
   });
 }
 
-/// Speed on the way back [m/s] where the wall is so far inward of its start, with nothing but the
-/// thrust against it; the largest speed of the flight if it does not come so far.
+/// Speed of the returning wall [m/s] at this distance inward of its start, if only the thrust acts
+/// against the force; the largest speed of the motion if the wall does not get there.
 /// @param inward  of the start [m], >= 0
 inline double returning_speed(const Push& p, double inward, double beta) {
   const Flight flight(p);
@@ -97,14 +96,14 @@ inline double returning_speed(const Push& p, double inward, double beta) {
   return -flight.momentum(t) / mass;
 }
 
-/// A run's push and the displacement that was measured.
+/// Force, masses and thrust of a run, and its measured displacement.
 struct Pushed {
   Push push;
   double displacement;
 };
 
-/// beta in [0, 2], the only parameter, for which the measured displacements deviate least from the
-/// predicted ones, and what is left.
+/// The beta in [0, 2] for which the predicted displacements deviate least from the measured ones,
+/// and the remaining deviation. beta is the only parameter.
 struct MovingShare {
   double beta = std::nan("");
   Proportion measured_over_predicted;

@@ -11,7 +11,7 @@
 
 namespace study {
 
-/// nu below nu_c, nu_c^2 / nu above (eq. 5), in units of the prefactor; x = nu / nu_c, times nu_c.
+/// Two branches (eq. 5), divided by the prefactor: nu below nu_c, nu_c^2 / nu above.
 inline double two_branches(double nu, double nu_c) {
   return nu < nu_c ? nu : nu_c * nu_c / nu;
 }
@@ -29,8 +29,8 @@ struct CompactionFit {
   bool at_edge = false;  ///< nu_c is the lowest or highest frequency: it is not bracketed
 };
 
-/// Prefactor and nu_c of a form by least squares of the logarithms; points that are not > 0 are
-/// left out. nu_c is looked for between the lowest and the highest frequency.
+/// Fits prefactor and nu_c of a form by least squares of the logarithms. Points that are not > 0
+/// are left out. nu_c is searched between the lowest and the highest frequency.
 /// @param form of (nu, nu_c)
 inline CompactionFit fit_compaction(const std::vector<Point>& points, const auto& form) {
   std::vector<Point> used;
@@ -53,7 +53,7 @@ inline CompactionFit fit_compaction(const std::vector<Point>& points, const auto
   return best;
 }
 
-/// Free exponents below and above a frequency.
+/// Power laws with free exponents below and above a frequency.
 struct Slopes {
   PowerLaw below, above;
 };

@@ -7,7 +7,7 @@
 
 namespace study {
 
-/// A value over the samples that have it.
+/// Mean and standard deviation of a value over samples.
 struct Estimate {
   double mean = std::nan(""), spread = std::nan("");  ///< standard deviation; nan for one sample
   std::size_t samples = 0;

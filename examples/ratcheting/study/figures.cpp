@@ -166,26 +166,25 @@ class Values {
 };
 
 void add_values(const ShapeSummary& s, Values& values) {
+  using Sample = SampleSummary;
   const auto add = [&](const char* name, const auto& of) {
     values.add(std::string(name) + "_" + s.shape, over_samples(s, of).mean);
   };
-  using Sample = SampleSummary;
-  add("dx_frequency_exponent", [](const Sample& x) { return x.whole.frequency.exponent; });
-  add("dx_frequency_prefactor", [](const Sample& x) { return x.whole.frequency.prefactor; });
-  add("active_frequency_exponent", [](const Sample& x) { return x.active.frequency.exponent; });
-  add("active_frequency_prefactor", [](const Sample& x) { return x.active.frequency.prefactor; });
-  add("active_fmax_exponent", [](const Sample& x) { return x.active.fmax.exponent; });
-  add("active_fmax_prefactor", [](const Sample& x) { return x.active.fmax.prefactor; });
-  add("active_gravity_exponent", [](const Sample& x) { return x.active.gravity.exponent; });
-  add("active_gravity_prefactor", [](const Sample& x) { return x.active.gravity.prefactor; });
+  const auto add_law = [&](const std::string& name, const auto& law) {
+    values.add(name + "_exponent_" + s.shape,
+               over_samples(s, [&](const Sample& x) { return law(x).exponent; }).mean);
+    values.add(name + "_prefactor_" + s.shape,
+               over_samples(s, [&](const Sample& x) { return law(x).prefactor; }).mean);
+  };
+  add_law("dx_frequency", [](const Sample& x) { return x.whole.frequency; });
+  add_law("active_frequency", [](const Sample& x) { return x.active.frequency; });
+  add_law("active_fmax", [](const Sample& x) { return x.active.fmax; });
+  add_law("active_gravity", [](const Sample& x) { return x.active.gravity; });
   add("active_wall_beta", [](const Sample& x) { return x.active.wall_share.beta; });
   add("active_C", [](const Sample& x) { return x.active.master.factor; });
-  add("v_frequency_exponent", [](const Sample& x) { return x.v_frequency.exponent; });
-  add("v_frequency_prefactor", [](const Sample& x) { return x.v_frequency.prefactor; });
-  add("dx_fmax_exponent", [](const Sample& x) { return x.whole.fmax.exponent; });
-  add("dx_fmax_prefactor", [](const Sample& x) { return x.whole.fmax.prefactor; });
-  add("dx_gravity_exponent", [](const Sample& x) { return x.whole.gravity.exponent; });
-  add("dx_gravity_prefactor", [](const Sample& x) { return x.whole.gravity.prefactor; });
+  add_law("v_frequency", [](const Sample& x) { return x.v_frequency; });
+  add_law("dx_fmax", [](const Sample& x) { return x.whole.fmax; });
+  add_law("dx_gravity", [](const Sample& x) { return x.whole.gravity; });
   add("C", [](const Sample& x) { return x.whole.master.factor; });
   add("C_scatter", [](const Sample& x) { return x.whole.master.scatter; });
   add("beta", [](const Sample& x) { return x.prediction.beta; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far two closed curves are apart.
+// Distance between two closed curves.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace study {
 
-/// Of a point from the closed curve, each axis in its unit.
+/// Distance of a point from a closed curve, with each axis divided by its unit.
 inline double distance_from_loop(const Point& p, const std::vector<Point>& curve,
                                  const Point& unit) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -28,8 +28,8 @@ inline double distance_from_loop(const Point& p, const std::vector<Point>& curve
   return nearest;
 }
 
-/// Largest distance of a point of one closed curve from the other curve, both ways, with each axis
-/// in units of the range of `a`; nan without points.
+/// Hausdorff distance of two closed curves: the largest distance of a point of one curve from the
+/// other curve. Each axis is divided by the range of `a`. nan without points.
 inline double loop_distance(const std::vector<Point>& a, const std::vector<Point>& b) {
   if (a.empty() || b.empty()) return std::nan("");
   Point low = a.front(), high = a.front();

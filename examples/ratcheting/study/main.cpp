@@ -3,12 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "../command_line.hpp"
 #include "figures.hpp"
 #include "plan.hpp"
 #include "report.hpp"
@@ -99,31 +100,37 @@ int run(Options& o) {
 
 void add_options(CLI::App& app, Options& o) {
   app.option_defaults()->always_capture_default();
-  app.add_option("--plan", o.plan, "paper: the whole study; small: few grains, about a minute")
+  app.add_option("--plan", o.plan,
+                 "paper: the whole study; small: few grains, takes about a minute")
       ->check(CLI::IsMember(study::plan_names()));
-  app.add_option("--set", o.selection.sets, "only these series, e.g. frequencies, fmax");
-  app.add_option("--shape", o.selection.shapes, "only these shapes")
+  app.add_option("--set", o.selection.sets,
+                 "run only the cases of these series, e.g. frequencies, fmax");
+  app.add_option("--shape", o.selection.shapes, "run only the cases of these shapes")
       ->check(CLI::IsMember({"polyhedron", "polygon", "sphere", "disk"}));
-  app.add_option("--seed", o.selection.seeds, "only these samples");
+  app.add_option("--seed", o.selection.seeds, "run only the cases of these samples");
   app.add_option("--case", o.selection.numbers,
-                 "only the cases of these numbers, without a report: for job arrays")
+                 "run only the cases of these numbers and write no report, for job arrays")
       ->check(CLI::Range(1, 100000));
   std::vector<std::string> names;
   for (const study::Figure& figure : study::figures()) names.emplace_back(figure.name);
-  app.add_option("--figure", o.figures, "only the series that these figures need, and the figures")
+  app.add_option("--figure", o.figures,
+                 "run only the series that these figures need, and draw only these figures")
       ->check(CLI::IsMember(names));
-  app.add_flag("--list", o.list, "number, state, name and series of the cases, and no more");
-  app.add_flag("--report-only", o.report_only, "run nothing");
-  app.add_flag("--no-report", o.no_report, "only run");
-  app.add_option("--jobs", o.jobs, "cases at once")->check(CLI::Range(1, 1024));
-  app.add_option("--output", o.output, "folder of the runs, made if missing");
+  app.add_flag("--list", o.list, "list number, state, name and series of the cases, and exit");
+  app.add_flag("--report-only", o.report_only, "run no case; write tables, figures and report");
+  app.add_flag("--no-report", o.no_report, "write no tables, figures and report");
+  app.add_option("--jobs", o.jobs, "number of cases that run at the same time")
+      ->check(CLI::Range(1, 1024))
+      ->default_str("all cores");
+  app.add_option("--output", o.output, "folder of the runs, created if missing");
   app.add_option(
       "--results", o.results,
-      "folder of the table of the runs (runs.jsonl), figures and report: with it the study goes on "
-      "without OUTPUT; OUTPUT/results");
+      "folder of the table of the runs (runs.jsonl), figures and report; a study continues from "
+      "this folder alone. Default: OUTPUT/results");
   app.add_option("--program", o.program,
-                 "the program that runs a case; `ratcheting` beside this one");
-  app.add_option("--plots", o.plots, "folder of the figures' scripts");
+                 "program that runs a case. Default: ratcheting in the folder of this program");
+  app.add_option("--plots", o.plots, "folder of the gnuplot scripts of the figures")
+      ->default_str("examples/ratcheting/study/plots");
 }
 
 }  // namespace
@@ -131,8 +138,10 @@ void add_options(CLI::App& app, Options& o) {
 int main(int argc, char** argv) {
   Options o;
   CLI::App app{
-      "The ratcheting study as a whole (Azema et al., arXiv 0711.1081): runs its cases, several at "
-      "once, goes on where it was stopped, draws every figure and writes the report."};
+      "The whole ratcheting study (Azema et al., arXiv 0711.1081): runs its cases, several at "
+      "once, "
+      "continues where it was stopped, draws every figure and writes the report.",
+      "ratcheting_study"};
   add_options(app, o);
   try {
     app.parse(argc, argv);
@@ -143,13 +152,5 @@ int main(int argc, char** argv) {
   if (o.results.empty()) o.results = (fs::path(o.output) / "results").string();
   if (o.program.empty())
     o.program = (fs::read_symlink("/proc/self/exe").parent_path() / "ratcheting").string();
-  try {
-    return run(o);
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return ratcheting::exit_status([&] { return run(o); });
 }

@@ -82,7 +82,7 @@ void require_complete(const std::filesystem::path& folder, const Tables& run, co
   for (const char* column : {"t", "f", "x", "v", "f_g"})
     for (const double value : run.wall[column])
       if (!std::isfinite(value))
-        fail("wall.csv", std::string("has a value in ") + column + " that is no number");
+        fail("wall.csv", std::string("has a value in ") + column + " that is not finite");
   const auto require_time = [&](const Table& table, const char* file) {
     const std::vector<double>& t = table["t"];
     if (t.empty() || !(std::abs(t.back() - p.duration) < 0.002 * p.duration))
@@ -98,7 +98,7 @@ void require_complete(const std::filesystem::path& folder, const Tables& run, co
     if (std::filesystem::exists(folder / file)) Table(folder / file);
 }
 
-/// The active phase of every period.
+/// Sets the active phase of every period.
 void find_active(const Table& wall, Result& r) {
   const Parameters& p = r.c.parameters;
   const double before = ratcheting::time_before_minimum(r.weight, p.fmin, p.fmax, p.frequency);
@@ -108,7 +108,7 @@ void find_active(const Table& wall, Result& r) {
                                  period.force_minimum - before, period.finish);
 }
 
-/// Mean of a field over the periods that have it; nan without one.
+/// Mean of a field over the periods where it is finite; nan if there is none.
 double mean(const std::vector<ratcheting::Period>& periods, const auto& field) {
   double sum = 0, count = 0;
   for (const ratcheting::Period& period : periods) {
@@ -178,7 +178,7 @@ void summarize_packing(const Table& packing, Result& r) {
   r.compaction_per_period = r.rate / p.frequency;
 }
 
-/// Phase portraits are of 5 and 10 Hz.
+/// Whether a phase portrait shows the run: 5 and 10 Hz.
 bool is_in_portrait(const Case& c) {
   const bool in_series = std::any_of(c.sets.begin(), c.sets.end(), [](const std::string& set) {
     return set == "frequencies" || set == "uncorrected" || set == "fine" || set == "tight";
@@ -186,7 +186,8 @@ bool is_in_portrait(const Case& c) {
   return in_series && (c.parameters.frequency == 5 || c.parameters.frequency == 10);
 }
 
-/// Trajectory, fields and force chains are shown of the first sample at 5 Hz.
+/// Whether figures show the trajectory, the fields and the force chains of the run: the first
+/// sample at 5 Hz.
 bool is_baseline(const Case& c) {
   return c.sets.contains("frequencies") && c.parameters.frequency == 5 && c.parameters.seed == 1;
 }
@@ -203,7 +204,7 @@ Columns columns_of(const Table& table, const std::vector<std::string>& names,
   return columns;
 }
 
-/// The course of one run: trajectory, packing, velocity field and force chains.
+/// Adds the columns of trajectory, packing, velocity field and force chains.
 void add_course(const std::filesystem::path& folder, const Tables& run, Result& r) {
   r.tables.emplace_back("wall", columns_of(run.wall, {"t", "f", "x", "v", "f_g"}, 2));
   r.tables.emplace_back("packing", columns_of(run.packing, {"t", "rho_inner", "rho_box"}));
@@ -219,7 +220,8 @@ void add_course(const std::filesystem::path& folder, const Tables& run, Result& 
     add_file(state, {"x_from", "z_from", "x_to", "z_to", "normal_force"});
 }
 
-/// The solid fraction at the force maxima, each a twentieth of the periods so far after the last.
+/// Adds the solid fraction at force maxima, at numbers of periods that grow by factors of at least
+/// 1.05.
 void add_long(const Table& packing, Result& r) {
   const Parameters& p = r.c.parameters;
   Columns columns{{"t", {}}, {"periods", {}}, {"rho_inner", {}}, {"rho_box", {}}};

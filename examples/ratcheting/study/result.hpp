@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one run says.
+// What is measured in a run.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,8 @@
 
 namespace study {
 
-/// Before this time of the first jam of the baseline the box is filling [s].
+/// Periods that begin before this time, the first force maximum of the baseline, are left out,
+/// because the box is still filling [s].
 constexpr double filling_time = 0.15;
 
 /// The packing at a maximum of the force.
@@ -25,7 +26,7 @@ struct Jam {
   double t, x, rho_inner, rho_box;  ///< [s], [m], [-], [-]
 };
 
-/// Means over the periods of a run; nan without one. SI units.
+/// Results of a run: means over its periods, nan if there is none. SI units.
 struct Result {
   Case c;
   Facts facts;
@@ -34,15 +35,15 @@ struct Result {
   double weight;  ///< m g [N]
 
   std::vector<ratcheting::Period> periods;  ///< that begin jammed, at filling_time or after
-  std::vector<Jam> jams;                    ///< that bound these periods, one more than they are
+  std::vector<Jam> jams;                    ///< that bound these periods: one more than periods
   double dx_max, dx_spread;                 ///< mean, standard deviation over periods [m]
-  double v_max;                             ///< passive, mean [m/s]
+  double v_max;                             ///< mean of the largest inward speeds [m/s]
   double delay;                             ///< delta t_r [s]
   double dx_active, creep, thrust;          ///< see ActivePhase; thrust: f_a [N]
   double steady_thrust, carried_share;      ///< see CarriedGrains; of the weight, of the mass [-]
   double explained;                         ///< [-]
-  /// Share of a period in which the wall is at rest, |v| below a hundredth of its largest: none
-  /// where it never jams. Mean; nothing in what an earlier version kept [-].
+  /// Mean share of a period in which the wall is at rest, |v| below a hundredth of its maximum [-].
+  /// It is 0 if the wall never jams. Runs of earlier versions do not have it.
   std::optional<double> rest_share;
   double net_contraction;                ///< (first x_j - last x_j') per period [m]
   std::size_t contracting;               ///< periods with x_j' < x_j
@@ -58,11 +59,11 @@ struct Result {
   Named<Columns> tables;
 
   Push push() const;
-  /// Rate of a solid fraction from the first jam to the last of the first second, or to the next
-  /// jam where that comes later: the same window for all frequencies; over its value at the first
-  /// [1/s].
+  /// Relative rate of a solid fraction [1/s] between the first jammed state and the last one in the
+  /// first second (at least the second one): the same time window for all frequencies.
   double early_rate(double Jam::*rho) const;
-  /// The closed form with the thrust and the mass that the force on the wall tells [m].
+  /// Opening displacement by the closed form, with the thrust and the moving mass that are fitted
+  /// to the force on the wall [m].
   double flight_displacement() const;
   double scaled_load() const;  ///< (m g)^2 / ((m + m_w) fmax nu^2) [m]
 };
@@ -76,8 +77,8 @@ inline double Result::early_rate(double Jam::*rho) const {
 }
 
 /// Measures a complete run.
-/// @throws std::runtime_error if a file of the run cannot be read, or is not of the steps and the
-///         duration that run.json tells
+/// @throws std::runtime_error if a file of the run cannot be read, or does not have the steps and
+///         the duration that run.json gives
 Result measure(const std::filesystem::path& folder, const Case& c);
 
 }  // namespace study

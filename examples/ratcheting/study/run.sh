@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing (Debian), builds the study and runs it. Without arguments the small plan;
-# with arguments they alone go to the program, whose default is the whole study.
+# Installs what is missing (Debian), builds the batch runner and runs it. Without arguments it runs
+# the small plan. Arguments replace --plan small; the program's default is the whole study. --help
+# builds nothing; --report-only and --list do not build the program that simulates.
 set -euo pipefail
-top=$(cd "$(dirname "$0")/../../.." && pwd)
+here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../../.." && pwd)
+targets=(ratcheting ratcheting_study)
+case " $* " in
+  *" --help "* | *" -h "*) exec cat "$here/help.txt" ;;
+  *" --report-only "* | *" --list "*) targets=(ratcheting_study) ;;
+esac
 "$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
 # The same instructions on all machines that have them: a run then has the same bits.
 instructions=-march=native
@@ -14,8 +20,8 @@ cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMORE
   "-DCMAKE_CXX_FLAGS=$instructions" \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF \
   "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" >/dev/null
-echo "building the study in $top/build/study"
-cmake --build "$top/build/study" --target ratcheting ratcheting_study
+echo "building ${targets[*]} in $top/build/study"
+cmake --build "$top/build/study" --target "${targets[@]}"
 [ $# -gt 0 ] || set -- --plan small
 echo "ratcheting_study $*"
 exec "$top/build/study/examples/ratcheting_study" "$@"

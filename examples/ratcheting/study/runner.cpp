@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Rough cost of a case relative to the others, its preparation shared.
+/// Estimated cost of a case relative to the others, without the preparation, which is shared.
 double cost_of(const Case& c) {
   const Parameters& p = c.parameters;
   const double shape = p.shape == "polyhedron" ? 8
@@ -47,7 +47,7 @@ fs::path partial(const Places& places, const Case& c) {
   return folder_of(places, c).string() + ".partial";
 }
 
-/// One study at work.
+/// The queue of the cases that are not done, and the processes that run.
 class Runner {
  public:
   Runner(const std::vector<Case>& cases, const RunOptions& options)
@@ -75,8 +75,8 @@ class Runner {
   }
 
  private:
-  /// The next in the order of the plan; but one that would outlast all others, if they were spread
-  /// over the processes, must not be left to the end.
+  /// The next case in the order of the plan, unless one case would take longer than all others,
+  /// spread over the processes, take together: then this case, so that it is not the last.
   const Case& take_next() {
     double cost = 0;
     for (const Case* c : waiting_) cost += cost_of(*c);
@@ -101,7 +101,7 @@ class Runner {
       return;
     }
     if (is_done(options_.places, RunTable::read(options_.places.table()),
-                c)) {  // by another study, since the first look
+                c)) {  // by another study, since the table was read
       ++summary_.skipped;
       cost_left_ -= cost_of(c);
       return;
@@ -160,7 +160,7 @@ class Runner {
     return text;
   }
 
-  /// Now and then which cases are running.
+  /// Prints every minute which cases are running.
   void tell() {
     if (running_.empty() || seconds_since(told_) < 60) return;
     told_ = Clock::now();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Runs cases as processes of `ratcheting`, several at once.
 //
-// A case's folder is complete or absent: the run writes into NAME.partial, which gets its name when
-// the run has ended well. So the study can be stopped at any moment, kill -9 included, and goes on
-// where it was. The processes die with the study; a lock per case keeps two studies with one
-// output folder, such as the tasks of a job array, from running the same case. When a run has
-// ended, it is added to the table of the runs (store.hpp).
+// The folder of a case is complete or absent: the run writes into NAME.partial, which is renamed
+// when the run has ended without an error; the run is then added to the table of the runs
+// (store.hpp). So the study can be stopped at any time, also by kill -9, and continued later. The
+// processes end with the study. Each case has a lock, so that two studies with one output folder,
+// such as the tasks of a job array, do not run the same case.
 #pragma once
 
 #include <cstddef>
@@ -24,15 +24,15 @@ struct RunOptions {
   std::size_t jobs = 1;  ///< processes at once
 };
 
-/// What became of the cases that were asked for.
+/// The outcome of run_cases().
 struct RunSummary {
   std::size_t ran = 0, skipped = 0, busy = 0;  ///< busy: another study runs it
   std::vector<std::string> failed;             ///< name: what happened
   bool interrupted = false;
-  std::string lost;  ///< names of the cases that an interrupt cost
+  std::string lost;  ///< names of the cases that were running when the study was interrupted
 };
 
-/// Runs what is not done, in order, and tells progress on standard output.
+/// Runs the cases that are not done, in order, and prints the progress to standard output.
 /// @throws std::runtime_error if a folder cannot be made, a process cannot be started, or as
 ///         is_done() and keep()
 RunSummary run_cases(const std::vector<Case>& cases, const RunOptions& options);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The run from end to end; included by one source file per shape.
-#pragma once
-
+// The run from end to end, with grains of one shape. CMake compiles this file once for each of
+// RATCHETING_SHAPES, with the shape's name as RATCHETING_SHAPE.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +14,10 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/sphere.hpp"
+
 #include "experiment.hpp"
 #include "methods.hpp"
 #include "progress.hpp"
@@ -23,7 +26,20 @@
 #include "run_json.hpp"
 #include "views.hpp"
 
+#define RATCHETING_TEXT_OF(name) #name
+#define RATCHETING_TEXT(name) RATCHETING_TEXT_OF(name)
+
 namespace ratcheting {
+
+namespace {
+
+/// The types of the grains, under the names of --shape.
+namespace shapes {
+using polyhedron = moreau::Polyhedron<double>;
+using polygon = moreau::Polygon<double>;
+using sphere = moreau::Ball<>;
+using disk = moreau::Disk<>;
+}  // namespace shapes
 
 /// Thickness of the plane's grains such that the sample weighs what the same sample weighs in space
 /// [m]; 1 in space.
@@ -35,7 +51,7 @@ double thickness_of(const Parameters& p) {
 }
 
 /// @throws std::invalid_argument if the folder cannot be made or a file cannot be made in it
-inline void require_writable(const std::string& folder) {
+void require_writable(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
@@ -63,7 +79,7 @@ void require_experiment(const Parameters& p, const ExperimentT& experiment) {
 /// Time between two lines of packing.csv [s].
 constexpr double packing_interval = 1e-3;
 
-/// A few closing lines: what came out, what to be wary of, where the files are.
+/// Prints a summary: results, warnings, and where the files are.
 template <class ExperimentT>
 void conclude(const Parameters& p, const ExperimentT& experiment, const SolverTotals& totals,
               const Json& results) {
@@ -92,7 +108,7 @@ void conclude(const Parameters& p, const ExperimentT& experiment, const SolverTo
   std::printf("files in %s\n", p.output.c_str());
 }
 
-/// Mass of the lightest grain that the study can have, times the thickness [kg].
+/// Mass of the lightest grain of the sample [kg].
 template <class ShapeT>
 double lightest_grain(const Parameters& p, double thickness) {
   std::mt19937_64 random(p.seed);
@@ -102,15 +118,16 @@ double lightest_grain(const Parameters& p, double thickness) {
   return p.density * thickness * volume;
 }
 
-/// All that decides the results of a run.
-inline std::string identity(const Parameters& p) {
+/// The parameters that determine the results of a run, as a text.
+std::string identity(const Parameters& p) {
   Json json = to_json(p);
   json.erase("threads");
   return json.dump();
 }
 
-/// All that decides the packing: not what the force, the wall and the study's solver do to it.
-inline std::string packing_identity(const Parameters& p) {
+/// The parameters that determine the packing, as a text: not force, wall and solver of the
+/// experiment.
+std::string packing_identity(const Parameters& p) {
   Json json = to_json(p);
   for (const char* later : {"frequency", "fmax", "fmin", "gravity", "wall_mass_ratio", "duration",
                             "step", "lid_raise", "tolerance", "stop_test", "max_sweeps",
@@ -129,7 +146,7 @@ void read_packing(const Parameters& p, ExperimentT& experiment) {
                                 " was made with other parameters: " + made_by);
 }
 
-/// Several runs may do so at once: they write the same, each to a file of its own first.
+/// Several runs may write the same packing at once, so each writes its own file and renames it.
 template <class ExperimentT>
 void write_packing(const Parameters& p, const ExperimentT& experiment) {
   const std::string own = p.packing + "." + std::to_string(::getpid());
@@ -137,8 +154,8 @@ void write_packing(const Parameters& p, const ExperimentT& experiment) {
   std::filesystem::rename(own, p.packing);
 }
 
-/// The packing before the force starts, and the first line of packing.csv.
-/// @returns whether it came about: not if it was interrupted
+/// Makes or reads the packing, and writes the first line of packing.csv.
+/// @returns false if it was interrupted
 template <class ExperimentT>
 bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>& recorder,
              RunJson& json, Progress& progress, Stopwatch& watch) {
@@ -241,5 +258,9 @@ int run(const Parameters& p) {
   return p.method == "springs" ? run_method<ShapeT, SpringDynamics>(p)
                                : run_method<ShapeT, ContactDynamics>(p);
 }
+
+const Runner runner(RATCHETING_TEXT(RATCHETING_SHAPE), run<shapes::RATCHETING_SHAPE>);
+
+}  // namespace
 
 }  // namespace ratcheting
