@@ -16,7 +16,7 @@
 
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/sphere.hpp"
+#include "moreau/shape/ball.hpp"
 
 #include "experiment.hpp"
 #include "methods.hpp"
