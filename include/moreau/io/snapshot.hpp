@@ -223,8 +223,7 @@ std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& w
 /// @param world of the same type as in snapshot(); it need not have bodies
 /// @param more  of the same types and in the same order as in snapshot()
 /// @throws std::runtime_error with the reason if the bytes are no snapshot, truncated, corrupted,
-/// of
-///         another format or of other types; nothing is changed then
+///         of another format or of other types; nothing is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void restore_snapshot(std::string_view bytes,
                       Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
@@ -235,8 +234,7 @@ void restore_snapshot(std::string_view bytes,
 /// new one, even if the run is killed while it writes.
 /// @param more other objects of the run, see snapshot()
 /// @throws std::system_error naming the path if the file cannot be written; an existing file is
-/// then
-///         unchanged
+///         then unchanged
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void write_snapshot(const std::filesystem::path& path,
                     const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,

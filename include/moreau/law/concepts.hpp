@@ -94,10 +94,9 @@ concept StatefulLaw = SetValuedLaw<L, S> &&
 ///
 /// - lane_parameters(): an array of the parameters of the local problem, in units of the law
 /// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or one step
-/// of
-///   an iteration whose only fixed point is solve(). memory is one number per contact for the law's
-///   own use, 0 at first, kept from visit to visit. If polish is set, the impulse lies in the cone
-///   to rounding.
+///   of an iteration whose only fixed point is solve(). memory is one number per contact for the
+///   law's own use, 0 at first, kept from visit to visit. If polish is set, the impulse lies in the
+///   cone to rounding.
 template <class L, class S>
 concept LaneLaw = PointLaw<L, S> &&
     requires(const L law, const LaneBlock<S> block, const typename LaneBlock<S>::Vector vector,

@@ -26,9 +26,8 @@ struct ContactMotion {
 /// A law whose force is a function of gap and velocity, and of a memory.
 ///
 /// - force(motion, memory): the force on b [N] in the frame of the contact, D entries, normal
-/// first;
-///   f_n > 0 pushes. memory is a vector in the frame, in a unit of the law, 0 for a new contact; it
-///   is carried from step to step in world axes.
+///   first; f_n > 0 pushes. memory is a vector in the frame, in a unit of the law, 0 for a new
+///   contact; it is carried from step to step in world axes.
 template <class L, class S>
 concept RegularizedLaw = std::copyable<L> &&
     requires(const L law, const ContactMotion<S> motion, typename S::Vector memory) {

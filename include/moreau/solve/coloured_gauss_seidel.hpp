@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Fast non-linear Gauss-Seidel: the fixed point and the local solutions of NonlinearGaussSeidel,
-// with
+// Fast non-linear Gauss-Seidel. Fixed point and local solutions are those of NonlinearGaussSeidel;
+// what makes it fast is
 //
 //  - colouring: contacts are coloured by body, so that a SIMD instruction and the members of a team
 //    work on independent contacts. The bits of the result do not depend on the size of the team;
 //  - Nesterov's momentum: a sweep starts from r + beta (r - r of the sweep before) and from the
-//    velocities of the bodies for these impulses, which are extrapolated alike: they are linear in
-//    r;
+//    velocities of the bodies for these impulses. Velocities are linear in r: both are extrapolated
+//    with the same beta;
 //  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can repel the
-//  sweeps, which
-//    then circle around it for thousands of sweeps;
+//    sweeps, which then circle around it for thousands of sweeps;
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
 //    stopping test visits all contacts and updates the set.
 //

@@ -167,8 +167,7 @@ class Simulation {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  /// a
-  ///         wall across the axis, or a cell not longer than two of the widest grain with margin
+  ///         a wall across the axis, or a cell not longer than two of the widest grain with margin
   ///         and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper) {
     constexpr const char* self = "Simulation::set_periodic";
