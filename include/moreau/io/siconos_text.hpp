@@ -78,11 +78,20 @@ class TextScanner {
   }
   static bool parse(std::string_view word, double& value) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+#if defined(__cpp_lib_to_chars)
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size()) return false;
     if (error == std::errc::result_out_of_range)  // 1e-400 is 0, 1e400 is inf
       value = std::strtod(std::string(word).c_str(), nullptr);
     return error == std::errc() || error == std::errc::result_out_of_range;
+#else  // libc++ before version 20. strtod also reads a second '+' and hexadecimal numbers.
+    const std::string text(word);
+    if (text.empty() || text.front() == '+' || text.find_first_of("xX") != std::string::npos)
+      return false;
+    char* end = nullptr;
+    value = std::strtod(text.c_str(), &end);
+    return end == text.c_str() + text.size();
+#endif
   }
 
   std::string_view text_, function_;
