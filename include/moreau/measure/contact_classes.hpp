@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How grains touch: by corners, edges or faces.
+// Share of each contact class: contacts at corners, edges and faces.
 #pragma once
 
 #include <array>
@@ -10,29 +10,29 @@
 
 namespace moreau {
 
-/// What one class of contacts has a part in.
+/// Share of one contact class.
 struct ContactClassShare {
-  std::size_t pairs = 0;   ///< of bodies that carry force
-  std::size_t points = 0;  ///< their points that carry force
-  double neighbours = 0;   ///< per grain: a pair of grains adds two, a grain and a wall one [-]
-  double force = 0;        ///< part of the sum of all normal forces, in [0, 1] [-]
+  std::size_t pairs = 0;   ///< pairs of bodies that carry force
+  std::size_t points = 0;  ///< contact points that carry force
+  double neighbours = 0;   ///< per grain; a pair of grains adds two, a grain and a wall one [-]
+  double force = 0;        ///< share of the sum of all normal forces, in [0, 1] [-]
 };
 
-/// The share of every ContactClass.
+/// The shares of all contact classes.
 struct ContactClasses {
-  /// In the order of ContactClass.
+  /// One entry per class, in the order of ContactClass.
   std::array<ContactClassShare, static_cast<std::size_t>(ContactClass::face_face) + 1> shares;
 
-  /// Of one class.
+  /// Share of one class.
   const ContactClassShare& operator[](ContactClass c) const {
     return shares[static_cast<std::size_t>(c)];
   }
 };
 
-/// The coordination by class of contact: the neighbours of all classes add up to those that
-/// CoordinationCounter finds with all grains.
-/// @param pairs       of pair_forces()
-/// @param grain_count number of grains; without any, neighbours are 0
+/// Coordination by contact class. The sum of the neighbours over all classes is the result of
+/// CoordinationCounter for all grains.
+/// @param pairs       from pair_forces()
+/// @param grain_count number of grains; if 0, all neighbours are 0
 /// @param is_grain    body -> false for a wall; bodies by BodyId::index()
 template <class S>
 ContactClasses contact_classes(std::span<const PairForce<S>> pairs, std::size_t grain_count,

@@ -14,29 +14,30 @@ namespace moreau {
 
 /// How many neighbours carry a grain.
 struct Coordination {
-  std::size_t grains = 0;    ///< counted: all, without the rattlers if those are left out
-  std::size_t rattlers = 0;  ///< left out
-  std::size_t points = 0;    ///< contact points with normal impulse > 0 between what is counted
+  std::size_t grains = 0;    ///< grains counted; rattlers are not, if they are removed
+  std::size_t rattlers = 0;  ///< grains removed
+  std::size_t points = 0;    ///< contact points with normal impulse > 0 of the counted bodies
   std::size_t pairs = 0;     ///< pairs of bodies with such a point
-  /// Bodies that push on a grain, mean over the grains counted [-]. A pair of grains adds two, a
-  /// grain and a wall one; a pair counts once however many points it has. 0 without grains.
+  /// Mean number of neighbours of a grain: bodies whose contact with it is in compression [-]. A
+  /// pair of grains adds two, a grain and a wall one. A pair counts once, independently of its
+  /// number of points. 0 without grains.
   double neighbours = 0;
-  double points_per_grain = 0;  ///< the same with points in place of pairs [-]
+  double points_per_grain = 0;  ///< the same, counting points instead of pairs [-]
 };
 
-/// Counts contacts that carry force; keeps its buffers from call to call.
+/// Counts neighbours. Reuses its buffers from call to call.
 template <class S>
 class CoordinationCounter {
  public:
   /// Counts the contacts with normal impulse > 0.
-  /// @param points     sorted by (a, b), as Contacts keeps them
+  /// @param points     sorted by (a, b), as in Contacts
   /// @param impulses   of the points, contact frames, normal first [N s]
   /// @param body_count number of bodies, walls included
   /// @param is_grain   body -> false for a wall
-  /// @param fewest     grains with fewer neighbours are rattlers: they are taken away, again and
-  ///                   again until none is left, each time with their contacts. 0 keeps all.
-  ///                   Frictionless rigid spheres need S::dim + 1; with friction a grain can stand
-  ///                   between two.
+  /// @param fewest     grains with fewer neighbours are rattlers. They are removed with their
+  ///                   contacts, repeatedly until there are no more. 0 keeps all grains. Use S::dim
+  ///                   + 1 for frictionless rigid spheres; with friction a grain can be held by two
+  ///                   contacts.
   /// @throws std::invalid_argument if points and impulses differ in number
   Coordination count(std::span<const Contact<S>> points,
                      std::span<const typename S::Vector> impulses, std::size_t body_count,

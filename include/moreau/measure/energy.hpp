@@ -11,7 +11,7 @@
 
 namespace moreau {
 
-/// A moving body, all in world axes.
+/// Mass, inertia and motion of a body, in world axes.
 template <class S>
 struct BodyMotion {
   typename S::Scalar mass = 0;                       ///< [kg]
@@ -42,10 +42,10 @@ struct KineticEnergy {
 template <class S>
 struct Momentum {
   typename S::Vector linear = S::Vector::Zero();     ///< [kg m/s]
-  typename S::Angular angular = S::Angular::Zero();  ///< about the origin asked for [kg m^2/s]
+  typename S::Angular angular = S::Angular::Zero();  ///< about the given origin [kg m^2/s]
 };
 
-/// m v^2/2 and w.I w/2 of one body [J].
+/// Kinetic energy of one body: m v^2/2 and w.I w/2 [J].
 template <class S>
 KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
   const auto v = linear<S>(body.velocity);
@@ -53,8 +53,8 @@ KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
   return {body.mass * v.squaredNorm() / 2, w.dot(body.inertia * w) / 2};
 }
 
-/// m v [kg m/s], and I w + r x m v [kg m^2/s] with r from `origin` (world axes [m]) to the centre
-/// of the body.
+/// Momentum of one body: m v [kg m/s], and I w + r x m v [kg m^2/s] with r from `origin` (world
+/// axes [m]) to the centre of mass.
 template <class S>
 Momentum<S> momentum(const BodyMotion<S>& body,
                      const VectorArgument<S>& origin = S::Vector::Zero()) {
@@ -62,7 +62,7 @@ Momentum<S> momentum(const BodyMotion<S>& body,
   return {p, body.inertia * angular<S>(body.velocity) + S::moment(body.position - origin, p)};
 }
 
-/// Sum over bodies [J].
+/// Kinetic energy of many bodies [J].
 /// @param count     number of bodies
 /// @param motion_of k -> BodyMotion<S> of body k, k < count
 template <class S, class MotionOf>
@@ -76,7 +76,7 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   return sum;
 }
 
-/// Sum over bodies, of angular momentum about the origin.
+/// Momentum of many bodies; angular momentum about the origin.
 /// @param count     number of bodies
 /// @param motion_of k -> BodyMotion<S> of body k, k < count
 /// @param origin    world axes [m]

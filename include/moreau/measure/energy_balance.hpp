@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the energy of a simulation comes from and goes to, term by term:
+// Energy balance of a simulation, term by term:
 //
 //   kinetic - kinetic at the start = gravity + forces + drives
 //                                    - impacts - friction - rolling - correction + imbalance
@@ -7,12 +7,13 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
-// All terms are measured for themselves, so that the imbalance is what the discrete motion does not
-// account for. With MoreauJean(1/2) it is rounding for bodies that turn about one axis (in the
-// plane) or have one moment of inertia (spheres); for others it is of first order in the step, as
-// the inertia turns within it; with theta > 1/2 it is the energy that the scheme takes, of first
-// order, too. With a regularized law `impacts` and `friction` hold what springs store, and the
-// imbalance is that of the forces, which are taken as constant during a step.
+// All terms are measured independently. The imbalance is the energy that the discrete motion does
+// not account for:
+//  - MoreauJean(1/2), bodies in the plane or with one moment of inertia (spheres): rounding.
+//  - MoreauJean(1/2), other bodies: first order in the step, because the inertia rotates within it.
+//  - theta > 1/2: first order in the step, the energy that the scheme dissipates.
+//  - A regularized law: `impacts` and `friction` include the energy stored in springs, and the
+//    imbalance is the error of forces that are taken as constant during a step.
 #pragma once
 
 #include <cmath>
@@ -30,41 +31,41 @@
 
 namespace moreau {
 
-/// Sums since the balance began; in the plane, of what the densities are per. The header has the
-/// balance, with its signs.
+/// Sums since the balance began; in the plane per unit of thickness. The head of this file has the
+/// balance with its signs.
 struct EnergyTerms {
   double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy [J]
   double forces = 0;      ///< work of set_force() on grains, and on walls along their mass [J]
-  double drives = 0;      ///< work of whatever moves bodies, or axes of them, that have no mass [J]
-  double impacts = 0;     ///< taken by normal impulses: restitution, inelastic shocks [J]
-  double friction = 0;    ///< taken by tangential impulses [J]
-  double rolling = 0;     ///< taken by couples of rolling and twisting resistance [J]
+  double drives = 0;      ///< work of the drives of bodies, or axes of bodies, without mass [J]
+  double impacts = 0;     ///< dissipated by normal impulses: restitution, inelastic impacts [J]
+  double friction = 0;    ///< dissipated by tangential impulses [J]
+  double rolling = 0;     ///< dissipated by couples of rolling and twisting resistance [J]
   double correction = 0;  ///< work of gravity and forces along the shifts of the overlap
-                          ///< correction, which made no velocity: < 0 where it lifts grains [J]
+                          ///< correction, which changes no velocity; < 0 if it lifts grains [J]
 
-  /// What the kinetic energy should have gained [J].
+  /// Expected gain of kinetic energy [J].
   double gain() const {
     return gravity + forces + drives - impacts - friction - rolling - correction;
   }
 };
 
-/// Follows one simulation. Whoever sets velocities or poses of bodies with a mass between two steps
-/// will find that in the imbalance, or in the work of gravity and forces. A snapshot can hold it
-/// beside the simulation (write_snapshot()), so that it goes on with a run.
+/// Energy balance of one simulation. If a program sets velocities or poses of bodies with a mass
+/// between two steps, the change appears in the imbalance or in the work of gravity and forces. A
+/// snapshot can store the balance together with the simulation (write_snapshot()).
 template <class S>
 class EnergyBalance {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Begins with the simulation as it stands.
+  /// Begins with the present state of the simulation.
   template <class Simulation>
   explicit EnergyBalance(const Simulation& simulation) {
     remember(simulation.bodies());
     start_ = kinetic_;
   }
 
-  /// Takes up a step that has just been taken; forces and gravity have to be those of the step.
+  /// Adds the last step. Forces and gravity must be those of that step.
   /// @param step its length [s], > 0
   /// @throws std::invalid_argument for a step that is not positive, or bodies added since the start
   template <class Simulation>
@@ -90,8 +91,8 @@ class EnergyBalance {
 
   const EnergyTerms& terms() const { return terms_; }  ///< sums so far [J]
   double kinetic() const { return kinetic_; }          ///< of grains and walls with a mass [J]
-  double kinetic_at_start() const { return start_; }   ///< kinetic() as the balance began [J]
-  /// What the kinetic energy gained beyond what the terms explain [J].
+  double kinetic_at_start() const { return start_; }   ///< kinetic() when the balance began [J]
+  /// Gain of kinetic energy that the terms do not explain [J].
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:
@@ -116,8 +117,8 @@ class EnergyBalance {
     return energy;
   }
 
-  /// What the prescribed part of a body's motion does against the impulse it receives: whoever
-  /// prescribes it has to give as much.
+  /// Work of the prescribed part of a body's motion against the impulse that it receives. The drive
+  /// must supply this work.
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
                         const Vector& impulse, const typename S::Angular& couple) {
     if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;

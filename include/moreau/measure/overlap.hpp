@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How deep contacts overlap.
+// Statistics of overlaps.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace moreau {
 
-/// Overlaps, each -gap, > 0 [m], in numbers. Zero where nothing overlaps.
+/// Statistics of overlaps -gap > 0 [m]. All are zero if nothing overlaps.
 template <class T>
 struct OverlapStatistics {
   std::size_t points = 0;  ///< contact points with gap < 0
   std::size_t pairs = 0;   ///< pairs of bodies with such a point
-  T mean = 0;              ///< over these points [m]
-  T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point [m]
-  T max = 0;               ///< of all points [m]
+  T mean = 0;              ///< mean over these points [m]
+  T mean_of_pairs = 0;     ///< mean over these pairs of the deepest point [m]
+  T max = 0;               ///< deepest point [m]
 
-  /// Adds points of another set, e.g. of another step.
+  /// Adds the points of another set, e.g. of another step.
   void merge(const OverlapStatistics& other) {
     const auto join = [](T a, std::size_t n, T b, std::size_t m) {
       return n + m == 0 ? T(0) : (a * T(n) + b * T(m)) / T(n + m);

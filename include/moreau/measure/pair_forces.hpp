@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the contact points of a pair of bodies carry together: the contact of which one speaks in
-// the statistics of forces, whatever the number of points it was made of.
+// Forces of pairs of bodies: the sum over the contact points of a pair. Statistics of contact
+// forces refer to pairs, because the number of points of a pair depends on the shapes.
 #pragma once
 
 #include <cmath>
@@ -13,20 +13,21 @@
 
 namespace moreau {
 
-/// The points of a pair with normal impulse > 0, taken together. All vectors in world axes.
+/// The contact points of a pair with normal impulse > 0, taken together. All vectors are in world
+/// axes.
 template <class S>
 struct PairForce {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a;             ///< the one body
-  std::uint32_t b;             ///< the other
-  std::size_t points;          ///< that carry force, > 0
+  std::uint32_t a;             ///< body a
+  std::uint32_t b;             ///< body b
+  std::size_t points;          ///< number of points that carry force, > 0
   ContactClass contact_class;  ///< of the pair
-  Vector normal;               ///< unit, from a to b; in a drum the mean over the points
+  Vector normal;               ///< unit, from a to b; in a cylinder the mean over the points
   Vector lever_a;              ///< from the centre of a to the centre of pressure [m]
   Vector lever_b;              ///< from the centre of b to the centre of pressure [m]
-  Vector force;                ///< that b receives [N]
+  Vector force;                ///< force on b [N]
   Scalar normal_force;         ///< sum over the points, > 0 [N]
   Scalar friction_force;       ///< magnitude of the sum of the tangential forces [N]
 };

@@ -11,18 +11,18 @@
 
 namespace moreau {
 
-/// The Love-Weber stress, sigma_ij = (1/V) sum over contact points of l_i f_j, with f the force
-/// that b receives and l the branch vector from the centre of a to the centre of b, both in world
-/// axes. Compression is positive. Counted are the points that lie in the control volume, each with
-/// its whole branch; at a wall, which has no centre, the branch ends at the contact point.
-/// Symmetric up to the spin accelerations of the grains; in the plane per unit of thickness.
+/// Love-Weber stress sigma_ij = (1/V) sum over contact points of l_i f_j, where f is the force on b
+/// and l the branch vector from the centre of a to the centre of b, both in world axes. Compression
+/// is positive. A contact point counts with its whole branch if it lies in the control volume. At a
+/// wall, which has no centre, the branch ends at the contact point. The tensor is symmetric up to
+/// the angular accelerations of the grains. In the plane it is per unit of thickness.
 /// @param step           impulses are divided by it [s], > 0
 /// @param control_volume world axes [m]
 /// @param position_of    body -> its centre of mass in world axes [m]
 /// @param is_grain       body -> false for a wall; bodies by BodyId::index()
-/// @param cell           if it is periodic: a point counts if an image of it lies in the control
-///                       volume, which is at most as long as the cell; any image of a position will
-///                       do, as branches are differences of levers
+/// @param cell           periodic cell: a point counts if one of its images lies in the control
+///                       volume, which must not be longer than the cell; positions may be those of
+///                       any image, because branches are differences of levers
 /// @returns D x D, world axes [Pa], in the plane [N/m]
 /// @throws std::invalid_argument if the step is not positive, or the control volume is empty,
 ///         inverted or not finite

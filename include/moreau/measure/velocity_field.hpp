@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mean velocity of grains in the vertical section, and whether it is a roll.
+// Mean velocity of grains in the vertical section, and a measure of how much it is a roll.
 //
 // The section is spanned by the first axis, x, drawn to the right, and the last one (z in space, y
 // in the plane), drawn upwards. Turning is positive counter-clockwise as one sees it in that
@@ -20,16 +20,17 @@ template <class T>
 struct SectionSample {
   Eigen::Matrix<T, 2, 1> position;  ///< centre of the cell [m]
   Eigen::Matrix<T, 2, 1> velocity;  ///< mean over the grains in the cell [m/s]
-  std::size_t grains;               ///< counted, in all steps
+  std::size_t grains;               ///< number of grains added, in all steps
 };
 
-/// How much a velocity field turns as a whole.
+/// Rotation of a velocity field as a whole.
 template <class T>
 struct Roll {
   T angular_velocity = 0;  ///< sum r x v / sum r^2, > 0 counter-clockwise [rad/s]
   /// sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1] [-]; +-1 is a rigid rotation.
   T strength = 0;
-  /// Share of the samples, weighted by |r x v|, that turn as the whole does, in [0, 1] [-].
+  /// Share of the samples, weighted by |r x v|, that rotate in the direction of the whole field, in
+  /// [0, 1] [-].
   T agreement = 0;
 };
 
@@ -56,15 +57,15 @@ class VelocityField {
     cells_.resize(columns * rows);
   }
 
-  /// Forgets all grains.
+  /// Removes all grains.
   void clear() { cells_.assign(cells_.size(), Cell{}); }
 
-  /// Counts a grain if its centre lies in the control volume; call it over several steps to
-  /// average in time.
+  /// Adds a grain if its centre lies in the control volume. Call it in several steps to average
+  /// over time.
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param velocity of its centre, world axes [m/s]
-  /// @param periodic the simulation's cell
-  /// @throws std::invalid_argument for what is not finite
+  /// @param periodic cell of the simulation
+  /// @throws std::invalid_argument if an argument is not finite
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
@@ -80,7 +81,8 @@ class VelocityField {
 
   std::size_t columns() const { return columns_; }  ///< cells along the first axis
   std::size_t rows() const { return rows_; }        ///< cells along the last axis
-  /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
+  /// The cell in a column (from the left) and a row (from below); its velocity is zero if it
+  /// contains no grain.
   /// @throws std::invalid_argument unless column < columns() and row < rows()
   Sample sample(std::size_t column, std::size_t row) const {
     constexpr const char* self = "VelocityField::sample";
@@ -94,8 +96,9 @@ class VelocityField {
     return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
   }
 
-  /// Turning about the centre of the cells that hold grains, their mean velocity taken off, so that
-  /// a translation is no roll. Every such cell counts the same. All zero if nothing turns or moves.
+  /// Rotation about the centre of the cells that contain grains, relative to their mean velocity,
+  /// so that a translation is not a roll. All such cells have the same weight. All results are zero
+  /// if nothing rotates or moves.
   Roll<Scalar> roll() const {
     Section centre = Section::Zero(), drift = Section::Zero();
     Scalar count = 0;

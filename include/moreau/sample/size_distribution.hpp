@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many grains of which size, and what "size" means.
+// Grain sizes: classes with shares, and the definition of "size".
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,14 @@
 
 namespace moreau {
 
-/// What a grain's size d measures: published samples are not always clear about it.
+/// Meaning of the size d of a grain. Publications are not always clear about it.
 enum class SizeReading : std::uint8_t {
   circumdiameter,  ///< twice the largest distance from the centre of mass to a vertex
-  circumradius     ///< that distance itself
+  circumradius     ///< the largest distance from the centre of mass to a vertex
 };
 
-/// The largest distance from the centre of mass to a vertex [m] of a grain of the size [m], > 0.
+/// Circumradius [m] of a grain of the given size [m], > 0: the largest distance from the centre of
+/// mass to a vertex.
 /// @throws std::invalid_argument unless the size is finite and greater than zero
 inline double circumradius_of(double size, SizeReading reading) {
   require(std::isfinite(size) && size > 0, "circumradius_of", "size", size,
@@ -30,10 +31,11 @@ inline double circumradius_of(double size, SizeReading reading) {
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
-/// Sizes in classes, with shares by number. What a size measures is SizeReading's.
+/// A distribution of sizes in classes, with shares by number. SizeReading defines the meaning of a
+/// size.
 class SizeDistribution {
  public:
-  /// Grains of one size.
+  /// One class: grains of one size.
   struct Class {
     double size;   ///< [m], > 0
     double share;  ///< by number, relative to the sum of all shares, >= 0 [-]
@@ -68,15 +70,16 @@ class SizeDistribution {
   double smallest() const { return std::min_element(begin(), end(), by_size)->size; }  ///< [m]
   double largest() const { return std::max_element(begin(), end(), by_size)->size; }   ///< [m]
 
-  /// How many of n grains are of each class: the shares of n rounded down, and the grains left over
-  /// given to the largest remainders (the first class among equals). They sum up to n.
+  /// Number of grains of each class among n grains; the sum is n. Each share of n is rounded down.
+  /// The remaining grains go to the classes with the largest remainders (the first class among
+  /// equals).
   std::vector<std::size_t> counts(std::size_t n) const {
     std::vector<std::size_t> count(classes_.size());
     std::vector<double> remainder(classes_.size());
     std::size_t left = n;
     for (std::size_t i = 0; i < classes_.size(); ++i) {
       const double exact = classes_[i].share / total_ * static_cast<double>(n);
-      // A share of a whole number of grains may come out one rounding error below it.
+      // A share that is a whole number of grains may be one rounding error too small.
       const double whole = std::floor(exact * (1 + 1e-14));
       count[i] = std::min(left, static_cast<std::size_t>(whole));
       remainder[i] = exact - whole;
@@ -91,7 +94,7 @@ class SizeDistribution {
     return count;
   }
 
-  /// The sizes [m] of n grains: counts(n) of each class, in random order, which `random` decides.
+  /// Sizes [m] of n grains: counts(n) of each class, in a random order.
   /// @throws std::invalid_argument for n = 0
   std::vector<double> sample(std::size_t n, std::mt19937_64& random) const {
     require(n > 0, "SizeDistribution::sample", "n", n, "must be at least 1");
