@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a body is: the position of its centre of mass and the rotation of its axes.
+// Position of the centre of mass of a body and rotation of its axes.
 #pragma once
 
 #include <tuple>

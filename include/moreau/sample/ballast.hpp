@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Random grain shapes that look like railway ballast: crushed rock, angular, roughly equant.
 //
-// In space: hulls of jittered ellipsoids with the semi-axes 1, e, e f; the elongation e and the
-// flatness f lie between 0.7 and 1. Points in random directions, none too close to another, are
-// pulled inwards by up to a fifth, so that facets differ in size and corners in sharpness; the hull
-// is taken when it has the number of vertices that was drawn for it. The ratios of the axes of the
-// hulls themselves (of ellipsoids of the same inertia) then lie between about 0.55 and 1, most
-// around 0.83: crushed rock is a little flatter than that on average, seldom as equant as a sphere.
-// A hull fills 0.37 of its circumscribed ball on average. Faces are triangles: V vertices make 2 V
-// - 4. In the plane: the same with 5 to 7 corners on an ellipse of axes 1, e.
+// In space they are hulls of points near an ellipsoid with the semi-axes 1, e, e f. The elongation
+// e and the flatness f lie between 0.7 and 1. The points have random directions with a minimum
+// distance. They are moved inwards by up to a fifth, so that faces differ in size and corners in
+// sharpness. A hull is used if it has the number of vertices that was drawn for it. The axis ratios
+// of the hulls (of ellipsoids with the same inertia) lie between about 0.55 and 1, most around
+// 0.83. Crushed rock is a little flatter on average and seldom as equant as a sphere. A hull fills
+// on average 0.37 of its circumscribed ball. Faces are triangles: 2 V - 4 of them for V vertices.
+// In the plane 5 to 7 corners lie near an ellipse with the semi-axes 1, e.
 //
-// All shapes are scaled to circumradius 1 (to rounding), their largest distance from the centre of
-// mass to a vertex.
+// All shapes are scaled to circumradius 1 (to rounding). The circumradius is the largest distance
+// from the centre of mass to a vertex.
 #pragma once
 
 #include <cmath>
@@ -31,19 +31,19 @@
 
 namespace moreau {
 
-/// How grains of a shape are drawn; specialise it for a shape of your own. draw(random) gives
-/// a random one of circumradius 1 (to rounding).
+/// Random shapes of one type. Specialise it for a shape of your own. draw(random) returns a random
+/// shape of circumradius 1 (to rounding).
 template <class Shape>
 struct Ballast;
 
-/// A shape of which random grains can be drawn: there is a Ballast<Shape>.
+/// A shape type for which random shapes can be drawn: Ballast<Shape> exists.
 template <class Shape>
 concept BallastShape = requires(std::mt19937_64& random) {
   { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
 };
 
-/// What the shapes are drawn from; the header says how. Lengths are relative to the largest
-/// semi-axis [-].
+/// Parameters of the distribution of shapes; the head of this file describes it. Lengths are
+/// relative to the largest semi-axis [-].
 struct BallastParameters {
   double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
   double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
@@ -57,7 +57,7 @@ inline double uniform(double low, double high, std::mt19937_64& random) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// A direction drawn uniformly.
+/// A random direction, uniformly distributed.
 template <int Dim>
 Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   Eigen::Matrix<double, Dim, 1> x;
@@ -67,8 +67,8 @@ Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   return x.normalized();
 }
 
-/// Directions no two of which are closer (as chords) than the spacing; where none is left to be
-/// found, fewer than asked for.
+/// Random directions with at least the given distance (chord length) between each two. If there is
+/// no room for more, returns fewer than `count`.
 template <int Dim>
 std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, double spacing,
                                                              std::mt19937_64& random) {
@@ -82,7 +82,7 @@ std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, 
   return directions;
 }
 
-/// Points on an ellipsoid with the semi-axes 1, e, e f, .., pulled inwards at random.
+/// Points on an ellipsoid with the semi-axes 1, e, e f, .., moved inwards at random.
 template <class S>
 std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spacing,
                                                    std::mt19937_64& random) {
@@ -100,8 +100,8 @@ std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spa
   return points;
 }
 
-/// The hull of the points at circumradius 1; nothing unless every point is a vertex and the hull is
-/// neither splinter nor flake.
+/// The hull of the points, scaled to circumradius 1. Nothing if a point is not a vertex or if the
+/// hull is too thin.
 template <class Shape>
 std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
                                 std::size_t vertices) {
@@ -115,7 +115,7 @@ std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
 
 }  // namespace detail
 
-/// 8 to 37 vertices, 12 to 70 faces, all triangles.
+/// Random polyhedra with 8 to 37 vertices and 12 to 70 faces, all triangles.
 template <std::floating_point T>
 struct Ballast<Polyhedron<T>> {
   /// One of circumradius 1.
@@ -124,7 +124,7 @@ struct Ballast<Polyhedron<T>> {
     const auto count = std::uniform_int_distribution<std::size_t>(8, 37)(random);
     const double even = std::sqrt(4 * std::numbers::pi / static_cast<double>(count));
     for (;;) {
-      // More points than vertices: some of those pulled inwards end inside the hull.
+      // More points than vertices: some of the points that are moved inwards lie inside the hull.
       const std::size_t extra = std::uniform_int_distribution<std::size_t>(0, count / 2)(random);
       const auto points =
           detail::jittered_ellipsoid<S>(count + extra, BallastParameters{}.spacing * even, random);
@@ -134,7 +134,7 @@ struct Ballast<Polyhedron<T>> {
   }
 };
 
-/// 5 to 7 sides.
+/// Random polygons with 5 to 7 sides.
 template <std::floating_point T>
 struct Ballast<Polygon<T>> {
   /// One of circumradius 1.
@@ -150,7 +150,7 @@ struct Ballast<Polygon<T>> {
   }
 };
 
-/// The reference without corners: all the same.
+/// Balls, the reference without corners. All have radius 1.
 template <class S>
 struct Ballast<BallIn<S>> {
   /// That of radius 1.

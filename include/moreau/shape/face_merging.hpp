@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Joins the coplanar triangles of a convex surface to faces.
+// Merges the coplanar triangles of a convex surface into faces.
 //
-// A face grows from the largest triangle that is left: neighbours whose corners lie within the
-// tolerance of its plane join, the plane is fitted again to all of them, until none joins. Growing
-// from large to small makes slivers harmless: they join a face whose plane is well known, and
-// their own normal is not asked for. Vertices that meet fewer than three faces then lie inside
-// a face or on an edge, and are dropped.
+// A face grows from the largest triangle that is not yet in a face. Neighbours whose corners lie
+// within the tolerance of its plane are added, and the plane is fitted again to all corners, until
+// no neighbour can be added. The order from large to small makes slivers harmless: they are added
+// to faces whose plane is accurate, and their own normal is not used. A vertex with fewer than
+// three faces then lies inside a face or on an edge, and is removed.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +40,7 @@ inline std::vector<std::array<std::uint32_t, 2>> directed_edges(const FaceList& 
   return edges;
 }
 
-/// True if every edge is there once in each direction and V - E + F = 2.
+/// Whether every edge occurs once in each direction and V - E + F = 2.
 inline bool is_closed_surface(const FaceList& faces) {
   const auto edges = directed_edges(faces);
   std::size_t vertices = 0;
@@ -76,7 +76,7 @@ class FaceMerging {
     }
   }
 
-  /// The faces; nothing if the tolerance has joined what does not bound a solid.
+  /// The faces; nothing if the merged faces do not bound a solid.
   std::optional<FaceList> faces() const {
     FaceList faces;
     for (std::uint32_t g = 0; g < members_.size(); ++g) {
@@ -125,7 +125,7 @@ class FaceMerging {
     });
   }
 
-  /// The one cycle of edges around a group.
+  /// The cycle of edges around a group.
   std::optional<std::vector<std::uint32_t>> boundary_of(std::uint32_t g) const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> next;
     for (const std::uint32_t t : members_[g]) {
@@ -146,7 +146,7 @@ class FaceMerging {
     return cycle;
   }
 
-  /// Drops vertices of fewer than three faces, and faces of fewer than three vertices.
+  /// Removes vertices with fewer than three faces, and faces with fewer than three vertices.
   void drop_flat_vertices(FaceList& faces) const {
     for (bool changed = true; changed;) {
       changed = false;
@@ -170,9 +170,9 @@ class FaceMerging {
   Eigen::Vector3d normal_, center_;
 };
 
-/// True if the plane of each face has all points on or below it and its own vertices on it, within
-/// the tolerance, even after vertices have moved by the rounding: that tilts a face of width w
-/// about its long axis by rounding / w.
+/// Whether the plane of each face has all points on or below it and its own vertices on it, within
+/// the tolerance, even after the vertices have moved by the rounding. Rounding tilts a face of
+/// width w about its long axis by rounding / w.
 inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::Vector3d> points,
                                   double tolerance, double rounding) {
   return std::all_of(faces.begin(), faces.end(), [&](const auto& face) {
@@ -192,11 +192,12 @@ inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::
   });
 }
 
-/// The faces of a closed convex surface of triangles, coplanar ones joined.
-/// Where points scatter about a plane by just the tolerance, some of them stay out, and between
-/// them slivers whose normals mean nothing. A larger tolerance then joins these too.
+/// The faces of a closed convex surface of triangles, with coplanar triangles merged. If the
+/// distances of points from a plane are close to the tolerance, some triangles are not merged, and
+/// slivers with meaningless normals remain between them. The function then tries a larger
+/// tolerance.
 /// @param tolerance vertices this close to a plane lie on it; a length
-/// @param rounding  by how much the points may still move, well below the tolerance
+/// @param rounding  largest later displacement of the points, much smaller than the tolerance
 inline FaceList merged_faces(std::span<const HullTriangle> triangles,
                              std::span<const Eigen::Vector3d> points, double tolerance,
                              double rounding) {

@@ -16,13 +16,13 @@ struct FacePlane {
   Vector center = Vector::Zero();  ///< the mean of the vertices [m]
   Vector axis = Vector::Zero();    ///< unit, from there to the farthest vertex: its long direction
   Vector normal = Vector::Zero();  ///< unit, outward
-  T width = 0;                     ///< across the axis, roughly: the area over the length [m]
+  T width = 0;                     ///< width across the axis, approximately: area / length [m]
 };
 
 /// The plane of the polygon with the vertices at(0) .. at(count - 1), counter-clockwise from
-/// outside: through their mean, normal to the area vector.
-/// The area vector of a sliver is a small difference of large products; its error along the sliver
-/// would tilt the plane most. The normal is therefore made orthogonal to the long axis.
+/// outside: through their mean, normal to the area vector. The area vector of a sliver is a small
+/// difference of large products, and its error along the sliver would tilt the plane most. The
+/// normal is therefore made orthogonal to the long axis.
 /// @param count number of vertices, >= 3; not checked
 /// @param at    k -> vertex k [m], k < count
 template <class T, class At>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a convex hull is built from: the points given, checked, scaled, sorted, without doubles.
+// Input of a convex hull: the given points, checked, scaled, sorted, without duplicates.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace moreau {
 
-/// Lengths below which a hull takes things for flat, in units of the machine epsilon of the scalar
-/// times the size of the input, its largest coordinate [-].
+/// Lengths below which a hull counts as flat, in units of the machine epsilon of the scalar times
+/// the size of the input (its largest coordinate) [-].
 struct HullTolerance {
   double flat = 32;   ///< vertices this close to the plane of a face (line of an edge) lie on it
   double thin = 512;  ///< a hull this thin is coplanar (collinear): an error
@@ -25,16 +25,16 @@ struct HullTolerance {
 
 namespace detail {
 
-/// The points in double, scaled by a power of two (so exactly) to coordinates of order one, without
-/// those within the tolerance of an earlier one, in lexicographic order.
+/// The points in double, scaled by a power of two (therefore exactly) to coordinates of order one,
+/// in lexicographic order, without points that are within the tolerance of an earlier point.
 template <int Dim>
 struct HullInput {
   using Point = Eigen::Matrix<double, Dim, 1>;
 
   std::vector<Point> points;
-  std::vector<std::uint32_t> labels;  ///< the index of each point in what the caller gave
+  std::vector<std::uint32_t> labels;  ///< index of each point in the input of the caller
   double unit = 1;                    ///< [m] per unit of the coordinates
-  double rounding = 0;                ///< of a coordinate of the size of the input, in units
+  double rounding = 0;                ///< rounding error of the largest coordinate, in units
   double flat = 0, thin = 0;          ///< HullTolerance, in units
 
   template <class Vector>
@@ -53,8 +53,8 @@ struct HullInput {
     sort(given);
   }
 
-  /// @throws std::invalid_argument because an extent [units] is too small, which shows that the
-  ///   points are what is said: they coincide, ..
+  /// @throws std::invalid_argument with the reason (e.g. that the points coincide), because an
+  ///         extent [units] is too small
   [[noreturn]] void throw_thin(std::string_view function, double extent,
                                std::string_view finding) const {
     throw_invalid(function, "thickness of vertices", extent * unit,
@@ -79,8 +79,8 @@ struct HullInput {
       labels.push_back(i);
     }
   }
-  /// Coordinates below 2^-200 become zero: all are then multiples of 2^-253, the products of three
-  /// differences lose nothing to underflow, and their signs are exact.
+  /// Coordinates below 2^-200 become zero. All coordinates are then multiples of 2^-253, so
+  /// products of three differences do not underflow, and their signs are exact.
   Point in_units(const Point& x) const {
     const Point y = x / unit;
     return (y.array().abs() < std::ldexp(1.0, -200)).select(0.0, y);

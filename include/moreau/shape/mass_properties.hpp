@@ -6,9 +6,8 @@
 
 namespace moreau {
 
-/// What the equations of motion need of a shape at a uniform density.
-/// The inertia is about the centre of mass, in the axes of the shape's own frame. In the plane the
-/// density is per area [kg/m^2].
+/// Mass, centre of mass and inertia of a shape at a uniform density. The inertia is about the
+/// centre of mass, in the axes of the shape's frame. In the plane the density is per area [kg/m^2].
 template <EuclideanSpace S>
 struct MassProperties {
   typename S::Scalar mass = 0;                       ///< [kg]

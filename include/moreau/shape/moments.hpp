@@ -17,8 +17,8 @@
 
 namespace moreau {
 
-/// Moments of a body of density one [-] about the origin, in the axes of its coordinates. The
-/// header has the formulas and their source.
+/// Moments of a body of density one [-] about the origin, in the axes of its coordinates. The head
+/// of this file has the formulas and their source.
 template <class S>
 struct Moments {
   using Scalar = typename S::Scalar;
@@ -29,8 +29,8 @@ struct Moments {
   Vector first = Vector::Zero();   ///< int x [m^(D+1)]
   Matrix second = Matrix::Zero();  ///< int x x^T, D x D [m^(D+2)]
 
-  /// Adds the simplex of the origin and the columns of v, D x D [m]; negative if they are
-  /// left-handed.
+  /// Adds the simplex of the origin and the columns of v, D x D [m]. It counts as negative if the
+  /// columns are left-handed.
   void add_simplex(const Matrix& v) {
     const Scalar part = v.determinant() / factorial(S::dim);
     const Vector s = v.rowwise().sum();
@@ -47,12 +47,12 @@ struct Moments {
     return *this;
   }
 
-  /// The moments of the same body about its own centre, first / volume; its volume must not be 0.
+  /// The moments of the same body about its centre, first / volume. The volume must not be 0.
   Moments centered() const {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
-  /// Whether the scalar can hold them: of a shape far too small or far too large it cannot.
+  /// Whether the scalar can represent them. It cannot if a shape is far too small or far too large.
   bool are_regular() const {
     const typename S::Inertia about_origin = inertia();
     return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&

@@ -7,9 +7,9 @@
 
 namespace moreau {
 
-/// The points of the x axis up to half_length() from the origin; vertex 0 is the end at -x, vertex
-/// 1 that at +x. A segment has no volume and no mass, so it is no Shape: it is the core
-/// of a capsule.
+/// The points of the x axis up to half_length() from the origin. Vertex 0 is the end at -x, vertex
+/// 1 the end at +x. A segment has no volume and no mass, so it is not a Shape. It is the core of a
+/// capsule.
 template <EuclideanSpace S>
 class Segment {
  public:

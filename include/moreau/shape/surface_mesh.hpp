@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The surface of any convex shape as points and faces, for files and pictures. Polytopes are their
-// own faces; others are drawn by their farthest points in the directions of a fine polyhedron (in
-// the plane: polygon), which lie on the surface, so that the mesh is inscribed.
+// The surface of any convex shape as points and faces, for files and pictures. Polytopes use their
+// own faces. For other shapes the mesh consists of their farthest points in the directions of a
+// fine polyhedron (in the plane: polygon). These points lie on the surface, so the mesh is
+// inscribed.
 #pragma once
 
 #include <cmath>
@@ -19,21 +20,21 @@
 
 namespace moreau {
 
-/// Faces one behind the other, each the indices of its points counter-clockwise seen from outside;
-/// in the plane one face, the outline.
+/// Faces one after the other, each with the indices of its points counter-clockwise seen from
+/// outside; in the plane one face, the outline.
 template <class S>
 struct SurfaceMesh {
   std::vector<typename S::Vector> points;  ///< body coordinates [m]
-  std::vector<std::int32_t> corners;       ///< of all faces, as indices into points
+  std::vector<std::int32_t> corners;       ///< corners of all faces, as indices into points
   std::vector<std::int32_t> ends;          ///< where in corners each face ends
 
-  /// Takes out points and faces; keeps the memory.
+  /// Removes points and faces and keeps the memory.
   void clear() {
     points.clear();
     corners.clear();
     ends.clear();
   }
-  /// The corners since the last face are one.
+  /// Ends a face that consists of the corners since the last face.
   void end_face() { ends.push_back(static_cast<std::int32_t>(corners.size())); }
 };
 
@@ -53,7 +54,7 @@ SurfaceMesh<Space<2, T>> unit_mesh(Space<2, T>, int fineness) {
   return mesh;
 }
 
-/// Each triangle into four, new points on the unit sphere.
+/// Splits each triangle into four, with new points on the unit sphere.
 template <class T>
 SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   SurfaceMesh<Space<3, T>> fine;
@@ -81,7 +82,7 @@ SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   return fine;
 }
 
-/// An icosahedron whose triangles are split in four as often as said, on the unit sphere.
+/// An icosahedron on the unit sphere whose triangles are split into four `fineness` times.
 template <class T>
 SurfaceMesh<Space<3, T>> unit_mesh(Space<3, T>, int fineness) {
   SurfaceMesh<Space<3, T>> mesh;
@@ -120,7 +121,7 @@ void append_faces(const ShapeT& shape, SurfaceMesh<Space<3, T>>& mesh) {
 
 }  // namespace detail
 
-/// Makes meshes of shapes; keeps the directions it looks in.
+/// Computes meshes of shapes; reuses its directions.
 template <class S>
 class SurfaceMesher {
  public:
@@ -149,7 +150,7 @@ class SurfaceMesher {
         mesh.points.push_back(shape.support(direction));
     }
   }
-  /// The mesh of what it is.
+  /// The mesh of the shape that it holds.
   template <ConvexShape... Shapes>
   void mesh(const OneOf<Shapes...>& shape, SurfaceMesh<S>& out) const {
     shape.visit([&](const auto& held) { mesh(held, out); });

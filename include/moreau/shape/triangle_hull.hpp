@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points in space as triangles, by exact signs: correct for every input.
+// The convex hull of points in space as triangles, with exact signs: correct for every input.
 //
-// A point strictly outside some triangles replaces these by the cone from it to their rim. A
-// point in the plane of a triangle does not see it. All triangles of one plane are thus seen
-// together or not at all, the seen part is what a point moved a little inwards would see, hence a
-// disk, and its rim is one simple cycle, in which no edge is collinear with the point.
+// A point strictly outside of some triangles replaces them by the cone from the point to their rim.
+// A point in the plane of a triangle counts as not outside of it. All triangles of one plane are
+// therefore replaced together or not at all. The replaced part is what is visible from the point,
+// moved a little inwards. It is a disk, so its rim is one simple cycle, and no edge of the rim is
+// collinear with the point.
 #pragma once
 
 #include <algorithm>
@@ -24,12 +25,13 @@ struct HullTriangle {
   std::array<std::uint32_t, 3> neighbour;
 };
 
-/// Adds points one by one to a tetrahedron; the surface is kept as triangles with neighbours.
+/// Adds points one by one to a tetrahedron. The surface is stored as triangles with their
+/// neighbours.
 class TriangleHull {
  public:
   using Point = Eigen::Vector3d;
 
-  /// @param points distinct, in the order in which they go in
+  /// @param points distinct, in the order in which they are added
   /// @param seed   four of them, not coplanar
   TriangleHull(std::span<const Point> points, std::array<std::uint32_t, 4> seed)
       : points_(points), starts_at_(points.size()), ends_at_(points.size()) {
