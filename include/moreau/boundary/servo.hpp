@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Walls that keep a pressure. Both kinds are applied by the time loop before each step:
+// Walls with a constant pressure. The time loop applies them before each step:
 //
 //   PressureLoad  lid(world, wall, 1e4, mass, [&] { return width * depth; });
 //   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
 //   for (...) { lid.apply(world, h); world.step(h); }
 //
-// PressureLoad gives the wall a mass and lets the force pressure x area act on it. At rest the
-// grains carry that force to the solver's residual, whatever they are made of; the mass says how
-// fast the wall follows. It is the one for rigid grains.
+// PressureLoad gives the wall a mass and applies the force pressure x area to it. At rest the grains
+// carry this force to the residual of the solver, for any contact law. The mass determines how fast
+// the wall follows. Use it for rigid contacts.
 //
 // PressureServo moves the wall at v = gain (pressure - measured), as the servo walls of other codes
-// do. It needs grains that yield (a regularized law): what it measures has to change gradually with
-// where the wall is. With k the stiffness of the sample as the wall sees it [N/m], the error then
-// shrinks by gain k h / area per step: keep that below 1 (at 2 it is unstable).
+// do. It needs a regularized law, because the measured pressure must change gradually with the
+// position of the wall. Let k be the stiffness of the sample at the wall [N/m]. The error then
+// decreases by the share gain k h / area per step. Keep this share below 1; at 2 it is unstable.
 #pragma once
 
 #include <algorithm>
@@ -25,20 +25,20 @@
 
 namespace moreau {
 
-/// Gives the area that a pressure acts on at the time of the call [m^2], in the plane the length
-/// [m]; it may change as other walls move.
+/// Returns the area on which a pressure acts at the time of the call [m^2], in the plane the length
+/// [m]. It may change when other walls move.
 template <class F>
 concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
 };
 
-/// Pressure of the contacts on a wall over the last step [Pa], in the plane [N/m]; > 0 if the
-/// grains push.
+/// Pressure of the contacts on a wall during the last step [Pa], in the plane [N/m]; > 0 in
+/// compression.
 /// @param wall a half-space of the simulation
 /// @param step its length [s], > 0
 /// @param area [m^2], in the plane the length [m], > 0
 /// @throws std::invalid_argument for a step or an area that is not finite or not positive, or a
-///         body that is none of the simulation's half-spaces
+///         body that is not a half-space of the simulation
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
@@ -54,7 +54,7 @@ typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId w
 
 namespace detail {
 
-/// The area now.
+/// The area at the time of the call.
 template <class T>
 T checked_area(const auto& area, const char* function) {
   const auto now = static_cast<T>(area());
@@ -64,16 +64,16 @@ T checked_area(const auto& area, const char* function) {
 
 }  // namespace detail
 
-/// A constant pressure on a wall with a mass: exact where the wall is at rest.
+/// A constant pressure on a wall with a mass; exact while the wall is at rest.
 template <AreaFunction Area>
 class PressureLoad {
  public:
   /// Gives the wall its mass and stops it.
   /// @param wall     a half-space of the simulation
-  /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, on the grains
-  /// @param mass     of the wall [kg], > 0; that of the grains is a good choice
+  /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, towards the grains
+  /// @param mass     of the wall [kg], > 0; the mass of the grains is a good choice
   /// @param area     called before every step, > 0 [m^2], in the plane [m]
-  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces, a
+  /// @throws std::invalid_argument if the body is not a half-space of the simulation, or for a
   ///         pressure that is not finite, or a mass that is not finite or not positive
   template <class Simulation>
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
@@ -86,7 +86,8 @@ class PressureLoad {
     simulation.set_velocity(wall, Simulation::Vector::Zero());
   }
 
-  /// Sets the force pressure x area for the next step. The step is not needed; drives have it.
+  /// Sets the force pressure x area for the next step. The step is not used; it is an argument of
+  /// all drives.
   /// @throws std::invalid_argument for an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar = 0) const {
@@ -102,15 +103,15 @@ class PressureLoad {
   Area area_;
 };
 
-/// A pressure kept by the velocity of a wall without mass, for grains that yield.
+/// A pressure that the velocity of a wall without mass maintains, for deformable contacts.
 template <AreaFunction Area>
 class PressureServo {
  public:
   /// @param wall     a half-space without mass; apply() checks it
-  /// @param pressure to keep [Pa], in the plane [N/m]; > 0 pushes on the grains
+  /// @param pressure pressure to maintain [Pa], in the plane [N/m]; > 0 pushes on the grains
   /// @param gain     velocity per missing pressure [m/(s Pa)], in the plane [m^2/(s N)], > 0
-  /// @param limit    the largest speed [m/s], > 0; margin x grain size / step at most, or the wall
-  ///                 runs into grains before they are seen
+  /// @param limit    the largest speed [m/s], > 0; at most margin x grain size / step, or the wall
+  ///                 overlaps grains before contacts are detected
   /// @param area     called before every step, > 0 [m^2], in the plane [m]
   /// @throws std::invalid_argument for a pressure that is not finite, or a gain or limit that is
   ///         not finite or not positive
@@ -122,10 +123,10 @@ class PressureServo {
     require(std::isfinite(limit) && limit > 0, self, "limit", limit, "must be finite and > 0");
   }
 
-  /// Sets the velocity for the next step by the pressure of the last one.
+  /// Sets the velocity for the next step from the pressure of the last step.
   /// @param step length of the last step [s], > 0
-  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces or
-  ///         has a mass, or a step or an area that is not finite or not positive
+  /// @throws std::invalid_argument if the body is not a half-space of the simulation or has a mass,
+  ///         or for a step or an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;
