@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a OneOf is, and of what there is none.
+// Which types are a OneOf, and for which lists of shapes there is no OneOf.
 #include "moreau/shape/one_of.hpp"
 
 #include "moreau/shape/ball.hpp"
