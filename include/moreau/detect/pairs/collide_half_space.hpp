@@ -158,28 +158,27 @@ FlatSpot<SpaceOf<ShapeT>> flat_spot(const Placed<ShapeT>& shape,
 /// feature key) and, where the surface is flat, the corners of the flat spot (vertices 1 to 6), so
 /// that a shape with a flat side can stand on it. Arguments as above.
 template <class ShapeT>
-requires Elementary<ShapeT> && SupportOnly<ShapeT>
+requires SupportOnly<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,
              typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out,
              PairCache<SpaceOf<ShapeT>>&) {
   using S = SpaceOf<ShapeT>;
-  using T = typename S::Scalar;
-  using Vector = typename S::Vector;
   MOREAU_ASSERT(margin >= 0);
   const SignedDistance<S> found = distance(a, b);
   if (!detail::start_if_touching(found, margin, out)) return false;
   const Aabb<S> box = a.bounding_box();
-  const T size = (box.upper - box.lower).norm(), near = size * DetectionTolerance<T>::coincident;
-  const auto add = [&](const Vector& x, std::size_t id) {
-    const T gap = b.normal().dot((a.center() - b.center()) + x);
-    const Vector position = a.center() + (x + gap / 2 * found.normal);
+  const auto size = (box.upper - box.lower).norm();
+  const auto near = size * DetectionTolerance<typename S::Scalar>::coincident;
+  const auto add = [&](const typename S::Vector& x, std::size_t id) {
+    const auto gap = b.normal().dot((a.center() - b.center()) + x);
+    const typename S::Vector position = a.center() + (x + gap / 2 * found.normal);
     bool is_new = gap <= margin;
     for (const auto& point : out.points)
       is_new = is_new && (point.position - position).squaredNorm() > near * near;
     if (is_new)
       out.points.push_back({position, gap, FeatureKey(detail::vertex_on_face(S{}), id, 0)});
   };
-  const Vector deepest = a.support(found.normal);
+  const typename S::Vector deepest = a.support(found.normal);
   const auto spot = detail::flat_spot(a, found.normal, deepest, size);
   for (std::size_t k = 0; k < spot.size; ++k) add(spot.corners[k], k + 1);
   add(deepest, 0);

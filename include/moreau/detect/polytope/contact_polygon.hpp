@@ -20,11 +20,7 @@
 #include <vector>
 
 #include "moreau/detect/manifold.hpp"
-#include "moreau/detect/placed.hpp"
 #include "moreau/detect/polytope/facing_features.hpp"
-#include "moreau/detect/tolerance.hpp"
-#include "moreau/shape/polygon.hpp"
-#include "moreau/shape/polyhedron.hpp"
 
 namespace moreau::detail {
 
