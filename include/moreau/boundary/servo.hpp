@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Walls that keep a pressure. Both kinds are applied by the time loop before each step:
+// Walls that keep a pressure. The time loop applies them before each step:
 //
 //   PressureLoad  lid(world, wall, 1e4, mass, [&] { return width * depth; });
 //   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
 //   for (...) { lid.apply(world, h); world.step(h); }
 //
-// PressureLoad gives the wall a mass and lets the force pressure x area act on it. At rest the
-// grains carry that force to the solver's residual, whatever they are made of; the mass says how
-// fast the wall follows. It is the one for rigid grains.
+// PressureLoad is for rigid grains. It gives the wall a mass and applies the force pressure x area.
+// At rest the grains carry this force up to the solver's residual. The mass sets how fast the wall
+// responds.
 //
-// PressureServo moves the wall at v = gain (pressure - measured), as the servo walls of other codes
-// do. It needs grains that yield (a regularized law): what it measures has to change gradually with
-// where the wall is. With k the stiffness of the sample as the wall sees it [N/m], the error then
-// shrinks by gain k h / area per step: keep that below 1 (at 2 it is unstable).
+// PressureServo is for grains with a regularized law, whose contact force changes continuously with
+// the position of the wall. It moves the wall at v = gain (pressure - measured). With k the
+// stiffness of the sample in the direction of the wall [N/m], the error is multiplied by 1 - gain k
+// h / area per step. Keep gain k h / area below 1; at 2 the servo is unstable.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@
 
 namespace moreau {
 
-/// Gives the area that a pressure acts on at the time of the call [m^2], in the plane the length
-/// [m]; it may change as other walls move.
+/// A function that returns the area on which a pressure acts [m^2], in the plane the length [m]. It
+/// is called before every step, as other walls may move.
 template <class F>
 concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
@@ -38,7 +38,7 @@ concept AreaFunction = requires(const F area) {
 /// @param step its length [s], > 0
 /// @param area [m^2], in the plane the length [m], > 0
 /// @throws std::invalid_argument for a step or an area that is not finite or not positive, or a
-///         body that is none of the simulation's half-spaces
+///         body that is not a half-space of the simulation
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
@@ -73,7 +73,7 @@ class PressureLoad {
   /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, on the grains
   /// @param mass     of the wall [kg], > 0; that of the grains is a good choice
   /// @param area     called before every step, > 0 [m^2], in the plane [m]
-  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces, a
+  /// @throws std::invalid_argument for a body that is not a half-space of the simulation, a
   ///         pressure that is not finite, or a mass that is not finite or not positive
   template <class Simulation>
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
@@ -124,7 +124,7 @@ class PressureServo {
 
   /// Sets the velocity for the next step by the pressure of the last one.
   /// @param step length of the last step [s], > 0
-  /// @throws std::invalid_argument for a body that is none of the simulation's half-spaces or
+  /// @throws std::invalid_argument for a body that is not a half-space of the simulation or
   ///         has a mass, or a step or an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Errors at the edges of the library: a bad argument throws, with its function, name and value.
-// Kernels assert (MOREAU_ASSERT); a solver that does not converge says so in its report, never
-// here.
+// Errors of the public functions: a bad argument throws an exception that names the function, the
+// argument and its value. Kernels assert (MOREAU_ASSERT). A solver that does not converge throws
+// nothing: its report says so.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-/// Checks of the kernels, in builds without NDEBUG; a definition of one's own ahead of all headers
-/// takes its place.
+/// Check in a kernel, in builds without NDEBUG. A definition of this macro before the first include
+/// replaces it.
 #ifndef MOREAU_ASSERT
 #define MOREAU_ASSERT(condition) assert(condition)
 #endif
@@ -39,7 +39,8 @@ void print(std::ostream& out, const Matrix& value) {
 
 }  // namespace detail
 
-/// Refuses an argument of a public function. Matrices are printed as one row of their numbers.
+/// Throws for a bad argument of a public function. Matrices are printed as one row of their
+/// numbers.
 /// @param expectation what it must be, e.g. "must be finite"
 /// @throws std::invalid_argument "function: argument = value must ...", always
 template <class Value>
@@ -53,7 +54,7 @@ template <class Value>
   throw std::invalid_argument(message.str());
 }
 
-/// Gives up a step whose numbers are none any more.
+/// Reports a velocity or a position that is not finite.
 /// @param what  e.g. "velocity of body"
 /// @param index of the body
 /// @throws std::runtime_error "function: what index = value is not finite", always

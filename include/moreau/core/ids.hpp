@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strong ids: a body's index cannot be handed in where a shape's is asked for.
+// Strong ids: the id of a body cannot be passed where the id of a shape is expected.
 #pragma once
 
 #include <compare>
@@ -12,19 +12,19 @@
 
 namespace moreau {
 
-/// An index that knows what it counts. Trivially copyable; ordered like its value.
+/// An index into one kind of array. Trivially copyable; ordered like its value.
 template <class Tag>
 struct Id {
   std::uint32_t value = 0;  ///< counted from 0
 
-  constexpr Id() = default;  ///< the first one's
-  /// The id of what stands at this position, < 2^32.
-  /// @throws std::invalid_argument for a position that an id cannot hold
+  constexpr Id() = default;  ///< id of the first item
+  /// The id of the item at this index, < 2^32.
+  /// @throws std::invalid_argument for an index of 2^32 or more
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {
     if (value != index) throw_invalid("Id", "index", index, "must be below 2^32");
   }
 
-  /// The position in the array of what it counts.
+  /// The index as a number.
   constexpr std::size_t index() const { return value; }
   auto serialized_members() { return std::tie(value); }  ///< see core/serialize.hpp
   friend constexpr auto operator<=>(const Id&, const Id&) = default;

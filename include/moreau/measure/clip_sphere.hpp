@@ -74,8 +74,9 @@ typename Vector::Scalar signed_unit_ball_in_orthant(const Vector& corner) {
 
 }  // namespace detail
 
-/// The volume of a sphere (area of a disk) that lies in the control volume [m^D]; the header has
-/// the formula. Exact to some rounding errors of the volume of the ball. The workspace is not used.
+/// The volume of a ball (area of a disk) that lies in the control volume [m^D], by the formula
+/// at the top of this file. Exact to some rounding errors of the volume of the ball. The workspace
+/// is not used.
 /// @param control_volume  in world axes [m]
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <class S>

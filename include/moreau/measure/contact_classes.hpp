@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How grains touch: by corners, edges or faces.
+// Shares of the classes of contacts: corners, edges, faces.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace moreau {
 
-/// What one class of contacts has a part in.
+/// Share of one class of contacts.
 struct ContactClassShare {
   std::size_t pairs = 0;   ///< of bodies that carry force
   std::size_t points = 0;  ///< their points that carry force
@@ -29,8 +29,8 @@ struct ContactClasses {
   }
 };
 
-/// The coordination by class of contact: the neighbours of all classes add up to those that
-/// CoordinationCounter finds with all grains.
+/// The coordination by class of contact. The sum over all classes is the coordination number that
+/// CoordinationCounter returns for all grains.
 /// @param pairs       of pair_forces()
 /// @param grain_count number of grains; without any, neighbours are 0
 /// @param is_grain    body -> false for a wall; bodies by BodyId::index()

@@ -55,7 +55,7 @@ void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
                 "must lie inside the box " + detail::describe(box));
 }
 
-/// The box's volume, in the plane its area [m^D]; of no use for a box that is none.
+/// The volume of the box, in the plane its area [m^D]; without meaning for an inverted box.
 template <class S>
 typename S::Scalar volume(const Aabb<S>& box) {
   return (box.upper - box.lower).prod();

@@ -7,12 +7,15 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
-// All terms are measured for themselves, so that the imbalance is what the discrete motion does not
-// account for. With MoreauJean(1/2) it is rounding for bodies that turn about one axis (in the
-// plane) or have one moment of inertia (spheres); for others it is of first order in the step, as
-// the inertia turns within it; with theta > 1/2 it is the energy that the scheme takes, of first
-// order, too. With a regularized law `impacts` and `friction` hold what springs store, and the
-// imbalance is that of the forces, which are taken as constant during a step.
+// Each term is measured on its own. The imbalance is the part of the kinetic energy that no term
+// explains:
+//
+//   - MoreauJean(1/2), in the plane, or with equal moments of inertia (balls, cubes): rounding.
+//   - MoreauJean(1/2), other bodies in space: first order in the step, because the inertia tensor
+//     rotates during the step.
+//   - MoreauJean(theta > 1/2): also the numerical damping of the scheme, first order in the step.
+//   - a regularized law: the error of forces that are constant during a step. `impacts` and
+//     `friction` then include the energy stored in the springs.
 #pragma once
 
 #include <cmath>
@@ -30,8 +33,8 @@
 
 namespace moreau {
 
-/// Sums since the balance began; in the plane, of what the densities are per. The header has the
-/// balance, with its signs.
+/// Sums since the balance began, with the signs of the equation at the top of this file. In the
+/// plane they are energies per unit of the thickness that the densities refer to.
 struct EnergyTerms {
   double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy [J]
   double forces = 0;      ///< work of set_force() on grains, and on walls along their mass [J]
@@ -48,9 +51,9 @@ struct EnergyTerms {
   }
 };
 
-/// Follows one simulation. Whoever sets velocities or poses of bodies with a mass between two steps
-/// will find that in the imbalance, or in the work of gravity and forces. A snapshot can hold it
-/// beside the simulation (write_snapshot()), so that it goes on with a run.
+/// Follows one simulation. If velocities or poses of bodies with a mass are set between two steps,
+/// the change appears in the imbalance, or in the work of gravity and forces. write_snapshot() can
+/// store the balance with the simulation, so that it continues with a restarted run.
 template <class S>
 class EnergyBalance {
  public:
@@ -64,7 +67,7 @@ class EnergyBalance {
     start_ = kinetic_;
   }
 
-  /// Takes up a step that has just been taken; forces and gravity have to be those of the step.
+  /// Adds the last step. Forces and gravity must still be those of the step.
   /// @param step its length [s], > 0
   /// @throws std::invalid_argument for a step that is not positive, or bodies added since the start
   template <class Simulation>
@@ -116,8 +119,8 @@ class EnergyBalance {
     return energy;
   }
 
-  /// What the prescribed part of a body's motion does against the impulse it receives: whoever
-  /// prescribes it has to give as much.
+  /// Work of the prescribed part of a body's motion against the impulse that the body receives. The
+  /// drive of the body supplies the same work.
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
                         const Vector& impulse, const typename S::Angular& couple) {
     if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which way the contacts of an assembly look.
+// Fabric: the orientation of the contacts of an assembly.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace moreau {
 
-/// Which way the contacts look.
+/// Distribution of the contact normals.
 template <class S>
 struct Fabric {
   /// Mean of n n^T over the pairs, D x D, world axes: symmetric, of trace 1, identity / D if the

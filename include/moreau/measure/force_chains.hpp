@@ -14,15 +14,15 @@
 
 namespace moreau {
 
-/// One contact point. A wall has no centre: on its side the segment ends at the contact point. All
-/// vectors in world axes.
+/// One contact point. If a body is a wall, which has no centre, its end of the segment is the
+/// contact point. All vectors in world axes.
 template <class S>
 struct ContactSegment {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a;             ///< the one body
-  std::uint32_t b;             ///< the other
+  std::uint32_t a;             ///< first body
+  std::uint32_t b;             ///< second body
   Vector from;                 ///< centre of a [m]
   Vector to;                   ///< centre of b [m]
   Vector point;                ///< contact point [m]
@@ -78,7 +78,8 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
       segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
-/// Fills `segments` with every contact, those without force too; arguments as of contact_segment().
+/// Fills `segments` with all contacts, also contacts without force; arguments as of
+/// contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>
 void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,

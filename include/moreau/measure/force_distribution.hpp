@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How unequal the contact forces of an assembly are.
+// Distribution of the contact forces of an assembly.
 #pragma once
 
 #include <cmath>

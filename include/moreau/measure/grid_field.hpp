@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Means over the grains in each cell of a grid: fields of velocity, of displacement, of any vector
-// that grains have.
+// Means over the grains in each cell of a grid: fields of velocity, displacement, or any other
+// vector of the grains.
 //
 //   GridField<S> velocity(box, {20, 20, 10}), displacement(box, {20, 20, 10});
 //   velocity.add(x, v, mass);               // for every grain, in one step or in many
@@ -52,7 +52,7 @@ class GridField {
     sums_.resize(count);
   }
 
-  /// Forgets all grains.
+  /// Removes all grains.
   void clear() { sums_.assign(sums_.size(), Sum{}); }
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to average
@@ -61,7 +61,8 @@ class GridField {
   /// @param value    in any unit
   /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
   /// @param periodic the simulation's cell
-  /// @throws std::invalid_argument for what is not finite, or a weight that is not positive
+  /// @throws std::invalid_argument for a number that is not finite, or a weight that is not
+  ///         positive
   void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How deep contacts overlap.
+// Statistics of the overlaps of contacts.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace moreau {
 
-/// Overlaps, each -gap, > 0 [m], in numbers. Zero where nothing overlaps.
+/// Statistics of overlaps, each -gap > 0 [m]. Zero if nothing overlaps.
 template <class T>
 struct OverlapStatistics {
   std::size_t points = 0;  ///< contact points with gap < 0

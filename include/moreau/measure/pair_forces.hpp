@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the contact points of a pair of bodies carry together: the contact of which one speaks in
-// the statistics of forces, whatever the number of points it was made of.
+// Contact force of a pair of bodies: the sum over its contact points. Statistics of contact forces
+// count pairs, so that they do not depend on the number of points of a contact.
 #pragma once
 
 #include <cmath>
@@ -13,17 +13,17 @@
 
 namespace moreau {
 
-/// The points of a pair with normal impulse > 0, taken together. All vectors in world axes.
+/// Sum over the points of a pair with normal impulse > 0. All vectors in world axes.
 template <class S>
 struct PairForce {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a;             ///< the one body
-  std::uint32_t b;             ///< the other
+  std::uint32_t a;             ///< first body
+  std::uint32_t b;             ///< second body
   std::size_t points;          ///< that carry force, > 0
   ContactClass contact_class;  ///< of the pair
-  Vector normal;               ///< unit, from a to b; in a drum the mean over the points
+  Vector normal;               ///< unit, from a to b; in a CylinderWall the mean over points
   Vector lever_a;              ///< from the centre of a to the centre of pressure [m]
   Vector lever_b;              ///< from the centre of b to the centre of pressure [m]
   Vector force;                ///< that b receives [N]

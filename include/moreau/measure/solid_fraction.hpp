@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The share of a control volume that grains fill: exact, no count of sample points.
+// The share of a control volume that grains fill, computed exactly, without sample points.
 #pragma once
 
 #include <cstddef>

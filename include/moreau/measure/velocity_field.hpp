@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mean velocity of grains in the vertical section, and whether it is a roll.
+// The mean velocity of grains in the vertical section, and the rotation of this field.
 //
 // The section is spanned by the first axis, x, drawn to the right, and the last one (z in space, y
 // in the plane), drawn upwards. Turning is positive counter-clockwise as one sees it in that
@@ -56,7 +56,7 @@ class VelocityField {
     cells_.resize(columns * rows);
   }
 
-  /// Forgets all grains.
+  /// Removes all grains.
   void clear() { cells_.assign(cells_.size(), Cell{}); }
 
   /// Counts a grain if its centre lies in the control volume; call it over several steps to
@@ -64,7 +64,7 @@ class VelocityField {
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param velocity of its centre, world axes [m/s]
   /// @param periodic the simulation's cell
-  /// @throws std::invalid_argument for what is not finite
+  /// @throws std::invalid_argument for a number that is not finite
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
@@ -94,8 +94,8 @@ class VelocityField {
     return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
   }
 
-  /// Turning about the centre of the cells that hold grains, their mean velocity taken off, so that
-  /// a translation is no roll. Every such cell counts the same. All zero if nothing turns or moves.
+  /// Rotation about the centre of the cells that hold grains, after subtraction of their mean
+  /// velocity. All cells that hold grains have the same weight. Zero if the field does not rotate.
   Roll<Scalar> roll() const {
     Section centre = Section::Zero(), drift = Section::Zero();
     Scalar count = 0;

@@ -31,19 +31,19 @@
 
 namespace moreau {
 
-/// How grains of a shape are drawn; specialise it for a shape of your own. draw(random) gives
-/// a random one of circumradius 1 (to rounding).
+/// Draws random grains of a shape; specialise it for your own shape. draw(random) returns a random
+/// grain of circumradius 1 (to rounding).
 template <class Shape>
 struct Ballast;
 
-/// A shape of which random grains can be drawn: there is a Ballast<Shape>.
+/// A shape with a specialisation of Ballast, so that random grains can be drawn.
 template <class Shape>
 concept BallastShape = requires(std::mt19937_64& random) {
   { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
 };
 
-/// What the shapes are drawn from; the header says how. Lengths are relative to the largest
-/// semi-axis [-].
+/// Parameters of the random shapes described at the top of this file. Lengths are relative to the
+/// largest semi-axis [-].
 struct BallastParameters {
   double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
   double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
@@ -67,8 +67,8 @@ Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   return x.normalized();
 }
 
-/// Directions no two of which are closer (as chords) than the spacing; where none is left to be
-/// found, fewer than asked for.
+/// Random directions with at least the spacing (chord length) between any two. Returns fewer than
+/// `count` if no further direction is found.
 template <int Dim>
 std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, double spacing,
                                                              std::mt19937_64& random) {
@@ -150,10 +150,10 @@ struct Ballast<Polygon<T>> {
   }
 };
 
-/// The reference without corners: all the same.
+/// Balls and disks, the reference without corners: all grains are equal.
 template <class S>
 struct Ballast<BallIn<S>> {
-  /// That of radius 1.
+  /// The ball of radius 1.
   static BallIn<S> draw(std::mt19937_64&) { return BallIn<S>(1); }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many grains of which size, and what "size" means.
+// Numbers of grains by size, and the meaning of "size".
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace moreau {
 
-/// What a grain's size d measures: published samples are not always clear about it.
+/// The meaning of a grain's size d, which publications do not always state.
 enum class SizeReading : std::uint8_t {
   circumdiameter,  ///< twice the largest distance from the centre of mass to a vertex
   circumradius     ///< that distance itself
@@ -30,7 +30,7 @@ inline double circumradius_of(double size, SizeReading reading) {
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
-/// Sizes in classes, with shares by number. What a size measures is SizeReading's.
+/// Classes of sizes with shares by number. SizeReading tells what a size means.
 class SizeDistribution {
  public:
   /// Grains of one size.

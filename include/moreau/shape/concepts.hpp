@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the library asks of a shape. A shape is immutable geometry in its own (body) frame, with the
-// centre of mass at the origin; where it stands is a Pose that others hold.
+// Requirements on shapes. A shape is immutable geometry in its own (body) frame, with the centre of
+// mass at the origin. It holds no pose: the simulation holds the pose of each body.
 #pragma once
 
 #include <concepts>
@@ -15,26 +15,26 @@ namespace moreau {
 template <class Shape>
 using SpaceOf = typename Shape::Space;
 
-/// Anything with a mass and a box around it.
+/// A body with a mass and a bounding box.
 ///
-/// - mass_properties(density): at a uniform density [kg/m^D]; the centre has to be the origin for a
-///   grain
-/// - bounding_box(pose): what holds all of it at the pose, world axes [m]
+/// - mass_properties(density): at a uniform density [kg/m^D]; the centre of a grain must be the
+///   origin
+/// - bounding_box(pose): a box around the whole shape at the pose, world axes [m]
 template <class T>
 concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<SpaceOf<T>> pose) {
   { shape.mass_properties(density) } -> std::same_as<MassProperties<SpaceOf<T>>>;
   { shape.bounding_box(pose) } -> std::same_as<Aabb<SpaceOf<T>>>;
 };
 
-/// Convex: the farthest point in a direction (any length but zero) is all that is asked, in body
-/// coordinates [m]. Enough for a user's own shape.
+/// A convex shape. support(direction) returns the farthest point in a direction (any length but
+/// zero), in body coordinates [m]. A user's own shape needs no other function.
 template <class T>
 concept ConvexShape = Shape<T> && requires(const T shape, typename T::Space::Vector direction) {
   { shape.support(direction) } -> std::same_as<typename T::Space::Vector>;
 };
 
-/// A convex set known by its farthest points and the box around it. Unlike a shape it may be flat
-/// and need have no mass: what a rounded shape (rounded.hpp) is rounded about.
+/// A convex set with a support function and a bounding box. It may be flat and need not have a
+/// mass. Rounded<Core> (rounded.hpp) is the set of points near a core.
 template <class T>
 concept ConvexCore = requires(const T core, typename T::Space::Vector direction,
                               Pose<SpaceOf<T>> pose) {
@@ -53,7 +53,7 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.face_offsets();
 };
 
-// Members that shapes have where they can; what is made of other shapes has them where those do.
+// Optional members. A shape composed of other shapes has a member if all its parts have it.
 
 /// volume() [m^D].
 template <class T>

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Convex hulls of points in the plane and in space.
 //
-// Three steps make them safe for any finite input. Points closer together than the tolerance are
-// taken as one. The hull of what is left is built with exact signs (orientation.hpp), hence closed
-// and convex without exception. Then what is flat within the tolerance is joined: collinear
-// edges in the plane, coplanar triangles in space (face_merging.hpp). All of it runs over the
-// points in lexicographic order, so that the order of the input cannot change the result.
+// Three steps give a valid hull for any finite input:
+//
+//   1. Points closer together than the tolerance are merged.
+//   2. The hull of the remaining points is computed with exact signs (orientation.hpp). It is
+//      therefore always closed and convex.
+//   3. Collinear edges (in the plane) and coplanar triangles (in space, face_merging.hpp) are
+//      joined, within the tolerance.
+//
+// All steps take the points in lexicographic order, so that the result does not depend on the order
+// of the input.
 #pragma once
 
 #include <algorithm>

@@ -11,8 +11,8 @@
 namespace moreau {
 
 /// All points farther than a radius from an axis through the body's origin: in space the outside of
-/// an infinite cylinder, in the plane of a circle. It models a drum that grains are in; like
-/// HalfSpace it has no mass and no box, so it is no Shape.
+/// an infinite cylinder, in the plane the outside of a circle. It models a wall around the grains.
+/// It has no mass and no bounding box, so it is no Shape.
 template <EuclideanSpace S>
 class CylinderWall {
  public:
@@ -20,8 +20,8 @@ class CylinderWall {
   using Scalar = typename S::Scalar;
   using Angular = typename S::Angular;
 
-  /// @param axis   that of a rotation, body coordinates, of any length but zero: a vector in space,
-  ///               a number in the plane, where the axis is normal to it
+  /// @param axis   axis of rotation, body coordinates, of any length but zero: a vector in space, a
+  ///               number in the plane, to which the axis is normal
   /// @param radius [m], > 0
   /// @throws std::invalid_argument if the axis is not finite or zero, or for a radius that is not
   ///         finite or not positive

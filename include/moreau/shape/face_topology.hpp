@@ -16,7 +16,7 @@
 
 namespace moreau {
 
-/// Lists of indices of varying length, one after the other in one array.
+/// Lists of indices of varying length, stored one after the other in one array.
 class IndexLists {
  public:
   std::size_t size() const { return begins_.size() - 1; }  ///< lists

@@ -8,7 +8,8 @@
 namespace moreau {
 
 /// All points on one side of a plane (in the plane: of a line) through the body's origin: the solid
-/// is { x : normal . x <= 0 }. It models a wall; it has no mass and no box, so it is no Shape.
+/// is { x : normal . x <= 0 }. It models a wall. It has no mass and no bounding box, so it is no
+/// Shape.
 template <EuclideanSpace S>
 class HalfSpace {
  public:

@@ -17,8 +17,8 @@
 
 namespace moreau {
 
-/// Moments of a body of density one [-] about the origin, in the axes of its coordinates. The
-/// header has the formulas and their source.
+/// Moments of a body of density one [-] about the origin, in the axes of its coordinates.
+/// Formulas and source stand at the top of this file.
 template <class S>
 struct Moments {
   using Scalar = typename S::Scalar;
@@ -52,7 +52,8 @@ struct Moments {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
-  /// Whether the scalar can hold them: of a shape far too small or far too large it cannot.
+  /// Whether the scalar can hold the moments. They over- or underflow if the shape is far too large
+  /// or far too small.
   bool are_regular() const {
     const typename S::Inertia about_origin = inertia();
     return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&

@@ -12,9 +12,9 @@
 
 namespace moreau {
 
-/// A shape that is one of several kinds: the shape of a mixed assembly. Each pair of grains is then
-/// judged as the pair of what they hold (detect/collide.hpp), found by one visit.
-/// @tparam Shapes  different types, all of one space
+/// A shape that is one of several kinds: the shape of a mixed assembly. Detection finds the kinds
+/// of a pair by one visit and then runs as for a pair of these kinds (detect/collide.hpp).
+/// @tparam Shapes  different types, all of the same space
 template <Shape... Shapes>
 requires(sizeof...(Shapes) > 0 &&
          (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> &&
@@ -24,24 +24,24 @@ requires(sizeof...(Shapes) > 0 &&
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// Not explicit: a sphere may be given where a OneOf of spheres and others is asked for.
+  /// Not explicit: a Ball converts to OneOf<Ball<T>, Polyhedron<T>>.
   template <class ShapeT>
   requires(std::same_as<ShapeT, Shapes> || ...) OneOf(ShapeT shape) : held_(std::move(shape)) {}
 
-  /// Which of the kinds it is, counted as they are named.
+  /// Index of its kind in Shapes.
   std::size_t index() const { return held_.index(); }
-  /// What it is, if it is of that kind; else null.
+  /// The shape if it is of this kind, else null.
   template <class ShapeT>
   const ShapeT* get_if() const {
     return std::get_if<ShapeT>(&held_);
   }
-  /// use(shape), whatever kind it is.
+  /// Calls use(shape) with the shape of its own type.
   template <class Use>
   decltype(auto) visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), held_);
   }
 
-  /// [m^D], where all kinds know it.
+  /// [m^D], if all kinds have volume().
   Scalar volume() const requires(HasVolume<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.volume(); });
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moments of the Minkowski sum of a core and a ball of radius r, in the core's frame, at density
-// one. A core of one's own gets its mass by a function of this name in its own namespace.
+// one. A user's core needs a function of this name in its own namespace.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace moreau {
 
-/// Of a rounded polygon: the polygon, a rectangle on each edge, a sector at each vertex.
+/// Moments of a rounded polygon: the polygon, a rectangle on each edge, a sector at each vertex.
 /// @param r [m], > 0
 /// @returns moments about the core's origin, in its axes, at density one
 template <std::floating_point T>
@@ -40,7 +40,7 @@ Moments<Space<2, T>> rounded_moments(const Polygon<T>& core, T r) {
 
 namespace detail {
 
-/// Of face f of a polyhedron, a polygon in space; its corners are added to their cones.
+/// Moments of face f of a polyhedron, a polygon in space. Adds its corners to their cones.
 template <std::floating_point T>
 Moments<Space<3, T>> face_moments(const Polyhedron<T>& core, std::size_t f,
                                   std::vector<VertexCone<T>>& cones) {
@@ -65,8 +65,8 @@ Moments<Space<3, T>> face_moments(const Polyhedron<T>& core, std::size_t f,
 
 }  // namespace detail
 
-/// Of a rounded polyhedron: the polyhedron, a prism on each face, a sector of a cylinder along each
-/// edge, a sector of the ball at each vertex.
+/// Moments of a rounded polyhedron: the polyhedron, a prism on each face, a sector of a cylinder
+/// along each edge, a sector of the ball at each vertex.
 /// @param r [m], > 0
 /// @returns moments about the core's origin, in its axes, at density one
 template <std::floating_point T>
@@ -95,9 +95,9 @@ Moments<Space<3, T>> rounded_moments(const Polyhedron<T>& core, T r) {
   return sum;
 }
 
-/// Of a capsule: a cylinder between two half balls; in the plane, a rectangle between two half
-/// disks. B_k being the volume of the unit ball of dimension k, the halves, h from the origin, have
-/// int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their balls.
+/// Moments of a capsule: a cylinder between two half balls; in the plane, a rectangle between two
+/// half disks. B_k being the volume of the unit ball of dimension k, the halves, h from the origin,
+/// have int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their balls.
 /// @param r [m], > 0
 /// @returns moments about the core's origin, in its axes, at density one
 template <class S>

@@ -6,8 +6,8 @@
 
 namespace moreau {
 
-/// The tight box in world axes around a convex shape at the pose, from its support alone [m]: what
-/// a shape of one's own can answer as its bounding_box().
+/// The tight box in world axes around a convex shape at the pose [m], computed from support()
+/// alone. A user's own shape may return it from bounding_box().
 template <class ShapeT>
 Aabb<typename ShapeT::Space> support_box(const ShapeT& shape,
                                          const Pose<typename ShapeT::Space>& pose) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The surface of any convex shape as points and faces, for files and pictures. Polytopes are their
-// own faces; others are drawn by their farthest points in the directions of a fine polyhedron (in
-// the plane: polygon), which lie on the surface, so that the mesh is inscribed.
+// The surface of a convex shape as points and faces, for files and pictures. The mesh of a polytope
+// has its vertices and faces. The mesh of any other shape is inscribed: its points are the support
+// points in the directions of the vertices of a fine polyhedron (in the plane: a polygon).
 #pragma once
 
 #include <cmath>
@@ -19,21 +19,21 @@
 
 namespace moreau {
 
-/// Faces one behind the other, each the indices of its points counter-clockwise seen from outside;
-/// in the plane one face, the outline.
+/// Points and faces. A face lists the indices of its points counter-clockwise, seen from outside.
+/// In the plane there is one face, the outline.
 template <class S>
 struct SurfaceMesh {
   std::vector<typename S::Vector> points;  ///< body coordinates [m]
   std::vector<std::int32_t> corners;       ///< of all faces, as indices into points
   std::vector<std::int32_t> ends;          ///< where in corners each face ends
 
-  /// Takes out points and faces; keeps the memory.
+  /// Removes points and faces; keeps the memory.
   void clear() {
     points.clear();
     corners.clear();
     ends.clear();
   }
-  /// The corners since the last face are one.
+  /// Makes a face of the corners behind the last face.
   void end_face() { ends.push_back(static_cast<std::int32_t>(corners.size())); }
 };
 
@@ -53,7 +53,7 @@ SurfaceMesh<Space<2, T>> unit_mesh(Space<2, T>, int fineness) {
   return mesh;
 }
 
-/// Each triangle into four, new points on the unit sphere.
+/// Splits each triangle in four, with the new points on the unit sphere.
 template <class T>
 SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   SurfaceMesh<Space<3, T>> fine;
@@ -81,7 +81,7 @@ SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   return fine;
 }
 
-/// An icosahedron whose triangles are split in four as often as said, on the unit sphere.
+/// An icosahedron on the unit sphere whose triangles are split in four `fineness` times.
 template <class T>
 SurfaceMesh<Space<3, T>> unit_mesh(Space<3, T>, int fineness) {
   SurfaceMesh<Space<3, T>> mesh;
@@ -120,7 +120,7 @@ void append_faces(const ShapeT& shape, SurfaceMesh<Space<3, T>>& mesh) {
 
 }  // namespace detail
 
-/// Makes meshes of shapes; keeps the directions it looks in.
+/// Computes meshes of shapes; keeps the directions of the support points.
 template <class S>
 class SurfaceMesher {
  public:
@@ -149,7 +149,7 @@ class SurfaceMesher {
         mesh.points.push_back(shape.support(direction));
     }
   }
-  /// The mesh of what it is.
+  /// The mesh of the shape that it holds.
   template <ConvexShape... Shapes>
   void mesh(const OneOf<Shapes...>& shape, SurfaceMesh<S>& out) const {
     shape.visit([&](const auto& held) { mesh(held, out); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the polytopes of both dimensions do with their vertices, kept as an N x D matrix whose
+// Functions of the vertices of polytopes in both dimensions. The vertices are an N x D matrix whose
 // columns (all x, all y, ...) are contiguous.
 #pragma once
 
