@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Walls with a constant pressure. The time loop applies them before each step:
+=======
+// Walls that keep a pressure. The time loop applies them before each step:
+>>>>>>> refs/heads/iface
 //
 //   PressureLoad  lid(world, wall, 1e4, mass, [&] { return width * depth; });
 //   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
 //   for (...) { lid.apply(world, h); world.step(h); }
 //
+<<<<<<< HEAD
 // PressureLoad gives the wall a mass and applies the force pressure x area to it. At rest the grains
 // carry this force to the residual of the solver, for any contact law. The mass determines how fast
 // the wall follows. Use it for rigid contacts.
@@ -13,6 +18,16 @@
 // do. It needs a regularized law, because the measured pressure must change gradually with the
 // position of the wall. Let k be the stiffness of the sample at the wall [N/m]. The error then
 // decreases by the share gain k h / area per step. Keep this share below 1; at 2 it is unstable.
+=======
+// PressureLoad is for rigid grains. It gives the wall a mass and applies the force pressure x area.
+// At rest the grains carry this force up to the solver's residual. The mass sets how fast the wall
+// responds.
+//
+// PressureServo is for grains with a regularized law, whose contact force changes continuously with
+// the position of the wall. It moves the wall at v = gain (pressure - measured). With k the
+// stiffness of the sample in the direction of the wall [N/m], the error is multiplied by 1 - gain k
+// h / area per step. Keep gain k h / area below 1; at 2 the servo is unstable.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -25,8 +40,13 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Returns the area on which a pressure acts at the time of the call [m^2], in the plane the length
 /// [m]. It may change when other walls move.
+=======
+/// A function that returns the area on which a pressure acts [m^2], in the plane the length [m]. It
+/// is called before every step, as other walls may move.
+>>>>>>> refs/heads/iface
 template <class F>
 concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
@@ -73,7 +93,11 @@ class PressureLoad {
   /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, towards the grains
   /// @param mass     of the wall [kg], > 0; the mass of the grains is a good choice
   /// @param area     called before every step, > 0 [m^2], in the plane [m]
+<<<<<<< HEAD
   /// @throws std::invalid_argument if the body is not a half-space of the simulation, or for a
+=======
+  /// @throws std::invalid_argument for a body that is not a half-space of the simulation, a
+>>>>>>> refs/heads/iface
   ///         pressure that is not finite, or a mass that is not finite or not positive
   template <class Simulation>
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
@@ -125,8 +149,13 @@ class PressureServo {
 
   /// Sets the velocity for the next step from the pressure of the last step.
   /// @param step length of the last step [s], > 0
+<<<<<<< HEAD
   /// @throws std::invalid_argument if the body is not a half-space of the simulation or has a mass,
   ///         or for a step or an area that is not finite or not positive
+=======
+  /// @throws std::invalid_argument for a body that is not a half-space of the simulation or
+  ///         has a mass, or a step or an area that is not finite or not positive
+>>>>>>> refs/heads/iface
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;

@@ -2,8 +2,8 @@
 // How a class takes part in serialization: writing an object to a file and reading it back
 // (io/archive.hpp).
 //
-// An aggregate of up to eight members, such as Pose, needs no code. A class with private members
-// lists them once, for both directions:
+// An aggregate of up to eight members, such as Tolerances, needs no code. A class with private
+// members lists them once, for both directions:
 //
 //     private:
 //      friend struct SerializationAccess;

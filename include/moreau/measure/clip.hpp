@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Exact volume of a polytope inside an axis-aligned box.
 //
+<<<<<<< HEAD
 // The surface is a set of oriented rings of points: in space the faces, in the plane the outline. A
 // plane of the box cuts each ring. The cut ring is closed by a segment on the plane, from the point
 // p where the ring leaves the kept side to the point q where it returns. In the plane this is all.
@@ -12,6 +13,22 @@
 //
 // The volume follows from the divergence theorem, as a sum of signed simplices with a common point
 // of the surface. Error: some rounding errors of the volume of the polytope, not of the result.
+=======
+// The surface is a set of oriented rings of points: in space the faces, in the plane the outline.
+// The planes of the box cut the rings one after the other:
+//
+//   1. Each ring is clipped. Where it leaves the kept side at a point p and returns at a point q,
+//      it is closed along the segment from p to q.
+//   2. In space the cut leaves a hole whose rim consists of the segments from q to p. The triangles
+//      (apex, q, p) with any common apex on the plane fill the hole. Segments need no sorting.
+//
+// The surface stays closed for any rounding: two neighbouring rings compute the point on their
+// common edge from the same two ends in the same order, so that all bits agree. A plane through
+// vertices, edges or whole faces is therefore no special case.
+//
+// The volume is a sum of signed simplices over one point of the surface (divergence theorem). Its
+// error is a few rounding errors of the volume of the polytope, not of the result.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -28,7 +45,11 @@ namespace moreau {
 
 namespace detail {
 
+<<<<<<< HEAD
 /// Closed sequences of points, stored one after the other.
+=======
+/// Closed rings of points, stored one after the other.
+>>>>>>> refs/heads/iface
 template <class S>
 struct Rings {
   using Vector = typename S::Vector;
@@ -40,8 +61,20 @@ struct Rings {
     points.clear();
     ends.clear();
   }
+<<<<<<< HEAD
   /// Ends the ring that consists of the points since the last ring. Removes it if it encloses
   /// nothing.
+=======
+  /// Calls use(start, end) for each ring: its points are points[start] to points[end - 1].
+  void for_each_ring(const auto& use) const {
+    std::size_t start = 0;
+    for (const std::size_t end : ends) {
+      use(start, end);
+      start = end;
+    }
+  }
+  /// Makes a ring of the points behind the last ring. Drops them if there are fewer than three.
+>>>>>>> refs/heads/iface
   void close() {
     const std::size_t start = ends.empty() ? 0 : ends.back();
     if (points.size() - start > 2)
@@ -73,7 +106,11 @@ struct AxisPlane {
   }
 };
 
+<<<<<<< HEAD
 /// Closes the hole that a plane cuts into a surface. In the plane there is no hole.
+=======
+/// Fills the hole that a plane cuts into a surface. In the plane a cut leaves no hole.
+>>>>>>> refs/heads/iface
 template <class S>
 class Cap {
  public:
@@ -141,11 +178,9 @@ void clip(const Rings<S>& rings, const AxisPlane<S>& plane, Rings<S>& kept, Ring
   kept.clear();
   caps.clear();
   Cap<S> cap(caps);
-  std::size_t start = 0;
-  for (const std::size_t end : rings.ends) {
+  rings.for_each_ring([&](std::size_t start, std::size_t end) {
     clip_ring<S>(std::span(rings.points).subspan(start, end - start), plane, kept, cap);
-    start = end;
-  }
+  });
   const std::size_t shift = kept.points.size();
   kept.points.insert(kept.points.end(), caps.points.begin(), caps.points.end());
   for (const std::size_t end : caps.ends) kept.ends.push_back(shift + end);
@@ -156,16 +191,14 @@ template <class T>
 T enclosed_volume(const Rings<Space<2, T>>& rings) {
   using Vector = typename Space<2, T>::Vector;
   T doubled = 0;
-  std::size_t start = 0;
-  for (const std::size_t end : rings.ends) {
+  rings.for_each_ring([&](std::size_t start, std::size_t end) {
     const Vector& origin = rings.points.front();
     for (std::size_t i = start; i < end; ++i) {
       const Vector a = rings.points[i] - origin;
       const Vector b = rings.points[i + 1 < end ? i + 1 : start] - origin;
       doubled += a.x() * b.y() - a.y() * b.x();
     }
-    start = end;
-  }
+  });
   return doubled / 2;
 }
 
@@ -174,16 +207,14 @@ template <class T>
 T enclosed_volume(const Rings<Space<3, T>>& rings) {
   using Vector = typename Space<3, T>::Vector;
   T sixfold = 0;
-  std::size_t start = 0;
-  for (const std::size_t end : rings.ends) {
+  rings.for_each_ring([&](std::size_t start, std::size_t end) {
     const Vector& origin = rings.points.front();
     const Vector& corner = rings.points[start];
     Vector normal = Vector::Zero();  // times twice the ring's area
     for (std::size_t i = start + 1; i + 1 < end; ++i)
       normal += (rings.points[i] - corner).cross(rings.points[i + 1] - corner);
     sixfold += (corner - origin).dot(normal);
-    start = end;
-  }
+  });
   return sixfold / 6;
 }
 

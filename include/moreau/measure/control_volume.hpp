@@ -56,7 +56,11 @@ void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
                 "must lie inside the box " + detail::describe(box));
 }
 
+<<<<<<< HEAD
 /// Volume of a box, in the plane its area [m^D]. The box must not be inverted.
+=======
+/// The volume of the box, in the plane its area [m^D]; without meaning for an inverted box.
+>>>>>>> refs/heads/iface
 template <class S>
 typename S::Scalar volume(const Aabb<S>& box) {
   return (box.upper - box.lower).prod();

@@ -7,6 +7,7 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
+<<<<<<< HEAD
 // All terms are measured independently. The imbalance is the energy that the discrete motion does
 // not account for:
 //  - MoreauJean(1/2), bodies in the plane or with one moment of inertia (spheres): rounding.
@@ -14,6 +15,17 @@
 //  - theta > 1/2: first order in the step, the energy that the scheme dissipates.
 //  - A regularized law: `impacts` and `friction` include the energy stored in springs, and the
 //    imbalance is the error of forces that are taken as constant during a step.
+=======
+// Each term is measured on its own. The imbalance is the part of the kinetic energy that no term
+// explains:
+//
+//   - MoreauJean(1/2), in the plane, or with equal moments of inertia (balls, cubes): rounding.
+//   - MoreauJean(1/2), other bodies in space: first order in the step, because the inertia tensor
+//     rotates during the step.
+//   - MoreauJean(theta > 1/2): also the numerical damping of the scheme, first order in the step.
+//   - a regularized law: the error of forces that are constant during a step. `impacts` and
+//     `friction` then include the energy stored in the springs.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <cmath>
@@ -31,8 +43,13 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Sums since the balance began; in the plane per unit of thickness. The head of this file has the
 /// balance with its signs.
+=======
+/// Sums since the balance began, with the signs of the equation at the top of this file. In the
+/// plane they are energies per unit of the thickness that the densities refer to.
+>>>>>>> refs/heads/iface
 struct EnergyTerms {
   double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy [J]
   double forces = 0;      ///< work of set_force() on grains, and on walls along their mass [J]
@@ -49,9 +66,15 @@ struct EnergyTerms {
   }
 };
 
+<<<<<<< HEAD
 /// Energy balance of one simulation. If a program sets velocities or poses of bodies with a mass
 /// between two steps, the change appears in the imbalance or in the work of gravity and forces. A
 /// snapshot can store the balance together with the simulation (write_snapshot()).
+=======
+/// Follows one simulation. If velocities or poses of bodies with a mass are set between two steps,
+/// the change appears in the imbalance, or in the work of gravity and forces. write_snapshot() can
+/// store the balance with the simulation, so that it continues with a restarted run.
+>>>>>>> refs/heads/iface
 template <class S>
 class EnergyBalance {
  public:
@@ -65,7 +88,11 @@ class EnergyBalance {
     start_ = kinetic_;
   }
 
+<<<<<<< HEAD
   /// Adds the last step. Forces and gravity must be those of that step.
+=======
+  /// Adds the last step. Forces and gravity must still be those of the step.
+>>>>>>> refs/heads/iface
   /// @param step its length [s], > 0
   /// @throws std::invalid_argument for a step that is not positive, or bodies added since the start
   template <class Simulation>
@@ -117,8 +144,13 @@ class EnergyBalance {
     return energy;
   }
 
+<<<<<<< HEAD
   /// Work of the prescribed part of a body's motion against the impulse that it receives. The drive
   /// must supply this work.
+=======
+  /// Work of the prescribed part of a body's motion against the impulse that the body receives. The
+  /// drive of the body supplies the same work.
+>>>>>>> refs/heads/iface
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
                         const Vector& impulse, const typename S::Angular& couple) {
     if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Fabric tensor: the distribution of contact normals.
+=======
+// Fabric: the orientation of the contacts of an assembly.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <cstddef>
@@ -11,7 +15,11 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// The distribution of contact normals.
+=======
+/// Distribution of the contact normals.
+>>>>>>> refs/heads/iface
 template <class S>
 struct Fabric {
   /// Mean of n n^T over the pairs, D x D, world axes: symmetric, trace 1; identity / D for an

@@ -14,15 +14,25 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// One contact point. A wall has no centre: on its side the segment ends at the contact point. All
 /// vectors are in world axes.
+=======
+/// One contact point. If a body is a wall, which has no centre, its end of the segment is the
+/// contact point. All vectors in world axes.
+>>>>>>> refs/heads/iface
 template <class S>
 struct ContactSegment {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
+<<<<<<< HEAD
   std::uint32_t a;             ///< body a
   std::uint32_t b;             ///< body b
+=======
+  std::uint32_t a;             ///< first body
+  std::uint32_t b;             ///< second body
+>>>>>>> refs/heads/iface
   Vector from;                 ///< centre of a [m]
   Vector to;                   ///< centre of b [m]
   Vector point;                ///< contact point [m]
@@ -78,7 +88,11 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
       segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
+<<<<<<< HEAD
 /// Fills `segments` with all contacts, also those without force. Arguments as for
+=======
+/// Fills `segments` with all contacts, also contacts without force; arguments as of
+>>>>>>> refs/heads/iface
 /// contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>

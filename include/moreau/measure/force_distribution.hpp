@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Distribution of contact forces.
+=======
+// Distribution of the contact forces of an assembly.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <cmath>

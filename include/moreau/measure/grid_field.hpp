@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Means over the grains in each cell of a grid: fields of velocity, of displacement, of any vector
-// that grains have.
+// Means over the grains in each cell of a grid: fields of velocity, displacement, or any other
+// vector of the grains.
 //
 //   GridField<S> velocity(box, {20, 20, 10}), displacement(box, {20, 20, 10});
 //   velocity.add(x, v, mass);               // for every grain, in one step or in many
@@ -59,9 +59,16 @@ class GridField {
   /// over time.
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param value    in any unit
+<<<<<<< HEAD
   /// @param weight   > 0; with masses [kg] a field of velocities is momentum / mass of each cell
   /// @param periodic cell of the simulation
   /// @throws std::invalid_argument if an argument is not finite or the weight is not positive
+=======
+  /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
+  /// @param periodic the simulation's cell
+  /// @throws std::invalid_argument for a number that is not finite, or a weight that is not
+  ///         positive
+>>>>>>> refs/heads/iface
   void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Statistics of overlaps.
+=======
+// Statistics of the overlaps of contacts.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -10,7 +14,11 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Statistics of overlaps -gap > 0 [m]. All are zero if nothing overlaps.
+=======
+/// Statistics of overlaps, each -gap > 0 [m]. Zero if nothing overlaps.
+>>>>>>> refs/heads/iface
 template <class T>
 struct OverlapStatistics {
   std::size_t points = 0;  ///< contact points with gap < 0

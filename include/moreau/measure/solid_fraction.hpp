@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Solid fraction of a control volume: exact, not by sample points.
+=======
+// The share of a control volume that grains fill, computed exactly, without sample points.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Mean velocity of grains in the vertical section, and a measure of how much it is a roll.
+=======
+// The mean velocity of grains in the vertical section, and the rotation of this field.
+>>>>>>> refs/heads/iface
 //
 // The section is spanned by the first axis, x, drawn to the right, and the last one (z in space, y
 // in the plane), drawn upwards. Turning is positive counter-clockwise as one sees it in that
@@ -64,8 +68,13 @@ class VelocityField {
   /// over time.
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param velocity of its centre, world axes [m/s]
+<<<<<<< HEAD
   /// @param periodic cell of the simulation
   /// @throws std::invalid_argument if an argument is not finite
+=======
+  /// @param periodic the simulation's cell
+  /// @throws std::invalid_argument for a number that is not finite
+>>>>>>> refs/heads/iface
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
@@ -96,9 +105,14 @@ class VelocityField {
     return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
   }
 
+<<<<<<< HEAD
   /// Rotation about the centre of the cells that contain grains, relative to their mean velocity,
   /// so that a translation is not a roll. All such cells have the same weight. All results are zero
   /// if nothing rotates or moves.
+=======
+  /// Rotation about the centre of the cells that hold grains, after subtraction of their mean
+  /// velocity. All cells that hold grains have the same weight. Zero if the field does not rotate.
+>>>>>>> refs/heads/iface
   Roll<Scalar> roll() const {
     Section centre = Section::Zero(), drift = Section::Zero();
     Scalar count = 0;

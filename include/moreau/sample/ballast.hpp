@@ -31,19 +31,33 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Random shapes of one type. Specialise it for a shape of your own. draw(random) returns a random
 /// shape of circumradius 1 (to rounding).
 template <class Shape>
 struct Ballast;
 
 /// A shape type for which random shapes can be drawn: Ballast<Shape> exists.
+=======
+/// Draws random grains of a shape; specialise it for your own shape. draw(random) returns a random
+/// grain of circumradius 1 (to rounding).
+template <class Shape>
+struct Ballast;
+
+/// A shape with a specialisation of Ballast, so that random grains can be drawn.
+>>>>>>> refs/heads/iface
 template <class Shape>
 concept BallastShape = requires(std::mt19937_64& random) {
   { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
 };
 
+<<<<<<< HEAD
 /// Parameters of the distribution of shapes; the head of this file describes it. Lengths are
 /// relative to the largest semi-axis [-].
+=======
+/// Parameters of the random shapes described at the top of this file. Lengths are relative to the
+/// largest semi-axis [-].
+>>>>>>> refs/heads/iface
 struct BallastParameters {
   double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
   double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
@@ -67,8 +81,13 @@ Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   return x.normalized();
 }
 
+<<<<<<< HEAD
 /// Random directions with at least the given distance (chord length) between each two. If there is
 /// no room for more, returns fewer than `count`.
+=======
+/// Random directions with at least the spacing (chord length) between any two. Returns fewer than
+/// `count` if no further direction is found.
+>>>>>>> refs/heads/iface
 template <int Dim>
 std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, double spacing,
                                                              std::mt19937_64& random) {
@@ -150,10 +169,14 @@ struct Ballast<Polygon<T>> {
   }
 };
 
+<<<<<<< HEAD
 /// Balls, the reference without corners. All have radius 1.
+=======
+/// Balls and disks, the reference without corners: all grains are equal.
+>>>>>>> refs/heads/iface
 template <class S>
 struct Ballast<BallIn<S>> {
-  /// That of radius 1.
+  /// The ball of radius 1.
   static BallIn<S> draw(std::mt19937_64&) { return BallIn<S>(1); }
 };
 

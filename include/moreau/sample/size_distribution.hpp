@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Grain sizes: classes with shares, and the definition of "size".
+=======
+// Numbers of grains by size, and the meaning of "size".
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -16,7 +20,11 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Meaning of the size d of a grain. Publications are not always clear about it.
+=======
+/// The meaning of a grain's size d, which publications do not always state.
+>>>>>>> refs/heads/iface
 enum class SizeReading : std::uint8_t {
   circumdiameter,  ///< twice the largest distance from the centre of mass to a vertex
   circumradius     ///< the largest distance from the centre of mass to a vertex
@@ -31,8 +39,12 @@ inline double circumradius_of(double size, SizeReading reading) {
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
+<<<<<<< HEAD
 /// A distribution of sizes in classes, with shares by number. SizeReading defines the meaning of a
 /// size.
+=======
+/// Classes of sizes with shares by number. SizeReading tells what a size means.
+>>>>>>> refs/heads/iface
 class SizeDistribution {
  public:
   /// One class: grains of one size.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Convex hulls of points in the plane and in space.
 //
+<<<<<<< HEAD
 // Three steps make them safe for any finite input:
 //  1. Points that are closer together than the tolerance become one point.
 //  2. The hull of these points is built with exact signs (orientation.hpp). It is therefore always
@@ -9,6 +10,18 @@
 // triangles in space (face_merging.hpp).
 // All steps visit the points in lexicographic order, so the order of the input does not change the
 // result.
+=======
+// Three steps give a valid hull for any finite input:
+//
+//   1. Points closer together than the tolerance are merged.
+//   2. The hull of the remaining points is computed with exact signs (orientation.hpp). It is
+//      therefore always closed and convex.
+//   3. Collinear edges (in the plane) and coplanar triangles (in space, face_merging.hpp) are
+//      joined, within the tolerance.
+//
+// All steps take the points in lexicographic order, so that the result does not depend on the order
+// of the input.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,11 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Lists of indices of different lengths, stored one after the other in one array.
+=======
+/// Lists of indices of varying length, stored one after the other in one array.
+>>>>>>> refs/heads/iface
 class IndexLists {
  public:
   std::size_t size() const { return begins_.size() - 1; }  ///< number of lists

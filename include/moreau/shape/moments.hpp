@@ -17,8 +17,13 @@
 
 namespace moreau {
 
+<<<<<<< HEAD
 /// Moments of a body of density one [-] about the origin, in the axes of its coordinates. The head
 /// of this file has the formulas and their source.
+=======
+/// Moments of a body of density one [-] about the origin, in the axes of its coordinates.
+/// Formulas and source stand at the top of this file.
+>>>>>>> refs/heads/iface
 template <class S>
 struct Moments {
   using Scalar = typename S::Scalar;
@@ -52,7 +57,12 @@ struct Moments {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
+<<<<<<< HEAD
   /// Whether the scalar can represent them. It cannot if a shape is far too small or far too large.
+=======
+  /// Whether the scalar can hold the moments. They over- or underflow if the shape is far too large
+  /// or far too small.
+>>>>>>> refs/heads/iface
   bool are_regular() const {
     const typename S::Inertia about_origin = inertia();
     return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
 // Exact moments of the pieces that a ball of radius r adds to a polytope.
 //
-// The Minkowski sum of a polytope and a ball is the union, without overlap, of one piece for each
-// face F of the polytope of any dimension k (the body itself, its faces, edges, vertices): all sums
-// y + z of a point y of F and a point z of the ball in the normal cone of F, which has dimension
-// D - k and is orthogonal to F. Integrals over a piece are therefore products. The cones are
+// The Minkowski sum of a polytope and a ball is a union of pieces that do not overlap. There is one
+// piece for each face F of any dimension k (the body itself, its faces, edges, vertices): all sums
+// y + z of a point y of F and a point z of the ball in the normal cone of F. The cone has dimension
+// D - k and is orthogonal to F, so that integrals over a piece are products. The cones are
 //
-//     of a (D-1)-face   a ray along its normal
-//     of a (D-2)-face   a sector of a disk between the normals of two neighbours, at the angle
-//     theta of a vertex in 3D the spherical polygon Q of directions whose corners are the normals
-//     of the
-//                       faces at the vertex; arc i, of angle theta_i, belongs to an edge there
+//     (D-1)-face     a ray along its normal
+//     (D-2)-face     a sector of a disk between the normals of two neighbours, of angle theta
+//     vertex in 3D   the spherical polygon Q of directions whose corners are the normals of the
+//                    faces at the vertex; arc i, of angle theta_i, belongs to an edge there
 //
 // With u_i the unit vector along edge i away from the vertex, n_i and n_i' the normals of its faces
 // and alpha_f the angle of face f at the vertex,
 //
 //     area of Q      W = 2 pi - sum alpha_f           (Gauss-Bonnet; Descartes' angular defect)
 //     int_Q n        = -1/2 sum theta_i u_i           (the ball is in balance under pressure)
-//     int_Q n n^T    = W/3 1 - 1/3 sum sym(u_i E_i^T),  E_i = int_i n = tan(theta_i / 2) (n_i +
-//     n_i')
+//     int_Q n n^T    = W/3 1 - 1/3 sum sym(u_i E_i^T)
+//     E_i = int_i n  = tan(theta_i / 2) (n_i + n_i')
 //
-// The last is the divergence theorem for (a.n) grad(b.n), of divergence a.b - 3 (a.n)(b.n), on Q:
-// u_i is the outward conormal of arc i, the same all along a great circle. Radially, r^3/3, r^4/4
-// and r^5/5 come on top.
+// The third line is the divergence theorem on Q for the field (a.n) grad(b.n), whose divergence is
+// a.b - 3 (a.n)(b.n); u_i is the outward conormal of arc i and constant along it. The integrals
+// over the radius give the factors r^3/3, r^4/4 and r^5/5.
 #pragma once
 
 #include <cmath>
@@ -32,8 +31,8 @@
 
 namespace moreau::detail {
 
-/// Of all sums y + z, y of one set, z of another in a space orthogonal to it. The volume of a set
-/// of dimension k is its k-dimensional measure.
+/// Moments of all sums y + z of points y of one set and z of another set in a space orthogonal to
+/// the first. The volume of a set of dimension k is its k-dimensional measure.
 template <class S>
 Moments<S> sum_set(const Moments<S>& y, const Moments<S>& z) {
   return {y.volume * z.volume, z.volume * y.first + y.volume * z.first,
@@ -41,7 +40,7 @@ Moments<S> sum_set(const Moments<S>& y, const Moments<S>& z) {
               z.first * y.first.transpose()};
 }
 
-/// Of a point, line segment or triangle: the simplex of the N columns, of the given measure.
+/// Moments of a point, a line segment or a triangle: the simplex whose corners are the N columns.
 template <class S, int N>
 Moments<S> simplex_moments(typename S::Scalar measure,
                            const Eigen::Matrix<typename S::Scalar, S::dim, N>& corners) {
@@ -61,7 +60,7 @@ Moments<S> edge_moments(const typename S::Vector& v, const typename S::Vector& w
   return simplex_moments<S, 2>((w - v).norm(), corners);
 }
 
-/// Of the points up to the distance r along a unit vector.
+/// Moments of the points up to the distance r along a unit vector.
 template <class S>
 Moments<S> ray_moments(const typename S::Vector& n, typename S::Scalar r) {
   return {r, r * r / 2 * n, r * r * r / 3 * (n * n.transpose())};
@@ -73,7 +72,7 @@ typename Vector::Scalar angle_between(const Vector& n, const Vector& m) {
   return 2 * std::atan2((m - n).norm(), (m + n).norm());
 }
 
-/// Of the sector of the disk of radius r between two unit vectors less than pi apart.
+/// Moments of the sector of a disk of radius r between two unit vectors less than pi apart.
 template <class S>
 Moments<S> sector_moments(const typename S::Vector& n, const typename S::Vector& m,
                           typename S::Scalar r) {
@@ -86,7 +85,7 @@ Moments<S> sector_moments(const typename S::Vector& n, const typename S::Vector&
                (angle - std::sin(angle)) * across * across.transpose())};
 }
 
-/// The cone of a vertex in space, summed up from its faces and edges in any order.
+/// Normal cone of a vertex in space, summed over its faces and edges in any order.
 template <std::floating_point T>
 class VertexCone {
  public:
@@ -105,7 +104,7 @@ class VertexCone {
     first_ -= angle / 2 * u;
     second_ -= (u * along_arc.transpose() + along_arc * u.transpose()) / 6;
   }
-  /// Of the part of the ball of radius r in the cone.
+  /// Moments of the part of the ball of radius r in the cone.
   Moments<S> moments(T r) const {
     const T r3 = r * r * r;
     return {defect_ * r3 / 3, r3 * r / 4 * first_,

@@ -102,8 +102,13 @@ inline double exact_orientation(const Eigen::Vector3d& a, const Eigen::Vector3d&
 }  // namespace detail
 
 /// Twice the signed area of the triangle abc, in the square of the coordinates' unit; its sign is
+<<<<<<< HEAD
 /// exact: > 0 if c is to the left of a -> b. The coordinates must be of order one, as the head of
 /// this file explains.
+=======
+/// exact: > 0 if c is to the left of a -> b. The top of
+/// this file states the range of the coordinates and the source.
+>>>>>>> refs/heads/iface
 inline double orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                           const Eigen::Vector2d& c) {
   constexpr double epsilon = 0x1p-53, bound = (3 + 16 * epsilon) * epsilon;

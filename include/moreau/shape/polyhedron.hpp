@@ -3,40 +3,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <tuple>
 #include <vector>
 
-#include "moreau/core/serialize.hpp"
-#include "moreau/shape/concepts.hpp"
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/face_plane.hpp"
 #include "moreau/shape/face_topology.hpp"
-#include "moreau/shape/moments.hpp"
-#include "moreau/shape/vertices.hpp"
+#include "moreau/shape/polytope_base.hpp"
 
 namespace moreau {
 
-/// A convex polyhedron. Its body frame has the axes of the input and its origin at the centre of
-/// mass. No two of its faces are coplanar.
+namespace detail {
+
+struct PolyhedronNames {
+  static constexpr const char* mass_properties = "Polyhedron::mass_properties";
+  static constexpr const char* scaled = "Polyhedron::scaled";
+  static constexpr const char* unit_of_second_moment = "m^5 must be positive and finite";
+};
+
+}  // namespace detail
+
+/// A convex polyhedron. No two of its faces are coplanar.
 template <std::floating_point T = double>
-class Polyhedron {
+class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
+  using Base = PolytopeBase<moreau::Space<3, T>, detail::PolyhedronNames>;
+
  public:
-  using Space = moreau::Space<3, T>;
-  using Scalar = T;
-  using Vector = typename Space::Vector;
-  using FaceOffsets = Eigen::Array<T, Eigen::Dynamic, 1>;
+  using Base::vertex_count;
+  using typename Base::Space, typename Base::Vector;
   using Edge = PolyhedronEdge;
 
-  /// The convex hull of the vertices [m]; those inside, on a face or on an edge are dropped, the
-  /// others keep their order. Coplanar triangles are one face.
+  /// The convex hull of the vertices [m]. Vertices inside the hull, on a face or on an edge are
+  /// dropped. The others keep their order. Coplanar triangles are one face.
   /// @param vertices N points, in any order and in any frame [m]
-  /// @throws std::invalid_argument for fewer than 4, one that is not finite, ones that coincide,
-  ///         are collinear or coplanar, or moments that the scalar cannot hold
+  /// @throws std::invalid_argument for fewer than 4 points, a point that is not finite, points that
+  ///         coincide, are collinear or coplanar, or moments that the scalar cannot hold
   explicit Polyhedron(std::span<const Vector> vertices);
   /// The same from a list of points: Polyhedron<double>({{0, 0, 0}, {1, 0, 0}, ..}).
   explicit Polyhedron(std::initializer_list<VectorArgument<Space>> vertices)
@@ -54,13 +61,7 @@ class Polyhedron {
   static Polyhedron from_faces(std::span<const Vector> vertices,
                                std::span<const std::vector<std::uint32_t>> faces);
 
-  const VertexMatrix<Space>& vertices() const { return vertices_; }  ///< N x 3 [m]
-  const VertexMatrix<Space>& face_normals() const {
-    return face_normals_;
-  }                                                                  ///< F x 3, unit, outward
-  const FaceOffsets& face_offsets() const { return face_offsets_; }  ///< F, normal . x on it [m]
-  std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }  ///< N
-  std::size_t face_count() const { return topology_.faces.size(); }                        ///< F
+  std::size_t face_count() const { return topology_.faces.size(); }  ///< F
   std::size_t edge_count() const { return topology_.edges.size(); }  ///< N + F - 2
   /// Triangles that its surface consists of if every face is cut into triangles: 2 V - 4.
   std::size_t triangle_count() const { return 2 * vertex_count() - 4; }
@@ -79,36 +80,6 @@ class Polyhedron {
     return topology_.vertex_edges[v];
   }
 
-  /// Where the centre of mass was in the coordinates of the input [m].
-  const Vector& centroid_of_input() const { return centroid_of_input_; }
-  T volume() const { return moments_.volume; }      ///< [m^3]
-  T circumradius() const { return circumradius_; }  ///< largest |vertex| from the origin [m]
-  T inradius() const { return inradius_; }          ///< from the origin to the nearest face [m]
-  /// About the origin, which is the centre of mass, at density one.
-  const Moments<Space>& moments() const { return moments_; }
-  /// The least distance of two face normals, as unit vectors [-]: about the least angle [rad].
-  T normal_spacing() const { return normal_spacing_; }
-
-  /// The first vertex that lies farthest in the direction (any length but zero), body coordinates.
-  std::size_t support_vertex(const VectorArgument<Space>& direction) const {
-    return farthest_vertex<Space>(vertices_, direction);
-  }
-  /// A vertex that is farthest in the direction (any length but zero), body coordinates [m].
-  Vector support(const VectorArgument<Space>& direction) const {
-    return vertex(support_vertex(direction));
-  }
-
-  /// @param density [kg/m^3], > 0
-  /// @throws std::invalid_argument unless the density is finite and greater than zero
-  MassProperties<Space> mass_properties(T density) const {
-    detail::require_positive(density, "Polyhedron::mass_properties", "density");
-    return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
-  }
-  /// The tight box around it at the pose, world axes [m].
-  Aabb<Space> bounding_box(const Pose<Space>& pose) const {
-    return box_around<Space>(vertices_, pose);
-  }
-
   /// The same polyhedron, all lengths times the factor [-], > 0.
   /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
   ///         the moments
@@ -116,11 +87,9 @@ class Polyhedron {
 
  private:
   friend struct SerializationAccess;
+  using Base::vertices_, Base::face_normals_, Base::face_offsets_;
   Polyhedron() = default;
-  auto serialized_members() {
-    return std::tie(topology_, vertices_, face_normals_, face_offsets_, centroid_of_input_,
-                    circumradius_, inradius_, normal_spacing_, moments_);
-  }
+  auto serialized_members() { return std::tuple_cat(std::tie(topology_), Base::members()); }
   /// What follows from the faces.
   void deserialized() {
     std::vector<std::vector<std::uint32_t>> faces;
@@ -185,8 +154,7 @@ class Polyhedron {
       face_normals_.row(row) = plane.normal.template cast<T>().transpose();
       face_offsets_[row] = static_cast<T>(plane.normal.dot(plane.center));
     }
-    inradius_ = face_offsets_.minCoeff();
-    normal_spacing_ = least_distance<Space>(face_normals_);
+    this->summarize_faces();
   }
 
   /// Every vertex lies on the faces that name it and strictly below the others, within the rounding
@@ -215,11 +183,6 @@ class Polyhedron {
   }
 
   FaceTopology topology_;
-  VertexMatrix<Space> vertices_, face_normals_;
-  FaceOffsets face_offsets_;
-  Vector centroid_of_input_ = Vector::Zero();
-  T circumradius_ = 0, inradius_ = 0, normal_spacing_ = 0;
-  Moments<Space> moments_;
 };
 
 // Outside of the class: compiled once where a program declares the class extern.
@@ -244,16 +207,8 @@ Polyhedron<T> Polyhedron<T>::from_faces(std::span<const Vector> vertices,
 
 template <std::floating_point T>
 Polyhedron<T> Polyhedron<T>::scaled(T factor) const {
-  detail::require_positive(factor, "Polyhedron::scaled", "factor");
   Polyhedron copy = *this;
-  copy.vertices_ *= factor;
-  copy.face_offsets_ *= factor;
-  copy.circumradius_ *= factor;
-  copy.inradius_ *= factor;
-  copy.centroid_of_input_ *= factor;
-  copy.moments_ = moments_.scaled(factor);
-  require(copy.moments_.are_regular(), "Polyhedron::scaled", "second moment",
-          copy.moments_.second.trace(), "m^5 must be positive and finite");
+  copy.scale(factor);
   return copy;
 }
 
@@ -270,13 +225,8 @@ void Polyhedron<T>::build(std::span<const Vector> vertices,
   require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");
   require(rough.volume > T(0), function, "volume", rough.volume,
           "m^3 must be positive: faces run counter-clockwise seen from outside");
-  const Vector center = rough.first / rough.volume;
-  centroid_of_input_ = vertices[0] + center;
-  vertices_.rowwise() -= center.transpose();
-  moments_ = sum_moments();
-  require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
-          "m^5 must be positive and finite");
-  circumradius_ = vertices_.rowwise().norm().maxCoeff();
+  this->move_origin(rough, vertices[0]);
+  this->set_moments(sum_moments(), function);
   set_planes();
 }
 

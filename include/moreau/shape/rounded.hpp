@@ -11,7 +11,7 @@
 
 namespace moreau {
 
-/// A core of which the moments of the rounded body are known (rounded_moments.hpp).
+/// A core with a function rounded_moments(core, radius), see rounded_moments.hpp.
 template <class Core>
 concept HasRoundedMoments = requires(const Core core, typename Core::Space::Scalar radius) {
   { rounded_moments(core, radius) } -> std::same_as<Moments<SpaceOf<Core>>>;
@@ -20,8 +20,8 @@ concept HasRoundedMoments = requires(const Core core, typename Core::Space::Scal
 /// The Minkowski sum of a convex core (Polygon, Polyhedron, Segment, any shape known by its
 /// support) and a ball: all points at most the radius away from the core. The body frame has the
 /// axes of the core's and its origin at the centre of mass of the sum, which is not that of the
-/// core unless the core is symmetric: the core stands at core_position() in it. A core without
-/// rounded_moments() keeps its own frame, and the sum then has no mass and is no Shape.
+/// core unless the core is symmetric. core_position() is the position of the core's origin. A core
+/// without rounded_moments() keeps its own frame, and the sum then has no mass and is no Shape.
 template <ConvexCore Core>
 class Rounded {
  public:
@@ -44,15 +44,15 @@ class Rounded {
     }
   }
 
-  const Core& core() const { return core_; }  ///< what is rounded, in its own frame
+  const Core& core() const { return core_; }  ///< the rounded core, in its own frame
   Scalar radius() const { return radius_; }   ///< of the ball [m]
   /// Where the origin of the core's frame is in this shape's frame [m].
   const Vector& core_position() const { return core_position_; }
 
   /// [m^D], where the core's rounded moments are known.
   Scalar volume() const requires HasRoundedMoments<Core> { return moments_.volume; }
-  /// Distance of the farthest point from the origin [m]; of a core that is no polytope and whose
-  /// origin is not this one's, a bound from above.
+  /// Distance of the farthest point from the origin [m]. An upper bound if the core is not a
+  /// polytope and core_position() is not zero.
   Scalar circumradius() const requires HasCircumradius<Core> {
     if constexpr (Polytope<Core>) {
       const auto from_origin = core_.vertices().rowwise() + core_position_.transpose();
@@ -61,8 +61,8 @@ class Rounded {
       return core_.circumradius() + core_position_.norm() + radius_;
     }
   }
-  /// Distance of the nearest point of the surface from the origin [m]; of a core that is no
-  /// polytope and whose origin is not this one's, a bound from below.
+  /// Distance of the nearest point of the surface from the origin [m]. A lower bound if the core is
+  /// not a polytope and core_position() is not zero.
   Scalar inradius() const requires HasInradius<Core> {
     if constexpr (Polytope<Core>) {
       const auto heights = (core_.face_normals() * core_position_).array() + core_.face_offsets();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moments of the Minkowski sum of a core and a ball of radius r, in the core's frame, at density
-// one. A core of one's own gets its mass by a function of this name in its own namespace.
+// one. A user's core needs a function of this name in its own namespace.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ Moments<Space<2, T>> rounded_moments(const Polygon<T>& core, T r) {
 
 namespace detail {
 
-/// Of face f of a polyhedron, a polygon in space; its corners are added to their cones.
+/// Moments of face f of a polyhedron, a polygon in space. Adds its corners to their cones.
 template <std::floating_point T>
 Moments<Space<3, T>> face_moments(const Polyhedron<T>& core, std::size_t f,
                                   std::vector<VertexCone<T>>& cones) {
@@ -96,9 +96,14 @@ Moments<Space<3, T>> rounded_moments(const Polyhedron<T>& core, T r) {
 }
 
 /// Moments of a capsule: a cylinder between two half balls; in the plane, a rectangle between two
+<<<<<<< HEAD
 /// half disks. Let B_k be the volume of the unit ball of dimension k. The half balls, at the
 /// distance h from the origin, have int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their
 /// balls.
+=======
+/// half disks. B_k being the volume of the unit ball of dimension k, the halves, h from the origin,
+/// have int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their balls.
+>>>>>>> refs/heads/iface
 /// @param r [m], > 0
 /// @returns moments about the origin of the core, in its axes, at density one
 template <class S>

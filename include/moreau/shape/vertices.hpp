@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // Shared by the polytopes of both dimensions: vertices as an N x D matrix whose columns (all x, all
 // y, ...) are contiguous.
+=======
+// Functions of the vertices of polytopes in both dimensions. The vertices are an N x D matrix whose
+// columns (all x, all y, ...) are contiguous.
+>>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
