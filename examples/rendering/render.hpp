@@ -231,8 +231,7 @@ Image render_packing(const moreau::Aabb<moreau::Space<2, T>>& box, std::size_t g
 
 /// The force chains alone, seen from the front.
 /// @param section in space, only contacts in this share of the depth of the box about its middle
-///          are
-///                shown, 0..1
+///                are shown, 0..1
 template <class S>
 Image render_force_chains(const moreau::Aabb<S>& box,
                           std::span<const moreau::ContactSegment<S>> chains, double section = 0.25,
