@@ -2,13 +2,14 @@
 # moreau_unite(OUT NAME COUNT SOURCE...): files that include up to COUNT of the sources each, so that
 # what these share is parsed, instantiated and compiled once. The headers that they include come
 # first; then each source has a namespace of its own, because two may define the same name. A source
-# that opens a namespace or specialises a template stays by itself. OUT becomes the list of files.
+# that opens a namespace, specialises a template or replaces operator new stays by itself. OUT becomes
+# the list of files.
 function(moreau_unite out name count)
   set(units "")
   set(together "")
   foreach(source IN LISTS ARGN)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
-    file(STRINGS ${source} alone REGEX "^(template <>|namespace [a-z])")
+    file(STRINGS ${source} alone REGEX "^(template <>|namespace [a-z])|operator new")
     if(alone)
       list(APPEND units ${source})
     else()
@@ -22,8 +23,12 @@ function(moreau_unite out name count)
     math(EXPR number "${number} + 1")
     list(SUBLIST together ${first} ${count} batch)
     math(EXPR first "${first} + ${count}")
-    set(unit ${CMAKE_CURRENT_BINARY_DIR}/united/${name}_${number}.cpp)
-    moreau_write_unit(${unit} ${batch})
+    list(LENGTH batch size)
+    set(unit ${batch})
+    if(size GREATER 1)
+      set(unit ${CMAKE_CURRENT_BINARY_DIR}/united/${name}_${number}.cpp)
+      moreau_write_unit(${unit} ${batch})
+    endif()
     list(APPEND units ${unit})
   endwhile()
   set(${out} ${units} PARENT_SCOPE)
