@@ -1,24 +1,10 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Walls with a constant pressure. The time loop applies them before each step:
-=======
 // Walls that keep a pressure. The time loop applies them before each step:
->>>>>>> refs/heads/iface
 //
 //   PressureLoad  lid(world, wall, 1e4, mass, [&] { return width * depth; });
 //   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
 //   for (...) { lid.apply(world, h); world.step(h); }
 //
-<<<<<<< HEAD
-// PressureLoad gives the wall a mass and applies the force pressure x area to it. At rest the grains
-// carry this force to the residual of the solver, for any contact law. The mass determines how fast
-// the wall follows. Use it for rigid contacts.
-//
-// PressureServo moves the wall at v = gain (pressure - measured), as the servo walls of other codes
-// do. It needs a regularized law, because the measured pressure must change gradually with the
-// position of the wall. Let k be the stiffness of the sample at the wall [N/m]. The error then
-// decreases by the share gain k h / area per step. Keep this share below 1; at 2 it is unstable.
-=======
 // PressureLoad is for rigid grains. It gives the wall a mass and applies the force pressure x area.
 // At rest the grains carry this force up to the solver's residual. The mass sets how fast the wall
 // responds.
@@ -27,7 +13,6 @@
 // the position of the wall. It moves the wall at v = gain (pressure - measured). With k the
 // stiffness of the sample in the direction of the wall [N/m], the error is multiplied by 1 - gain k
 // h / area per step. Keep gain k h / area below 1; at 2 the servo is unstable.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -40,20 +25,15 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Returns the area on which a pressure acts at the time of the call [m^2], in the plane the length
-/// [m]. It may change when other walls move.
-=======
 /// A function that returns the area on which a pressure acts [m^2], in the plane the length [m]. It
 /// is called before every step, as other walls may move.
->>>>>>> refs/heads/iface
 template <class F>
 concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
 };
 
-/// Pressure of the contacts on a wall during the last step [Pa], in the plane [N/m]; > 0 in
-/// compression.
+/// Pressure of the contacts on a wall over the last step [Pa], in the plane [N/m]; > 0 if the
+/// grains push.
 /// @param wall a half-space of the simulation
 /// @param step its length [s], > 0
 /// @param area [m^2], in the plane the length [m], > 0
@@ -74,7 +54,7 @@ typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId w
 
 namespace detail {
 
-/// The area at the time of the call.
+/// The area now.
 template <class T>
 T checked_area(const auto& area, const char* function) {
   const auto now = static_cast<T>(area());
@@ -84,20 +64,16 @@ T checked_area(const auto& area, const char* function) {
 
 }  // namespace detail
 
-/// A constant pressure on a wall with a mass; exact while the wall is at rest.
+/// A constant pressure on a wall with a mass: exact where the wall is at rest.
 template <AreaFunction Area>
 class PressureLoad {
  public:
   /// Gives the wall its mass and stops it.
   /// @param wall     a half-space of the simulation
-  /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, towards the grains
-  /// @param mass     of the wall [kg], > 0; the mass of the grains is a good choice
+  /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, on the grains
+  /// @param mass     of the wall [kg], > 0; that of the grains is a good choice
   /// @param area     called before every step, > 0 [m^2], in the plane [m]
-<<<<<<< HEAD
-  /// @throws std::invalid_argument if the body is not a half-space of the simulation, or for a
-=======
   /// @throws std::invalid_argument for a body that is not a half-space of the simulation, a
->>>>>>> refs/heads/iface
   ///         pressure that is not finite, or a mass that is not finite or not positive
   template <class Simulation>
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
@@ -110,8 +86,7 @@ class PressureLoad {
     simulation.set_velocity(wall, Simulation::Vector::Zero());
   }
 
-  /// Sets the force pressure x area for the next step. The step is not used; it is an argument of
-  /// all drives.
+  /// Sets the force pressure x area for the next step. The step is not needed; drives have it.
   /// @throws std::invalid_argument for an area that is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar = 0) const {
@@ -127,15 +102,15 @@ class PressureLoad {
   Area area_;
 };
 
-/// A pressure that the velocity of a wall without mass maintains, for deformable contacts.
+/// A pressure kept by the velocity of a wall without mass, for grains that yield.
 template <AreaFunction Area>
 class PressureServo {
  public:
   /// @param wall     a half-space without mass; apply() checks it
-  /// @param pressure pressure to maintain [Pa], in the plane [N/m]; > 0 pushes on the grains
+  /// @param pressure to keep [Pa], in the plane [N/m]; > 0 pushes on the grains
   /// @param gain     velocity per missing pressure [m/(s Pa)], in the plane [m^2/(s N)], > 0
-  /// @param limit    the largest speed [m/s], > 0; at most margin x grain size / step, or the wall
-  ///                 overlaps grains before contacts are detected
+  /// @param limit    the largest speed [m/s], > 0; margin x grain size / step at most, or the wall
+  ///                 runs into grains before they are seen
   /// @param area     called before every step, > 0 [m^2], in the plane [m]
   /// @throws std::invalid_argument for a pressure that is not finite, or a gain or limit that is
   ///         not finite or not positive
@@ -147,15 +122,10 @@ class PressureServo {
     require(std::isfinite(limit) && limit > 0, self, "limit", limit, "must be finite and > 0");
   }
 
-  /// Sets the velocity for the next step from the pressure of the last step.
+  /// Sets the velocity for the next step by the pressure of the last one.
   /// @param step length of the last step [s], > 0
-<<<<<<< HEAD
-  /// @throws std::invalid_argument if the body is not a half-space of the simulation or has a mass,
-  ///         or for a step or an area that is not finite or not positive
-=======
   /// @throws std::invalid_argument for a body that is not a half-space of the simulation or
   ///         has a mass, or a step or an area that is not finite or not positive
->>>>>>> refs/heads/iface
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Errors of public functions: an argument that is not valid throws an exception with function,
-// argument and value. Kernels use assertions (MOREAU_ASSERT). A solver that does not converge
-// throws no exception; its report says so.
-=======
 // Errors of the public functions: a bad argument throws an exception that names the function, the
 // argument and its value. Kernels assert (MOREAU_ASSERT). A solver that does not converge throws
 // nothing: its report says so.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <Eigen/Core>
@@ -18,13 +12,8 @@
 #include <string>
 #include <string_view>
 
-<<<<<<< HEAD
-/// Assertions of the kernels, in builds without NDEBUG. Define MOREAU_ASSERT before the first
-/// include to replace it.
-=======
 /// Check in a kernel, in builds without NDEBUG. A definition of this macro before the first include
 /// replaces it.
->>>>>>> refs/heads/iface
 #ifndef MOREAU_ASSERT
 #define MOREAU_ASSERT(condition) assert(condition)
 #endif
@@ -50,12 +39,8 @@ void print(std::ostream& out, const Matrix& value) {
 
 }  // namespace detail
 
-<<<<<<< HEAD
-/// Rejects an argument of a public function. Matrices are printed as one row of numbers.
-=======
 /// Throws for a bad argument of a public function. Matrices are printed as one row of their
 /// numbers.
->>>>>>> refs/heads/iface
 /// @param expectation what it must be, e.g. "must be finite"
 /// @throws std::invalid_argument "function: argument = value must ...", always
 template <class Value>
@@ -69,11 +54,7 @@ template <class Value>
   throw std::invalid_argument(message.str());
 }
 
-<<<<<<< HEAD
-/// Throws because a number of a step is not finite.
-=======
 /// Reports a velocity or a position that is not finite.
->>>>>>> refs/heads/iface
 /// @param what  e.g. "velocity of body"
 /// @param index of the body
 /// @throws std::runtime_error "function: what index = value is not finite", always

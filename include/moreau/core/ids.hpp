@@ -12,33 +12,19 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// An index of one kind of objects. Trivially copyable; ordered like its value.
-=======
 /// An index into one kind of array. Trivially copyable; ordered like its value.
->>>>>>> refs/heads/iface
 template <class Tag>
 struct Id {
   std::uint32_t value = 0;  ///< counted from 0
 
-<<<<<<< HEAD
-  constexpr Id() = default;  ///< the first object
-  /// The id of the object at this position, < 2^32.
-  /// @throws std::invalid_argument for a position that an id cannot hold
-=======
   constexpr Id() = default;  ///< id of the first item
   /// The id of the item at this index, < 2^32.
   /// @throws std::invalid_argument for an index of 2^32 or more
->>>>>>> refs/heads/iface
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {
     if (value != index) throw_invalid("Id", "index", index, "must be below 2^32");
   }
 
-<<<<<<< HEAD
-  /// The position in the array of objects.
-=======
   /// The index as a number.
->>>>>>> refs/heads/iface
   constexpr std::size_t index() const { return value; }
   auto serialized_members() { return std::tie(value); }  ///< see core/serialize.hpp
   friend constexpr auto operator<=>(const Id&, const Id&) = default;

@@ -1,19 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact volume of a polytope inside an axis-aligned box.
+// The exact volume of a polytope inside an axis-aligned box.
 //
-<<<<<<< HEAD
-// The surface is a set of oriented rings of points: in space the faces, in the plane the outline. A
-// plane of the box cuts each ring. The cut ring is closed by a segment on the plane, from the point
-// p where the ring leaves the kept side to the point q where it returns. In the plane this is all.
-// In space the cut leaves a hole. Its rim consists of these segments in reverse direction. The
-// triangles (apex, q, p), with any common apex on the plane, fill the hole. Nothing has to be
-// sorted or linked. The surface stays closed under rounding: neighbouring rings compute the point
-// on their common edge from the same two ends in the same order, so both get the same bits. A plane
-// through vertices, edges or whole faces is therefore not a special case.
-//
-// The volume follows from the divergence theorem, as a sum of signed simplices with a common point
-// of the surface. Error: some rounding errors of the volume of the polytope, not of the result.
-=======
 // The surface is a set of oriented rings of points: in space the faces, in the plane the outline.
 // The planes of the box cut the rings one after the other:
 //
@@ -28,7 +15,6 @@
 //
 // The volume is a sum of signed simplices over one point of the surface (divergence theorem). Its
 // error is a few rounding errors of the volume of the polytope, not of the result.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -45,11 +31,7 @@ namespace moreau {
 
 namespace detail {
 
-<<<<<<< HEAD
-/// Closed sequences of points, stored one after the other.
-=======
 /// Closed rings of points, stored one after the other.
->>>>>>> refs/heads/iface
 template <class S>
 struct Rings {
   using Vector = typename S::Vector;
@@ -61,10 +43,6 @@ struct Rings {
     points.clear();
     ends.clear();
   }
-<<<<<<< HEAD
-  /// Ends the ring that consists of the points since the last ring. Removes it if it encloses
-  /// nothing.
-=======
   /// Calls use(start, end) for each ring: its points are points[start] to points[end - 1].
   void for_each_ring(const auto& use) const {
     std::size_t start = 0;
@@ -74,7 +52,6 @@ struct Rings {
     }
   }
   /// Makes a ring of the points behind the last ring. Drops them if there are fewer than three.
->>>>>>> refs/heads/iface
   void close() {
     const std::size_t start = ends.empty() ? 0 : ends.back();
     if (points.size() - start > 2)
@@ -96,8 +73,7 @@ struct AxisPlane {
 
   Scalar height(const Vector& x) const { return side * (x[axis] - limit); }
   bool keeps(const Vector& x) const { return height(x) <= 0; }
-  /// Point where the segment between a point on the kept side and a point on the other side crosses
-  /// the plane.
+  /// Where the segment from a kept point to one that is not meets the plane.
   Vector crossing(const Vector& kept, const Vector& cut) const {
     const Scalar below = height(kept);
     Vector x = kept + below / (below - height(cut)) * (cut - kept);
@@ -106,11 +82,7 @@ struct AxisPlane {
   }
 };
 
-<<<<<<< HEAD
-/// Closes the hole that a plane cuts into a surface. In the plane there is no hole.
-=======
 /// Fills the hole that a plane cuts into a surface. In the plane a cut leaves no hole.
->>>>>>> refs/heads/iface
 template <class S>
 class Cap {
  public:
@@ -124,7 +96,7 @@ class Cap<Space<3, T>> {
   using Vector = typename Space<3, T>::Vector;
 
   explicit Cap(Rings<Space<3, T>>& triangles) : triangles_(triangles) {}
-  /// Called where a ring leaves the kept side at p and returns at q.
+  /// A ring leaves the kept side at p and comes back at q.
   void add(const Vector& p, const Vector& q) {
     if (!has_apex_) apex_ = p;
     has_apex_ = true;
@@ -139,14 +111,14 @@ class Cap<Space<3, T>> {
   bool has_apex_ = false;
 };
 
-/// Appends the part of one ring on the kept side of the plane.
+/// Appends what the plane keeps of one ring.
 template <class S>
 void clip_ring(std::span<const typename S::Vector> ring, const AxisPlane<S>& plane, Rings<S>& kept,
                Cap<S>& cap) {
   using Vector = typename S::Vector;
   const Vector* from = &ring.back();
   bool from_kept = plane.keeps(*from);
-  // The ring may start on the other side. Its first return then closes the gap of its last exit.
+  // The ring may start on the far side: its first return then closes its last leave.
   const bool starts_cut = !from_kept;
   bool left = false, returned = false;
   Vector leave = Vector::Zero(), first_return = Vector::Zero();
@@ -218,7 +190,7 @@ T enclosed_volume(const Rings<Space<3, T>>& rings) {
   return sixfold / 6;
 }
 
-/// Appends the outline of a polygon: one ring.
+/// The outline of a polygon: one ring.
 template <class T, class Polygon>
 void append_surface(const Polygon&, std::span<const typename Space<2, T>::Vector> vertices,
                     Rings<Space<2, T>>& rings) {
@@ -226,7 +198,7 @@ void append_surface(const Polygon&, std::span<const typename Space<2, T>::Vector
   rings.close();
 }
 
-/// Appends the faces of a polyhedron.
+/// The faces of a polyhedron.
 template <class T, class Polyhedron>
 void append_surface(const Polyhedron& shape, std::span<const typename Space<3, T>::Vector> vertices,
                     Rings<Space<3, T>>& rings) {
@@ -238,19 +210,18 @@ void append_surface(const Polyhedron& shape, std::span<const typename Space<3, T
 
 }  // namespace detail
 
-/// Buffers of clipped_volume. Reuse them from call to call to avoid allocations.
+/// Buffers of clipped_volume, kept from call to call so that it allocates nothing once warm.
 template <class S>
 struct ClipWorkspace {
   std::vector<typename S::Vector> vertices;  ///< of the grain, world axes [m]
   detail::Rings<S> rings;                    ///< its faces
-  detail::Rings<S> kept;                     ///< the parts on the kept side of a plane
-  detail::Rings<S> caps;                     ///< the polygons that close the cut
+  detail::Rings<S> kept;                     ///< what a plane has left of them
+  detail::Rings<S> caps;                     ///< what closes the cut
 };
 
 namespace detail {
 
-/// Bounding box of the vertices, in world axes, relative to the centre of the grain. Fills
-/// workspace.vertices.
+/// The box around the vertices, in world axes from the grain's centre; fills workspace.vertices.
 template <Polytope Shape, class S>
 Aabb<S> turn_vertices(const Shape& shape, const Pose<S>& pose, ClipWorkspace<S>& workspace) {
   const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
@@ -263,8 +234,8 @@ Aabb<S> turn_vertices(const Shape& shape, const Pose<S>& pose, ClipWorkspace<S>&
   return box;
 }
 
-/// Volume of the polytope with the vertices in workspace.vertices between `lower` and `upper`.
-/// `around` is the bounding box of the vertices. Only the planes that cut this box are used.
+/// The volume between `lower` and `upper` of the polytope with workspace.vertices, and with
+/// `around` as their box; only the planes that cut that box are used.
 template <Polytope Shape, class S>
 typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, const Aabb<S>& limits,
                                   ClipWorkspace<S>& workspace) {
@@ -285,16 +256,16 @@ typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, con
 
 }  // namespace detail
 
-/// Volume of the part of a polytope that lies in the control volume; in the plane its area [m^D].
+/// The volume of a polytope at a pose that lies in the control volume, in the plane its area [m^D].
 /// Exact to some rounding errors of the volume of the polytope.
-/// @param control_volume  world axes [m]
+/// @param control_volume  in world axes [m]
 /// @param workspace       buffers, reused
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <Polytope Shape, class S = SpaceOf<Shape>>
 typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
                                   const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
   require_control_volume(control_volume, "clipped_volume");
-  // Relative to the centre of the grain, so that its distance from the origin costs no digits.
+  // From the grain's centre, so that no digits go into its distance from the origin.
   const Aabb<S> limits{control_volume.lower - pose.position, control_volume.upper - pose.position};
   const typename S::Scalar reach = shape.circumradius();
   if (limits.lower.maxCoeff() >= reach || limits.upper.minCoeff() <= -reach) return 0;

@@ -63,7 +63,7 @@ T unit_ball_in_orthant(const Eigen::Matrix<T, 3, 1>& corner) {
   return volume;
 }
 
-/// The same with the sign of the octant of the corner; limits beyond the ball are allowed.
+/// The same with the sign of the corner's orthant, limits beyond the ball allowed.
 template <class Vector>
 typename Vector::Scalar signed_unit_ball_in_orthant(const Vector& corner) {
   using T = typename Vector::Scalar;
@@ -74,17 +74,10 @@ typename Vector::Scalar signed_unit_ball_in_orthant(const Vector& corner) {
 
 }  // namespace detail
 
-<<<<<<< HEAD
-/// Volume of the part of a ball that lies in the control volume, in the plane the area of the part
-/// of a disk [m^D]. The head of this file derives the formula. Exact to some rounding errors of the
-/// volume of the ball. Does not use the workspace.
-/// @param control_volume  world axes [m]
-=======
 /// The volume of a ball (area of a disk) that lies in the control volume [m^D], by the formula
 /// at the top of this file. Exact to some rounding errors of the volume of the ball. The workspace
 /// is not used.
 /// @param control_volume  in world axes [m]
->>>>>>> refs/heads/iface
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <class S>
 typename S::Scalar clipped_volume(const BallIn<S>& shape, const Pose<S>& pose,

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Share of each contact class: contacts at corners, edges and faces.
-=======
 // Shares of the classes of contacts: corners, edges, faces.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <array>
@@ -14,40 +10,29 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Share of one contact class.
-=======
 /// Share of one class of contacts.
->>>>>>> refs/heads/iface
 struct ContactClassShare {
-  std::size_t pairs = 0;   ///< pairs of bodies that carry force
-  std::size_t points = 0;  ///< contact points that carry force
-  double neighbours = 0;   ///< per grain; a pair of grains adds two, a grain and a wall one [-]
-  double force = 0;        ///< share of the sum of all normal forces, in [0, 1] [-]
+  std::size_t pairs = 0;   ///< of bodies that carry force
+  std::size_t points = 0;  ///< their points that carry force
+  double neighbours = 0;   ///< per grain: a pair of grains adds two, a grain and a wall one [-]
+  double force = 0;        ///< part of the sum of all normal forces, in [0, 1] [-]
 };
 
-/// The shares of all contact classes.
+/// The share of every ContactClass.
 struct ContactClasses {
-  /// One entry per class, in the order of ContactClass.
+  /// In the order of ContactClass.
   std::array<ContactClassShare, static_cast<std::size_t>(ContactClass::face_face) + 1> shares;
 
-  /// Share of one class.
+  /// Of one class.
   const ContactClassShare& operator[](ContactClass c) const {
     return shares[static_cast<std::size_t>(c)];
   }
 };
 
-<<<<<<< HEAD
-/// Coordination by contact class. The sum of the neighbours over all classes is the result of
-/// CoordinationCounter for all grains.
-/// @param pairs       from pair_forces()
-/// @param grain_count number of grains; if 0, all neighbours are 0
-=======
 /// The coordination by class of contact. The sum over all classes is the coordination number that
 /// CoordinationCounter returns for all grains.
 /// @param pairs       of pair_forces()
 /// @param grain_count number of grains; without any, neighbours are 0
->>>>>>> refs/heads/iface
 /// @param is_grain    body -> false for a wall; bodies by BodyId::index()
 template <class S>
 ContactClasses contact_classes(std::span<const PairForce<S>> pairs, std::size_t grain_count,

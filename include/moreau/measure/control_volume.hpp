@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks of the control volume: a box at rest, in world axes.
+// Checks on the box, at rest in world axes, in which a measure is taken.
 #pragma once
 
 #include <sstream>
@@ -24,7 +24,7 @@ std::string describe(const Aabb<S>& box) {
 
 }  // namespace detail
 
-/// Whether the box has finite corners and a positive volume.
+/// Whether the box has finite corners and an inside.
 template <class S>
 bool is_control_volume(const Aabb<S>& box) {
   return box.lower.allFinite() && box.upper.allFinite() &&
@@ -43,10 +43,9 @@ void require_control_volume(const Aabb<S>& box, std::string_view function) {
                 "must be finite with lower < upper on every axis");
 }
 
-/// Checks a control volume that must contain grains only: it must lie inside the container. Both
-/// are in world axes [m].
-/// @throws std::invalid_argument naming both boxes if it does not, or if one of them is empty,
-///         inverted or not finite
+/// For a control volume that is to hold grains only: it has to lie inside their container, both in
+/// world axes [m].
+/// @throws std::invalid_argument naming both boxes if it does not, or if one of them is no box
 template <class S>
 void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
   require_control_volume(control_volume, "require_inside");
@@ -56,11 +55,7 @@ void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
                 "must lie inside the box " + detail::describe(box));
 }
 
-<<<<<<< HEAD
-/// Volume of a box, in the plane its area [m^D]. The box must not be inverted.
-=======
 /// The volume of the box, in the plane its area [m^D]; without meaning for an inverted box.
->>>>>>> refs/heads/iface
 template <class S>
 typename S::Scalar volume(const Aabb<S>& box) {
   return (box.upper - box.lower).prod();

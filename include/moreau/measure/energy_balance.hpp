@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Energy balance of a simulation, term by term:
+// Where the energy of a simulation comes from and goes to, term by term:
 //
 //   kinetic - kinetic at the start = gravity + forces + drives
 //                                    - impacts - friction - rolling - correction + imbalance
@@ -7,15 +7,6 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
-<<<<<<< HEAD
-// All terms are measured independently. The imbalance is the energy that the discrete motion does
-// not account for:
-//  - MoreauJean(1/2), bodies in the plane or with one moment of inertia (spheres): rounding.
-//  - MoreauJean(1/2), other bodies: first order in the step, because the inertia rotates within it.
-//  - theta > 1/2: first order in the step, the energy that the scheme dissipates.
-//  - A regularized law: `impacts` and `friction` include the energy stored in springs, and the
-//    imbalance is the error of forces that are taken as constant during a step.
-=======
 // Each term is measured on its own. The imbalance is the part of the kinetic energy that no term
 // explains:
 //
@@ -25,7 +16,6 @@
 //   - MoreauJean(theta > 1/2): also the numerical damping of the scheme, first order in the step.
 //   - a regularized law: the error of forces that are constant during a step. `impacts` and
 //     `friction` then include the energy stored in the springs.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <cmath>
@@ -43,56 +33,41 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Sums since the balance began; in the plane per unit of thickness. The head of this file has the
-/// balance with its signs.
-=======
 /// Sums since the balance began, with the signs of the equation at the top of this file. In the
 /// plane they are energies per unit of the thickness that the densities refer to.
->>>>>>> refs/heads/iface
 struct EnergyTerms {
   double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy [J]
   double forces = 0;      ///< work of set_force() on grains, and on walls along their mass [J]
-  double drives = 0;      ///< work of the drives of bodies, or axes of bodies, without mass [J]
-  double impacts = 0;     ///< dissipated by normal impulses: restitution, inelastic impacts [J]
-  double friction = 0;    ///< dissipated by tangential impulses [J]
-  double rolling = 0;     ///< dissipated by couples of rolling and twisting resistance [J]
+  double drives = 0;      ///< work of whatever moves bodies, or axes of them, that have no mass [J]
+  double impacts = 0;     ///< taken by normal impulses: restitution, inelastic shocks [J]
+  double friction = 0;    ///< taken by tangential impulses [J]
+  double rolling = 0;     ///< taken by couples of rolling and twisting resistance [J]
   double correction = 0;  ///< work of gravity and forces along the shifts of the overlap
-                          ///< correction, which changes no velocity; < 0 if it lifts grains [J]
+                          ///< correction, which made no velocity: < 0 where it lifts grains [J]
 
-  /// Expected gain of kinetic energy [J].
+  /// What the kinetic energy should have gained [J].
   double gain() const {
     return gravity + forces + drives - impacts - friction - rolling - correction;
   }
 };
 
-<<<<<<< HEAD
-/// Energy balance of one simulation. If a program sets velocities or poses of bodies with a mass
-/// between two steps, the change appears in the imbalance or in the work of gravity and forces. A
-/// snapshot can store the balance together with the simulation (write_snapshot()).
-=======
 /// Follows one simulation. If velocities or poses of bodies with a mass are set between two steps,
 /// the change appears in the imbalance, or in the work of gravity and forces. write_snapshot() can
 /// store the balance with the simulation, so that it continues with a restarted run.
->>>>>>> refs/heads/iface
 template <class S>
 class EnergyBalance {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Begins with the present state of the simulation.
+  /// Begins with the simulation as it stands.
   template <class Simulation>
   explicit EnergyBalance(const Simulation& simulation) {
     remember(simulation.bodies());
     start_ = kinetic_;
   }
 
-<<<<<<< HEAD
-  /// Adds the last step. Forces and gravity must be those of that step.
-=======
   /// Adds the last step. Forces and gravity must still be those of the step.
->>>>>>> refs/heads/iface
   /// @param step its length [s], > 0
   /// @throws std::invalid_argument for a step that is not positive, or bodies added since the start
   template <class Simulation>
@@ -118,8 +93,8 @@ class EnergyBalance {
 
   const EnergyTerms& terms() const { return terms_; }  ///< sums so far [J]
   double kinetic() const { return kinetic_; }          ///< of grains and walls with a mass [J]
-  double kinetic_at_start() const { return start_; }   ///< kinetic() when the balance began [J]
-  /// Gain of kinetic energy that the terms do not explain [J].
+  double kinetic_at_start() const { return start_; }   ///< kinetic() as the balance began [J]
+  /// What the kinetic energy gained beyond what the terms explain [J].
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:
@@ -144,13 +119,8 @@ class EnergyBalance {
     return energy;
   }
 
-<<<<<<< HEAD
-  /// Work of the prescribed part of a body's motion against the impulse that it receives. The drive
-  /// must supply this work.
-=======
   /// Work of the prescribed part of a body's motion against the impulse that the body receives. The
   /// drive of the body supplies the same work.
->>>>>>> refs/heads/iface
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
                         const Vector& impulse, const typename S::Angular& couple) {
     if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Fabric tensor: the distribution of contact normals.
-=======
 // Fabric: the orientation of the contacts of an assembly.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <cstddef>
@@ -15,22 +11,17 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// The distribution of contact normals.
-=======
 /// Distribution of the contact normals.
->>>>>>> refs/heads/iface
 template <class S>
 struct Fabric {
-  /// Mean of n n^T over the pairs, D x D, world axes: symmetric, trace 1; identity / D for an
-  /// isotropic distribution [-]. Zero without pairs.
+  /// Mean of n n^T over the pairs, D x D, world axes: symmetric, of trace 1, identity / D if the
+  /// normals point everywhere alike [-]. Zero without pairs.
   typename S::Matrix tensor = S::Matrix::Zero();
-  std::size_t pairs = 0;  ///< number of pairs
+  std::size_t pairs = 0;  ///< counted
 
-  /// Anisotropy: the traceless tensor a [-], D x D, world axes, of the density of normals E(n) = (1
-  /// + n . a n) / (area of the unit sphere) that has this fabric tensor. a = D (D + 2)/2 (tensor -
-  /// identity / D). In the plane its eigenvalues are +-a of E = (1 + a cos 2(theta - theta_c)) / 2
-  /// pi.
+  /// The traceless a [-], D x D, world axes, of E(n) = (1 + n . a n) / (area of the unit sphere),
+  /// the density of normals that has this tensor: a = D (D + 2)/2 (tensor - identity / D). In the
+  /// plane its eigenvalues are +-a of E = (1 + a cos 2(theta - theta_c)) / 2 pi.
   /// Source: K. Kanatani, Int. J. Eng. Sci. 22 (1984) 149, fabric tensors of the third kind.
   typename S::Matrix anisotropy() const {
     using Scalar = typename S::Scalar;
@@ -40,15 +31,15 @@ struct Fabric {
   }
 };
 
-/// Fabric tensor of the pairs of grains that carry force and whose centre of pressure lies in the
-/// control volume. Each pair counts once, independently of its force and of its number of points.
-/// Contacts with walls do not count, because their normals are those of the walls.
-/// @param pairs          from pair_forces()
+/// The fabric tensor of the pairs of grains that carry force and whose centre of pressure lies in
+/// the control volume. Each pair counts once, whatever it carries and by however many points.
+/// Contacts with walls are left out: their normals are the walls'.
+/// @param pairs          of pair_forces()
 /// @param control_volume world axes [m]
 /// @param position_of    body -> its centre of mass in world axes [m]
 /// @param is_grain       body -> false for a wall; bodies by BodyId::index()
-/// @param cell           periodic cell: a pair counts if one of its images lies in the control
-///                       volume, which must not be longer than the cell
+/// @param cell           if it is periodic: a pair counts if an image of it lies in the control
+///                       volume, which is at most as long as the cell
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 /// Source: M. Satake, IUTAM Conf. on Deformation and Failure of Granular Materials (1982) 63.
 template <class S>

@@ -14,25 +14,15 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// One contact point. A wall has no centre: on its side the segment ends at the contact point. All
-/// vectors are in world axes.
-=======
 /// One contact point. If a body is a wall, which has no centre, its end of the segment is the
 /// contact point. All vectors in world axes.
->>>>>>> refs/heads/iface
 template <class S>
 struct ContactSegment {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-<<<<<<< HEAD
-  std::uint32_t a;             ///< body a
-  std::uint32_t b;             ///< body b
-=======
   std::uint32_t a;             ///< first body
   std::uint32_t b;             ///< second body
->>>>>>> refs/heads/iface
   Vector from;                 ///< centre of a [m]
   Vector to;                   ///< centre of b [m]
   Vector point;                ///< contact point [m]
@@ -42,13 +32,13 @@ struct ContactSegment {
   ContactClass contact_class;  ///< of the pair
 };
 
-/// Segment of contact point c, c < contacts.size().
+/// The segment of point c, c < contacts.size().
 /// @param step        impulses are divided by it [s], > 0; not checked here
 /// @param position_of body -> its centre of mass in world axes [m]
 /// @param is_grain    body -> false for a wall
-/// @param cell        periodic cell: the segment begins at the position of a and ends at the image
-///                    of b that touches a
-/// @throws std::invalid_argument if c is not the index of a point
+/// @param cell        if it is periodic: the segment begins at the position of a and ends at that
+///                    image of b which the contact is with
+/// @throws std::invalid_argument if there is no such point
 template <class S>
 ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
                                   typename S::Scalar step, const auto& position_of,
@@ -74,8 +64,8 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
   return segment;
 }
 
-/// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`.
-/// Arguments as for contact_segment().
+/// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`;
+/// arguments as of contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>
 void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
@@ -88,11 +78,7 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
       segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
-<<<<<<< HEAD
-/// Fills `segments` with all contacts, also those without force. Arguments as for
-=======
 /// Fills `segments` with all contacts, also contacts without force; arguments as of
->>>>>>> refs/heads/iface
 /// contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>

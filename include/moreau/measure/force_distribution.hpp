@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Distribution of contact forces.
-=======
 // Distribution of the contact forces of an assembly.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <cmath>
@@ -15,28 +11,28 @@
 
 namespace moreau {
 
-/// Probability density of f / mean of f, as a histogram of equal bins that start at zero.
+/// The probability density of f over the mean of f as a histogram of equal bins from zero on.
 template <std::floating_point T>
 struct ForceDistribution {
-  std::size_t count = 0;   ///< number of forces
+  std::size_t count = 0;   ///< forces
   T mean = 0;              ///< of all forces [N]
-  T width = 0;             ///< width of a bin, in means [-]
+  T width = 0;             ///< of a bin, in means [-]
   std::vector<T> density;  ///< per bin; times width it sums to 1 - beyond [-]
   T beyond = 0;            ///< share of the forces above the last bin, in [0, 1] [-]
 
-  /// Centre of bin k, in means [-].
+  /// The middle of bin k, in means [-].
   T ratio(std::size_t k) const { return (static_cast<T>(k) + T(0.5)) * width; }
 };
 
-/// Distribution of normal forces, friction forces or other magnitudes, e.g. those of pair_forces():
+/// Normal forces, friction forces or any other magnitudes, e.g. those of pair_forces():
 ///
 ///   force_distribution<double>(pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; })
 ///
 /// @param count    number of forces
-/// @param force_of k -> magnitude of force k [N], >= 0
-/// @param bins     number of bins, > 0
-/// @param reach    upper end of the last bin, in means, > 0 [-]
-/// @returns densities of zero if no force is greater than zero
+/// @param force_of k -> the magnitude of force k [N], >= 0
+/// @param bins     > 0
+/// @param reach    where the last bin ends, in means, > 0 [-]
+/// @returns densities of zero if there is no force greater than zero
 /// @throws std::invalid_argument for no bins, a reach that is not finite or not positive, a force
 ///         that is not finite or negative
 template <std::floating_point T>

@@ -25,10 +25,10 @@ struct GridSample {
   typename S::Vector position;  ///< its centre, world axes [m]
   typename S::Vector value;     ///< weighted mean over its grains, in their unit; zero without
   typename S::Scalar weight;    ///< sum over its grains, in the unit of their weights
-  std::size_t grains;           ///< number of grains added, in all steps
+  std::size_t grains;           ///< counted, in all steps
 };
 
-/// Weighted means of a vector over the grains whose centres lie in each cell of a grid.
+/// Weighted means of a vector over the grains whose centres lie in each cell.
 template <class S>
 class GridField {
  public:
@@ -55,20 +55,14 @@ class GridField {
   /// Removes all grains.
   void clear() { sums_.assign(sums_.size(), Sum{}); }
 
-  /// Adds a grain if its centre lies in the control volume. Call it in several steps to average
-  /// over time.
+  /// Counts a grain if its centre lies in the control volume; call it over several steps to average
+  /// in time.
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param value    in any unit
-<<<<<<< HEAD
-  /// @param weight   > 0; with masses [kg] a field of velocities is momentum / mass of each cell
-  /// @param periodic cell of the simulation
-  /// @throws std::invalid_argument if an argument is not finite or the weight is not positive
-=======
   /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
   /// @param periodic the simulation's cell
   /// @throws std::invalid_argument for a number that is not finite, or a weight that is not
   ///         positive
->>>>>>> refs/heads/iface
   void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";
@@ -92,8 +86,8 @@ class GridField {
 
   const Aabb<S>& control_volume() const { return box_; }  ///< world axes [m]
   const Cells& cells() const { return cells_; }           ///< along every axis
-  std::size_t size() const { return sums_.size(); }       ///< number of cells
-  /// Cell k; the index along the first axis varies fastest.
+  std::size_t size() const { return sums_.size(); }       ///< cells in all
+  /// Cell number k; the first axis runs fastest.
   /// @throws std::invalid_argument unless k < size()
   GridSample<S> sample(std::size_t k) const {
     require(k < size(), "GridField::sample", "k", k, "must be below the number of cells");

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Statistics of overlaps.
-=======
 // Statistics of the overlaps of contacts.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -14,20 +10,16 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Statistics of overlaps -gap > 0 [m]. All are zero if nothing overlaps.
-=======
 /// Statistics of overlaps, each -gap > 0 [m]. Zero if nothing overlaps.
->>>>>>> refs/heads/iface
 template <class T>
 struct OverlapStatistics {
   std::size_t points = 0;  ///< contact points with gap < 0
   std::size_t pairs = 0;   ///< pairs of bodies with such a point
-  T mean = 0;              ///< mean over these points [m]
-  T mean_of_pairs = 0;     ///< mean over these pairs of the deepest point [m]
-  T max = 0;               ///< deepest point [m]
+  T mean = 0;              ///< over these points [m]
+  T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point [m]
+  T max = 0;               ///< of all points [m]
 
-  /// Adds the points of another set, e.g. of another step.
+  /// Adds points of another set, e.g. of another step.
   void merge(const OverlapStatistics& other) {
     const auto join = [](T a, std::size_t n, T b, std::size_t m) {
       return n + m == 0 ? T(0) : (a * T(n) + b * T(m)) / T(n + m);

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Forces of pairs of bodies: the sum over the contact points of a pair. Statistics of contact
-// forces refer to pairs, because the number of points of a pair depends on the shapes.
-=======
 // Contact force of a pair of bodies: the sum over its contact points. Statistics of contact forces
 // count pairs, so that they do not depend on the number of points of a contact.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <cmath>
@@ -18,33 +13,20 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// The contact points of a pair with normal impulse > 0, taken together. All vectors are in world
-/// axes.
-=======
 /// Sum over the points of a pair with normal impulse > 0. All vectors in world axes.
->>>>>>> refs/heads/iface
 template <class S>
 struct PairForce {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-<<<<<<< HEAD
-  std::uint32_t a;             ///< body a
-  std::uint32_t b;             ///< body b
-  std::size_t points;          ///< number of points that carry force, > 0
-  ContactClass contact_class;  ///< of the pair
-  Vector normal;               ///< unit, from a to b; in a cylinder the mean over the points
-=======
   std::uint32_t a;             ///< first body
   std::uint32_t b;             ///< second body
   std::size_t points;          ///< that carry force, > 0
   ContactClass contact_class;  ///< of the pair
   Vector normal;               ///< unit, from a to b; in a CylinderWall the mean over points
->>>>>>> refs/heads/iface
   Vector lever_a;              ///< from the centre of a to the centre of pressure [m]
   Vector lever_b;              ///< from the centre of b to the centre of pressure [m]
-  Vector force;                ///< force on b [N]
+  Vector force;                ///< that b receives [N]
   Scalar normal_force;         ///< sum over the points, > 0 [N]
   Scalar friction_force;       ///< magnitude of the sum of the tangential forces [N]
 };

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Solid fraction of a control volume: exact, not by sample points.
-=======
 // The share of a control volume that grains fill, computed exactly, without sample points.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <cstddef>
@@ -14,14 +10,14 @@
 
 namespace moreau {
 
-/// Solid fraction of a control volume [-]. Overlaps of grains count twice.
-/// @param control_volume  world axes [m]; if it reaches beyond the container, it includes void
-///                        outside: check it with require_inside()
+/// The solid fraction in a control volume [-]. Where grains overlap, the overlap counts twice.
+/// @param control_volume  world axes [m]; if it reaches beyond the container, so does the void that
+///                        is counted: require_inside() checks that
 /// @param grain_count     number of grains
 /// @param shape_of        k -> the shape of grain k
 /// @param pose_of         k -> its pose, world axes [m]
 /// @param workspace       buffers, reused
-/// @returns volume of the grains in the control volume / volume of the control volume
+/// @returns volume of the grains in the control volume over its volume
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <class S, class ShapeOf, class PoseOf>
 typename S::Scalar solid_fraction(const Aabb<S>& control_volume, std::size_t grain_count,

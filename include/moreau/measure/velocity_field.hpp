@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Mean velocity of grains in the vertical section, and a measure of how much it is a roll.
-=======
 // The mean velocity of grains in the vertical section, and the rotation of this field.
->>>>>>> refs/heads/iface
 //
 // The section is spanned by the first axis, x, drawn to the right, and the last one (z in space, y
 // in the plane), drawn upwards. Turning is positive counter-clockwise as one sees it in that
@@ -24,17 +20,16 @@ template <class T>
 struct SectionSample {
   Eigen::Matrix<T, 2, 1> position;  ///< centre of the cell [m]
   Eigen::Matrix<T, 2, 1> velocity;  ///< mean over the grains in the cell [m/s]
-  std::size_t grains;               ///< number of grains added, in all steps
+  std::size_t grains;               ///< counted, in all steps
 };
 
-/// Rotation of a velocity field as a whole.
+/// How much a velocity field turns as a whole.
 template <class T>
 struct Roll {
   T angular_velocity = 0;  ///< sum r x v / sum r^2, > 0 counter-clockwise [rad/s]
   /// sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1] [-]; +-1 is a rigid rotation.
   T strength = 0;
-  /// Share of the samples, weighted by |r x v|, that rotate in the direction of the whole field, in
-  /// [0, 1] [-].
+  /// Share of the samples, weighted by |r x v|, that turn as the whole does, in [0, 1] [-].
   T agreement = 0;
 };
 
@@ -64,17 +59,12 @@ class VelocityField {
   /// Removes all grains.
   void clear() { cells_.assign(cells_.size(), Cell{}); }
 
-  /// Adds a grain if its centre lies in the control volume. Call it in several steps to average
-  /// over time.
+  /// Counts a grain if its centre lies in the control volume; call it over several steps to
+  /// average in time.
   /// @param position of its centre, world axes [m]; in a periodic cell, of any image
   /// @param velocity of its centre, world axes [m/s]
-<<<<<<< HEAD
-  /// @param periodic cell of the simulation
-  /// @throws std::invalid_argument if an argument is not finite
-=======
   /// @param periodic the simulation's cell
   /// @throws std::invalid_argument for a number that is not finite
->>>>>>> refs/heads/iface
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
@@ -90,8 +80,7 @@ class VelocityField {
 
   std::size_t columns() const { return columns_; }  ///< cells along the first axis
   std::size_t rows() const { return rows_; }        ///< cells along the last axis
-  /// The cell in a column (from the left) and a row (from below); its velocity is zero if it
-  /// contains no grain.
+  /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
   /// @throws std::invalid_argument unless column < columns() and row < rows()
   Sample sample(std::size_t column, std::size_t row) const {
     constexpr const char* self = "VelocityField::sample";
@@ -105,14 +94,8 @@ class VelocityField {
     return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
   }
 
-<<<<<<< HEAD
-  /// Rotation about the centre of the cells that contain grains, relative to their mean velocity,
-  /// so that a translation is not a roll. All such cells have the same weight. All results are zero
-  /// if nothing rotates or moves.
-=======
   /// Rotation about the centre of the cells that hold grains, after subtraction of their mean
   /// velocity. All cells that hold grains have the same weight. Zero if the field does not rotate.
->>>>>>> refs/heads/iface
   Roll<Scalar> roll() const {
     Section centre = Section::Zero(), drift = Section::Zero();
     Scalar count = 0;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Random grain shapes that look like railway ballast: crushed rock, angular, roughly equant.
 //
-// In space they are hulls of points near an ellipsoid with the semi-axes 1, e, e f. The elongation
-// e and the flatness f lie between 0.7 and 1. The points have random directions with a minimum
-// distance. They are moved inwards by up to a fifth, so that faces differ in size and corners in
-// sharpness. A hull is used if it has the number of vertices that was drawn for it. The axis ratios
-// of the hulls (of ellipsoids with the same inertia) lie between about 0.55 and 1, most around
-// 0.83. Crushed rock is a little flatter on average and seldom as equant as a sphere. A hull fills
-// on average 0.37 of its circumscribed ball. Faces are triangles: 2 V - 4 of them for V vertices.
-// In the plane 5 to 7 corners lie near an ellipse with the semi-axes 1, e.
+// In space: hulls of jittered ellipsoids with the semi-axes 1, e, e f; the elongation e and the
+// flatness f lie between 0.7 and 1. Points in random directions, none too close to another, are
+// pulled inwards by up to a fifth, so that facets differ in size and corners in sharpness; the hull
+// is taken when it has the number of vertices that was drawn for it. The ratios of the axes of the
+// hulls themselves (of ellipsoids of the same inertia) then lie between about 0.55 and 1, most
+// around 0.83: crushed rock is a little flatter than that on average, seldom as equant as a sphere.
+// A hull fills 0.37 of its circumscribed ball on average. Faces are triangles: V vertices make 2 V
+// - 4. In the plane: the same with 5 to 7 corners on an ellipse of axes 1, e.
 //
-// All shapes are scaled to circumradius 1 (to rounding). The circumradius is the largest distance
-// from the centre of mass to a vertex.
+// All shapes are scaled to circumradius 1 (to rounding), their largest distance from the centre of
+// mass to a vertex.
 #pragma once
 
 #include <cmath>
@@ -31,33 +31,19 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Random shapes of one type. Specialise it for a shape of your own. draw(random) returns a random
-/// shape of circumradius 1 (to rounding).
-template <class Shape>
-struct Ballast;
-
-/// A shape type for which random shapes can be drawn: Ballast<Shape> exists.
-=======
 /// Draws random grains of a shape; specialise it for your own shape. draw(random) returns a random
 /// grain of circumradius 1 (to rounding).
 template <class Shape>
 struct Ballast;
 
 /// A shape with a specialisation of Ballast, so that random grains can be drawn.
->>>>>>> refs/heads/iface
 template <class Shape>
 concept BallastShape = requires(std::mt19937_64& random) {
   { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
 };
 
-<<<<<<< HEAD
-/// Parameters of the distribution of shapes; the head of this file describes it. Lengths are
-/// relative to the largest semi-axis [-].
-=======
 /// Parameters of the random shapes described at the top of this file. Lengths are relative to the
 /// largest semi-axis [-].
->>>>>>> refs/heads/iface
 struct BallastParameters {
   double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
   double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
@@ -71,7 +57,7 @@ inline double uniform(double low, double high, std::mt19937_64& random) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// A random direction, uniformly distributed.
+/// A direction drawn uniformly.
 template <int Dim>
 Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   Eigen::Matrix<double, Dim, 1> x;
@@ -81,13 +67,8 @@ Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   return x.normalized();
 }
 
-<<<<<<< HEAD
-/// Random directions with at least the given distance (chord length) between each two. If there is
-/// no room for more, returns fewer than `count`.
-=======
 /// Random directions with at least the spacing (chord length) between any two. Returns fewer than
 /// `count` if no further direction is found.
->>>>>>> refs/heads/iface
 template <int Dim>
 std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, double spacing,
                                                              std::mt19937_64& random) {
@@ -101,7 +82,7 @@ std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, 
   return directions;
 }
 
-/// Points on an ellipsoid with the semi-axes 1, e, e f, .., moved inwards at random.
+/// Points on an ellipsoid with the semi-axes 1, e, e f, .., pulled inwards at random.
 template <class S>
 std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spacing,
                                                    std::mt19937_64& random) {
@@ -119,8 +100,8 @@ std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spa
   return points;
 }
 
-/// The hull of the points, scaled to circumradius 1. Nothing if a point is not a vertex or if the
-/// hull is too thin.
+/// The hull of the points at circumradius 1; nothing unless every point is a vertex and the hull is
+/// neither splinter nor flake.
 template <class Shape>
 std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
                                 std::size_t vertices) {
@@ -134,7 +115,7 @@ std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
 
 }  // namespace detail
 
-/// Random polyhedra with 8 to 37 vertices and 12 to 70 faces, all triangles.
+/// 8 to 37 vertices, 12 to 70 faces, all triangles.
 template <std::floating_point T>
 struct Ballast<Polyhedron<T>> {
   /// One of circumradius 1.
@@ -143,7 +124,7 @@ struct Ballast<Polyhedron<T>> {
     const auto count = std::uniform_int_distribution<std::size_t>(8, 37)(random);
     const double even = std::sqrt(4 * std::numbers::pi / static_cast<double>(count));
     for (;;) {
-      // More points than vertices: some of the points that are moved inwards lie inside the hull.
+      // More points than vertices: some of those pulled inwards end inside the hull.
       const std::size_t extra = std::uniform_int_distribution<std::size_t>(0, count / 2)(random);
       const auto points =
           detail::jittered_ellipsoid<S>(count + extra, BallastParameters{}.spacing * even, random);
@@ -153,7 +134,7 @@ struct Ballast<Polyhedron<T>> {
   }
 };
 
-/// Random polygons with 5 to 7 sides.
+/// 5 to 7 sides.
 template <std::floating_point T>
 struct Ballast<Polygon<T>> {
   /// One of circumradius 1.
@@ -169,11 +150,7 @@ struct Ballast<Polygon<T>> {
   }
 };
 
-<<<<<<< HEAD
-/// Balls, the reference without corners. All have radius 1.
-=======
 /// Balls and disks, the reference without corners: all grains are equal.
->>>>>>> refs/heads/iface
 template <class S>
 struct Ballast<BallIn<S>> {
   /// The ball of radius 1.

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Grain sizes: classes with shares, and the definition of "size".
-=======
 // Numbers of grains by size, and the meaning of "size".
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -20,18 +16,13 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Meaning of the size d of a grain. Publications are not always clear about it.
-=======
 /// The meaning of a grain's size d, which publications do not always state.
->>>>>>> refs/heads/iface
 enum class SizeReading : std::uint8_t {
   circumdiameter,  ///< twice the largest distance from the centre of mass to a vertex
-  circumradius     ///< the largest distance from the centre of mass to a vertex
+  circumradius     ///< that distance itself
 };
 
-/// Circumradius [m] of a grain of the given size [m], > 0: the largest distance from the centre of
-/// mass to a vertex.
+/// The largest distance from the centre of mass to a vertex [m] of a grain of the size [m], > 0.
 /// @throws std::invalid_argument unless the size is finite and greater than zero
 inline double circumradius_of(double size, SizeReading reading) {
   require(std::isfinite(size) && size > 0, "circumradius_of", "size", size,
@@ -39,15 +30,10 @@ inline double circumradius_of(double size, SizeReading reading) {
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
-<<<<<<< HEAD
-/// A distribution of sizes in classes, with shares by number. SizeReading defines the meaning of a
-/// size.
-=======
 /// Classes of sizes with shares by number. SizeReading tells what a size means.
->>>>>>> refs/heads/iface
 class SizeDistribution {
  public:
-  /// One class: grains of one size.
+  /// Grains of one size.
   struct Class {
     double size;   ///< [m], > 0
     double share;  ///< by number, relative to the sum of all shares, >= 0 [-]
@@ -82,16 +68,15 @@ class SizeDistribution {
   double smallest() const { return std::min_element(begin(), end(), by_size)->size; }  ///< [m]
   double largest() const { return std::max_element(begin(), end(), by_size)->size; }   ///< [m]
 
-  /// Number of grains of each class among n grains; the sum is n. Each share of n is rounded down.
-  /// The remaining grains go to the classes with the largest remainders (the first class among
-  /// equals).
+  /// How many of n grains are of each class: the shares of n rounded down, and the grains left over
+  /// given to the largest remainders (the first class among equals). They sum up to n.
   std::vector<std::size_t> counts(std::size_t n) const {
     std::vector<std::size_t> count(classes_.size());
     std::vector<double> remainder(classes_.size());
     std::size_t left = n;
     for (std::size_t i = 0; i < classes_.size(); ++i) {
       const double exact = classes_[i].share / total_ * static_cast<double>(n);
-      // A share that is a whole number of grains may be one rounding error too small.
+      // A share of a whole number of grains may come out one rounding error below it.
       const double whole = std::floor(exact * (1 + 1e-14));
       count[i] = std::min(left, static_cast<std::size_t>(whole));
       remainder[i] = exact - whole;
@@ -106,7 +91,7 @@ class SizeDistribution {
     return count;
   }
 
-  /// Sizes [m] of n grains: counts(n) of each class, in a random order.
+  /// The sizes [m] of n grains: counts(n) of each class, in random order, which `random` decides.
   /// @throws std::invalid_argument for n = 0
   std::vector<double> sample(std::size_t n, std::mt19937_64& random) const {
     require(n > 0, "SizeDistribution::sample", "n", n, "must be at least 1");

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Concepts of shapes. A shape is immutable geometry in its own (body) frame, with the centre of
-// mass at the origin. Its position is a Pose that is stored elsewhere.
-=======
 // Requirements on shapes. A shape is immutable geometry in its own (body) frame, with the centre of
 // mass at the origin. It holds no pose: the simulation holds the pose of each body.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <concepts>
@@ -16,23 +11,15 @@
 
 namespace moreau {
 
-/// The space of a shape.
+/// The space a shape lives in.
 template <class Shape>
 using SpaceOf = typename Shape::Space;
 
-<<<<<<< HEAD
-/// A shape: it has a mass and a bounding box.
-///
-/// - mass_properties(density): at a uniform density [kg/m^D]; the centre of mass of a grain must be
-///   the origin
-/// - bounding_box(pose): a box that contains the shape at the pose, world axes [m]
-=======
 /// A body with a mass and a bounding box.
 ///
 /// - mass_properties(density): at a uniform density [kg/m^D]; the centre of a grain must be the
 ///   origin
 /// - bounding_box(pose): a box around the whole shape at the pose, world axes [m]
->>>>>>> refs/heads/iface
 template <class T>
 concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<SpaceOf<T>> pose) {
   { shape.mass_properties(density) } -> std::same_as<MassProperties<SpaceOf<T>>>;
@@ -40,23 +27,14 @@ concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<
 };
 
 /// A convex shape. support(direction) returns the farthest point in a direction (any length but
-<<<<<<< HEAD
-/// zero), in body coordinates [m]. This is enough for a shape of your own.
-=======
 /// zero), in body coordinates [m]. A user's own shape needs no other function.
->>>>>>> refs/heads/iface
 template <class T>
 concept ConvexShape = Shape<T> && requires(const T shape, typename T::Space::Vector direction) {
   { shape.support(direction) } -> std::same_as<typename T::Space::Vector>;
 };
 
-<<<<<<< HEAD
-/// A convex set with a support function and a bounding box. Unlike a shape it may be flat and need
-/// not have a mass. It can be the core of a rounded shape (rounded.hpp).
-=======
 /// A convex set with a support function and a bounding box. It may be flat and need not have a
 /// mass. Rounded<Core> (rounded.hpp) is the set of points near a core.
->>>>>>> refs/heads/iface
 template <class T>
 concept ConvexCore = requires(const T core, typename T::Space::Vector direction,
                               Pose<SpaceOf<T>> pose) {
@@ -75,12 +53,7 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.face_offsets();
 };
 
-<<<<<<< HEAD
-// Optional members of shapes. A shape that consists of other shapes has them if those shapes have
-// them.
-=======
 // Optional members. A shape composed of other shapes has a member if all its parts have it.
->>>>>>> refs/heads/iface
 
 /// volume() [m^D].
 template <class T>

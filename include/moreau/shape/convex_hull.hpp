@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Convex hulls of points in the plane and in space.
 //
-<<<<<<< HEAD
-// Three steps make them safe for any finite input:
-//  1. Points that are closer together than the tolerance become one point.
-//  2. The hull of these points is built with exact signs (orientation.hpp). It is therefore always
-// closed and convex.
-//  3. Parts that are flat within the tolerance are merged: collinear edges in the plane, coplanar
-// triangles in space (face_merging.hpp).
-// All steps visit the points in lexicographic order, so the order of the input does not change the
-// result.
-=======
 // Three steps give a valid hull for any finite input:
 //
 //   1. Points closer together than the tolerance are merged.
@@ -21,7 +11,6 @@
 //
 // All steps take the points in lexicographic order, so that the result does not depend on the order
 // of the input.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -42,7 +31,7 @@ namespace moreau {
 
 namespace detail {
 
-/// The first point with the largest measure.
+/// The first point whose measure is largest.
 template <class Point, class Measure>
 std::uint32_t farthest(const std::vector<Point>& points, const Measure& measure) {
   std::uint32_t best = 0;
@@ -52,8 +41,8 @@ std::uint32_t farthest(const std::vector<Point>& points, const Measure& measure)
   return best;
 }
 
-/// Four points that span a large tetrahedron: the first point, the point farthest from it, from the
-/// line through both, and from the plane through these three.
+/// Four points that span a fat tetrahedron: the first, the farthest from it, from the line of those
+/// two, from the plane of those three.
 /// @throws std::invalid_argument if the last distance is too small
 inline std::array<std::uint32_t, 4> seed_of(const HullInput<3>& input, std::string_view function) {
   const auto& x = input.points;
@@ -84,8 +73,8 @@ inline void require_width(const HullInput<2>& input, std::string_view function) 
   if (width <= input.thin) input.throw_thin(function, width, "they are collinear");
 }
 
-/// Repeatedly removes the vertex nearest to the line through its neighbours, while that distance is
-/// within the tolerance.
+/// Drops the vertex nearest to the line of its neighbours while that distance is within the
+/// tolerance.
 inline void drop_collinear(std::vector<std::uint32_t>& ring, const HullInput<2>& input) {
   const auto bulge = [&](std::size_t i) {
     const auto& x = input.points;
@@ -110,10 +99,10 @@ inline void begin_with_smallest(std::vector<std::uint32_t>& cycle) {
 
 }  // namespace detail
 
-/// The hull of points in the plane: indices of its vertices, counter-clockwise, the smallest first.
-/// Points inside or on an edge are not included.
+/// The hull of points in the plane: indices of its vertices, counter-clockwise, the smallest first;
+/// points inside or on an edge are not among them.
 /// @param vertices N points, in any order [m]
-/// @param function name for error messages
+/// @param function named in errors
 /// @throws std::invalid_argument for fewer than 3 points, one that is not finite, or points that
 ///         coincide or are collinear within HullTolerance
 /// Source: A. M. Andrew, Inf. Process. Lett. 9 (1979).
@@ -147,10 +136,10 @@ std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> v
 }
 
 /// The hull of points in space: its faces, each a cycle of vertex indices, counter-clockwise from
-/// outside, the smallest first. Points inside, on a face or on an edge are not included. Triangles
-/// that are coplanar within HullTolerance form one face.
+/// outside, the smallest first; points inside, on a face or on an edge are in none of them.
+/// Triangles that are coplanar within HullTolerance are one face.
 /// @param vertices N points, in any order [m]
-/// @param function name for error messages
+/// @param function named in errors
 /// @throws std::invalid_argument for fewer than 4 points, one that is not finite, or points that
 ///         coincide, are collinear or coplanar within HullTolerance
 template <std::floating_point T>

@@ -10,15 +10,9 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// All points farther than a radius from an axis through the origin of the body: in space the
-/// outside of an infinite cylinder, in the plane of a circle. It models a cylindrical wall around
-/// grains. Like HalfSpace it has no mass and no bounding box, so it is not a Shape.
-=======
 /// All points farther than a radius from an axis through the body's origin: in space the outside of
 /// an infinite cylinder, in the plane the outside of a circle. It models a wall around the grains.
 /// It has no mass and no bounding box, so it is no Shape.
->>>>>>> refs/heads/iface
 template <EuclideanSpace S>
 class CylinderWall {
  public:
@@ -26,13 +20,8 @@ class CylinderWall {
   using Scalar = typename S::Scalar;
   using Angular = typename S::Angular;
 
-<<<<<<< HEAD
-  /// @param axis   as for a rotation, body coordinates, any length but zero: a vector in space, a
-  ///               number in the plane, where the axis is normal to the plane
-=======
   /// @param axis   axis of rotation, body coordinates, of any length but zero: a vector in space, a
   ///               number in the plane, to which the axis is normal
->>>>>>> refs/heads/iface
   /// @param radius [m], > 0
   /// @throws std::invalid_argument if the axis is not finite or zero, or for a radius that is not
   ///         finite or not positive

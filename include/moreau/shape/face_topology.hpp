@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Incidences of the vertices, edges and faces of a polyhedron.
+// Which vertices, edges and faces of a polyhedron meet.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,11 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Lists of indices of different lengths, stored one after the other in one array.
-=======
 /// Lists of indices of varying length, stored one after the other in one array.
->>>>>>> refs/heads/iface
 class IndexLists {
  public:
-  std::size_t size() const { return begins_.size() - 1; }  ///< number of lists
-  std::size_t total() const { return items_.size(); }      ///< number of indices in all lists
+  std::size_t size() const { return begins_.size() - 1; }  ///< lists
+  std::size_t total() const { return items_.size(); }      ///< indices in all lists
   /// List i, i < size().
   std::span<const std::uint32_t> operator[](std::size_t i) const {
     MOREAU_ASSERT(i < size());
@@ -48,15 +44,15 @@ class IndexLists {
   std::vector<std::uint32_t> begins_{0}, items_;
 };
 
-/// An edge and the two faces that share it. face[0] has it from vertex[0] to vertex[1], face[1]
-/// from vertex[1] to vertex[0].
+/// An edge and the two faces that share it: face[0] has it running from vertex[0] to vertex[1],
+/// face[1] the other way.
 struct PolyhedronEdge {
   std::array<std::uint32_t, 2> vertex;  ///< its ends
   std::array<std::uint32_t, 2> face;    ///< on its two sides
 };
 
-/// The incidences of a closed surface, derived from its faces. List i belongs to face or vertex i
-/// and contains indices.
+/// The incidences of a closed surface, derived from its faces. Each list is of indices; its place
+/// in the lists is the index of the face or vertex that it belongs to.
 struct FaceTopology {
   IndexLists faces;                   ///< vertices of each face, counter-clockwise from outside
   IndexLists face_edges;              ///< edge k of a face runs between its vertices k and k + 1
@@ -64,7 +60,7 @@ struct FaceTopology {
   IndexLists vertex_edges;            ///< edges at each vertex, ascending
   std::vector<PolyhedronEdge> edges;  ///< each once
 
-  /// An empty surface, to be read into.
+  /// Of no surface: to be read into.
   FaceTopology() = default;
   auto serialized_members() {
     return std::tie(faces);
@@ -100,14 +96,13 @@ struct FaceTopology {
 
  private:
   static std::string name(std::uint32_t a, std::uint32_t b) {
-    std::string text(1, '(');  // not "literal" + std::string, of which g++ 12 warns
+    std::string text(1, '(');  // appended to: g++ 12 warns of "literal" + std::string
     text.append(std::to_string(a)).append(", ").append(std::to_string(b)).append(1, ')');
     return text;
   }
 
   void pair_edges(std::string_view function) {
-    std::map<std::array<std::uint32_t, 2>, std::uint32_t>
-        open;  // edges whose reverse is not found yet
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> open;  // waiting for their reverse
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       const auto face = faces[f];
       std::vector<std::uint32_t> of_face(face.size());

@@ -7,14 +7,9 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// All points on one side of a plane (in the plane: of a line) through the origin of the body: { x
-/// : normal . x <= 0 }. It models a wall. It has no mass and no bounding box, so it is not a Shape.
-=======
 /// All points on one side of a plane (in the plane: of a line) through the body's origin: the solid
 /// is { x : normal . x <= 0 }. It models a wall. It has no mass and no bounding box, so it is no
 /// Shape.
->>>>>>> refs/heads/iface
 template <EuclideanSpace S>
 class HalfSpace {
  public:

@@ -17,13 +17,8 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Moments of a body of density one [-] about the origin, in the axes of its coordinates. The head
-/// of this file has the formulas and their source.
-=======
 /// Moments of a body of density one [-] about the origin, in the axes of its coordinates.
 /// Formulas and source stand at the top of this file.
->>>>>>> refs/heads/iface
 template <class S>
 struct Moments {
   using Scalar = typename S::Scalar;
@@ -34,8 +29,8 @@ struct Moments {
   Vector first = Vector::Zero();   ///< int x [m^(D+1)]
   Matrix second = Matrix::Zero();  ///< int x x^T, D x D [m^(D+2)]
 
-  /// Adds the simplex of the origin and the columns of v, D x D [m]. It counts as negative if the
-  /// columns are left-handed.
+  /// Adds the simplex of the origin and the columns of v, D x D [m]; negative if they are
+  /// left-handed.
   void add_simplex(const Matrix& v) {
     const Scalar part = v.determinant() / factorial(S::dim);
     const Vector s = v.rowwise().sum();
@@ -52,17 +47,13 @@ struct Moments {
     return *this;
   }
 
-  /// The moments of the same body about its centre, first / volume. The volume must not be 0.
+  /// The moments of the same body about its own centre, first / volume; its volume must not be 0.
   Moments centered() const {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
-<<<<<<< HEAD
-  /// Whether the scalar can represent them. It cannot if a shape is far too small or far too large.
-=======
   /// Whether the scalar can hold the moments. They over- or underflow if the shape is far too large
   /// or far too small.
->>>>>>> refs/heads/iface
   bool are_regular() const {
     const typename S::Inertia about_origin = inertia();
     return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&

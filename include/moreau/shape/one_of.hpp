@@ -12,15 +12,9 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// A shape that is one of several kinds, for mixed assemblies. A pair of grains is handled as the
-/// pair of the shapes that they hold (detect/collide.hpp); one std::visit selects it.
-/// @tparam Shapes  different types, all in the same space
-=======
 /// A shape that is one of several kinds: the shape of a mixed assembly. Detection finds the kinds
 /// of a pair by one visit and then runs as for a pair of these kinds (detect/collide.hpp).
 /// @tparam Shapes  different types, all of the same space
->>>>>>> refs/heads/iface
 template <Shape... Shapes>
 requires(sizeof...(Shapes) > 0 &&
          (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> &&
@@ -30,15 +24,6 @@ requires(sizeof...(Shapes) > 0 &&
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-<<<<<<< HEAD
-  /// Not explicit: a ball can be passed where a OneOf of balls and other shapes is expected.
-  template <class ShapeT>
-  requires(std::same_as<ShapeT, Shapes> || ...) OneOf(ShapeT shape) : held_(std::move(shape)) {}
-
-  /// Index of its kind, in the order of the template arguments.
-  std::size_t index() const { return held_.index(); }
-  /// The shape, if it is of this kind; else null.
-=======
   /// Not explicit: a Ball converts to OneOf<Ball<T>, Polyhedron<T>>.
   template <class ShapeT>
   requires(std::same_as<ShapeT, Shapes> || ...) OneOf(ShapeT shape) : held_(std::move(shape)) {}
@@ -46,26 +31,17 @@ requires(sizeof...(Shapes) > 0 &&
   /// Index of its kind in Shapes.
   std::size_t index() const { return held_.index(); }
   /// The shape if it is of this kind, else null.
->>>>>>> refs/heads/iface
   template <class ShapeT>
   const ShapeT* get_if() const {
     return std::get_if<ShapeT>(&held_);
   }
-<<<<<<< HEAD
-  /// Calls use(shape) with the shape that it holds.
-=======
   /// Calls use(shape) with the shape of its own type.
->>>>>>> refs/heads/iface
   template <class Use>
   decltype(auto) visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), held_);
   }
 
-<<<<<<< HEAD
-  /// Volume [m^D], if all kinds have it.
-=======
   /// [m^D], if all kinds have volume().
->>>>>>> refs/heads/iface
   Scalar volume() const requires(HasVolume<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.volume(); });
   }

@@ -17,7 +17,7 @@ namespace moreau {
 
 /// Moments of a rounded polygon: the polygon, a rectangle on each edge, a sector at each vertex.
 /// @param r [m], > 0
-/// @returns moments about the origin of the core, in its axes, at density one
+/// @returns moments about the core's origin, in its axes, at density one
 template <std::floating_point T>
 Moments<Space<2, T>> rounded_moments(const Polygon<T>& core, T r) {
   using S = Space<2, T>;
@@ -68,7 +68,7 @@ Moments<Space<3, T>> face_moments(const Polyhedron<T>& core, std::size_t f,
 /// Moments of a rounded polyhedron: the polyhedron, a prism on each face, a sector of a cylinder
 /// along each edge, a sector of the ball at each vertex.
 /// @param r [m], > 0
-/// @returns moments about the origin of the core, in its axes, at density one
+/// @returns moments about the core's origin, in its axes, at density one
 template <std::floating_point T>
 Moments<Space<3, T>> rounded_moments(const Polyhedron<T>& core, T r) {
   using S = Space<3, T>;
@@ -96,16 +96,10 @@ Moments<Space<3, T>> rounded_moments(const Polyhedron<T>& core, T r) {
 }
 
 /// Moments of a capsule: a cylinder between two half balls; in the plane, a rectangle between two
-<<<<<<< HEAD
-/// half disks. Let B_k be the volume of the unit ball of dimension k. The half balls, at the
-/// distance h from the origin, have int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their
-/// balls.
-=======
 /// half disks. B_k being the volume of the unit ball of dimension k, the halves, h from the origin,
 /// have int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their balls.
->>>>>>> refs/heads/iface
 /// @param r [m], > 0
-/// @returns moments about the origin of the core, in its axes, at density one
+/// @returns moments about the core's origin, in its axes, at density one
 template <class S>
 Moments<S> rounded_moments(const Segment<S>& core, typename S::Scalar r) {
   using T = typename S::Scalar;

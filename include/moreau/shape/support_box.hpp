@@ -6,13 +6,8 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// The tight bounding box in world axes [m] of a convex shape at the pose, from its support
-/// function alone. A shape of your own can return it from bounding_box().
-=======
 /// The tight box in world axes around a convex shape at the pose [m], computed from support()
 /// alone. A user's own shape may return it from bounding_box().
->>>>>>> refs/heads/iface
 template <class ShapeT>
 Aabb<typename ShapeT::Space> support_box(const ShapeT& shape,
                                          const Pose<typename ShapeT::Space>& pose) {

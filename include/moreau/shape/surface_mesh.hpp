@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// The surface of any convex shape as points and faces, for files and pictures. Polytopes use their
-// own faces. For other shapes the mesh consists of their farthest points in the directions of a
-// fine polyhedron (in the plane: polygon). These points lie on the surface, so the mesh is
-// inscribed.
-=======
 // The surface of a convex shape as points and faces, for files and pictures. The mesh of a polytope
 // has its vertices and faces. The mesh of any other shape is inscribed: its points are the support
 // points in the directions of the vertices of a fine polyhedron (in the plane: a polygon).
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <cmath>
@@ -26,34 +19,21 @@
 
 namespace moreau {
 
-<<<<<<< HEAD
-/// Faces one after the other, each with the indices of its points counter-clockwise seen from
-/// outside; in the plane one face, the outline.
-=======
 /// Points and faces. A face lists the indices of its points counter-clockwise, seen from outside.
 /// In the plane there is one face, the outline.
->>>>>>> refs/heads/iface
 template <class S>
 struct SurfaceMesh {
   std::vector<typename S::Vector> points;  ///< body coordinates [m]
-  std::vector<std::int32_t> corners;       ///< corners of all faces, as indices into points
+  std::vector<std::int32_t> corners;       ///< of all faces, as indices into points
   std::vector<std::int32_t> ends;          ///< where in corners each face ends
 
-<<<<<<< HEAD
-  /// Removes points and faces and keeps the memory.
-=======
   /// Removes points and faces; keeps the memory.
->>>>>>> refs/heads/iface
   void clear() {
     points.clear();
     corners.clear();
     ends.clear();
   }
-<<<<<<< HEAD
-  /// Ends a face that consists of the corners since the last face.
-=======
   /// Makes a face of the corners behind the last face.
->>>>>>> refs/heads/iface
   void end_face() { ends.push_back(static_cast<std::int32_t>(corners.size())); }
 };
 
@@ -73,11 +53,7 @@ SurfaceMesh<Space<2, T>> unit_mesh(Space<2, T>, int fineness) {
   return mesh;
 }
 
-<<<<<<< HEAD
-/// Splits each triangle into four, with new points on the unit sphere.
-=======
 /// Splits each triangle in four, with the new points on the unit sphere.
->>>>>>> refs/heads/iface
 template <class T>
 SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   SurfaceMesh<Space<3, T>> fine;
@@ -105,11 +81,7 @@ SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   return fine;
 }
 
-<<<<<<< HEAD
-/// An icosahedron on the unit sphere whose triangles are split into four `fineness` times.
-=======
 /// An icosahedron on the unit sphere whose triangles are split in four `fineness` times.
->>>>>>> refs/heads/iface
 template <class T>
 SurfaceMesh<Space<3, T>> unit_mesh(Space<3, T>, int fineness) {
   SurfaceMesh<Space<3, T>> mesh;
@@ -148,11 +120,7 @@ void append_faces(const ShapeT& shape, SurfaceMesh<Space<3, T>>& mesh) {
 
 }  // namespace detail
 
-<<<<<<< HEAD
-/// Computes meshes of shapes; reuses its directions.
-=======
 /// Computes meshes of shapes; keeps the directions of the support points.
->>>>>>> refs/heads/iface
 template <class S>
 class SurfaceMesher {
  public:

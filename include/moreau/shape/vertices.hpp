@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// Shared by the polytopes of both dimensions: vertices as an N x D matrix whose columns (all x, all
-// y, ...) are contiguous.
-=======
 // Functions of the vertices of polytopes in both dimensions. The vertices are an N x D matrix whose
 // columns (all x, all y, ...) are contiguous.
->>>>>>> refs/heads/iface
 #pragma once
 
 #include <algorithm>
@@ -56,8 +51,8 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   return box;
 }
 
-/// The least distance between two rows, in their unit; infinite if there is only one row. The rows
-/// are sorted along x, so that few pairs are compared.
+/// The least distance between two of the rows, in their unit; infinite if there is only one. Sorted
+/// along x, few of them have to be compared.
 template <class S>
 typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   using T = typename S::Scalar;
