@@ -185,11 +185,11 @@ TEST_CASE("verdicts and their wording") {
   CHECK(text_of(estimate({})).empty());
 }
 
-TEST_CASE("the active phase begins where the falling force is the weight, creep before it apart") {
+TEST_CASE("the active phase begins where the falling force is the weight, numerical drift before it apart") {
   CHECK(time_before_minimum(0.5, 0, 1, 5) == doctest::Approx(0.05));
   CHECK(time_before_minimum(1e-6, 0, 1, 5) == doctest::Approx(1e-3 / (5 * std::acos(-1.0))));
   CHECK(time_before_minimum(0.5, 0.6, 1, 5) == 0);
-  // Creeps by 0.2 until t = 1, moves out by 1 until 2, falls back to -1 until 3.
+  // Drifts by 0.2 until t = 1, moves out by 1 until 2, falls back to -1 until 3.
   std::vector<double> t, x, v, f_g;
   for (int k = 0; k <= 300; ++k) {
     t.push_back(0.01 * k);
