@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A few numbers at once: the compiler's vector types (g++ and clang++), as wide as the machine the
-// code is compiled for.
+// SIMD: the vector types of g++ and clang++, as wide as the registers of the target machine.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +20,8 @@ inline constexpr int register_bytes = 32;
 #else
 inline constexpr int register_bytes = 16;
 #endif
-/// Bytes of the widest register. No more: wider ones would be passed differently by code that was
-/// compiled for another machine.
+/// Bytes of the widest register. Wider types would be passed differently by code that was compiled
+/// for another machine.
 #if defined(__AVX512F__)
 inline constexpr int widest_bytes = 64;
 #else
@@ -43,7 +42,7 @@ struct Wide {
     return v;
   }
   static Values broadcast(T x) { return x - Values{}; }
-  /// Lane l becomes what lane l + shift was, around the end.
+  /// Rotates the lanes: lane l of the result is lane l + shift, cyclically.
   template <int Shift, class V>
   static V rotated(const V& v) {
     return rotate<Shift>(v, std::make_integer_sequence<int, lanes>{});
@@ -159,7 +158,7 @@ struct WideMaximum {
     value = larger ? v : value;
     index = larger ? i : index;
   }
-  /// Without branches: which lane wins is as good as random.
+  /// Without branches, as the lane with the maximum is random.
   Extreme<T> reduce() const {
     const auto top = W::maximum(value);
     const auto none = typename W::Indices{} + std::numeric_limits<typename W::Lane>::max();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks on the box, at rest in world axes, in which a measure is taken.
+// Checks of a control volume: the box, at rest in world axes, in which a measure is taken.
 #pragma once
 
 #include <sstream>
@@ -24,7 +24,7 @@ std::string describe(const Aabb<S>& box) {
 
 }  // namespace detail
 
-/// Whether the box has finite corners and an inside.
+/// Whether the box has finite corners and a positive volume.
 template <class S>
 bool is_control_volume(const Aabb<S>& box) {
   return box.lower.allFinite() && box.upper.allFinite() &&
@@ -43,9 +43,9 @@ void require_control_volume(const Aabb<S>& box, std::string_view function) {
                 "must be finite with lower < upper on every axis");
 }
 
-/// For a control volume that is to hold grains only: it has to lie inside their container, both in
-/// world axes [m].
-/// @throws std::invalid_argument naming both boxes if it does not, or if one of them is no box
+/// Checks that a control volume lies inside the container of the grains, both in world axes [m].
+/// @throws std::invalid_argument naming both boxes if it does not, or if a box is empty, inverted
+///         or not finite
 template <class S>
 void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
   require_control_volume(control_volume, "require_inside");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many neighbours carry a grain.
+// Coordination number: mean number of neighbours in contact with force.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace moreau {
 
-/// How many neighbours carry a grain.
+/// Coordination number: mean number of neighbours in contact with force.
 struct Coordination {
   std::size_t grains = 0;    ///< grains counted; rattlers are not, if they are removed
   std::size_t rattlers = 0;  ///< grains removed

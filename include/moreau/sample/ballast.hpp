@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Random grain shapes that look like railway ballast: crushed rock, angular, roughly equant.
 //
-// In space: hulls of jittered ellipsoids with the semi-axes 1, e, e f; the elongation e and the
-// flatness f lie between 0.7 and 1. Points in random directions, none too close to another, are
-// pulled inwards by up to a fifth, so that facets differ in size and corners in sharpness; the hull
-// is taken when it has the number of vertices that was drawn for it. The ratios of the axes of the
-// hulls themselves (of ellipsoids of the same inertia) then lie between about 0.55 and 1, most
-// around 0.83: crushed rock is a little flatter than that on average, seldom as equant as a sphere.
-// A hull fills 0.37 of its circumscribed ball on average. Faces are triangles: V vertices make 2 V
-// - 4. In the plane: the same with 5 to 7 corners on an ellipse of axes 1, e.
+// In space a shape is the hull of points near an ellipsoid with the semi-axes 1, e, e f:
+//
+//   1. Draw the elongation e and the flatness f between 0.7 and 1, and the number V of vertices.
+//   2. Draw random directions with a least distance, and their points on the ellipsoid.
+//   3. Pull each point inwards by up to a fifth, so that faces differ in size and corners in angle.
+//   4. Accept the hull if it has V vertices. All faces are triangles, 2 V - 4 of them.
+//
+// The ratios of the axes of the hulls (of ellipsoids of the same inertia) lie between about 0.55
+// and 1, most around 0.83. Crushed rock is a little flatter on average and seldom as equant as a
+// ball. A hull fills 0.37 of its circumscribed ball on average. In the plane the algorithm is the
+// same, with 5 to 7 corners on an ellipse of semi-axes 1, e.
 //
 // All shapes are scaled to circumradius 1 (to rounding), their largest distance from the centre of
 // mass to a vertex.
@@ -100,8 +103,8 @@ std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spa
   return points;
 }
 
-/// The hull of the points at circumradius 1; nothing unless every point is a vertex and the hull is
-/// neither splinter nor flake.
+/// The hull of the points at circumradius 1. Nothing if a point is not a vertex or if the inradius
+/// is below BallastParameters::lowest_inradius.
 template <class Shape>
 std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
                                 std::size_t vertices) {
@@ -118,7 +121,7 @@ std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
 /// 8 to 37 vertices, 12 to 70 faces, all triangles.
 template <std::floating_point T>
 struct Ballast<Polyhedron<T>> {
-  /// One of circumradius 1.
+  /// A grain of circumradius 1.
   static Polyhedron<T> draw(std::mt19937_64& random) {
     using S = Space<3, T>;
     const auto count = std::uniform_int_distribution<std::size_t>(8, 37)(random);
@@ -137,7 +140,7 @@ struct Ballast<Polyhedron<T>> {
 /// 5 to 7 sides.
 template <std::floating_point T>
 struct Ballast<Polygon<T>> {
-  /// One of circumradius 1.
+  /// A grain of circumradius 1.
   static Polygon<T> draw(std::mt19937_64& random) {
     using S = Space<2, T>;
     const auto count = std::uniform_int_distribution<std::size_t>(5, 7)(random);

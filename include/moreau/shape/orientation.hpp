@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which side of a line or plane a point lies on, with the exact sign.
 //
-// The determinant is evaluated in double together with a bound of its rounding error; only where
-// the bound exceeds it, it is evaluated again without any error, as a sum of doubles that do not
-// overlap (an expansion). A hull built on exact signs is closed and convex whatever the input.
+// The determinant is evaluated in double together with a bound of its rounding error. If the bound
+// exceeds the determinant, it is evaluated again exactly, as a sum of doubles that do not overlap
+// (an expansion). A hull computed with exact signs is closed and convex for every input.
 // Needs IEEE arithmetic: no -ffast-math, and coordinates of order one (no overflow, no underflow).
 // Source: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 // predicates", Discrete Comput. Geom. 18 (1997), theorems 6, 10, 18, and the bounds of section 4.
@@ -62,7 +62,7 @@ class Expansion {
     }
     return product;
   }
-  /// The largest term: it has the sign of the whole.
+  /// The largest term, which has the sign of the sum.
   double leading() const { return terms_.empty() ? 0.0 : terms_.back(); }
 
  private:
@@ -101,8 +101,8 @@ inline double exact_orientation(const Eigen::Vector3d& a, const Eigen::Vector3d&
 }  // namespace detail
 
 /// Twice the signed area of the triangle abc, in the square of the coordinates' unit; its sign is
-/// exact: > 0 if c is to the left of a -> b. The top of
-/// this file states the range of the coordinates and the source.
+/// exact: > 0 if c is to the left of a -> b. The top of this file states the range of the
+/// coordinates and the source.
 inline double orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                           const Eigen::Vector2d& c) {
   constexpr double epsilon = 0x1p-53, bound = (3 + 16 * epsilon) * epsilon;

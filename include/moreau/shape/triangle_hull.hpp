@@ -56,8 +56,8 @@ class TriangleHull {
     find_visible(points_[p]);
     if (visible_.empty()) return;
     find_rim();
-    // The new triangles take the places of the visible ones; a closed surface may have fewer of
-    // them only if vertices vanish, and then the last triangles move into the holes.
+    // The new triangles replace the visible ones. There are fewer new triangles only if vertices
+    // vanish; the last triangles then move into the free places.
     std::vector<std::uint32_t> slots = visible_;
     while (slots.size() < rim_.size()) {
       slots.push_back(static_cast<std::uint32_t>(triangles_.size()));
