@@ -29,8 +29,7 @@ namespace {
 using Law = moreau::SignoriniCoulomb<double>;
 using World = moreau::Simulation<moreau::Polyhedron<double>, Law>;
 using Plane = moreau::Simulation<moreau::Polygon<double>, Law>;
-const auto constant = [](double) { return 1.0; };
-using Drive = moreau::ForceDrive<World::Vector, decltype(constant)>;
+using Drive = moreau::ForceDrive<World::Vector, double (*)(double)>;
 
 // The parameters are template parameters of a lambda, so that an error is only a value.
 #define COMPILES(...)                                                                          \
