@@ -14,9 +14,9 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/ball.hpp"
 
 #include "experiment.hpp"
 #include "methods.hpp"
