@@ -47,7 +47,9 @@ class Rows {
 
   std::size_t size() const { return static_cast<std::size_t>(count_); }
   Eigen::Index padded_size() const { return padded_; }
-  Vector operator[](std::size_t i) const {
+  /// Row i. Always inlined: g++ counts the copies of this function against its callers and then calls
+  /// it for every vertex.
+  [[gnu::always_inline]] Vector operator[](std::size_t i) const {
     constexpr std::size_t lanes = W::lanes;
     const T* block = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
     Vector row;
