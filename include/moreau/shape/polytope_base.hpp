@@ -60,6 +60,7 @@ class PolytopeBase {
 
  protected:
   PolytopeBase() = default;
+  /// References to all members, for serialization.
   auto members() {
     return std::tie(vertices_, face_normals_, face_offsets_, centroid_of_input_, circumradius_,
                     inradius_, normal_spacing_, moments_);
@@ -73,6 +74,8 @@ class PolytopeBase {
     vertices_.rowwise() -= center.transpose();
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
   }
+  /// Takes the moments.
+  /// @throws std::invalid_argument in the name of the function if the second moment is not regular
   void set_moments(const Moments<S>& moments, std::string_view function) {
     moments_ = moments;
     require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
@@ -94,11 +97,14 @@ class PolytopeBase {
     set_moments(moments_.scaled(factor), Names::scaled);
   }
 
-  VertexMatrix<S> vertices_, face_normals_;
-  FaceOffsets face_offsets_;
-  Vector centroid_of_input_ = Vector::Zero();
-  Scalar circumradius_ = 0, inradius_ = 0, normal_spacing_ = 0;
-  Moments<S> moments_;
+  VertexMatrix<S> vertices_;                   ///< see vertices()
+  VertexMatrix<S> face_normals_;               ///< see face_normals()
+  FaceOffsets face_offsets_;                   ///< see face_offsets()
+  Vector centroid_of_input_ = Vector::Zero();  ///< see centroid_of_input()
+  Scalar circumradius_ = 0;                    ///< see circumradius()
+  Scalar inradius_ = 0;                        ///< see inradius()
+  Scalar normal_spacing_ = 0;                  ///< see normal_spacing()
+  Moments<S> moments_;                         ///< see moments()
 };
 
 }  // namespace moreau
