@@ -185,7 +185,9 @@ TEST_CASE("verdicts and their wording") {
   CHECK(text_of(estimate({})).empty());
 }
 
-TEST_CASE("the active phase begins where the falling force is the weight, numerical drift before it apart") {
+TEST_CASE(
+    "the active phase begins where the falling force is the weight, numerical drift before it "
+    "apart") {
   CHECK(time_before_minimum(0.5, 0, 1, 5) == doctest::Approx(0.05));
   CHECK(time_before_minimum(1e-6, 0, 1, 5) == doctest::Approx(1e-3 / (5 * std::acos(-1.0))));
   CHECK(time_before_minimum(0.5, 0.6, 1, 5) == 0);
