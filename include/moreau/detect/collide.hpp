@@ -12,9 +12,8 @@
 //
 //   polyhedra, polygons        pairs/collide_polytopes.hpp, polytope/
 //   balls, disks               pairs/collide_spheres.hpp, pairs/collide_sphere_polytope.hpp
-//   capsules, rounded shapes   by their cores: pairs/collide_rounded.hpp,
-//   pairs/collide_segments.hpp,
-//                              pairs/collide_segment_polytope.hpp
+//   capsules, rounded shapes   by their cores: pairs/collide_rounded.hpp
+//   segments                   pairs/collide_segments.hpp, pairs/collide_segment_polytope.hpp
 //   half-spaces                pairs/collide_half_space.hpp
 //   inside of a cylinder       pairs/collide_cylinder_wall.hpp, collide_each()
 //   OneOf                      by the shapes that they hold: pairs/collide_one_of.hpp
