@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,6 +25,13 @@
 #include "moreau/core/twist.hpp"
 
 namespace moreau {
+
+namespace detail {
+
+/// In place of a function that returns the compliance of a contact: all contacts are rigid.
+struct RigidContacts {};
+
+}  // namespace detail
 
 /// The operator of contacts at points, without couples.
 template <class S>
@@ -43,6 +51,13 @@ class BodyDelassus {
   /// @param free     velocity of every body without contacts, (v, w) in world axes [m/s, rad/s]
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
                 std::span<const typename S::Twist> free) {
+    assemble(contacts, roots, free, detail::RigidContacts{});
+  }
+  /// The same with springs in series: adds compliance(c), D entries, normal first [1/kg], to the
+  /// diagonal of W_cc. The entries of the tangents must be equal, because the tangents are turned.
+  template <class Compliance>
+  void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
+                std::span<const typename S::Twist> free, const Compliance& compliance) {
     constexpr int tangents = S::dim - 1;
     rows_.resize(contacts.size());
     scaled_.assign(roots.size(), PaddedTwist::Zero());
@@ -53,8 +68,10 @@ class BodyDelassus {
       row.b = contact.b;
       row.ja = scaled_rows(contact.frame, contact.lever_a, roots[contact.a]);
       row.jb = scaled_rows(contact.frame, contact.lever_b, roots[contact.b]);
+      typename S::Matrix w = gram(row);
+      if constexpr (!std::same_as<Compliance, detail::RigidContacts>) w.diagonal() += compliance(c);
       Eigen::Matrix<Scalar, tangents, tangents> turn;
-      row.block = align_tangents<S>(gram(row), turn);
+      row.block = align_tangents<S>(w, turn);
       turn_tangents(contact.frame, turn);
       turn_tangents(row.ja, turn);
       turn_tangents(row.jb, turn);
@@ -79,6 +96,8 @@ class BodyDelassus {
   const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
   /// Adds to the free normal velocity of a contact, > 0 separates [m/s].
   void offset_normal(std::size_t c, Scalar offset) { rows_[c].free[0] += offset; }
+  /// Adds to the free velocity of a contact, in its frame [m/s].
+  void offset(std::size_t c, const Vector& offset) { rows_[c].free += offset; }
 
   /// Relative velocity u under the impulses applied so far, in the contact's frame [m/s]; u_n > 0
   /// separates.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,7 +28,19 @@ class RollingDelassus {
   /// As BodyDelassus::assemble.
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
                 std::span<const typename S::Twist> free) {
-    points_.assemble(contacts, roots, free);
+    assemble(contacts, roots, free, detail::RigidContacts{});
+  }
+  /// The same with springs in series: compliance(c) has D + A entries [1/kg]. The last A entries are
+  /// those of the couple / R and must be equal.
+  template <class Compliance>
+  void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
+                std::span<const typename S::Twist> free, const Compliance& compliance) {
+    constexpr bool rigid = std::same_as<Compliance, detail::RigidContacts>;
+    if constexpr (rigid)
+      points_.assemble(contacts, roots, free);
+    else
+      points_.assemble(contacts, roots, free,
+                       [&](std::size_t c) { return typename S::Vector(linear<S>(compliance(c))); });
     rows_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts[c];
@@ -40,6 +53,7 @@ class RollingDelassus {
       row.free = axes.transpose() * (angular<S>(free[contact.b]) - angular<S>(free[contact.a]));
       row.block.point = points_.block(c);
       row.block.spin = row.ka.transpose() * row.ka + row.kb.transpose() * row.kb;
+      if constexpr (!rigid) row.block.spin.diagonal() += angular<S>(compliance(c));
       row.block.coupling =
           points_.rows_a(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.ka +
           points_.rows_b(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.kb;
@@ -64,6 +78,11 @@ class RollingDelassus {
   }
   /// As BodyDelassus::offset_normal.
   void offset_normal(std::size_t c, Scalar offset) { points_.offset_normal(c, offset); }
+  /// As BodyDelassus::offset, D + A entries.
+  void offset(std::size_t c, const Vector& offset) {
+    points_.offset(c, linear<S>(offset));
+    rows_[c].free += angular<S>(offset);
+  }
   /// Relative (velocity, R spin) under the impulses applied so far, in the frame of the contact
   /// [m/s].
   Vector velocity(std::size_t c) const {

@@ -2,7 +2,9 @@
 // Values that contacts keep from the step before. A contact is the same in two steps if its key is.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
@@ -32,6 +34,39 @@ std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
 template <class S>
 std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
   return carry(before, now, before.impulses, now.impulses);
+}
+
+/// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of
+/// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
+/// contact.
+/// @param before,now each sorted by its keys; the impulses of `now` are those of warm_start()
+/// @returns how many contacts handed their impulse over
+template <class S>
+std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now) {
+  std::size_t count = 0;
+  auto first = now.keys.begin();
+  for (std::size_t j = 0; j < before.size(); ++j) {
+    if (before.impulses[j].isZero(0)) continue;
+    const ContactKey& key = before.keys[j];
+    const auto is_before = [](const ContactKey& l, const ContactKey& r) {
+      return std::pair(l.a, l.b) < std::pair(r.a, r.b);
+    };
+    first = std::lower_bound(first, now.keys.end(), key, is_before);
+    const auto last = std::upper_bound(first, now.keys.end(), key, is_before);
+    if (first == last || std::binary_search(first, last, key)) continue;
+    const auto distance = [&](auto it) {
+      return (now.points[std::size_t(it - now.keys.begin())].lever_a - before.points[j].lever_a)
+          .squaredNorm();
+    };
+    auto nearest = first;
+    for (auto it = first; it != last; ++it)
+      if (distance(it) < distance(nearest)) nearest = it;
+    const auto i = std::size_t(nearest - now.keys.begin());
+    now.impulses[i] +=
+        now.points[i].frame.transpose() * (before.points[j].frame * before.impulses[j]);
+    ++count;
+  }
+  return count;
 }
 
 /// Carries couples [N m s] over, as carry() does impulses: A numbers each, in the angular frame.

@@ -40,7 +40,7 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// A law with `static constexpr bool rolls = true` has a couple beside the force: block, u, r and b
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
-/// Optional: see AttractiveLaw, StatefulLaw, LaneLaw.
+/// Optional: see AttractiveLaw, CompliantLaw, StatefulLaw, LaneLaw.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -75,6 +75,18 @@ concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 template <class L, class S>
 concept AttractiveLaw = SetValuedLaw<L, S> && requires(const L law, typename S::Scalar gap) {
   { law.attraction(gap) } -> std::same_as<typename S::Scalar>;
+};
+
+/// A law with springs in series, see compliant.hpp.
+///
+/// - normal_compliance(), tangential_compliance(): of a pair [m/N]
+/// - keeps_normal_impulse(): whether the memory of the normal spring is the impulse of the step
+///   before; otherwise it is the gap
+template <class L, class S>
+concept CompliantLaw = SetValuedLaw<L, S> && requires(const L law) {
+  { law.normal_compliance() } -> std::same_as<typename S::Scalar>;
+  { law.tangential_compliance() } -> std::same_as<typename S::Scalar>;
+  { law.keeps_normal_impulse() } -> std::same_as<bool>;
 };
 
 /// A law that depends on the impulse of the step before, such as static friction.

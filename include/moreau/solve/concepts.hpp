@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/compliant_delassus.hpp"
 #include "moreau/contact/rolling_delassus.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -17,7 +18,12 @@ namespace moreau {
 /// The operator u = W r + b of the contacts of a step: one row of r is an impulse, or an impulse
 /// and a couple for a law that rolls.
 template <class Law, class S>
-using OperatorOf = std::conditional_t<RollingLaw<Law, S>, RollingDelassus<S>, BodyDelassus<S>>;
+using RigidOperatorOf = std::conditional_t<RollingLaw<Law, S>, RollingDelassus<S>, BodyDelassus<S>>;
+/// The same, with W + D in place of W for a law with springs in series.
+template <class Law, class S>
+using OperatorOf =
+    std::conditional_t<CompliantLaw<Law, S>, CompliantDelassus<RigidOperatorOf<Law, S>>,
+                       RigidOperatorOf<Law, S>>;
 
 /// Finds the impulses of all contacts.
 ///

@@ -82,6 +82,11 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
     touches[op.bodies(c)[1]].push_back({k, op.rows_b(c).template cast<double>()});
   }
   std::vector<Eigen::Triplet<double>> entries;
+  if constexpr (requires { op.compliance(0); })
+    for (Eigen::Index k = 0; k < count; ++k)
+      for (int d = 0; d < rows; ++d)
+        entries.emplace_back(int(rows * k) + d, int(rows * k) + d,
+                             double(op.compliance(contacts[std::size_t(k)])[d]));
   for (const std::vector<Touch>& body : touches)
     for (const Touch& one : body)
       for (const Touch& other : body)

@@ -23,7 +23,9 @@ class PointUnknowns {
 
   static const BodyDelassus<S>& points(const Operator& op) { return op; }
   std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts) {
-    return warm_start(previous, contacts);
+    const std::size_t found = warm_start(previous, contacts);
+    if constexpr (CompliantLaw<Law, S>) hand_over(previous, contacts);
+    return found;
   }
   static std::span<typename S::Vector> impulses(Contacts<S>& contacts) { return contacts.impulses; }
   static void finish(const Operator&, Contacts<S>&) {}
@@ -38,6 +40,7 @@ class RollingUnknowns {
   static const BodyDelassus<S>& points(const Operator& op) { return op.points(); }
   std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts) {
     const std::size_t found = warm_start(previous, contacts);
+    if constexpr (CompliantLaw<Law, S>) hand_over(previous, contacts);
     carry_couples(previous, contacts, previous.couples, contacts.couples);
     unknowns_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {

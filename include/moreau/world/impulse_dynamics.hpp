@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
@@ -30,6 +31,7 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/world/contact_springs.hpp"
 #include "moreau/world/contact_unknowns.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_context.hpp"
@@ -64,11 +66,19 @@ class ImpulseDynamics {
 
   ImpulseDynamics(const Solver& solver, const OverlapCorrectionOptions& correction,
                   const Integrator& integrator)
-      : solver_(solver), correction_(correction), integrator_(integrator) {}
+      : solver_(solver), correction_(checked(correction)), integrator_(integrator) {}
+
+  /// Overlap correction unless the user asks for another: none of contacts with springs, whose
+  /// overlap is the compression of the springs.
+  static OverlapCorrectionOptions default_correction() {
+    OverlapCorrectionOptions options;
+    options.enabled = !compliant;
+    return options;
+  }
 
   void set_solver(const Solver& solver) { solver_ = solver; }
   void set_correction(const OverlapCorrectionOptions& options) {
-    correction_ = OverlapCorrection<S>(options);
+    correction_ = OverlapCorrection<S>(checked(options));
   }
   const OverlapCorrection<S>& correction() const { return correction_; }
   const Problem& problem() const { return problem_; }  ///< of the last step
@@ -88,9 +98,29 @@ class ImpulseDynamics {
 
  private:
   friend struct moreau::SerializationAccess;
-  auto serialized_members() { return std::tie(solver_, correction_, integrator_); }
+  auto serialized_members() {
+    if constexpr (compliant)
+      return std::tie(solver_, correction_, integrator_, springs_);
+    else
+      return std::tie(solver_, correction_, integrator_);
+  }
 
   static constexpr bool stateful = StatefulLaw<Law, S>;
+  static constexpr bool compliant = CompliantLaw<Law, S>;
+
+  static const OverlapCorrectionOptions& checked(const OverlapCorrectionOptions& correction) {
+    require(!compliant || !correction.enabled, "OverlapCorrection", "enabled", correction.enabled,
+            "must be false under a compliant law, whose springs need their overlap");
+    return correction;
+  }
+
+  void assemble(const Context& context) {
+    if constexpr (compliant)
+      problem_.delassus.assemble(context.contacts.points, roots_, free_,
+                                 springs_.compliances(context));
+    else
+      problem_.delassus.assemble(context.contacts.points, roots_, free_);
+  }
 
   void free_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
@@ -125,6 +155,8 @@ class ImpulseDynamics {
     const std::size_t found =
         unknowns_.start(problem_.delassus, context.previous, context.contacts);
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, 1);
+    if constexpr (compliant)
+      springs_.remember(context, unknowns_.impulses(context.contacts), problem_.delassus);
     return found;
   }
   /// From the impulse on b to the push against the attraction (sign 1), or back (-1).
@@ -188,12 +220,13 @@ class ImpulseDynamics {
     }
   }
 
-  SolveReport solve(const Context& context) {
-    SolveReport report = solver_.solve(problem_, unknowns_.impulses(context.contacts), workspace_);
-    report.worst_gap = report.worst_velocity * double(context.step);
+  void solve(const Context& context, StepReport& report) {
+    report.solve = solver_.solve(problem_, unknowns_.impulses(context.contacts), workspace_);
+    report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
+    if constexpr (compliant)
+      springs_.measure(context, problem_, unknowns_.impulses(context.contacts), report);
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, -1);
     unknowns_.finish(problem_.delassus, context.contacts);
-    return report;
   }
 
   /// V = V_free + M^-1/2 y. Throws if a velocity is not finite; no body has moved yet.
@@ -239,6 +272,7 @@ class ImpulseDynamics {
   Integrator integrator_;
   Problem problem_;
   Unknowns unknowns_;
+  [[no_unique_address]] std::conditional_t<compliant, ContactSprings<S, Law>, NoSprings> springs_;
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
 
   // One entry per body.
@@ -255,12 +289,12 @@ template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context,
                                                           StepReport& report) {
   free_velocities(context);
-  problem_.delassus.assemble(context.contacts.points, roots_, free_);
+  assemble(context);
   report.warm_started = warm_start(context);
   choose_variants(context);
   report.correction = correct_overlaps(context);
   offset_velocities(context);
-  report.solve = solve(context);
+  solve(context, report);
   velocities_after();
   measure_dissipation(context, report);
   integrator_.advance_configuration(context.bodies, std::span<const Twist>(after_), context.step);

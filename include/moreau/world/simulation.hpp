@@ -77,7 +77,8 @@ class Simulation {
   /// @throws std::invalid_argument for a size that is not finite or not positive, or for
   ///         tolerances or options of the correction out of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Solver& solver = Solver{},
-             const Tolerances& tolerances = {}, const OverlapCorrectionOptions& correction = {},
+             const Tolerances& tolerances = {},
+             const OverlapCorrectionOptions& correction = Dynamics::default_correction(),
              const Integrator& integrator = Integrator{}) requires set_valued
       : Simulation(grain_size, materials, tolerances, Dynamics(solver, correction, integrator)) {}
   /// The same for a regularized law, without a contact problem and without overlap correction.

@@ -21,8 +21,13 @@ struct StepReport {
   /// Energy that the contact impulses and couples took from the bodies [J]; < 0 if they gave
   /// energy, as springs do.
   double dissipation = 0;
-  double friction = 0;                 ///< part of it: by tangential impulses [J]
-  double rolling = 0;                  ///< part of it: by couples of rolling and twisting [J]
+  double friction = 0;  ///< part of it: by tangential impulses [J]
+  double rolling = 0;   ///< part of it: by couples of rolling and twisting [J]
+  /// Energy of the springs of compliant contacts after the step [J]; 0 under other laws.
+  double elastic_energy = 0;
+  double max_elastic_overlap = 0;  ///< largest compression of a normal spring, >= 0 [m]
+  /// Of a compliant law: the natural-map residual of the law without its springs [-].
+  double rigid_residual = 0;
   SolveReport solve;                   ///< how well the contact problem was solved
   OverlapCorrectionReport correction;  ///< results of the overlap correction
   double ms_detect = 0;                ///< time for prediction and detection [ms]

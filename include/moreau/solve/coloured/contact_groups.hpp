@@ -32,9 +32,17 @@
 
 namespace moreau::detail {
 
+/// The compliance of one contact per lane; nothing for rigid contacts.
+template <class Vector, bool Compliant>
+struct PackedCompliance {};
+template <class Vector>
+struct PackedCompliance<Vector, true> {
+  Vector compliance{};  ///< diagonal of D, see CompliantDelassus
+};
+
 /// One contact point per lane. Unused lanes have zero rows and a free velocity that separates.
 template <class S, class Law>
-struct PointPack {
+struct PointPack : PackedCompliance<typename LaneBlock<S>::Vector, CompliantLaw<Law, S>> {
   using Block = LaneBlock<S>;
   using Values = typename Block::Values;
   using Vector = typename Block::Vector;
@@ -248,6 +256,7 @@ class ContactGroups {
         point.rows_b[k][d][lane] = rows_b(Eigen::Index(k), column);
       }
       point.free[d][lane] = op.free_velocity(c)[column];
+      if constexpr (CompliantLaw<Law, S>) point.compliance[d][lane] = op.compliance(c)[column];
       point.impulse[d][lane] = point.before[d][lane] = impulse[column];
     }
     point.block.set(lane, block);

@@ -146,6 +146,7 @@ class GroupKernel {
       for (std::size_t d = 0; d < S::dim; ++d) {
         of_a[d] = own[d];
         of_b[d] = point.free[d];
+        if constexpr (CompliantLaw<Law, S>) of_b[d] += point.compliance[d] * guess[d];
       }
       for (std::size_t k = 0; k < S::dofs; ++k)
         for (std::size_t d = 0; d < S::dim; ++d) {

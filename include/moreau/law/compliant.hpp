@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Elastic springs in series with a set-valued law, integrated implicitly.
+//
+// The contact problem of rigid grains in a jammed packing has no unique impulses: W is singular, and
+// the number of sweeps that a tolerance takes grows as 1 / tolerance. Real contacts are elastic. With
+// one normal and one tangential spring per contact, of stiffness k_n and k_t [N/m], the problem is
+// well posed: its condition number is bounded by the number of contacts of a body over
+//
+//     eps = C_n / (h^2 W_nn),        C_n = 1 / k_n,    h the time step,
+//
+// whatever the number of grains.
+//
+// Derivation. Let f = r / h be the mean force of the step. The normal spring is compressed by C_n f_n;
+// the surfaces touch when the gap g of the rigid shapes equals minus that compression. With the gap
+// at the next detection, g + h u_n, Signorini's condition reads
+//
+//     0 <= g + h u_n + C_n f_n   _|_   f_n >= 0.
+//
+// The tangential spring is stretched by -C_t f_t. The sliding velocity is the relative velocity less
+// the rate at which the spring is stretched; over a step (implicit Euler)
+//
+//     slip = u_t + C_t (f_t - f_t of the step before) / h.
+//
+// Divided by h, with c = C / h^2 [1/kg], s = (h / h of the step before) times the impulse of the step
+// before, turned into the frame of this one:
+//
+//     normal      0 <= u_n + g / h + c_n r_n   _|_   r_n >= 0,
+//     tangential  u_t + c_t (r_t - s_t) = -lambda r_t / |r_t|  or  0,      |r_t| <= mu r_n:
+//
+// the law below, with W + D in place of W, D = diag(c_n, c_t[, c_t]), and a free velocity to which
+// (g / h, -c_t s_t) is added. What the solver does not solve for in a step is felt as a force in the
+// next, because the memory of the springs is the impulses and the gap; errors do not add up.
+//
+// With restitution e > 0 a contact acts only where g <= 0 and the memory of the normal spring is the
+// impulse, like that of the tangential one:
+//
+//     0 <= u_n + e min(0, u_n before) + c_n (r_n - s_n)   _|_   r_n >= 0.
+//
+// An impact then has the restitution e + O(eps). With e = 0 the springs return at most a share eps of
+// an impact's velocity, because implicit Euler damps what the step does not resolve.
+//
+// Source of springs as a regularization with one diagonal matrix for stiffness and step: C.
+// Lacoursiere, Ghosts and Machines: Regularized Variational Methods for Interactive Simulations of
+// Multibodies with Dry Frictional Contacts, PhD thesis, Umea University, 2007.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+namespace moreau {
+
+/// A set-valued law with elastic springs in series; the head of this file has its equations. The
+/// stiffness is that of a pair of bodies: if the pair has n contact points, each has 1/n of it, so
+/// that the stiffness of a contact between faces does not depend on the number of its points.
+/// Model of CompliantLaw.
+/// @tparam Law    the set-valued law: SignoriniCoulomb, Frictionless, Cohesive, RollingResistance
+/// @tparam Scalar its scalar
+template <class Law = SignoriniCoulomb<>,
+          std::floating_point Scalar =
+              decltype(std::declval<const Law&>().velocity_offset(0., 0., 0.))>
+class Compliant : public Law {
+ public:
+  /// @param law                  the law in series with the springs
+  /// @param stiffness            k_n > 0, normal [N/m]; in the plane per unit of what the densities
+  ///                             are per
+  /// @param tangential_stiffness k_t > 0 [N/m]; also of the springs of rolling, k_t R^2 [N m]
+  /// @throws std::invalid_argument outside these ranges
+  Compliant(const Law& law, Scalar stiffness, Scalar tangential_stiffness)
+      : Law(law), stiffness_(stiffness), tangential_(tangential_stiffness) {
+    require(std::isfinite(stiffness) && stiffness > 0, "Compliant", "stiffness", stiffness,
+            "must be finite and > 0");
+    require(std::isfinite(tangential_stiffness) && tangential_stiffness > 0, "Compliant",
+            "tangential_stiffness", tangential_stiffness, "must be finite and > 0");
+  }
+  /// With k_t = k_n.
+  explicit Compliant(const Law& law = Law{}, Scalar stiffness = Scalar(1e8))
+      : Compliant(law, stiffness, stiffness) {}
+
+  Scalar stiffness() const { return stiffness_; }                   ///< k_n [N/m]
+  Scalar tangential_stiffness() const { return tangential_; }       ///< k_t [N/m]
+  Scalar normal_compliance() const { return 1 / stiffness_; }       ///< C_n [m/N]
+  Scalar tangential_compliance() const { return 1 / tangential_; }  ///< C_t [m/N]
+  /// Whether the law has a restitution; see CompliantLaw.
+  bool keeps_normal_impulse() const {
+    if constexpr (requires(const Law& law) { law.restitution(); })
+      return Law::restitution() > 0;
+    else
+      return false;
+  }
+
+  /// Offset of u_n [m/s]: g / h without restitution, that of the law with restitution.
+  /// @param gap    g [m], < 0 is the compression of the normal spring
+  /// @param before u_n before the step [m/s], > 0 separates
+  /// @param step   h [s], > 0
+  Scalar velocity_offset(Scalar gap, Scalar before, Scalar step) const {
+    return keeps_normal_impulse() ? Law::velocity_offset(gap, before, step) : gap / step;
+  }
+  /// See StatefulLaw.
+  Compliant variant(std::size_t k) const requires requires(const Law& law) {
+    { law.variant(k) } -> std::same_as<Law>;
+  }
+  { return Compliant(Law::variant(k), stiffness_, tangential_); }
+
+ private:
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(static_cast<Law&>(*this), stiffness_, tangential_); }
+
+  Scalar stiffness_, tangential_;
+};
+
+}  // namespace moreau

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/solve/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
+#include "moreau/world/step_context.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau::detail {
+
+/// In place of the springs of a law that has none.
+struct NoSprings {};
+
+/// The springs of compliant contacts over a step: their compliance in units of the solver, their
+/// memory of the step before, their energy. law/compliant.hpp has the equations.
+template <class S, class Law>
+class ContactSprings {
+ public:
+  using Scalar = typename S::Scalar;
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
+
+  /// c = C / h^2 of every contact [1/kg]; the points of a pair share its stiffness.
+  std::span<const Row> compliances(const StepContext<S, Law>& context) {
+    const Contacts<S>& contacts = context.contacts;
+    compliance_.resize(contacts.size());
+    for (std::size_t first = 0, last; first < contacts.size(); first = last) {
+      const Contact<S>& point = contacts.points[first];
+      last = first;
+      while (last < contacts.size() && contacts.points[last].a == point.a &&
+             contacts.points[last].b == point.b)
+        ++last;
+      const Law& law = context.materials.laws()[point.law];
+      const Scalar share = Scalar(last - first) / (context.step * context.step);
+      Row row = Row::Constant(share * law.tangential_compliance());
+      row[0] = share * law.normal_compliance();
+      std::fill(compliance_.begin() + std::ptrdiff_t(first),
+                compliance_.begin() + std::ptrdiff_t(last), row);
+    }
+    return compliance_;
+  }
+
+  /// Makes the impulses of the step before those of the same forces over this step, and adds the
+  /// velocity by which the springs relax, -c s, to b.
+  /// @param impulses in: of the step before; out: s [N s]
+  void remember(const StepContext<S, Law>& context, std::span<Row> impulses, Operator& op) {
+    const Scalar ratio = last_step_ > 0 ? context.step / last_step_ : Scalar(1);
+    last_step_ = context.step;
+    relaxation_.resize(impulses.size());
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      impulses[c] *= ratio;
+      relaxation_[c] = -compliance_[c].cwiseProduct(impulses[c]);
+      const Contact<S>& point = context.contacts.points[c];
+      if (!context.materials.laws()[point.law].keeps_normal_impulse()) relaxation_[c][0] = 0;
+      op.offset(c, relaxation_[c]);
+    }
+  }
+
+  /// Energy of the springs, their largest compression, and the residual of the law without springs.
+  /// @param problem  as solved
+  /// @param impulses its solution [N s]
+  void measure(const StepContext<S, Law>& context, const ContactProblem<Operator, Law>& problem,
+               std::span<const Row> impulses, StepReport& report) {
+    constexpr int rows = Row::RowsAtCompileTime;
+    double energy = 0, map = 0, norm = 0, trace = 0;
+    for (std::size_t c = 0; c < impulses.size(); ++c)
+      trace += double(problem.delassus.block(c).trace());
+    const auto scale =
+        static_cast<Scalar>(trace > 0 ? trace / (double(impulses.size()) * rows) : 1);
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      const Row& r = impulses[c];
+      const Row stretch = compliance_[c].cwiseProduct(r);
+      energy += double(r.dot(stretch)) / 2;
+      report.max_elastic_overlap =
+          std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
+      Row u = problem.delassus.velocity(c) - stretch - relaxation_[c];
+      if (!std::isfinite(u[0])) continue;
+      const Contact<S>& point = context.contacts.points[c];
+      if (!problem.law(c).keeps_normal_impulse())
+        u[0] -= std::min(Scalar(0), point.gap) / context.step;
+      if (r[0] == 0 && u[0] >= 0) continue;
+      const Row scaled = r * scale;
+      map += double(natural_map(problem.law(c), u, scaled, scale).squaredNorm());
+      norm += double(scaled.squaredNorm());
+    }
+    report.rigid_residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
+    report.elastic_energy = energy;
+    report.dissipation -= energy - energy_;
+    energy_ = energy;
+  }
+
+ private:
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(last_step_, energy_); }
+
+  std::vector<Row> compliance_;  // c [1/kg]
+  std::vector<Row> relaxation_;  // what the memory adds to b [m/s]
+  Scalar last_step_ = 0;         // h of the step before [s]
+  double energy_ = 0;            // of the springs after the step before [J]
+};
+
+}  // namespace moreau::detail

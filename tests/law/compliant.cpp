@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// Compliant contacts against closed forms: compressed columns, a block on a slope, impacts, restart.
+#include "moreau/law/compliant.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "moreau/io/snapshot.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/sphere.hpp"
+#include "moreau/world/simulation.hpp"
+
+using namespace moreau;
+
+namespace {
+
+using Coulomb = SignoriniCoulomb<double>;
+using Spring = Compliant<Coulomb>;
+constexpr double radius = 0.01, density = 2700, gravity = 9.81, step = 2e-4;
+
+ColouredGaussSeidel tight() {
+  ColouredOptions options;
+  options.tolerance = 1e-12;
+  return ColouredGaussSeidel(options);
+}
+
+/// A column of equal balls or disks on a floor.
+template <class S>
+struct Column {
+  using Shape = Sphere<S>;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+
+  Simulation<Shape, Spring> world;
+  BodyId floor, lid;
+  double mass;
+
+  Column(std::size_t count, const Spring& law)
+      : world(2 * radius, Materials<Spring>(1, law), tight()) {
+    const ShapeId shape = world.add_shape(Shape(radius));
+    for (std::size_t k = 0; k < count; ++k) {
+      Pose<S> pose;
+      pose.position[up] = radius * double(2 * k + 1);
+      world.add_grain(shape, pose, density);
+    }
+    mass = Shape(radius).mass_properties(density).mass;
+    floor = world.add_wall(Vector(Vector::Unit(up)), Vector(Vector::Zero()));
+    lid = world.add_wall(Vector(-Vector::Unit(up)),
+                         Vector(2 * radius * double(count) * Vector::Unit(up)));
+    world.set_wall_mass(lid, mass);
+  }
+  double height(std::size_t k) const { return world.bodies().pose[k].position[up]; }
+  double lid_height() const { return world.bodies().pose[lid.index()].position[up]; }
+  StepReport run(int steps) {
+    StepReport report;
+    for (int k = 0; k < steps; ++k) report = world.step(step);
+    return report;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("compliant: stiffness must be positive") {
+  CHECK_THROWS_AS(Spring(Coulomb(0.4), 0), std::invalid_argument);
+  CHECK_THROWS_AS(Spring(Coulomb(0.4), -1), std::invalid_argument);
+  CHECK_THROWS_AS(Spring(Coulomb(0.4), 1e8, INFINITY), std::invalid_argument);
+  CHECK(Spring(Coulomb(0.4), 1e7).tangential_stiffness() == 1e7);
+}
+
+TEST_CASE("compliant: overlaps are not taken back") {
+  using World = Simulation<Disk<double>, Spring>;
+  World world(2 * radius, Materials<Spring>(1, Spring()));
+  OverlapCorrectionOptions on;
+  CHECK_THROWS_AS(world.set_correction(on), std::invalid_argument);
+  on.enabled = false;
+  CHECK_NOTHROW(world.set_correction(on));
+}
+
+TEST_CASE_TEMPLATE("compliant: a column at rest is compressed by its weight", S, Space<2>,
+                   Space<3>) {
+  constexpr std::size_t count = 6;
+  for (const double stiffness : {1e6, 1e8}) {
+    Column<S> column(count, Spring(Coulomb(0.4), stiffness));
+    column.world.set_gravity(typename S::Vector(-gravity * S::Vector::Unit(S::dim - 1)));
+    column.world.set_pose(column.lid, [&] {
+      Pose<S> pose = column.world.bodies().pose[column.lid.index()];
+      pose.position[S::dim - 1] += 1;
+      return pose;
+    }());
+    column.run(2000);
+    double compression = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      compression += double(count - k) * column.mass * gravity / stiffness;
+      CHECK(column.height(k) - radius * double(2 * k + 1) ==
+            doctest::Approx(-compression).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("compliant: a column springs back by the force over its stiffness", S, Space<2>,
+                   Space<3>) {
+  constexpr std::size_t count = 5;
+  constexpr double stiffness = 1e7, force = 100;
+  Column<S> column(count, Spring(Coulomb(0.4), stiffness));
+  const auto press = [&](double f) {
+    column.world.set_force(column.lid, typename S::Vector(-f * S::Vector::Unit(S::dim - 1)));
+    return column.run(3000);
+  };
+  const double start = column.lid_height();
+  const StepReport pressed = press(force);
+  const double low = column.lid_height();
+  // count + 1 contacts in series.
+  CHECK(start - low == doctest::Approx((count + 1) * force / stiffness).epsilon(1e-6));
+  CHECK(pressed.max_elastic_overlap == doctest::Approx(force / stiffness).epsilon(1e-6));
+  CHECK(pressed.elastic_energy ==
+        doctest::Approx((count + 1) * force * force / (2 * stiffness)).epsilon(1e-6));
+  CHECK(pressed.rigid_residual < 1e-6);
+  press(force / 4);
+  CHECK(column.lid_height() - low ==
+        doctest::Approx(0.75 * (count + 1) * force / stiffness).epsilon(1e-6));
+}
+
+TEST_CASE("compliant: a block on a slope creeps by its load over the tangential stiffness") {
+  using Shape = Polygon<double>;
+  using Vector = Eigen::Vector2d;
+  constexpr double half = 0.01, slope = 0.3, stiffness = 1e6;
+  const std::vector<Vector> corners{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  Simulation<Shape, Spring> world(2 * half, Materials<Spring>(1, Spring(Coulomb(0.5), stiffness)),
+                                  tight());
+  Pose<Space<2>> pose;
+  pose.position = {0, half};
+  const BodyId block = world.add_grain(world.add_shape(Shape(corners)), pose, density);
+  world.add_wall(Vector(0, 1), Vector(0, 0));
+  world.set_gravity(Vector(gravity * std::sin(slope), -gravity * std::cos(slope)));
+  for (int k = 0; k < 4000; ++k) world.step(step);
+  const double weight = density * 4 * half * half * gravity;
+  const Vector moved = world.bodies().pose[block.index()].position - Vector(0, half);
+  // The two points share the stiffness of the pair. The block also tilts: its centre is above the
+  // plane of the springs, which adds to what its centre moves along the slope.
+  const double tilt = weight * std::sin(slope) * half / (stiffness * half * half);
+  CHECK(moved[1] == doctest::Approx(-weight * std::cos(slope) / stiffness).epsilon(1e-3));
+  CHECK(moved[0] ==
+        doctest::Approx(weight * std::sin(slope) / stiffness + tilt * half).epsilon(1e-3));
+  CHECK(world.bodies().velocity[block.index()].norm() < 1e-9);
+}
+
+TEST_CASE_TEMPLATE("compliant: an impact keeps the restitution up to eps", S, Space<2>, Space<3>) {
+  constexpr double speed = 1;
+  for (const double restitution : {0., 0.5, 1.}) {
+    constexpr double stiffness = 1e8;
+    Simulation<Sphere<S>, Spring> world(
+        2 * radius, Materials<Spring>(1, Spring(Coulomb(0.4, restitution), stiffness)), tight());
+    Pose<S> pose;
+    pose.position[S::dim - 1] = radius + 1e-3;
+    const BodyId ball = world.add_grain(world.add_shape(Sphere<S>(radius)), pose, density);
+    world.add_wall(typename S::Vector(S::Vector::Unit(S::dim - 1)),
+                   typename S::Vector(S::Vector::Zero()));
+    world.set_velocity(ball, typename S::Vector(-speed * S::Vector::Unit(S::dim - 1)));
+    for (int k = 0; k < 50; ++k) world.step(step);
+    const double mass = Sphere<S>(radius).mass_properties(density).mass;
+    const double eps = mass / (stiffness * step * step);
+    const double after = world.bodies().velocity[ball.index()][S::dim - 1] / speed;
+    CHECK(after >= restitution - 1e-12);
+    CHECK(after <= restitution + 3 * eps);
+  }
+}
+
+TEST_CASE("compliant: no friction means no tangential spring") {
+  using Law = Compliant<Frictionless<double>>;
+  using Vector = Eigen::Vector2d;
+  Simulation<Disk<double>, Law> world(2 * radius, Materials<Law>(1, Law(Frictionless<double>())));
+  Pose<Space<2>> pose;
+  pose.position = {0, radius};
+  const BodyId disk = world.add_grain(world.add_shape(Disk<double>(radius)), pose, density);
+  world.add_wall(Vector(0, 1), Vector(0, 0));
+  world.set_gravity(Vector(1, -gravity));
+  for (int k = 0; k < 100; ++k) world.step(step);
+  CHECK(world.bodies().velocity[disk.index()][0] == doctest::Approx(100 * step));
+}
+
+TEST_CASE("compliant: a longer step feels the same forces") {
+  Column<Space<2>> column(4, Spring(Coulomb(0.4), 1e7));
+  column.world.set_gravity(Eigen::Vector2d(0, -gravity));
+  column.world.set_force(column.lid, Eigen::Vector2d(0, -50));
+  column.run(3000);
+  const double before = column.lid_height();
+  column.world.step(2 * step);
+  column.world.step(step / 2);
+  CHECK(std::abs(column.lid_height() - before) < 1e-12);
+}
+
+TEST_CASE("compliant: a restart goes on with the same bits") {
+  Column<Space<3>> column(4, Spring(Coulomb(0.4), 1e7));
+  column.world.set_gravity(Eigen::Vector3d(0.5, 0, -gravity));
+  column.run(50);
+  const auto path = std::filesystem::temp_directory_path() / "moreau_compliant.snapshot";
+  write_snapshot(path, column.world);
+  Simulation<Ball<double>, Spring> again(2 * radius, Materials<Spring>(1, Spring()));
+  read_snapshot(path, again);
+  std::filesystem::remove(path);
+  column.run(50);
+  StepReport report;
+  for (int k = 0; k < 50; ++k) report = again.step(step);
+  const StepReport own = column.world.step(step), other = again.step(step);
+  CHECK(own.dissipation == other.dissipation);
+  CHECK(own.elastic_energy == other.elastic_energy);
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(column.world.bodies().pose[k].position == again.bodies().pose[k].position);
+}
