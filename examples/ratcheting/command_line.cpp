@@ -92,20 +92,29 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(not_negative);
   app.add_option(
          "--method", p.method,
-         "contact dynamics, or molecular dynamics with springs and dashpots, whose time step "
-         "is at most a twentieth of the duration of an impact")
-      ->check(CLI::IsMember({"contact-dynamics", "springs"}));
-  app.add_option("--stiffness", p.stiffness, "normal stiffness of a spring [N/m]")->check(positive);
+         "contact-dynamics: rigid contacts; compliant: contact dynamics with implicit springs in "
+         "series; springs: molecular dynamics with springs and dashpots, whose time step is at "
+         "most a twentieth of the duration of an impact")
+      ->check(CLI::IsMember({"contact-dynamics", "compliant", "springs"}));
+  const auto* stiffness =
+      app.add_option("--stiffness", p.stiffness,
+                     "normal stiffness of springs and of compliant contacts, there 1e8 unless set "
+                     "[N/m]")
+          ->check(positive);
   app.add_option("--restitution", p.restitution,
                  "coefficient of restitution of springs and dashpots")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--tolerance", p.tolerance, "tolerance of the stopping test")->check(below_one);
+  const auto* tolerance = app.add_option("--tolerance", p.tolerance,
+                                         "tolerance of the stopping test; of compliant contacts "
+                                         "1e-5 unless set")
+                              ->check(below_one);
   std::string test = "qm16";
-  app.add_option(
-         "--stop-test", test,
-         "stopping test. qm16: change of the impulses in a sweep, as in LMGC90; residual: natural "
-         "map of the contact law")
-      ->check(CLI::IsMember({"qm16", "residual"}));
+  const auto* stop_test =
+      app.add_option(
+             "--stop-test", test,
+             "stopping test. qm16: change of the impulses in a sweep, as in LMGC90; residual: "
+             "natural map of the contact law, for compliant contacts unless set")
+          ->check(CLI::IsMember({"qm16", "residual"}));
   app.add_option("--max-sweeps", p.max_sweeps,
                  "largest number of sweeps in a step; run.json counts the steps that reach it")
       ->check(CLI::Range(1, 100000000));
@@ -160,6 +169,13 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       "--packing", p.packing,
       "file of the prepared packing: read if it exists, else written, so that simulations "
       "which differ only after the preparation share it");
+  app.add_option("--from", p.from,
+                 "checkpoint of another run at a maximum of its force, of the same sample and "
+                 "method: start from it in place of a packing")
+      ->check(CLI::ExistingFile);
+  app.add_option("--hold", p.hold,
+                 "time at fmax before the harmonic force begins at a maximum, for --from [s]")
+      ->check(not_negative);
   app.add_option("--output", p.output,
                  "folder of the results, created if missing; files in it are overwritten");
 
@@ -178,6 +194,12 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
     std::cerr << "--fmin: " << p.fmin << " must not exceed --fmax " << p.fmax << '\n';
     exit_status = 2;
     return std::nullopt;
+  }
+  if (p.method == "compliant") {
+    if (stiffness->empty()) p.stiffness = 1e8;
+    if (tolerance->empty()) p.tolerance = 1e-5;
+    if (stop_test->empty()) test = "residual";
+    no_correction = true;
   }
   p.size_reading = readings.at(reading);
   p.stop_test = test == "qm16" ? moreau::StopTest::qm16 : moreau::StopTest::natural_map;

@@ -165,6 +165,15 @@ class Experiment {
     moreau::read_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
   }
 
+  /// Makes the state that read_checkpoint() read the start of a run with other laws, solver, force
+  /// and step, `hold` before a maximum of its force.
+  void start_again() requires solves {
+    simulation_.set_materials(materials(parameters_));
+    simulation_.set_solver(study_solver(parameters_));
+    set_correction();
+    start_ = simulation_.time() - parameters_.begin();
+  }
+
   double time() const { return simulation_.time() - start_; }  ///< since f started [s]
   /// Displacement of the wall, outward positive [m].
   double displacement() const {
@@ -190,10 +199,12 @@ class Experiment {
   const Simulation& simulation() const { return simulation_; }
   /// Displacement of the wall by the overlap correction in the last step, outward positive [m].
   double corrected_displacement() const {
-    if constexpr (Method::solves)
-      return simulation_.correction().shifts()[wall_.index()][0];
-    else
+    if constexpr (Method::solves) {
+      const auto shifts = simulation_.correction().shifts();
+      return shifts.empty() ? 0 : shifts[wall_.index()][0];
+    } else {
       return 0;
+    }
   }
   /// Whether the preparation ended because the grains were at rest, not because its time was over.
   bool settled() const { return settled_; }
@@ -230,10 +241,14 @@ class Experiment {
     correction.enabled = parameters_.correction;
     simulation_.set_correction(correction);
   }
-  static Simulation make_simulation(const Parameters& p) {
-    // Materials: 0 grains, 1 horizontal walls, 2 vertical walls.
+  /// Materials: 0 grains, 1 horizontal walls, 2 vertical walls.
+  static moreau::Materials<Law> materials(const Parameters& p) {
     moreau::Materials<Law> laws(3, Method::law(p, p.friction));
     laws.set(moreau::MaterialId(0), moreau::MaterialId(2), Method::law(p, 0));
+    return laws;
+  }
+  static Simulation make_simulation(const Parameters& p) {
+    const moreau::Materials<Law> laws = materials(p);
     moreau::Tolerances tolerances;
     tolerances.margin = p.margin;
     const double size = p.size_scale * moreau::SizeDistribution::azema2008().smallest();

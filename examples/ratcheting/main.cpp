@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "command_line.hpp"
 #include "run.hpp"
@@ -22,13 +24,15 @@ void catch_interrupts() {
   std::signal(SIGTERM, [](int) { stop = 1; });
 }
 
-std::map<std::string, Runner::Function>& Runner::all() {
-  static std::map<std::string, Function> runners;
+std::map<std::pair<std::string, std::string>, Runner::Function>& Runner::all() {
+  static std::map<std::pair<std::string, std::string>, Function> runners;
   return runners;
 }
 
 int Runner::run(const Parameters& p) {
-  const auto found = all().find(p.shape);
+  std::string method = p.method;
+  std::replace(method.begin(), method.end(), '-', '_');
+  const auto found = all().find({p.shape, method});
   if (found != all().end()) return found->second(p);
   throw std::invalid_argument("--shape: this program was built without " + p.shape +
                               "; add it to RATCHETING_SHAPES");

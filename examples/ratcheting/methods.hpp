@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Law, integrator and solver of an experiment: contact dynamics, as in the paper, or molecular
-// dynamics with springs. Shapes, walls, force and measures are the same.
+// Law, integrator and solver of an experiment: contact dynamics, as in the paper, contact dynamics
+// with compliant contacts, or molecular dynamics with springs. Shapes, walls, force and measures are the same.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/integrate/velocity_verlet.hpp"
+#include "moreau/law/compliant.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
@@ -63,6 +64,18 @@ struct ContactDynamics {
   using Solver = StudySolver;
 
   static Law law(const Parameters&, double friction) { return Law(friction); }
+  static Parameters settled(const Parameters& p, double) { return p; }
+};
+
+struct CompliantDynamics {
+  static constexpr bool solves = true;
+  using Law = moreau::Compliant<moreau::SignoriniCoulomb<double>>;
+  using Integrator = moreau::MoreauJean;
+  using Solver = StudySolver;
+
+  static Law law(const Parameters& p, double friction) {
+    return Law(moreau::SignoriniCoulomb<double>(friction), p.stiffness);
+  }
   static Parameters settled(const Parameters& p, double) { return p; }
 };
 

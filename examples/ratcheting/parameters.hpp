@@ -3,6 +3,7 @@
 // and this project's choices where the paper says nothing. SI units.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -31,8 +32,8 @@ struct Parameters {
   double lid_force = 10;    ///< / (m 9.81 m/s^2)
   double lid_raise = 0.01;  ///< [m]
   double friction = 0.4;  ///< of grains with grains and horizontal walls; vertical walls have none
-  std::string method = "contact-dynamics";  ///< or springs
-  double stiffness = 1e7;                   ///< of a spring, normal [N/m]
+  std::string method = "contact-dynamics";  ///< or compliant or springs
+  double stiffness = 1e7;                   ///< of springs and of compliant contacts, normal [N/m]
   double restitution = 0.2;                 ///< of an impact of springs [-]
   double tolerance = 1e-4;
   moreau::StopTest stop_test = moreau::StopTest::qm16;
@@ -63,9 +64,18 @@ struct Parameters {
   /// none.
   std::string packing;
   std::string output = "ratcheting-output";
+  /// Checkpoint of another run, to start from in place of a packing. Empty: none.
+  std::string from;
+  double hold = 0.05;  ///< time at fmax before the harmonic force of such a run begins [s]
 
-  /// f(t), compressive force on the moving wall [N] (paper, eq. 1).
-  double force(double t) const { return moreau::HarmonicForce(fmin, fmax, frequency)(t); }
+  double first_maximum() const { return 0.75 / frequency; }  ///< time of the first f = fmax [s]
+  /// Time at which the run begins [s]: 0, or `hold` before the first maximum of the force.
+  double begin() const { return from.empty() ? 0 : first_maximum() - hold; }
+  /// f(t), compressive force on the moving wall [N] (paper, eq. 1); fmax during the hold.
+  double force(double t) const {
+    return moreau::HarmonicForce(fmin, fmax,
+                                 frequency)(from.empty() ? t : std::max(t, first_maximum()));
+  }
 };
 
 }  // namespace ratcheting

@@ -12,6 +12,7 @@ namespace ratcheting {
 /// One line of wall.csv, SI units.
 struct WallSample {
   double t, f, x, v, f_g;
+  double elastic_energy = 0;  ///< of compliant contacts; not in wall.csv
 };
 
 /// One extension of the wall, between two maxima of the force. f is smallest at t = (k + 1/4)/nu
@@ -22,7 +23,9 @@ struct Period {
   double jam_before = 0;         ///< x_j: position at the force maximum before [m]
   double jam_after = 0;          ///< x_j': position at the force maximum after [m]
   double dx_max = 0;             ///< largest x - jam_before [m]
-  ActivePhase active;            ///< from its onset to its peak
+  /// Energy of the springs of compliant contacts at the force maximum before [J].
+  double elastic_energy = 0;
+  ActivePhase active;  ///< from its onset to its peak
 
   double delay() const { return active.peak - force_minimum; }             ///< delta t_r [s]
   double x_peak() const { return jam_before + active.creep + active.dx; }  ///< largest x [m]

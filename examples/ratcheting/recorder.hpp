@@ -82,9 +82,12 @@ class Recorder {
   void record_step(std::size_t step, const moreau::StepReport& report, std::size_t total) {
     const double t = experiment_.time();
     const double shift = experiment_.corrected_displacement();
-    const WallSample sample{t, parameters_.force(t - parameters_.step / 2),
-                            experiment_.displacement(), experiment_.wall_velocity(),
-                            experiment_.wall_force()};
+    const WallSample sample{t,
+                            parameters_.force(t - parameters_.step / 2),
+                            experiment_.displacement(),
+                            experiment_.wall_velocity(),
+                            experiment_.wall_force(),
+                            report.elastic_energy};
     samples_.push_back(sample);
     totals_.add(report, shift, total);
     passive_field_.look(parameters_, experiment_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The run from end to end, with grains of one shape. CMake compiles this file once for each of
-// RATCHETING_SHAPES, with the shape's name as RATCHETING_SHAPE.
+// The run from end to end, with grains of one shape and one method. CMake compiles this file once
+// for each of RATCHETING_SHAPES and each method, with their names as RATCHETING_SHAPE and
+// RATCHETING_METHOD.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,6 +41,13 @@ using polygon = moreau::Polygon<double>;
 using sphere = moreau::Ball<>;
 using disk = moreau::Disk<>;
 }  // namespace shapes
+
+/// The methods, under the names of --method.
+namespace methods {
+using contact_dynamics = ContactDynamics;
+using compliant = CompliantDynamics;
+using springs = SpringDynamics;
+}  // namespace methods
 
 /// Thickness of the plane's grains such that the sample weighs what the same sample weighs in space
 /// [m]; 1 in space.
@@ -125,15 +133,53 @@ std::string identity(const Parameters& p) {
   return json.dump();
 }
 
-/// The parameters that determine the packing, as a text: not force, wall and solver of the
-/// experiment.
+/// The parameters that do not change the packing: force, wall and solver of the experiment.
+constexpr const char* later[] = {"frequency",
+                                 "fmax",
+                                 "fmin",
+                                 "gravity",
+                                 "wall_mass_ratio",
+                                 "duration",
+                                 "step",
+                                 "lid_raise",
+                                 "tolerance",
+                                 "stop_test",
+                                 "max_sweeps",
+                                 "overlap_correction",
+                                 "solver",
+                                 "threads",
+                                 "cold_start",
+                                 "order",
+                                 "from",
+                                 "hold"};
+
+/// The parameters that determine the packing, as a text.
 std::string packing_identity(const Parameters& p) {
   Json json = to_json(p);
-  for (const char* later : {"frequency", "fmax", "fmin", "gravity", "wall_mass_ratio", "duration",
-                            "step", "lid_raise", "tolerance", "stop_test", "max_sweeps",
-                            "overlap_correction", "solver", "threads", "cold_start", "order"})
-    json.erase(later);
+  for (const char* key : later) json.erase(key);
   return json.dump();
+}
+
+/// Reads a checkpoint of another run and makes it the start of this run.
+/// @param read reads the file and returns the parameters that it was made by
+/// @throws std::invalid_argument if the file's packing was made by other parameters
+template <class ExperimentT, class Read>
+void start_from(const Parameters& p, ExperimentT& experiment, const Read& read) {
+  if constexpr (ExperimentT::solves) {
+    const std::string made_by = read(p.from);
+    const auto sample = [](const std::string& made) {
+      Json json = Json::parse(made);
+      for (const char* key : later) json.erase(key);
+      json.erase("stiffness");
+      return json.dump();
+    };
+    if (sample(made_by) != sample(identity(p)))
+      throw std::invalid_argument("--from: " + p.from +
+                                  " was made with other parameters: " + made_by);
+    experiment.start_again();
+  } else {
+    throw std::invalid_argument("--from: --method springs cannot start from a checkpoint");
+  }
 }
 
 /// @throws std::invalid_argument if the file's packing was made by other parameters
@@ -160,6 +206,12 @@ template <class ExperimentT>
 bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>& recorder,
              RunJson& json, Progress& progress, Stopwatch& watch) {
   try {
+    if (!p.from.empty()) {
+      recorder.set_control_volume();
+      recorder.record_packing();
+      json.stage("prepare", watch.lap());
+      return true;
+    }
     if (!p.packing.empty() && std::filesystem::exists(p.packing)) {
       read_packing(p, experiment);
       std::printf("packing of %s\n", p.packing.c_str());
@@ -185,7 +237,7 @@ bool prepare(const Parameters& p, ExperimentT& experiment, Recorder<ExperimentT>
 }
 
 template <class ShapeT, class Method>
-int run_method(const Parameters& asked) {
+int run(const Parameters& asked) {
   Stopwatch watch;
   const double thickness = thickness_of<ShapeT>(asked);
   const Parameters p = Method::settled(asked, lightest_grain<ShapeT>(asked, thickness));
@@ -206,6 +258,16 @@ int run_method(const Parameters& asked) {
       throw std::invalid_argument("--resume: " + checkpoint.string() +
                                   " was made with other parameters: " + made_by);
   }
+  if (!resumes && !p.from.empty())
+    start_from(p, experiment, [&](const std::string& path) {
+      std::string made_by;
+      std::size_t steps = 0, files = 0;
+      typename Recorder<ExperimentT>::Record before;
+      Views<ExperimentT> views_before(experiment, p.step, p.output);
+      experiment.read_checkpoint(path, made_by, steps, files, before, views_before.grains(),
+                                 views_before.contacts());
+      return made_by;
+    });
   Recorder<ExperimentT> recorder(p, experiment, record);
   RunJson json(p, experiment);
   Progress progress;
@@ -230,7 +292,7 @@ int run_method(const Parameters& asked) {
     const moreau::StepReport report = experiment.vibrate();
     recorder.record_step(done + 1, report, total);
     if ((done + 1) % packing_steps == 0) recorder.record_packing();
-    const double end = double(done + 1) * p.step;
+    const double end = p.begin() + double(done + 1) * p.step;
     if (end >= active && end < active + p.step) show("_active");
     if (end >= jammed && end < jammed + p.step) show("_jammed");
     const std::size_t wanted = std::size_t(p.snapshots) * (done + 1) / total;
@@ -253,13 +315,8 @@ int run_method(const Parameters& asked) {
   return done < total ? 130 : 0;
 }
 
-template <class ShapeT>
-int run(const Parameters& p) {
-  return p.method == "springs" ? run_method<ShapeT, SpringDynamics>(p)
-                               : run_method<ShapeT, ContactDynamics>(p);
-}
-
-const Runner runner(RATCHETING_TEXT(RATCHETING_SHAPE), run<shapes::RATCHETING_SHAPE>);
+const Runner runner(RATCHETING_TEXT(RATCHETING_SHAPE), RATCHETING_TEXT(RATCHETING_METHOD),
+                    run<shapes::RATCHETING_SHAPE, methods::RATCHETING_METHOD>);
 
 }  // namespace
 

@@ -23,10 +23,13 @@ struct SolverTotals {
   double mean_overlap = 0;        ///< mean over steps of the mean depth [m]
   double mean_overlap_first = 0;  ///< the same over the first and over the last tenth of the steps
   double mean_overlap_last = 0;
-  double dissipation = 0;        ///< by the contacts [J]
-  double correction_work = 0;    ///< sum of |work| of the overlap correction [J]
-  double correction_travel = 0;  ///< sum of |shift| of the moving wall [m]
-  double correction_drift = 0;   ///< signed sum of it [m]
+  double rigid_residual = 0;       ///< sum over steps, of compliant contacts
+  double max_elastic_overlap = 0;  ///< of the run [m]
+  double gained = 0;               ///< sum of the energies that contacts gave to the grains [J]
+  double dissipation = 0;          ///< by the contacts [J]
+  double correction_work = 0;      ///< sum of |work| of the overlap correction [J]
+  double correction_travel = 0;    ///< sum of |shift| of the moving wall [m]
+  double correction_drift = 0;     ///< signed sum of it [m]
   double ms_detect = 0, ms_solve = 0, ms_total = 0;
   std::vector<double> ms_of_step;
 
@@ -44,6 +47,9 @@ struct SolverTotals {
     const std::size_t tenth = std::max<std::size_t>(1, total_steps / 10);
     if (steps <= tenth) mean_overlap_first += report.mean_overlap / double(tenth);
     if (steps > total_steps - tenth) mean_overlap_last += report.mean_overlap / double(tenth);
+    rigid_residual += report.rigid_residual;
+    max_elastic_overlap = std::max(max_elastic_overlap, report.max_elastic_overlap);
+    gained -= std::min(0.0, report.dissipation);
     dissipation += report.dissipation;
     correction_work += std::abs(report.correction.work);
     correction_travel += std::abs(wall_shift);
@@ -55,9 +61,9 @@ struct SolverTotals {
   }
   auto serialized_members() {  ///< see moreau/core/serialize.hpp
     return std::tie(steps, capped, most_sweeps, sweeps, residual, worst_residual, pairs, points,
-                    max_overlap, mean_overlap, mean_overlap_first, mean_overlap_last, dissipation,
-                    correction_work, correction_travel, correction_drift, ms_detect, ms_solve,
-                    ms_total, ms_of_step);
+                    max_overlap, mean_overlap, mean_overlap_first, mean_overlap_last,
+                    rigid_residual, max_elastic_overlap, gained, dissipation, correction_work,
+                    correction_travel, correction_drift, ms_detect, ms_solve, ms_total, ms_of_step);
   }
   double mean(double sum) const { return steps > 0 ? sum / double(steps) : 0; }
   double median_ms() const {

@@ -10,6 +10,7 @@
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
@@ -71,6 +72,9 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   SUBCASE("Cohesive without friction") {
     world(shapes, moreau::Cohesive<moreau::Frictionless<T>>(moreau::Frictionless<T>(), T(1e-3)),
           size);
+  }
+  SUBCASE("Compliant") {
+    world(shapes, moreau::Compliant<moreau::SignoriniCoulomb<T>>(coulomb, T(1e9) * mass), size);
   }
   SUBCASE("RollingResistance") {
     world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
@@ -28,6 +29,13 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   set_valued_law<S>(Greased{0.3});
   lane_law<S>(Frictionless<T>());
   lane_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
+  set_valued_law<S>(Compliant<SignoriniCoulomb<T>>(coulomb));
+  lane_law<S>(Compliant<SignoriniCoulomb<T>>(coulomb));
+  set_valued_law<S>(Compliant<RollingResistance<T>>(rolling));
+  const Cohesive<SignoriniCoulomb<T>> sticky(coulomb, T(1), T(1e-4));
+  attractive_law<S>(Compliant<Cohesive<SignoriniCoulomb<T>>>(sticky), T(1e-4));
+  const SignoriniCoulomb<T> two_frictions(T(0.3), T(0.5), T(0.4));
+  stateful_law<S>(Compliant<SignoriniCoulomb<T>>(two_frictions));
   stateful_law<S>(SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)));
   attractive_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1), T(1e-4)), T(1e-4));
 }

@@ -54,6 +54,8 @@ struct Assembly {
   std::vector<Law> laws{Law(0), Law(T(0.3)), Law(T(0.6))};
   std::vector<std::uint32_t> law_of;
   std::vector<Contact<S>> contacts;
+  std::vector<MobilityRoot<S>> roots;
+  std::vector<typename S::Twist> free;
 
   /// @param hub      mobility of the first body, relative to the others
   /// @param on_floor whether the first body touches the floor
@@ -82,8 +84,8 @@ struct Assembly {
       if (a > 12 && a % 2 == 0) touch(0, a);
       if (a % 3 == 0 && (a > 0 || on_floor)) touch(a, floor);
     }
-    std::vector<MobilityRoot<S>> roots(count + 1);
-    std::vector<typename S::Twist> free(count + 1, S::Twist::Zero());
+    roots.resize(count + 1);
+    free.assign(count + 1, S::Twist::Zero());
     for (std::uint32_t i = 0; i < count; ++i) {
       const T light = i == 0 ? hub : T(1);
       roots[i].linear = S::Matrix::Identity() * light * (T(1) + T(0.5) * unit(random));
