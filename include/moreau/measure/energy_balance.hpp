@@ -2,7 +2,8 @@
 // Where the energy of a simulation comes from and goes to, term by term:
 //
 //   kinetic - kinetic at the start = gravity + forces + drives
-//                                    - impacts - friction - rolling - correction + imbalance
+//                                    - impacts - friction - rolling - elastic - correction
+//                                    + imbalance
 //
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
@@ -42,12 +43,13 @@ struct EnergyTerms {
   double impacts = 0;     ///< taken by normal impulses: restitution, inelastic shocks [J]
   double friction = 0;    ///< taken by tangential impulses [J]
   double rolling = 0;     ///< taken by couples of rolling and twisting resistance [J]
+  double elastic = 0;     ///< taken by the springs of compliant contacts; < 0 if they gave more [J]
   double correction = 0;  ///< work of gravity and forces along the shifts of the overlap
                           ///< correction, which made no velocity: < 0 where it lifts grains [J]
 
   /// What the kinetic energy should have gained [J].
   double gain() const {
-    return gravity + forces + drives - impacts - friction - rolling - correction;
+    return gravity + forces + drives - impacts - friction - rolling - elastic - correction;
   }
 };
 
@@ -86,6 +88,7 @@ class EnergyBalance {
     terms_.drives += work_of_drives(bodies, simulation.contacts());
     terms_.friction += report.friction;
     terms_.rolling += report.rolling;
+    terms_.elastic += report.elastic_work;
     terms_.impacts += report.dissipation - report.friction - report.rolling;
     terms_.correction += report.correction.work;
     remember(bodies);

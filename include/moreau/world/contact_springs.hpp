@@ -10,6 +10,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -72,7 +73,8 @@ class ContactSprings {
   void measure(const StepContext<S, Law>& context, const ContactProblem<Operator, Law>& problem,
                std::span<const Row> impulses, StepReport& report) {
     constexpr int rows = Row::RowsAtCompileTime;
-    double energy = 0, map = 0, norm = 0, trace = 0;
+    Energy energy;
+    double map = 0, norm = 0, trace = 0;
     for (std::size_t c = 0; c < impulses.size(); ++c)
       trace += double(problem.delassus.block(c).trace());
     const auto scale =
@@ -80,7 +82,7 @@ class ContactSprings {
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Row& r = impulses[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
-      energy += double(r.dot(stretch)) / 2;
+      energy.add(r.cwiseProduct(stretch));
       report.max_elastic_overlap =
           std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
       Row u = problem.delassus.velocity(c) - stretch - relaxation_[c];
@@ -94,19 +96,36 @@ class ContactSprings {
       norm += double(scaled.squaredNorm());
     }
     report.rigid_residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
-    report.elastic_energy = energy;
-    report.dissipation -= energy - energy_;
+    report.elastic_energy = energy.total();
+    report.elastic_work = energy.total() - energy_.total();
+    report.friction -= energy.tangential - energy_.tangential;
+    report.rolling -= energy.rolling - energy_.rolling;
+    report.dissipation -= report.elastic_work;
     energy_ = energy;
   }
 
  private:
+  /// Energy of normal springs, of tangential springs and of those of rolling [J].
+  struct Energy {
+    double normal = 0, tangential = 0, rolling = 0;
+
+    double total() const { return normal + tangential + rolling; }
+    /// @param work impulse x stretch of one contact, by its rows
+    void add(const Row& work) {
+      normal += double(work[0]) / 2;
+      tangential += double(work.template segment<S::dim - 1>(1).sum()) / 2;
+      if constexpr (Row::RowsAtCompileTime > S::dim) rolling += double(angular<S>(work).sum()) / 2;
+    }
+    auto serialized_members() { return std::tie(normal, tangential, rolling); }
+  };
+
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(last_step_, energy_); }
 
   std::vector<Row> compliance_;  // c [1/kg]
   std::vector<Row> relaxation_;  // what the memory adds to b [m/s]
   Scalar last_step_ = 0;         // h of the step before [s]
-  double energy_ = 0;            // of the springs after the step before [J]
+  Energy energy_;                // after the step before
 };
 
 }  // namespace moreau::detail

@@ -205,19 +205,23 @@ class ImpulseDynamics {
   }
 
   /// Fills the relative velocities before the step and adds the offsets of the laws to b.
-  void offset_velocities(const Context& context) {
+  /// @returns the largest |normal velocity before the step| [m/s]
+  Scalar offset_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
+    Scalar fastest = 0;
     const auto impulses = unknowns_.impulses(context.contacts);
     before_.resize(context.contacts.size());
     for (std::size_t c = 0; c < context.contacts.size(); ++c) {
       const Contact<S>& contact = context.contacts.points[c];
       before_[c] = BodyDelassus<S>::relative_velocity(contact, bodies.velocity[contact.a],
                                                       bodies.velocity[contact.b]);
+      fastest = std::max(fastest, std::abs(before_[c][0]));
       const Scalar offset = context.materials.laws()[contact.law].velocity_offset(
           contact.gap, before_[c][0], context.step);
       if (!std::isfinite(offset)) impulses[c].setZero();
       problem_.delassus.offset_normal(c, offset);
     }
+    return fastest;
   }
 
   void solve(const Context& context, StepReport& report) {
@@ -293,7 +297,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context
   report.warm_started = warm_start(context);
   choose_variants(context);
   report.correction = correct_overlaps(context);
-  offset_velocities(context);
+  report.approach = double(offset_velocities(context) * context.step / context.margin);
   solve(context, report);
   velocities_after();
   measure_dissipation(context, report);

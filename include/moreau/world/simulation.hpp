@@ -365,8 +365,9 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");
   StepReport report;
-  const detail::StepContext<S, Law> context{assembly_.bodies(), gravity_,    materials_, previous_,
-                                            contacts_,          grain_size_, step};
+  const detail::StepContext<S, Law> context{
+      assembly_.bodies(), gravity_,    materials_, previous_,
+      contacts_,          grain_size_, step,       lengths().margin};
   const auto start = Clock::now();
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);

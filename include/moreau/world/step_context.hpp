@@ -17,6 +17,7 @@ struct StepContext {
   Contacts<S>& contacts;          ///< contacts of this step
   typename S::Scalar grain_size;  ///< length that tolerances are relative to [m]
   typename S::Scalar step;        ///< h [s]
+  typename S::Scalar margin;      ///< detection margin [m]
 };
 
 }  // namespace moreau::detail

@@ -16,15 +16,19 @@ struct StepReport {
   std::size_t pairs = 0;            ///< pairs with at least one contact point
   std::size_t points = 0;           ///< contact points
   std::size_t warm_started = 0;     ///< points that were in contact in the step before
-  double max_overlap = 0;           ///< deepest point as detected, >= 0 [m]
-  double mean_overlap = 0;          ///< mean depth of the points with gap < 0, >= 0 [m]
-  /// Energy that the contact impulses and couples took from the bodies [J]; < 0 if they gave
-  /// energy, as springs do.
+  /// Largest normal velocity of a contact before the step x step / detection margin [-]. Above 1, a
+  /// contact can come into reach and overlap within one step. 0 under a regularized law.
+  double approach = 0;
+  double max_overlap = 0;   ///< deepest point as detected, >= 0 [m]
+  double mean_overlap = 0;  ///< mean depth of the points with gap < 0, >= 0 [m]
+  /// Energy that the contact impulses and couples took from the bodies [J], without elastic_work;
+  /// < 0 if they gave energy, as the springs of a regularized law do.
   double dissipation = 0;
   double friction = 0;  ///< part of it: by tangential impulses [J]
   double rolling = 0;   ///< part of it: by couples of rolling and twisting [J]
   /// Energy of the springs of compliant contacts after the step [J]; 0 under other laws.
   double elastic_energy = 0;
+  double elastic_work = 0;         ///< energy that these springs took in the step [J]
   double max_elastic_overlap = 0;  ///< largest compression of a normal spring, >= 0 [m]
   /// Of a compliant law: the natural-map residual of the law without its springs [-].
   double rigid_residual = 0;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What would go unseen: settings of a simulation that give results which look right and are wrong.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "moreau/shape/concepts.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau {
+
+/// Judges the last step of a simulation.
+/// @param simulation after step()
+/// @param report     what step() returned
+/// @returns one sentence for each of these, with the numbers; empty if there is none of them:
+///          - surfaces moved by more than the detection margin in the step: contacts can be missed
+///          - the smallest grain is ten times smaller or larger than the grain size, to which all
+///            tolerances are relative (for shapes that have a circumradius())
+///          - an overlap beyond 1 % of the grain size: grains were added inside one another, the
+///            step is too long, or compliant contacts are too soft
+///          - the solver did not reach its tolerance
+template <class Simulation>
+std::vector<std::string> check(const Simulation& simulation, const StepReport& report) {
+  std::vector<std::string> found;
+  const auto say = [&](const auto&... parts) {
+    std::ostringstream text;
+    (text << ... << parts);
+    found.push_back(text.str());
+  };
+  const double size = double(simulation.grain_size());
+  if (report.approach > 1)
+    say("step too long: in one step surfaces in contact moved by ", report.approach,
+        " times the detection margin; contacts can be missed. Use a step ", report.approach,
+        " times shorter, or a larger margin");
+  using Shape = std::decay_t<decltype(simulation.shape_of_grain(0))>;
+  if constexpr (HasCircumradius<Shape>) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k)
+      smallest = std::min(smallest, 2 * double(simulation.shape_of_grain(k).circumradius()));
+    if (simulation.grain_count() > 0 && !(smallest > 0.1 * size && smallest < 10 * size))
+      say("grain size ", size, " m, but the smallest grain has a diameter of ", smallest,
+          " m; all tolerances are relative to the grain size");
+  }
+  if (report.max_overlap > 0.01 * size)
+    say("overlap of ", report.max_overlap, " m, ", report.max_overlap / size,
+        " of the grain size; a shorter step, stiffer contacts, or grains that do not overlap at "
+        "the "
+        "start");
+  if (report.solve.capped)
+    say("the solver stopped after ", report.solve.sweeps, " sweeps at a residual of ",
+        report.solve.residual, ", above its tolerance");
+  return found;
+}
+
+}  // namespace moreau
