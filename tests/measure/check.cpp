@@ -55,7 +55,7 @@ bool one_contains(const std::vector<std::string>& all, const char* text) {
 
 TEST_CASE("check: nothing is said about a cube that falls on a floor in short steps") {
   World world = cube(0.02, 0.02);
-  CHECK(run(world, 1e-3, 200).empty());
+  CHECK(run(world, 5e-4, 400).empty());
 }
 
 TEST_CASE("check: a step too long for the speeds") {

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# How much do the results depend on the stiffness of the contacts, the tolerance and the time step?
+# For each shape and sample, one run with compliant contacts ends at a jammed state under the largest
+# force. From this checkpoint four periods are simulated with other stiffnesses, tolerances, steps and
+# frequencies. The rigid contacts of the default have a checkpoint of their own. A simulation that is
+# done is not repeated, so the script can be stopped at any time.
+#
+#   stiffness.sh PROGRAM FOLDER [SHAPE...]
+#   stiffness.sh build/study/examples/ratcheting stiffness polygon disk
+set -euo pipefail
+program=$(realpath "$1") && folder=$2 && shift 2
+[ $# -gt 0 ] || set -- polygon disk sphere polyhedron
+mkdir -p "$folder" && cd "$folder"
+
+# run NAME OPTIONS: one simulation in folder NAME
+run() {
+  local name=$1 && shift
+  [ -f "$name/done" ] && return
+  mkdir -p "$name"
+  "$program" "$@" --snapshots 0 --no-pictures --no-plots --output "$name" >"$name/log" 2>&1
+  touch "$name/done"
+}
+rigid=(--method contact-dynamics)
+soft=(--method compliant)
+tight=(--stop-test residual --tolerance 1e-5)
+for seed in ${SEEDS:-1 2 3}; do
+  for shape in "$@"; do
+    start=$shape-$seed-start
+    common=(--shape "$shape" --seed "$seed")
+    run "$start-soft" "${common[@]}" "${soft[@]}" --duration 0.35 --checkpoint-every 1750
+    run "$start-rigid" "${common[@]}" "${rigid[@]}" --duration 0.35 --checkpoint-every 1750
+    for frequency in 5 20; do
+      # Four periods after the hold of 0.05 s.
+      duration=$(awk "BEGIN { print 0.05 + 4 / $frequency }")
+      common=(--shape "$shape" --seed "$seed" --frequency "$frequency" --duration "$duration")
+      from=(--from "$start-soft/checkpoint.snapshot")
+      name=$shape-$seed-$frequency
+      run "$name-k" "${common[@]}" "${soft[@]}" "${from[@]}"
+      run "$name-k-tol10" "${common[@]}" "${soft[@]}" "${from[@]}" --tolerance 1e-6
+      run "$name-3k" "${common[@]}" "${soft[@]}" "${from[@]}" --stiffness 3e8 --tolerance 3e-6
+      run "$name-10k" "${common[@]}" "${soft[@]}" "${from[@]}" --stiffness 1e9 --tolerance 1e-6
+      run "$name-half-step" "${common[@]}" "${soft[@]}" "${from[@]}" --step 1e-4
+      run "$name-double-step" "${common[@]}" "${soft[@]}" "${from[@]}" --step 4e-4
+      from=(--from "$start-rigid/checkpoint.snapshot")
+      run "$name-rigid" "${common[@]}" "${rigid[@]}" "${from[@]}"
+      run "$name-rigid-tight" "${common[@]}" "${rigid[@]}" "${from[@]}" "${tight[@]}"
+    done
+  done
+done
