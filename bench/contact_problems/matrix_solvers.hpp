@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "moreau/instances/friction_problems.hpp"
-#include "moreau/solve/block_system.hpp"
+#include "moreau/solve/detail/block_system.hpp"
 #include "moreau/solve/friction_problem.hpp"
 #include "moreau/solve/proximal_solver.hpp"
 

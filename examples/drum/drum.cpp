@@ -33,7 +33,7 @@ constexpr double h = 5e-4, warm_up = 1.5, duration = 4;  // [s]
 
 /// Adds grains with random shapes on a grid in the lower part of the drum.
 template <class Simulation, class Shape>
-void fill(Simulation& world, const std::vector<Shape>& shapes) {
+void fill(Simulation& simulation, const std::vector<Shape>& shapes) {
   using S = typename Simulation::S;
   constexpr int up = S::dim - 1, columns = 20, layers = 3;
   for (int k = 0;; ++k) {
@@ -48,23 +48,23 @@ void fill(Simulation& world, const std::vector<Shape>& shapes) {
     if (std::hypot(pose.position[0], height) > setup::radius - setup::size / 2) continue;
     pose.rotation = S::exp(S::Angular::Constant(k));
     const auto shape = shapes[std::size_t(k) % shapes.size()].scaled(setup::size / 2);
-    world.add_grain(world.add_shape(shape), pose, 2500);
+    simulation.add_grain(simulation.add_shape(shape), pose, 2500);
   }
 }
 
 /// Slope of the free surface [degrees], estimated as the angle between the vertical and the line
 /// from the axis of the drum to the centre of mass of the grains.
 template <class Simulation>
-double angle_of_repose(const Simulation& world) {
+double angle_of_repose(const Simulation& simulation) {
   typename Simulation::Vector sum = Simulation::Vector::Zero();
-  for (std::size_t k = 0; k < world.grain_count(); ++k) {
-    const std::size_t i = world.grain(k).index();
-    sum += world.bodies().weight[i] * world.bodies().pose[i].position;
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const std::size_t i = simulation.grain(k).index();
+    sum += simulation.bodies().weight[i] * simulation.bodies().pose[i].position;
   }
   return std::atan2(std::abs(sum[0]), -sum[Simulation::S::dim - 1]) * 180 / std::numbers::pi;
 }
 
-void draw(const moreau::Simulation<moreau::Polygon<double>, Law>& world) {
+void draw(const moreau::Simulation<moreau::Polygon<double>, Law>& simulation) {
   const Eigen::Vector2d corner = Eigen::Vector2d::Constant(setup::radius);
   rendering::Drawing drawing(-corner, corner, 700, 700);
   const auto circle = [](double angle) -> Eigen::Vector2d {
@@ -72,11 +72,12 @@ void draw(const moreau::Simulation<moreau::Polygon<double>, Law>& world) {
   };
   std::vector<Eigen::Vector2d> rim;
   for (int k = 0; k < 200; ++k) rim.push_back(circle(std::numbers::pi * k / 100));
-  for (std::size_t k = 0; k < world.grain_count(); ++k) {
-    const std::size_t i = world.grain(k).index();
-    const double speed = world.bodies().velocity[i].head<2>().norm();
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const std::size_t i = simulation.grain(k).index();
+    const double speed = simulation.bodies().velocity[i].head<2>().norm();
     const auto color = rendering::speed_color(speed / (3 * setup::rate * setup::radius));
-    rendering::detail::draw_grain(world.shape_of_grain(k), world.bodies().pose[i], color, drawing);
+    rendering::detail::draw_grain(simulation.shape_of_grain(k), simulation.bodies().pose[i], color,
+                                  drawing);
   }
   drawing.outline(rim, rendering::screen_color(0x4A4F57), 4);
   rendering::write_png("drum.png", drawing.finished());
@@ -90,34 +91,35 @@ bool run() {
   std::mt19937_64 random(1);
   moreau::Tolerances tolerances;
   tolerances.margin = 0.05;
-  moreau::Simulation<Shape, Law> world(setup::size, moreau::Materials<Law>(1, Law(0.5)), {},
-                                       tolerances);
-  fill(world, moreau::ballast_shapes<Shape>(20, random));
+  moreau::Simulation<Shape, Law> simulation(setup::size, moreau::Materials<Law>(1, Law(0.5)), {},
+                                            tolerances);
+  fill(simulation, moreau::ballast_shapes<Shape>(20, random));
   const typename S::Angular axis = S::Angular::Unit(S::angular_dim / 2);
-  const auto drum = world.add_cylinder(S::Vector::Zero(), axis, setup::radius);
-  for (int k = 1; k < up; ++k) world.set_periodic(k, 0, setup::slice);
-  world.set_spin(drum, setup::rate * axis);
-  world.set_gravity(-9.81 * S::Vector::Unit(up));
+  const auto drum = simulation.add_cylinder(S::Vector::Zero(), axis, setup::radius);
+  for (int k = 1; k < up; ++k) simulation.set_periodic(k, 0, setup::slice);
+  simulation.set_spin(drum, setup::rate * axis);
+  simulation.set_gravity(-9.81 * S::Vector::Unit(up));
 
   moreau::CsvWriter table("drum.csv", {{"t", "s"}, {"angle", "degrees"}});
   double sum = 0;
   int count = 0, steps = 0, unsolved = 0;
-  for (int step = 1; world.time() < setup::duration; ++step) {
-    unsolved += !world.step(setup::h).solve.converged;
+  for (int step = 1; simulation.time() < setup::duration; ++step) {
+    unsolved += !simulation.step(setup::h).solve.converged;
     ++steps;
     if (step % 20 != 0) continue;
-    const double angle = angle_of_repose(world);
-    table.row(world.time(), angle);
-    if (world.time() > setup::warm_up) sum += angle, ++count;
+    const double angle = angle_of_repose(simulation);
+    table.row(simulation.time(), angle);
+    if (simulation.time() > setup::warm_up) sum += angle, ++count;
   }
-  const auto& bodies = world.bodies();
+  const auto& bodies = simulation.bodies();
   moreau::VtkWriter<S>().write_grains(
-      "drum.vtp", world.grain_count(), [&](std::size_t k) { return world.shape_of_grain(k); },
-      [&](std::size_t k) { return bodies.pose[world.grain(k).index()]; },
-      [&](std::size_t k) { return bodies.velocity[world.grain(k).index()]; });
-  draw(world);
-  std::cout << world.grain_count() << " grains, angle of repose " << sum / count << " degrees; "
-            << unsolved << " of " << steps << " steps not converged\n";
+      "drum.vtp", simulation.grain_count(),
+      [&](std::size_t k) { return simulation.shape_of_grain(k); },
+      [&](std::size_t k) { return bodies.pose[simulation.grain(k).index()]; },
+      [&](std::size_t k) { return bodies.velocity[simulation.grain(k).index()]; });
+  draw(simulation);
+  std::cout << simulation.grain_count() << " grains, angle of repose " << sum / count
+            << " degrees; " << unsolved << " of " << steps << " steps not converged\n";
   // Expected for angular grains with mu = 0.5: more than the 25 degrees at which spheres flow, less
   // than the angle of a heap of bricks.
   return sum / count > 25 && sum / count < 45 && unsolved <= steps / 100;

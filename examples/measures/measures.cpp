@@ -49,14 +49,14 @@ struct Watch {
 /// Adds an open box, gravity along the last axis, and grains of three sizes near the points of a
 /// grid.
 /// @returns mass of all grains [kg]
-template <class World>
-double fill(World& world) {
-  using S = typename World::S;
+template <class Simulation>
+double fill(Simulation& simulation) {
+  using S = typename Simulation::S;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
-  const moreau::ShapeId grains[] = {world.add_shape(moreau::BallIn<S>(0.40 * size)),
-                                    world.add_shape(moreau::BallIn<S>(0.45 * size)),
-                                    world.add_shape(moreau::BallIn<S>(0.50 * size))};
+  const moreau::ShapeId grains[] = {simulation.add_shape(moreau::BallIn<S>(0.40 * size)),
+                                    simulation.add_shape(moreau::BallIn<S>(0.45 * size)),
+                                    simulation.add_shape(moreau::BallIn<S>(0.50 * size))};
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> jitter(-0.05 * size, 0.05 * size);
   const int per_side = 5, layers = 8;
@@ -68,14 +68,14 @@ double fill(World& world) {
     for (int axis = 0; axis < up; ++axis, rest /= per_side)
       pose.position[axis] = width / per_side * (rest % per_side + 0.5) + jitter(random);
     pose.position[up] = 1.15 * size * (rest + 0.5);
-    mass += world.bodies().weight[world.add_grain(grains[k % 3], pose, 2500).index()];
+    mass += simulation.bodies().weight[simulation.add_grain(grains[k % 3], pose, 2500).index()];
   }
   for (int axis = 0; axis < up; ++axis) {
-    world.add_wall(Vector::Unit(axis), Vector::Zero());
-    world.add_wall(-Vector::Unit(axis), width * Vector::Unit(axis));
+    simulation.add_wall(Vector::Unit(axis), Vector::Zero());
+    simulation.add_wall(-Vector::Unit(axis), width * Vector::Unit(axis));
   }
-  world.add_wall(Vector::Unit(up), Vector::Zero());
-  world.set_gravity(-9.81 * Vector::Unit(up));
+  simulation.add_wall(Vector::Unit(up), Vector::Zero());
+  simulation.set_gravity(-9.81 * Vector::Unit(up));
   return mass;
 }
 
@@ -86,63 +86,63 @@ void run(const fs::path& folder) {
   constexpr int up = S::dim - 1;
   fs::create_directories(folder);
 
-  moreau::Simulation<Shape, Law> world(size, moreau::Materials<Law>(1, Law(0.4)));
-  const double mass = fill(world), area = std::pow(width, up);
-  const moreau::BodyId lid = world.add_wall(-Vector::Unit(up), 9.5 * size * Vector::Unit(up));
-  world.set_wall_mass(lid, mass);
-  world.set_force(lid, -pressure * area * Vector::Unit(up));
+  moreau::Simulation<Shape, Law> simulation(size, moreau::Materials<Law>(1, Law(0.4)));
+  const double mass = fill(simulation), area = std::pow(width, up);
+  const moreau::BodyId lid = simulation.add_wall(-Vector::Unit(up), 9.5 * size * Vector::Unit(up));
+  simulation.set_wall_mass(lid, mass);
+  simulation.set_force(lid, -pressure * area * Vector::Unit(up));
 
-  const auto& bodies = world.bodies();
+  const auto& bodies = simulation.bodies();
   const auto position_of = [&](std::size_t body) { return bodies.pose[body].position; };
-  const auto is_grain = [&](std::size_t body) { return world.is_grain(body); };
-  const auto shape_of = [&](std::size_t k) -> const Shape& { return world.shape_of_grain(k); };
-  const auto pose_of = [&](std::size_t k) { return bodies.pose[world.grain(k).index()]; };
-  const auto twist_of = [&](std::size_t k) { return bodies.velocity[world.grain(k).index()]; };
+  const auto is_grain = [&](std::size_t body) { return simulation.is_grain(body); };
+  const auto shape_of = [&](std::size_t k) -> const Shape& { return simulation.shape_of_grain(k); };
+  const auto pose_of = [&](std::size_t k) { return bodies.pose[simulation.grain(k).index()]; };
+  const auto twist_of = [&](std::size_t k) { return bodies.velocity[simulation.grain(k).index()]; };
   std::vector<Vector> start;
-  for (std::size_t k = 0; k < world.grain_count(); ++k) start.push_back(pose_of(k).position);
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) start.push_back(pose_of(k).position);
 
   moreau::CsvWriter table(folder / "run.csv", {{"t", "s"}, {"lid", "m"}, {"kinetic", "J"}});
   moreau::VtkWriter<S> writer;
   moreau::PvdSeries series(folder / "run.pvd");
   std::vector<moreau::ContactSegment<S>> segments;
-  moreau::EnergyBalance<S> energy(world);
+  moreau::EnergyBalance<S> energy(simulation);
   Watch watch;
-  for (int step = 0; world.time() < duration; ++step) {
-    const moreau::StepReport report = world.step(h);
+  for (int step = 0; simulation.time() < duration; ++step) {
+    const moreau::StepReport report = simulation.step(h);
     watch(report);
-    energy.add(world, report, h);
+    energy.add(simulation, report, h);
     if (step % 200 != 0) continue;
-    table.row(world.time(), position_of(lid.index())[up], energy.kinetic());
+    table.row(simulation.time(), position_of(lid.index())[up], energy.kinetic());
     const std::string number = std::to_string(step / 200) + ".vtp";
-    writer.write_grains(folder / ("grains_" + number), world.grain_count(), shape_of, pose_of,
+    writer.write_grains(folder / ("grains_" + number), simulation.grain_count(), shape_of, pose_of,
                         twist_of);
-    moreau::contact_segments(world.contacts(), h, position_of, is_grain, segments);
+    moreau::contact_segments(simulation.contacts(), h, position_of, is_grain, segments);
     writer.write_contacts(folder / ("contacts_" + number), segments);
-    series.add(world.time(), "grains_" + number, 0);
-    series.add(world.time(), "contacts_" + number, 1);
+    series.add(simulation.time(), "grains_" + number, 0);
+    series.add(simulation.time(), "contacts_" + number, 1);
   }
 
   moreau::Aabb<S> box{Vector::Zero(), Vector::Constant(width)};
   box.upper[up] = position_of(lid.index())[up];
   const typename S::Matrix stress =
-      moreau::contact_stress(world.contacts(), h, box, position_of, is_grain);
+      moreau::contact_stress(simulation.contacts(), h, box, position_of, is_grain);
   std::vector<moreau::PairForce<S>> pairs;
-  moreau::pair_forces(world.contacts(), h, pairs);
+  moreau::pair_forces(simulation.contacts(), h, pairs);
   const auto fabric = moreau::fabric<S>(pairs, box, position_of, is_grain);
   const auto forces = moreau::force_distribution<double>(
       pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; }, 12, 4.0);
   moreau::CoordinationCounter<S> counter;
-  const auto coordination =
-      counter.count(world.contacts().points, world.contacts().impulses, bodies.size(), is_grain, 2);
+  const auto coordination = counter.count(
+      simulation.contacts().points, simulation.contacts().impulses, bodies.size(), is_grain, 2);
   typename moreau::GridField<S>::Cells cells;
   cells.fill(6);
   moreau::GridField<S> displacement(box, cells);
-  for (std::size_t k = 0; k < world.grain_count(); ++k)
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k)
     displacement.add(pose_of(k).position, pose_of(k).position - start[k]);
   writer.write_field(folder / "displacement.vtp", displacement);
 
   const moreau::EnergyTerms& terms = energy.terms();
-  std::cout << folder.filename().string() << ", " << world.grain_count() << " grains\n"
+  std::cout << folder.filename().string() << ", " << simulation.grain_count() << " grains\n"
             << "  steps " << watch.steps << ", not converged " << watch.unsolved
             << ", largest residual " << watch.residual << ", largest overlap "
             << watch.overlap / size << " d\n"

@@ -21,26 +21,28 @@ using Grain = moreau::OneOf<Ball, Die, Rod>;
 
 int main() {
   using Law = moreau::SignoriniCoulomb<double>;
-  moreau::Simulation<Grain, Law> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
+  moreau::Simulation<Grain, Law> simulation(0.02, moreau::Materials<Law>(1, Law(0.4)));
   const std::vector<Vector> corners{{0, 0, 0},       {0.02, 0, 0},      {0, 0.02, 0},
                                     {0.02, 0.02, 0}, {0, 0, 0.02},      {0.02, 0, 0.02},
                                     {0, 0.02, 0.02}, {0.02, 0.02, 0.02}};
-  const moreau::ShapeId kinds[] = {world.add_shape(Ball(0.012)), world.add_shape(Die(corners)),
-                                   world.add_shape(Rod(0.01, 0.007))};
+  const moreau::ShapeId kinds[] = {simulation.add_shape(Ball(0.012)),
+                                   simulation.add_shape(Die(corners)),
+                                   simulation.add_shape(Rod(0.01, 0.007))};
   for (int k = 0; k < 80; ++k)
-    world.add_grain(kinds[k % 3],
-                    {{0.02 + 0.035 * (k % 4), 0.02 + 0.035 * (k / 4 % 4), 0.02 + 0.035 * (k / 16)},
-                     S::exp({0.5 * k, 0.2 * k, 0.1})},
-                    2700);
-  for (int axis = 0; axis < 3; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
+    simulation.add_grain(
+        kinds[k % 3],
+        {{0.02 + 0.035 * (k % 4), 0.02 + 0.035 * (k / 4 % 4), 0.02 + 0.035 * (k / 16)},
+         S::exp({0.5 * k, 0.2 * k, 0.1})},
+        2700);
+  for (int axis = 0; axis < 3; ++axis) simulation.add_wall(Vector::Unit(axis), Vector::Zero());
   for (int axis = 0; axis < 2; ++axis)
-    world.add_wall(-Vector::Unit(axis), 0.145 * Vector::Unit(axis));
-  world.set_gravity({0, 0, -9.81});
+    simulation.add_wall(-Vector::Unit(axis), 0.145 * Vector::Unit(axis));
+  simulation.set_gravity({0, 0, -9.81});
 
   double deepest = 0;
   int unsolved = 0;
   for (int step = 0; step < 2000; ++step) {
-    const moreau::StepReport report = world.step(5e-4);
+    const moreau::StepReport report = simulation.step(5e-4);
     deepest = std::max(deepest, report.max_overlap);
     unsolved += !report.solve.converged;
   }
@@ -52,11 +54,11 @@ int main() {
   rendering::write_png(
       "mixed_shapes.png",
       rendering::render_packing(
-          moreau::Aabb<S>{{0, 0, 0}, {0.145, 0.145, 0.1}}, world.grain_count(),
-          [&](std::size_t k) { return world.shape_of_grain(k); },
-          [&](std::size_t k) { return world.bodies().pose[world.grain(k).index()]; },
+          moreau::Aabb<S>{{0, 0, 0}, {0.145, 0.145, 0.1}}, simulation.grain_count(),
+          [&](std::size_t k) { return simulation.shape_of_grain(k); },
+          [&](std::size_t k) { return simulation.bodies().pose[simulation.grain(k).index()]; },
           [&](std::size_t k) {
-            return rendering::screen_color(colors[world.shape_of_grain(k).index()]);
+            return rendering::screen_color(colors[simulation.shape_of_grain(k).index()]);
           },
           picture));
 
@@ -64,11 +66,11 @@ int main() {
   const char* names[] = {"ball", "die", "rod"};
   std::map<std::string, int> points;
   const auto kind_of = [&](std::uint32_t body) -> std::string {
-    for (std::size_t k = 0; k < world.grain_count(); ++k)
-      if (world.grain(k).value == body) return names[world.shape_of_grain(k).index()];
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k)
+      if (simulation.grain(k).value == body) return names[simulation.shape_of_grain(k).index()];
     return "wall";
   };
-  for (const auto& contact : world.contacts().points) {
+  for (const auto& contact : simulation.contacts().points) {
     const auto [first, second] = std::minmax({kind_of(contact.a), kind_of(contact.b)});
     ++points[first + " - " + second];
   }

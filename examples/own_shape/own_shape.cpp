@@ -58,21 +58,21 @@ double nanoseconds_per_pair(const Superellipsoid& pebble) {
 
 int main() {
   using Law = moreau::SignoriniCoulomb<double>;
-  moreau::Simulation<Superellipsoid, Law> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
-  const moreau::ShapeId pebble = world.add_shape({{0.014, 0.011, 0.008}, 3});
+  moreau::Simulation<Superellipsoid, Law> simulation(0.02, moreau::Materials<Law>(1, Law(0.4)));
+  const moreau::ShapeId pebble = simulation.add_shape({{0.014, 0.011, 0.008}, 3});
   for (int k = 0; k < 20; ++k)
-    world.add_grain(pebble,
-                    {{0.03 * (k % 3), 0.03 * (k / 3 % 3), 0.02 + 0.03 * (k / 9)},
-                     S::exp({0.7 * k, 0.3 * k, 0.1})},
-                    2700);
-  world.add_wall({0, 0, 1}, {0, 0, 0});
-  world.set_gravity({0, 0, -9.81});
+    simulation.add_grain(pebble,
+                         {{0.03 * (k % 3), 0.03 * (k / 3 % 3), 0.02 + 0.03 * (k / 9)},
+                          S::exp({0.7 * k, 0.3 * k, 0.1})},
+                         2700);
+  simulation.add_wall({0, 0, 1}, {0, 0, 0});
+  simulation.set_gravity({0, 0, -9.81});
 
   double deepest = 0;
   int unsolved = 0;
   moreau::StepReport report;
   for (int step = 0; step < 1000; ++step) {
-    report = world.step(1e-3);
+    report = simulation.step(1e-3);
     deepest = std::max(deepest, report.max_overlap);
     unsolved += !report.solve.converged;
   }
@@ -82,15 +82,15 @@ int main() {
   rendering::write_png(
       "own_shape.png",
       rendering::render_packing(
-          moreau::Aabb<S>{{-0.07, -0.07, 0}, {0.13, 0.13, 0.05}}, world.grain_count(),
-          [&](std::size_t k) { return world.shape_of_grain(k); },
-          [&](std::size_t k) { return world.bodies().pose[world.grain(k).index()]; },
+          moreau::Aabb<S>{{-0.07, -0.07, 0}, {0.13, 0.13, 0.05}}, simulation.grain_count(),
+          [&](std::size_t k) { return simulation.shape_of_grain(k); },
+          [&](std::size_t k) { return simulation.bodies().pose[simulation.grain(k).index()]; },
           [&](std::size_t k) { return rendering::stone_color(0.05 * double(k), k); }, picture));
 
   double height = 0;
-  for (std::size_t k = 0; k < world.grain_count(); ++k)
-    height += world.bodies().pose[world.grain(k).index()].position.z() / 20;
-  std::cout << "after " << world.time() << " s: " << report.pairs
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k)
+    height += simulation.bodies().pose[simulation.grain(k).index()].position.z() / 20;
+  std::cout << "after " << simulation.time() << " s: " << report.pairs
             << " pairs in contact, mean height " << height << " m, deepest overlap on the way "
             << deepest << " m, " << unsolved << " steps not solved; "
             << nanoseconds_per_pair({{0.014, 0.011, 0.008}, 3}) << " ns per pair\n";

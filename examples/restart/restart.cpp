@@ -19,8 +19,8 @@
 namespace fs = std::filesystem;
 using Disk = moreau::Disk<double>;
 using Law = moreau::SignoriniCoulomb<double>;
-using World = moreau::Simulation<Disk, Law>;
-using Vector = World::Vector;
+using Simulation = moreau::Simulation<Disk, Law>;
+using Vector = Simulation::Vector;
 
 namespace setup {
 constexpr double size = 0.01, width = 0.1, h = 5e-4;  // of a grain; of the box [m]; step [s]
@@ -28,57 +28,57 @@ constexpr int steps = 3000, snapshot_every = 500, grain_every = 100;
 }  // namespace setup
 using namespace setup;
 
-void build(World& world) {
-  world.add_wall({0, 1}, {0, 0});
-  world.add_wall({1, 0}, {0, 0});
-  world.add_wall({-1, 0}, {width, 0});
-  world.set_gravity({0, -9.81});
+void build(Simulation& simulation) {
+  simulation.add_wall({0, 1}, {0, 0});
+  simulation.add_wall({1, 0}, {0, 0});
+  simulation.add_wall({-1, 0}, {width, 0});
+  simulation.set_gravity({0, -9.81});
 }
 
 /// Adds a disk with a random radius at a random position at the top of the box.
-void rain(World& world, std::mt19937_64& random) {
+void rain(Simulation& simulation, std::mt19937_64& random) {
   std::uniform_real_distribution<double> radius(0.4 * size, 0.6 * size), place(size, width - size);
-  const moreau::ShapeId disk = world.add_shape(Disk(radius(random)));
-  moreau::Pose<World::S> pose;
+  const moreau::ShapeId disk = simulation.add_shape(Disk(radius(random)));
+  moreau::Pose<Simulation::S> pose;
   pose.position = {place(random), width};
-  world.add_grain(disk, pose, 2500);
+  simulation.add_grain(disk, pose, 2500);
 }
 
 /// Mean height of the grains [m].
-double mean_height(const World& world) {
+double mean_height(const Simulation& simulation) {
   double sum = 0;
-  for (std::size_t k = 0; k < world.grain_count(); ++k)
-    sum += world.bodies().pose[world.grain(k).index()].position[1];
-  return sum / double(world.grain_count());
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k)
+    sum += simulation.bodies().pose[simulation.grain(k).index()].position[1];
+  return sum / double(simulation.grain_count());
 }
 
 /// Runs up to step `end`: from the last snapshot in the folder, or from the beginning without one.
 void run(const fs::path& folder, int end) {
   fs::create_directories(folder);
   const fs::path snapshot = folder / "run.snapshot";
-  World world(size, moreau::Materials<Law>(1, Law(0.4)));
+  Simulation simulation(size, moreau::Materials<Law>(1, Law(0.4)));
   std::mt19937_64 random(1);
   int step = 0;
   std::uintmax_t table_size = 0;
   if (fs::exists(snapshot))
-    moreau::read_snapshot(snapshot, world, random, step, table_size);
+    moreau::read_snapshot(snapshot, simulation, random, step, table_size);
   else
-    build(world);
+    build(simulation);
 
   moreau::CsvWriter table(folder / "run.csv", {{"t", "s"}, "grains", {"height", "m"}}, 10,
                           table_size);
   // A snapshot holds no functions. Create them again; they read the time from the simulation.
-  const moreau::VelocityDrive shake(world.walls()[0], Vector::UnitY(),
+  const moreau::VelocityDrive shake(simulation.walls()[0], Vector::UnitY(),
                                     [](double t) { return 0.02 * std::sin(60 * t); });
   for (; step < end; ++step) {
     if (step % snapshot_every == 0) {
       table.sync();
-      moreau::write_snapshot(snapshot, world, random, step, table.size());
+      moreau::write_snapshot(snapshot, simulation, random, step, table.size());
     }
-    if (step % grain_every == 0) rain(world, random);
-    shake.apply(world, h);
-    world.step(h);
-    table.row(world.time(), world.grain_count(), mean_height(world));
+    if (step % grain_every == 0) rain(simulation, random);
+    shake.apply(simulation, h);
+    simulation.step(h);
+    table.row(simulation.time(), simulation.grain_count(), mean_height(simulation));
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One contact with any block: the law holds, and symmetric blocks give what the law itself gives.
-#include "moreau/law/coulomb_block.hpp"
+#include "moreau/law/detail/coulomb_block.hpp"
 
 #include <doctest/doctest.h>
 #include <random>

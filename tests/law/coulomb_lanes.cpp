@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lanes come to a solution of the law from any start within a few visits.
 
-#include "moreau/law/coulomb_lanes.hpp"
+#include "moreau/law/detail/coulomb_lanes.hpp"
 
 #include <Eigen/LU>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/shape/orientation.hpp"
+#include "moreau/shape/detail/orientation.hpp"
 
 #include <cmath>
 #include <cstdint>

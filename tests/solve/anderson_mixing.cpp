@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mixing finds fixed points that repel, and forgets when it is told to.
 
-#include "moreau/solve/anderson_mixing.hpp"
+#include "moreau/solve/detail/anderson_mixing.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -15,7 +15,7 @@
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
-#include "moreau/world/force_dynamics.hpp"
+#include "moreau/world/detail/force_dynamics.hpp"
 
 #include "static/archetypes.hpp"
 

@@ -27,16 +27,16 @@ Eigen::VectorXd impulses_of(const World& world, const Gathered& gathered) {
 TEST_CASE_TEMPLATE("a step's problem is solved by the step's impulses, and by another solver",
                    ShapeT, Polyhedron<>, Polygon<>) {
   BoxOfGrains<ShapeT> scene(8);
-  auto& world = scene.simulation;
-  for (int k = 0; k < 400; ++k) world.step(5e-4);
-  REQUIRE(world.contacts().size() > 0);
+  auto& simulation = scene.simulation;
+  for (int k = 0; k < 400; ++k) simulation.step(5e-4);
+  REQUIRE(simulation.contacts().size() > 0);
 
-  const auto gathered = gather_problem(world);  // matrices, and which contact is which
+  const auto gathered = gather_problem(simulation);  // matrices, and which contact is which
   Eigen::VectorXd impulses;
   const ProblemReport report = ProximalSolver().solve(gathered.problem, impulses);
 
   CHECK(report.converged);
-  CHECK(natural_map_residual(gathered.problem, impulses_of(world, gathered)) < 1e-3);
+  CHECK(natural_map_residual(gathered.problem, impulses_of(simulation, gathered)) < 1e-3);
   // Which impulses solve it is not unique where contacts are many: the velocities are.
   CHECK(natural_map_residual(gathered.problem, impulses) < 1e-10);
 }

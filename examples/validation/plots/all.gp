@@ -30,10 +30,10 @@ do for [d in "2d 3d"] {
     set output folder."/arch_".d.".png"
     set key right top
     set xlabel "thickness / radius"
-    set ylabel "fall of the crown in 0.5 s  [radii]"
+    set ylabel "fall of the crown in 0.5 s, at most 0.01  [radii]"
     set arrow 1 from 0.1075, graph 0 to 0.1075, graph 1 nohead lc rgb red
     plot file("arch_".d) using 1:2 skip 1 with linespoints pt 7 lc rgb blue title "measured", \
-         NaN with lines lc rgb red title "0.1075"
+         NaN with lines lc rgb red title "least thickness, 0.1075"
     unset arrow 1
   }
   if (has("janssen_".d)) {
@@ -76,6 +76,6 @@ if (has("shear_2d")) {
   set key left top
   set xlabel "inertial number I"
   set ylabel "effective friction"
-  plot file("shear_2d") using 1:3 skip 1 with lines lc rgb red title "0.25 + 1.1 I", \
+  plot file("shear_2d") using 1:3 skip 1 with lines lc rgb red title "published, 0.25 + 1.1 I", \
        '' using 1:2 skip 1 with points pt 7 lc rgb blue title "measured"
 }

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "moreau/contact/local_block.hpp"
-#include "moreau/core/wide.hpp"
+#include "moreau/core/detail/wide.hpp"
 
 namespace moreau {
 

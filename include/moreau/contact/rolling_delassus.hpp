@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
-#include "moreau/contact/effective_radius.hpp"
+#include "moreau/contact/detail/effective_radius.hpp"
 #include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/twist.hpp"
 

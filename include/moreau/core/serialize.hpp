@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a class takes part in serialization: writing an object to a file and reading it back
-// (io/archive.hpp).
+// (io/detail/archive.hpp).
 //
 // An aggregate of up to eight members, such as Tolerances, needs no code. A class with private
 // members lists them once, for both directions:

@@ -11,7 +11,7 @@
 #include <utility>
 #include <variant>
 
-#include "moreau/core/rows.hpp"
+#include "moreau/core/detail/rows.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"

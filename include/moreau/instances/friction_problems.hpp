@@ -4,7 +4,7 @@
 // does not link.
 #pragma once
 
-#include "moreau/instances/instance.hpp"
+#include "moreau/instances/detail/instance.hpp"
 #include "moreau/solve/proximal_solver.hpp"
 
 namespace moreau {

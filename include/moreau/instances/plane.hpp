@@ -5,7 +5,7 @@
 // program does not link. Other worlds of the same law share the solver.
 #pragma once
 
-#include "moreau/instances/instance.hpp"
+#include "moreau/instances/detail/instance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"

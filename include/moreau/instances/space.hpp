@@ -3,7 +3,7 @@
 // to use it.
 #pragma once
 
-#include "moreau/instances/instance.hpp"
+#include "moreau/instances/detail/instance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polyhedron.hpp"

@@ -21,7 +21,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/integrate/spin.hpp"
+#include "moreau/integrate/detail/spin.hpp"
 
 namespace moreau {
 

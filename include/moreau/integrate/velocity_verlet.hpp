@@ -16,7 +16,7 @@
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/integrate/spin.hpp"
+#include "moreau/integrate/detail/spin.hpp"
 
 namespace moreau {
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/io/detail/input_file.hpp"
 #include "moreau/io/friction_file.hpp"
-#include "moreau/io/input_file.hpp"
 
 namespace moreau {
 

@@ -39,9 +39,9 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/io/archive.hpp"
-#include "moreau/io/crc64.hpp"
-#include "moreau/io/input_file.hpp"
+#include "moreau/io/detail/archive.hpp"
+#include "moreau/io/detail/crc64.hpp"
+#include "moreau/io/detail/input_file.hpp"
 #include "moreau/io/output_file.hpp"
 #include "moreau/version.hpp"
 #include "moreau/world/simulation.hpp"

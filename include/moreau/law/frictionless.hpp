@@ -10,7 +10,7 @@
 #include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/law/newton_restitution.hpp"
+#include "moreau/law/detail/newton_restitution.hpp"
 
 namespace moreau {
 

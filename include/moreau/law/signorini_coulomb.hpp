@@ -23,8 +23,8 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/law/coulomb_lanes.hpp"
-#include "moreau/law/newton_restitution.hpp"
+#include "moreau/law/detail/coulomb_lanes.hpp"
+#include "moreau/law/detail/newton_restitution.hpp"
 
 namespace moreau {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "moreau/measure/clip.hpp"
-#include "moreau/measure/clip_sphere.hpp"
 #include "moreau/measure/control_volume.hpp"
+#include "moreau/measure/detail/clip_sphere.hpp"
 
 namespace moreau {
 

@@ -22,10 +22,10 @@
 #include <string_view>
 #include <vector>
 
-#include "moreau/shape/face_merging.hpp"
-#include "moreau/shape/hull_input.hpp"
-#include "moreau/shape/orientation.hpp"
-#include "moreau/shape/triangle_hull.hpp"
+#include "moreau/shape/detail/face_merging.hpp"
+#include "moreau/shape/detail/hull_input.hpp"
+#include "moreau/shape/detail/orientation.hpp"
+#include "moreau/shape/detail/triangle_hull.hpp"
 
 namespace moreau {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "moreau/shape/convex_hull.hpp"
-#include "moreau/shape/polytope_base.hpp"
+#include "moreau/shape/detail/polytope_base.hpp"
 
 namespace moreau {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "moreau/shape/convex_hull.hpp"
-#include "moreau/shape/face_plane.hpp"
-#include "moreau/shape/face_topology.hpp"
-#include "moreau/shape/polytope_base.hpp"
+#include "moreau/shape/detail/face_plane.hpp"
+#include "moreau/shape/detail/face_topology.hpp"
+#include "moreau/shape/detail/polytope_base.hpp"
 
 namespace moreau {
 

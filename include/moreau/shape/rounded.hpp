@@ -6,8 +6,8 @@
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/shape/detail/vertices.hpp"
 #include "moreau/shape/rounded_moments.hpp"
-#include "moreau/shape/vertices.hpp"
 
 namespace moreau {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "moreau/shape/detail/normal_cone.hpp"
 #include "moreau/shape/moments.hpp"
-#include "moreau/shape/normal_cone.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/segment.hpp"

@@ -3,7 +3,7 @@
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
-#include "moreau/shape/vertices.hpp"
+#include "moreau/shape/detail/vertices.hpp"
 
 namespace moreau {
 

@@ -13,7 +13,7 @@
 //    stopping test visits all contacts and updates the set.
 //
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
-// solution of the law, for Coulomb's law that of law/coulomb_lanes.hpp.
+// solution of the law, for Coulomb's law that of law/detail/coulomb_lanes.hpp.
 //
 // The stopping tests are those of NonlinearGaussSeidel: the changes of a plain sweep (QM/16), or
 // the residual of the impulses with velocities computed from them alone. The acceleration does not

@@ -11,10 +11,10 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/detail/sweep_change.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/stop_test.hpp"
-#include "moreau/solve/sweep_change.hpp"
 
 namespace moreau {
 

@@ -18,10 +18,10 @@
 #include <limits>
 
 #include "moreau/core/error.hpp"
-#include "moreau/solve/block_system.hpp"
-#include "moreau/solve/coulomb_newton.hpp"
+#include "moreau/solve/detail/block_system.hpp"
+#include "moreau/solve/detail/coulomb_newton.hpp"
+#include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/friction_problem.hpp"
-#include "moreau/solve/nesterov_momentum.hpp"
 
 namespace moreau {
 

@@ -112,7 +112,7 @@ class ThreadPool {
 class ThreadTeam {
  public:
   /// Starts threads - 1 threads: the calling thread is a member.
-  /// @throws std::invalid_argument for less than one thread
+  /// @throws std::invalid_argument for fewer than one thread
   explicit ThreadTeam(int threads = 1) {
     require(threads >= 1, "ThreadTeam", "threads", threads, "must be at least 1");
     pool_ = std::make_shared<detail::ThreadPool>(threads);
@@ -137,7 +137,7 @@ class ParallelGaussSeidel : public TeamGaussSeidel<ThreadTeam> {
  public:
   /// @param options of ColouredGaussSeidel
   /// @param threads at least 1; copies of the solver share them
-  /// @throws std::invalid_argument as ColouredGaussSeidel, and for less than one thread
+  /// @throws std::invalid_argument as ColouredGaussSeidel, and for fewer than one thread
   explicit ParallelGaussSeidel(const Options& options = {}, int threads = 1)
       : TeamGaussSeidel(options, ThreadTeam(threads)) {}
 };

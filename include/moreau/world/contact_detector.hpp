@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/detail/merge_join.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/core/merge_join.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"

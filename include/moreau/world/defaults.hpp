@@ -9,7 +9,7 @@
 #include "moreau/law/regularized.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
-#include "moreau/world/force_dynamics.hpp"
+#include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau {
 

@@ -46,7 +46,7 @@ class OverlapCorrection {
   using Options = OverlapCorrectionOptions;
 
   /// @throws std::invalid_argument for a slop that is negative or not finite, a rate outside (0,
-  ///         1], less than one sweep
+  ///         1], fewer than one sweep
   explicit OverlapCorrection(const Options& options = {}) : options_(options) {
     constexpr const char* self = "OverlapCorrection";
     require(options.slop >= 0 && std::isfinite(options.slop), self, "slop", options.slop,

@@ -10,9 +10,9 @@
 #include <cstring>
 #include <vector>
 
-#include "moreau/solve/anderson_mixing.hpp"
-#include "moreau/solve/nesterov_momentum.hpp"
-#include "moreau/solve/stagnation_test.hpp"
+#include "moreau/solve/detail/anderson_mixing.hpp"
+#include "moreau/solve/detail/nesterov_momentum.hpp"
+#include "moreau/solve/detail/stagnation_test.hpp"
 
 namespace moreau::detail {
 

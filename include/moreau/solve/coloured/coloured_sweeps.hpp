@@ -13,7 +13,7 @@
 #include "moreau/solve/coloured/group_kernel.hpp"
 #include "moreau/solve/coloured/schedule.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/sweep_change.hpp"
+#include "moreau/solve/detail/sweep_change.hpp"
 
 namespace moreau::detail {
 

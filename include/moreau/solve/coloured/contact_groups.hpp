@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "moreau/contact/lane_block.hpp"
-#include "moreau/law/law_lanes.hpp"
+#include "moreau/law/detail/law_lanes.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
 #include "moreau/solve/contact_problem.hpp"
 

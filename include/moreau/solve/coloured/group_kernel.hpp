@@ -9,7 +9,7 @@
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/sweep_change.hpp"
+#include "moreau/solve/detail/sweep_change.hpp"
 
 namespace moreau::detail {
 

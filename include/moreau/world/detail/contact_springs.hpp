@@ -14,7 +14,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/world/step_context.hpp"
+#include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {

@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "moreau/core/serialize.hpp"
-#include "moreau/io/crc64.hpp"
+#include "moreau/io/detail/crc64.hpp"
 
 namespace moreau::detail {
 

@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/shape/face_plane.hpp"
-#include "moreau/shape/triangle_hull.hpp"
+#include "moreau/shape/detail/face_plane.hpp"
+#include "moreau/shape/detail/triangle_hull.hpp"
 
 namespace moreau::detail {
 

@@ -31,10 +31,10 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/world/contact_springs.hpp"
-#include "moreau/world/contact_unknowns.hpp"
+#include "moreau/world/detail/contact_springs.hpp"
+#include "moreau/world/detail/contact_unknowns.hpp"
+#include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/overlap_correction.hpp"
-#include "moreau/world/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {

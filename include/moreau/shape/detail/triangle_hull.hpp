@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/shape/orientation.hpp"
+#include "moreau/shape/detail/orientation.hpp"
 
 namespace moreau::detail {
 

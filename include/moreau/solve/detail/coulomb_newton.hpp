@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "moreau/solve/block_system.hpp"
+#include "moreau/solve/detail/block_system.hpp"
 
 namespace moreau::detail {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/core/merge_join.hpp"
+#include "moreau/core/detail/merge_join.hpp"
 
 namespace moreau {
 

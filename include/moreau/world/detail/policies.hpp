@@ -9,7 +9,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
 #include "moreau/solve/concepts.hpp"
-#include "moreau/world/force_dynamics.hpp"
+#include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau::detail {
 

@@ -7,8 +7,8 @@
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/shape/detail/vertices.hpp"
 #include "moreau/shape/moments.hpp"
-#include "moreau/shape/vertices.hpp"
 
 namespace moreau {
 

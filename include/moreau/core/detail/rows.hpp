@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/detail/wide.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/wide.hpp"
 
 namespace moreau::detail {
 

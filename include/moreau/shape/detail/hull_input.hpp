@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "moreau/shape/vertices.hpp"
+#include "moreau/shape/detail/vertices.hpp"
 
 namespace moreau {
 
