@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"

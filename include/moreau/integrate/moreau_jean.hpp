@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <tuple>
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"

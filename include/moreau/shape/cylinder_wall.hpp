@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <tuple>
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/error.hpp"

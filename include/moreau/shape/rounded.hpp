@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <tuple>
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "moreau/detect/convex/gjk.hpp"
 #include "moreau/detect/polytope/axis.hpp"
