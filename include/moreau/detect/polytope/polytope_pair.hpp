@@ -60,8 +60,8 @@ class PolytopePair {
 
   /// Whether it is certain, without a search, that the gap exceeds the margin [m] by more than
   /// rounding. This is certain if the circumscribed balls are that far apart, or if the axis that
-  /// separated the shapes in the previous step separates them still. Other queries of the pair
-  /// return the same result then.
+  /// separated the shapes in the previous step still separates them. The search would return the
+  /// same result then.
   bool is_clearly_apart(T margin, const PairCache<S>& cache) const {
     const T reach = size + margin + rounding();
     if (offset.squaredNorm() > reach * reach) return true;
