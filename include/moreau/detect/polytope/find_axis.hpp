@@ -4,8 +4,8 @@
 //
 // Polygons. The largest separation s(n) over the normals of all edges is a lower bound of the gap.
 // It equals the gap in two cases:
-//   - The shapes overlap, because every edge of B - A, the set of all differences b - a, is parallel
-//     to an edge of A or B.
+//   - The shapes overlap, because every edge of B - A, the set of all differences b - a, is
+//     parallel to an edge of A or B.
 //   - The deepest vertex projects onto the edge.
 // Otherwise the shapes are apart, and two vertices may be nearest to each other. All vertices and
 // edges are then compared.
