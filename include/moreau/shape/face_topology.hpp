@@ -63,9 +63,8 @@ struct FaceTopology {
 
   /// An empty topology, to be overwritten by deserialization.
   FaceTopology() = default;
-  auto serialized_members() {
-    return std::tie(faces);
-  }  ///< the rest follows; see core/serialize.hpp
+  /// Only the faces are stored; all other members follow from them. See core/serialize.hpp.
+  auto serialized_members() { return std::tie(faces); }
 
   /// @param vertex_count number of vertices; each vertex must belong to at least three faces
   /// @param face_list    vertices of each face, counter-clockwise seen from outside
