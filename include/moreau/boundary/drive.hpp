@@ -47,7 +47,8 @@ class HarmonicForce {
             "must be finite and >= 0");
     require(std::isfinite(start), self, "start", start, "must be finite");
     rate_ = 2 * std::numbers::pi * frequency;
-    require(std::isfinite(rate_), self, "frequency", frequency, "must be less");
+    require(std::isfinite(rate_), self, "frequency", frequency,
+            "must be smaller: 2 pi times it is not finite");
   }
   /// The force f(t) [N] at the time t [s].
   double operator()(double t) const { return mean_ - amplitude_ * std::sin(rate_ * (t - start_)); }

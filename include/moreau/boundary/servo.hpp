@@ -141,7 +141,7 @@ class PressureServo {
     const Scalar area = detail::checked_area<Scalar>(area_, "PressureServo::apply");
     const double missing = pressure_ - double(wall_pressure(simulation, wall_, step, area));
     require(simulation.bodies().inverse_mass[wall_.index()].isZero(0), "PressureServo::apply",
-            "wall", wall_, "must have no mass, or its velocity is not kept");
+            "wall", wall_, "must have no mass: contacts change the velocity of a wall with a mass");
     const double speed = std::clamp(gain_ * missing, -limit_, limit_);
     simulation.set_velocity(
         wall_, static_cast<Scalar>(speed) * simulation.bodies().axes(wall_.index()).col(0));

@@ -86,7 +86,7 @@ class EnergyBalance {
     require(std::isfinite(step) && step > 0, "EnergyBalance::add", "step", step,
             "must be finite and > 0");
     require(bodies.size() == positions_.size(), "EnergyBalance::add", "number of bodies",
-            bodies.size(), "must be that of the start");
+            bodies.size(), "must be their number at the start of the balance");
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector way = bodies.pose[i].position - positions_[i];
       const Vector force = linear<S>(bodies.force[i]);

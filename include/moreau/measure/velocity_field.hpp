@@ -90,8 +90,8 @@ class VelocityField {
   /// @throws std::invalid_argument unless column < columns() and row < rows()
   Sample sample(std::size_t column, std::size_t row) const {
     constexpr const char* self = "VelocityField::sample";
-    require(column < columns_, self, "column", column, "must be below their number");
-    require(row < rows_, self, "row", row, "must be below their number");
+    require(column < columns_, self, "column", column, "must be below the number of columns");
+    require(row < rows_, self, "row", row, "must be below the number of rows");
     const Cell& cell = cells_[row * columns_ + column];
     const Section extent = section(box_.upper - box_.lower);
     const Section share{(Scalar(column) + Scalar(0.5)) / Scalar(columns_),

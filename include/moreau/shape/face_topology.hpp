@@ -39,7 +39,8 @@ class IndexLists {
   void deserialized() const {
     require(!begins_.empty() && begins_.front() == 0 && begins_.back() == items_.size() &&
                 std::is_sorted(begins_.begin(), begins_.end()),
-            "IndexLists", "begins", begins_.size(), "of them must rise to the number of items");
+            "IndexLists", "begins", begins_.size(),
+            "entries, which must rise from 0 to the number of items");
   }
 
   std::vector<std::uint32_t> begins_{0}, items_;

@@ -64,7 +64,7 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
   void deserialized() const {
     const Eigen::Index count = vertices_.rows();
     require(count >= 3 && face_normals_.rows() == count && face_offsets_.size() == count, "Polygon",
-            "vertices", count, "must be 3 at least, with as many edges");
+            "vertices", count, "must be at least 3, with one edge for each");
   }
 
   Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
