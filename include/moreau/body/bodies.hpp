@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// State and inertia of all bodies, grains and walls, in one array per field. A wall is a body with
-// zero inverse mass along some or all axes.
+// State and inertia of all bodies (grains and walls), in one array per quantity. A wall is a body
+// whose inverse mass is zero along some or all axes.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -17,33 +17,40 @@
 
 namespace moreau {
 
-/// I^-1/2, A x A [kg^-1/2 m^-1], of a symmetric positive definite inertia [kg m^2], in the same
-/// axes.
+/// The inverse square root I^-1/2 of an inertia tensor I, in the axes of I, A x A [kg^-1/2 m^-1].
+/// @param inertia  symmetric and positive definite [kg m^2]
 template <class S>
 typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
   return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
 }
 
-/// All bodies of a simulation; entry i of every array is of body i, BodyId::index(). Indices are
-/// not checked.
+/// All bodies of a simulation. Element i of each array belongs to the body whose BodyId::index() is
+/// i. Indices are not checked.
 template <class S>
 struct Bodies {
   using Vector = typename S::Vector;
   using Inertia = typename S::Inertia;
   using Twist = typename S::Twist;
 
-  std::vector<Pose<S>> pose;          ///< of the centre of mass and the body's axes [m]
-  std::vector<Twist> velocity;        ///< (v, w) in world axes [m/s, rad/s]
-  std::vector<Twist> force;           ///< external (force, torque) in world axes [N, N m]
-  std::vector<Vector> inverse_mass;   ///< along the axes of the body; 0: prescribed motion [1/kg]
-  std::vector<Inertia> inertia_body;  ///< about the centre, body axes [kg m^2]; 0: prescribed
-  /// I^-1/2, body axes [kg^-1/2 m^-1]; 0: prescribed rotation.
+  /// Position of the centre of mass [m], and rotation from body to world axes.
+  std::vector<Pose<S>> pose;
+  std::vector<Twist> velocity;  ///< twist (v, w), world axes [m/s, rad/s]
+  std::vector<Twist> force;     ///< external (force, torque), world axes [N, N m]
+  /// Along each axis of the body [1/kg]; 0 if the motion along the axis is prescribed.
+  std::vector<Vector> inverse_mass;
+  /// About the centre of mass, body axes [kg m^2]; 0 if the rotation is prescribed.
+  std::vector<Inertia> inertia_body;
+  /// I^-1/2, body axes [kg^-1/2 m^-1]; 0 if the rotation is prescribed.
   std::vector<Inertia> inverse_inertia_root_body;
-  std::vector<typename S::Scalar> weight;  ///< mass that gravity acts on, 0 for walls [kg]
-  std::vector<MaterialId> material;        ///< of the surface
+  /// The mass on which gravity acts [kg]: weight[i] times the gravitational acceleration [m/s^2] is
+  /// the force of gravity [N]. It is the mass for grains, and 0 for walls, also for walls that have
+  /// an inverse mass along an axis. It is not a force.
+  std::vector<typename S::Scalar> weight;
+  std::vector<MaterialId> material;  ///< material of the surface
 
-  std::size_t size() const { return pose.size(); }  ///< grains and walls
-  /// Adds a body at rest that no force moves. set_mass() makes it a grain.
+  std::size_t size() const { return pose.size(); }  ///< number of bodies, grains and walls
+  /// Adds a body at rest with zero inverse mass and inertia, which no force moves. set_mass() turns
+  /// it into a grain.
   void push_back(const Pose<S>& at, MaterialId of) {
     pose.push_back(at);
     velocity.push_back(Twist::Zero());
@@ -54,16 +61,17 @@ struct Bodies {
     weight.push_back(0);
     material.push_back(of);
   }
-  /// Makes body i a free body. The arguments are not checked.
+  /// Turns body i into a grain: a body that forces move along all axes. Arguments are not checked.
   /// @param mass    [kg], > 0
-  /// @param inertia about the centre, body axes [kg m^2], positive definite
+  /// @param inertia about the centre of mass, body axes [kg m^2], positive definite
   void set_mass(std::size_t i, typename S::Scalar mass, const Inertia& inertia) {
     inverse_mass[i] = Vector::Constant(1 / mass);
     inertia_body[i] = inertia;
     inverse_inertia_root_body[i] = inverse_root<S>(inertia);
     weight[i] = mass;
   }
-  /// Whether all arrays have one size and all materials are below this number.
+  /// Whether all arrays have the same size and all indices of materials are smaller than
+  /// `materials`.
   bool are_valid(std::size_t materials) const {
     for (const std::size_t count :
          {velocity.size(), force.size(), inverse_mass.size(), inertia_body.size(),
@@ -75,14 +83,15 @@ struct Bodies {
   /// Whether torques change the angular velocity of body i.
   bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
 
-  /// D x D, the axes of body i as columns: unit vectors, world axes.
+  /// The axes of body i as the columns of a D x D matrix: unit vectors in world axes.
   typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
-  /// A x A, inertia about the centre in world axes at the rotation q from body to world [kg m^2].
+  /// The inertia of body i about its centre of mass, in world axes, A x A [kg m^2], if its rotation
+  /// from body to world axes is q.
   Inertia inertia(std::size_t i, const typename S::Rotation& q) const {
     const Inertia a = S::adjoint(q), turned = a * inertia_body[i];
     return turned * a.transpose();
   }
-  /// M^-1/2 of body i in world axes, at its present rotation.
+  /// M^-1/2 of body i in world axes, at its present rotation. M is the mass matrix.
   MobilityRoot<S> mobility_root(std::size_t i) const {
     typename S::Matrix r = axes(i), linear;
     const Inertia a = S::adjoint(pose[i].rotation), turned = a * inverse_inertia_root_body[i];

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
+// The inverse square root of the mass matrix of one body.
 #pragma once
 
 #include "moreau/core/space.hpp"
 
 namespace moreau {
 
-/// M^-1/2 of one body in world axes: symmetric, zero along axes whose motion is prescribed.
+/// M^-1/2 of one body in world axes, where M is its mass matrix. It is symmetric, and zero along
+/// axes along which the motion is prescribed.
 template <class S>
 struct MobilityRoot {
-  typename S::Matrix linear;    ///< D x D [kg^-1/2]
-  typename S::Inertia angular;  ///< A x A [kg^-1/2 m^-1]
+  typename S::Matrix linear;    ///< for forces, D x D [kg^-1/2]
+  typename S::Inertia angular;  ///< for torques, A x A [kg^-1/2 m^-1]
 };
 
 }  // namespace moreau

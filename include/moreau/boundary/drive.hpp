@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Bodies that are driven by a function of time. The time loop applies a drive before each step:
+// Drives: bodies whose force or velocity is a function of time. The program applies a drive before
+// each step of its time loop:
 //
 //   const ForceDrive shake(wall, -Vector::UnitX(), HarmonicForce(100, 500, 5));
 //   for (...) { shake.apply(world, h); world.step(h); }
 //
-// The drive evaluates the function at the middle of the step, which makes the motion second order
-// in the step, for forces and for velocities.
+// The drive evaluates the function at the middle of the step. This makes the motion second-order
+// accurate in the step, for forces and for velocities.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,21 +22,22 @@
 
 namespace moreau {
 
-/// A function that returns a number for every time [s].
+/// A function that returns a number for a time [s].
 template <class F, class T>
 concept FunctionOfTime = requires(const F f, T t) {
   { f(t) } -> std::convertible_to<T>;
 };
 
-/// f(t) = (fmax + fmin)/2 - (fmax - fmin)/2 sin(2 pi nu (t - start)) [N] at all times, also before
-/// the start: the force on the wall of E. Azema et al., arXiv 0711.1081.
+/// A sinusoidal force f(t) = (fmax + fmin)/2 - (fmax - fmin)/2 sin(2 pi nu (t - start)) [N]. It has
+/// this value at all times, also before the start. It is the force on the wall of E. Azema et al.,
+/// arXiv 0711.1081.
 class HarmonicForce {
  public:
-  /// @param fmin,fmax the least and the largest force [N]
+  /// @param fmin,fmax smallest and largest force [N]
   /// @param frequency nu >= 0 [Hz]
-  /// @param start     when the sine begins [s]
-  /// @throws std::invalid_argument if one of them is not finite, for fmin > fmax or a negative
-  ///         frequency
+  /// @param start     time at which the argument of the sine is zero [s]
+  /// @throws std::invalid_argument if an argument is not finite, if fmin > fmax, or if the
+  ///                               frequency is negative
   HarmonicForce(double fmin, double fmax, double frequency, double start = 0)
       : mean_(fmin / 2 + fmax / 2), amplitude_(fmax / 2 - fmin / 2), start_(start) {
     constexpr const char* self = "HarmonicForce";
@@ -45,26 +47,29 @@ class HarmonicForce {
             "must be finite and >= 0");
     require(std::isfinite(start), self, "start", start, "must be finite");
     rate_ = 2 * std::numbers::pi * frequency;
-    require(std::isfinite(rate_), self, "frequency", frequency, "must be less");
+    require(std::isfinite(rate_), self, "frequency", frequency,
+            "must be smaller: 2 pi times it is not finite");
   }
-  /// f(t) [N] at the time t [s].
+  /// The force f(t) [N] at the time t [s].
   double operator()(double t) const { return mean_ - amplitude_ * std::sin(rate_ * (t - start_)); }
 
  private:
   double mean_, amplitude_, rate_ = 0, start_;
 };
 
-/// An Eigen vector such as Space<3>::Vector, not an expression.
+/// An Eigen vector, such as Space<3>::Vector, but not an Eigen expression.
 template <class V>
 concept PlainVector = std::same_as<V, typename V::PlainObject>;
 
-/// A simulation whose vectors have the type VectorT: of the dimension and the scalar of a drive.
+/// A simulation whose vectors have the type VectorT, so that it has the dimension and the scalar
+/// type of the drive.
 template <class SimulationT, class VectorT>
 concept SimulationWithVector = std::same_as<typename SimulationT::Vector, VectorT>;
 
 namespace detail {
 
-/// A body, a direction and a function of time: what drives of forces and of velocities share.
+/// The common part of drives of forces and of velocities: a body, a direction and a function of
+/// time.
 template <PlainVector VectorT, FunctionOfTime<typename VectorT::Scalar> F>
 class Drive {
  public:
@@ -79,15 +84,15 @@ class Drive {
     require(std::abs(direction.norm() - 1) <= Scalar(1e-5), self, "direction", direction,
             "must be unit");
   }
-  /// f times the direction in the middle of the step that begins now.
+  /// The function's value at the middle of the step that begins now, times the direction.
   VectorT value(const SimulationWithVector<VectorT> auto& simulation, Scalar step,
                 const char* self) const {
     require(std::isfinite(step) && step > 0, self, "step", step, "must be finite and > 0");
     return static_cast<Scalar>(f_(simulation.time() + step / 2)) * direction_;
   }
-  /// Throws unless a force along the direction accelerates the body (expected = true), or unless it
-  /// does not (expected = false). A wall without set_wall_mass has no mass; a wall with one moves
-  /// along its normal only.
+  /// If expected is true, throws unless a force along the direction accelerates the body. If
+  /// expected is false, throws if such a force accelerates the body. A wall for which set_wall_mass
+  /// was not called has no mass. A wall with a mass moves only along its normal.
   void require_mass(const auto& simulation, bool expected, const char* self,
                     const char* expectation) const {
     const auto& bodies = simulation.bodies();
@@ -105,24 +110,26 @@ class Drive {
 
 }  // namespace detail
 
-/// A force f(t) [N] along a fixed direction on a body: on a grain, or on a wall to which
-/// set_wall_mass gave a mass. It replaces the force of set_force().
+/// A force f(t) [N] on a body along a fixed direction. The body is a grain, or a wall to which
+/// set_wall_mass has given a mass. The force replaces that of set_force().
 template <class VectorT, class F>
 class ForceDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
 
  public:
-  /// @param body      a grain, or a wall with a mass; apply() checks it
-  /// @param direction D, unit, world axes; f > 0 pushes the body along it
-  /// @param f         called with the time in the middle of the step [s], returns [N]
-  /// @throws std::invalid_argument for a direction that is not unit within 1e-5
+  /// @param body      a grain, or a wall with a mass; apply() checks this
+  /// @param direction D components, unit, world axes; f > 0 pushes the body in this direction
+  /// @param f         function: time at the middle of the step [s] -> force [N]
+  /// @throws std::invalid_argument if the length of the direction differs from 1 by more than 1e-5
   ForceDrive(BodyId body, const typename Base::Direction& direction, F f)
       : Base("ForceDrive", body, direction, std::move(f)) {}
 
-  /// Sets the force for the next step, of this length [s].
-  /// @throws std::invalid_argument for a body that is not the simulation's, a body that the force
-  ///         cannot move (a wall without set_wall_mass, or across its normal), a force that is not
-  ///         finite, a step that is not finite or not positive
+  /// Sets the force for the next step.
+  /// @param step length of the next step [s]
+  /// @throws std::invalid_argument for a body that is not in the simulation, a body that the force
+  ///                               cannot move (a wall without set_wall_mass, or a force
+  ///                               perpendicular to the wall's normal), a force that is not finite,
+  ///                               or a step that is not finite or not positive
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "ForceDrive::apply";
     const VectorT force = this->value(simulation, step, self);
@@ -132,23 +139,25 @@ class ForceDrive : public detail::Drive<VectorT, F> {
   }
 };
 
-/// A velocity f(t) [m/s] along a fixed direction of a body without mass, such as a wall. It
-/// replaces the velocity of set_velocity().
+/// A velocity f(t) [m/s] along a fixed direction of a body without mass, such as a wall. The
+/// velocity replaces that of set_velocity().
 template <class VectorT, class F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
 
  public:
-  /// @param body      without mass along the direction; apply() checks it
-  /// @param direction D, unit, world axes; the body moves along it where f > 0
-  /// @param f         called with the time in the middle of the step [s], returns [m/s]
-  /// @throws std::invalid_argument for a direction that is not unit within 1e-5
+  /// @param body      a body without mass along the direction; apply() checks this
+  /// @param direction D components, unit, world axes; if f > 0 the body moves in this direction
+  /// @param f         function: time at the middle of the step [s] -> velocity [m/s]
+  /// @throws std::invalid_argument if the length of the direction differs from 1 by more than 1e-5
   VelocityDrive(BodyId body, const typename Base::Direction& direction, F f)
       : Base("VelocityDrive", body, direction, std::move(f)) {}
 
-  /// Sets the velocity for the next step, of this length [s].
-  /// @throws std::invalid_argument for a body that is not the simulation's or has a mass along the
-  ///         direction, a velocity that is not finite, a step that is not finite or not positive
+  /// Sets the velocity for the next step.
+  /// @param step length of the next step [s]
+  /// @throws std::invalid_argument for a body that is not in the simulation, a body with a mass
+  ///                               along the direction, a velocity that is not finite, or a step
+  ///                               that is not finite or not positive
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
     const VectorT velocity = this->value(simulation, step, self);
@@ -158,7 +167,7 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   }
 };
 
-/// The direction of a drive may be an expression: -Vector::UnitX().
+/// These guides allow an Eigen expression, such as -Vector::UnitX(), as the direction of a drive.
 template <class Expression, class F>
 ForceDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> ForceDrive<typename Expression::PlainObject, F>;

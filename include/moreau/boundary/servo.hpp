@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Walls that keep a pressure. The time loop applies them before each step:
+// Walls with a prescribed pressure. The program applies one of the two classes before each step of
+// its time loop:
 //
 //   PressureLoad  lid(world, wall, 1e4, mass, [&] { return width * depth; });
 //   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
 //   for (...) { lid.apply(world, h); world.step(h); }
 //
-// PressureLoad is for rigid grains. It gives the wall a mass and applies the force pressure x area.
-// At rest the grains carry this force up to the solver's residual. The mass sets how fast the wall
-// responds.
+// PressureLoad is for rigid grains. It gives the wall a mass and applies the force pressure x area
+// to it. If the wall is at rest, the grains carry this force up to the residual of the contact
+// solver. The mass determines how fast the wall responds.
 //
-// PressureServo is for grains with a regularized law, whose contact force changes continuously with
-// the position of the wall. It moves the wall at v = gain (pressure - measured). With k the
-// stiffness of the sample in the direction of the wall [N/m], the error is multiplied by 1 - gain k
-// h / area per step. Keep gain k h / area below 1; at 2 the servo is unstable.
+// PressureServo is for grains with a regularized contact law, whose contact force is a continuous
+// function of the wall's position. It moves the wall with the velocity v = gain (pressure -
+// measured pressure). Let k be the stiffness of the sample in the direction of the wall [N/m] and h
+// the step [s]. In each step the error of the pressure is multiplied by 1 - gain k h / area. Keep
+// gain k h / area below 1. If it exceeds 2, the servo is unstable.
 #pragma once
 
 #include <algorithm>
@@ -26,19 +28,19 @@
 namespace moreau {
 
 /// A function that returns the area on which a pressure acts [m^2], in the plane the length [m]. It
-/// is called before every step, as other walls may move.
+/// is called before every step, because the motion of other walls can change the area.
 template <class F>
 concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
 };
 
-/// Pressure of the contacts on a wall over the last step [Pa], in the plane [N/m]; > 0 if the
-/// grains push.
-/// @param wall a half-space of the simulation
-/// @param step its length [s], > 0
-/// @param area [m^2], in the plane the length [m], > 0
-/// @throws std::invalid_argument for a step or an area that is not finite or not positive, or a
-///         body that is not a half-space of the simulation
+/// The pressure that the contacts exerted on a wall in the last step [Pa], in the plane [N/m]; > 0
+/// if the grains push the wall outwards.
+/// @param wall id of a half-space of the simulation
+/// @param step length of the last step [s], > 0
+/// @param area area of the wall [m^2], in the plane its length [m], > 0
+/// @throws std::invalid_argument if the step or the area is not finite or not positive, or if the
+///                               body is not a half-space of the simulation
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
@@ -54,7 +56,7 @@ typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId w
 
 namespace detail {
 
-/// The area now.
+/// The present area, checked.
 template <class T>
 T checked_area(const auto& area, const char* function) {
   const auto now = static_cast<T>(area());
@@ -64,17 +66,21 @@ T checked_area(const auto& area, const char* function) {
 
 }  // namespace detail
 
-/// A constant pressure on a wall with a mass: exact where the wall is at rest.
+/// A constant pressure on a wall with a mass. The pressure on the grains is exact if the wall is at
+/// rest.
 template <AreaFunction Area>
 class PressureLoad {
  public:
-  /// Gives the wall its mass and stops it.
-  /// @param wall     a half-space of the simulation
-  /// @param pressure [Pa], in the plane [N/m]; pushes the wall along its normal, on the grains
-  /// @param mass     of the wall [kg], > 0; that of the grains is a good choice
-  /// @param area     called before every step, > 0 [m^2], in the plane [m]
-  /// @throws std::invalid_argument for a body that is not a half-space of the simulation, a
-  ///         pressure that is not finite, or a mass that is not finite or not positive
+  /// Gives the wall its mass and sets its velocity to zero.
+  /// @param wall     id of a half-space of the simulation
+  /// @param pressure [Pa], in the plane [N/m]; if > 0 it pushes the wall along its normal, towards
+  ///                 the grains
+  /// @param mass     mass of the wall [kg], > 0; the total mass of the grains is a good choice
+  /// @param area     function that returns the area, called before every step, > 0 [m^2], in the
+  ///                 plane [m]
+  /// @throws std::invalid_argument if the body is not a half-space of the simulation, if the
+  ///                               pressure is not finite, or if the mass is not finite or not
+  ///                               positive
   template <class Simulation>
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
       : wall_(wall), pressure_(pressure), area_(std::move(area)) {
@@ -86,8 +92,9 @@ class PressureLoad {
     simulation.set_velocity(wall, Simulation::Vector::Zero());
   }
 
-  /// Sets the force pressure x area for the next step. The step is not needed; drives have it.
-  /// @throws std::invalid_argument for an area that is not finite or not positive
+  /// Sets the force pressure x area for the next step. The second argument is not used; it exists
+  /// because drives have it.
+  /// @throws std::invalid_argument if the area is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar = 0) const {
     using Scalar = typename Simulation::Scalar;
@@ -102,18 +109,20 @@ class PressureLoad {
   Area area_;
 };
 
-/// A pressure kept by the velocity of a wall without mass, for grains that yield.
+/// A pressure controlled by the velocity of a wall without mass, for compliant grains.
 template <AreaFunction Area>
 class PressureServo {
  public:
-  /// @param wall     a half-space without mass; apply() checks it
-  /// @param pressure to keep [Pa], in the plane [N/m]; > 0 pushes on the grains
-  /// @param gain     velocity per missing pressure [m/(s Pa)], in the plane [m^2/(s N)], > 0
-  /// @param limit    the largest speed [m/s], > 0; margin x grain size / step at most, or the wall
-  ///                 runs into grains before they are seen
-  /// @param area     called before every step, > 0 [m^2], in the plane [m]
-  /// @throws std::invalid_argument for a pressure that is not finite, or a gain or limit that is
-  ///         not finite or not positive
+  /// @param wall     id of a half-space without mass; apply() checks this
+  /// @param pressure set point [Pa], in the plane [N/m]; > 0 pushes the wall on the grains
+  /// @param gain     velocity of the wall per difference of pressure [m/(s Pa)], in the plane
+  ///                 [m^2/(s N)], > 0
+  /// @param limit    largest speed of the wall [m/s], > 0. Let it be at most margin x grain size /
+  ///                 step; otherwise the wall runs into grains before their contacts are detected
+  /// @param area     function that returns the area, called before every step, > 0 [m^2], in the
+  ///                 plane [m]
+  /// @throws std::invalid_argument if the pressure is not finite, or if gain or limit is not finite
+  ///                               or not positive
   PressureServo(BodyId wall, double pressure, double gain, double limit, Area area)
       : wall_(wall), pressure_(pressure), gain_(gain), limit_(limit), area_(std::move(area)) {
     constexpr const char* self = "PressureServo";
@@ -122,17 +131,17 @@ class PressureServo {
     require(std::isfinite(limit) && limit > 0, self, "limit", limit, "must be finite and > 0");
   }
 
-  /// Sets the velocity for the next step by the pressure of the last one.
+  /// Sets the velocity for the next step, from the pressure in the last step.
   /// @param step length of the last step [s], > 0
-  /// @throws std::invalid_argument for a body that is not a half-space of the simulation or
-  ///         has a mass, or a step or an area that is not finite or not positive
+  /// @throws std::invalid_argument if the body is not a half-space of the simulation or has a mass,
+  ///                               or if the step or the area is not finite or not positive
   template <class Simulation>
   void apply(Simulation& simulation, typename Simulation::Scalar step) const {
     using Scalar = typename Simulation::Scalar;
     const Scalar area = detail::checked_area<Scalar>(area_, "PressureServo::apply");
     const double missing = pressure_ - double(wall_pressure(simulation, wall_, step, area));
     require(simulation.bodies().inverse_mass[wall_.index()].isZero(0), "PressureServo::apply",
-            "wall", wall_, "must have no mass, or its velocity is not kept");
+            "wall", wall_, "must have no mass: contacts change the velocity of a wall with a mass");
     const double speed = std::clamp(gain_ * missing, -limit_, limit_);
     simulation.set_velocity(
         wall_, static_cast<Scalar>(speed) * simulation.bodies().axes(wall_.index()).col(0));

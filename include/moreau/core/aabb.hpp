@@ -10,23 +10,24 @@
 
 namespace moreau {
 
-/// The set lower <= x <= upper [m] in world axes.
+/// The box of all points x with lower <= x <= upper [m], world axes.
 template <EuclideanSpace S>
 struct Aabb {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Least coordinates [m].
+  /// Smallest coordinates [m].
   Vector lower = Vector::Constant(std::numeric_limits<Scalar>::infinity());
   /// Largest coordinates [m].
   Vector upper = Vector::Constant(-std::numeric_limits<Scalar>::infinity());
 
-  Aabb() = default;  ///< empty: merge() makes it the box around what is merged
-  /// From the least and the largest coordinates [m].
+  Aabb() = default;  ///< An empty box. After calls of merge(), it is the bounding box of the merged
+                     ///< points.
+  /// A box with the given smallest and largest coordinates [m].
   Aabb(const VectorArgument<S>& least, const VectorArgument<S>& largest)
       : lower(least), upper(largest) {}
 
-  /// Whether the two boxes share a point; a shared point of the boundary counts.
+  /// Whether the two boxes have a common point. Boxes that only touch have one.
   bool overlaps(const Aabb& other) const {
     return (lower.array() <= other.upper.array()).all() &&
            (other.lower.array() <= upper.array()).all();
@@ -40,7 +41,7 @@ struct Aabb {
   bool contains(const VectorArgument<S>& x) const {
     return (lower.array() <= x.array()).all() && (x.array() <= upper.array()).all();
   }
-  /// Grows to hold the point [m].
+  /// Extends the box so that it contains the point [m].
   void merge(const VectorArgument<S>& x) {
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);

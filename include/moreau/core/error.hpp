@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Errors of the public functions: a bad argument throws an exception that names the function, the
-// argument and its value. Kernels assert (MOREAU_ASSERT). A solver that does not converge throws
-// nothing: its report says so.
+// Errors. If a public function gets a bad argument, it throws an exception that names the function,
+// the argument and its value. Kernels use assertions (MOREAU_ASSERT). If a solver does not
+// converge, no exception is thrown; the solver's report says so.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-/// Check in a kernel, in builds without NDEBUG. A definition of this macro before the first include
-/// replaces it.
+/// Assertion in a kernel. It is checked only in builds without NDEBUG. If the macro is defined
+/// before the first include, that definition is used.
 #ifndef MOREAU_ASSERT
 #define MOREAU_ASSERT(condition) assert(condition)
 #endif
@@ -27,7 +27,7 @@ void print(std::ostream& out, const Value& value) {
   out << value;
 }
 
-/// An Eigen vector, or a class derived from one.
+/// Prints an Eigen vector, or an object of a class derived from one.
 template <class Matrix>
 requires requires {
   typename Matrix::PlainMatrix;
@@ -39,9 +39,9 @@ void print(std::ostream& out, const Matrix& value) {
 
 }  // namespace detail
 
-/// Throws for a bad argument of a public function. Matrices are printed as one row of their
+/// Throws the exception for a bad argument of a public function. Matrices are printed as one row of
 /// numbers.
-/// @param expectation what it must be, e.g. "must be finite"
+/// @param expectation the requirement on the argument, e.g. "must be finite"
 /// @throws std::invalid_argument "function: argument = value must ...", always
 template <class Value>
 [[noreturn]] void throw_invalid(std::string_view function, std::string_view argument,
@@ -54,9 +54,9 @@ template <class Value>
   throw std::invalid_argument(message.str());
 }
 
-/// Reports a velocity or a position that is not finite.
-/// @param what  e.g. "velocity of body"
-/// @param index of the body
+/// Throws the exception for a velocity or position that is not finite.
+/// @param what  the quantity, e.g. "velocity of body"
+/// @param index index of the body
 /// @throws std::runtime_error "function: what index = value is not finite", always
 template <class Value>
 [[noreturn]] void throw_not_finite(std::string_view function, std::string_view what,
@@ -70,12 +70,12 @@ template <class Value>
 }
 
 /// Checks an argument of a public function.
-/// @param condition   what has to hold
-/// @param function    the public name the caller used, e.g. "Polyhedron"
-/// @param argument    the name of the argument, e.g. "vertices[3]"
-/// @param value       its value; formatted only on failure
-/// @param expectation what it must be, e.g. "must be finite"
-/// @throws std::invalid_argument naming all of them if the condition does not hold
+/// @param condition   the condition that must hold
+/// @param function    the public function that the caller of the library called, e.g. "Polyhedron"
+/// @param argument    name of the argument, e.g. "vertices[3]"
+/// @param value       value of the argument; formatted only on failure
+/// @param expectation the requirement on the argument, e.g. "must be finite"
+/// @throws std::invalid_argument with all of these if the condition does not hold
 template <class Value>
 void require(bool condition, std::string_view function, std::string_view argument,
              const Value& value, std::string_view expectation) {

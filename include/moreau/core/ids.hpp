@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strong ids: the id of a body cannot be passed where the id of a shape is expected.
+// Strongly typed ids: the id of a body cannot be passed where the id of a shape is expected.
 #pragma once
 
 #include <compare>
@@ -12,13 +12,14 @@
 
 namespace moreau {
 
-/// An index into one kind of array. Trivially copyable; ordered like its value.
+/// An index into an array of one kind of objects. It is trivially copyable and is ordered by its
+/// value.
 template <class Tag>
 struct Id {
   std::uint32_t value = 0;  ///< counted from 0
 
-  constexpr Id() = default;  ///< id of the first item
-  /// The id of the item at this index, < 2^32.
+  constexpr Id() = default;  ///< the id of the first item
+  /// Id of the item with this index, < 2^32.
   /// @throws std::invalid_argument for an index of 2^32 or more
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {
     if (value != index) throw_invalid("Id", "index", index, "must be below 2^32");
@@ -31,8 +32,10 @@ struct Id {
   friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
 };
 
-using BodyId = Id<struct BodyTag>;          ///< of grains and walls, in the order they were added
-using ShapeId = Id<struct ShapeTag>;        ///< of shapes that grains share
-using MaterialId = Id<struct MaterialTag>;  ///< of materials, as Materials counts them
+using BodyId = Id<struct BodyTag>;    ///< id of a grain or wall, in the order in which they were
+                                      ///< added
+using ShapeId = Id<struct ShapeTag>;  ///< id of a shape, which several grains can share
+using MaterialId = Id<struct MaterialTag>;  ///< id of a material, in the order in which Materials
+                                            ///< lists them
 
 }  // namespace moreau

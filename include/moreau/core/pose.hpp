@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Position of the centre of mass of a body and rotation of its axes.
+// Pose of a body: position of its centre of mass and rotation of its axes.
 #pragma once
 
 #include <tuple>
@@ -9,16 +9,16 @@
 
 namespace moreau {
 
-/// Maps body coordinates to world coordinates: x = position + rotation x_body. Lengths in metres.
+/// Maps body coordinates to world coordinates: x = position + rotation x_body. Lengths are in [m].
 template <EuclideanSpace S>
 struct Pose {
   using Vector = typename S::Vector;
   using Rotation = typename S::Rotation;
 
-  Vector position = Vector::Zero();   ///< of the centre of mass, world axes [m]
+  Vector position = Vector::Zero();   ///< position of the centre of mass, world axes [m]
   Rotation rotation = S::identity();  ///< from body to world axes
 
-  Pose() = default;  ///< the origin, not rotated
+  Pose() = default;  ///< at the world's origin, not rotated
   /// @param origin   position of the centre of mass, world axes [m]
   /// @param to_world rotation from body to world axes; in space a unit quaternion
   Pose(const VectorArgument<S>& origin, const Rotation& to_world = S::identity())
@@ -28,7 +28,7 @@ struct Pose {
   Vector operator()(const VectorArgument<S>& x_body) const { return position + rotation * x_body; }
   /// Body coordinates [m] of a point given in world coordinates [m].
   Vector to_body(const VectorArgument<S>& x) const { return rotation.inverse() * (x - position); }
-  /// Whether all its numbers are finite.
+  /// Whether all components are finite.
   bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }
 
   auto serialized_members() { return std::tie(position, rotation); }  ///< see core/serialize.hpp

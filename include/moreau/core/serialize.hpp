@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
-// How a class takes part in serialization: writing an object to a file and reading it back
+// How a class supports serialization: writing an object to a file and reading it back
 // (io/detail/archive.hpp).
 //
-// An aggregate of up to eight members, such as Tolerances, needs no code. A class with private
-// members lists them once, for both directions:
+// An aggregate with at most eight members, such as Tolerances, needs no code. A class with private
+// members lists the members once, for both directions:
 //
 //     private:
 //      friend struct SerializationAccess;
 //      auto serialized_members() { return std::tie(radius_); }
 //
-// A class may also have deserialized(). It is called after the members have been read, computes the
-// members that follow from them, and throws if the members describe no valid object. A class
-// without a public default constructor has a private one: its object is only read into.
+// A class may also have a function deserialized(). It is called after the members have been read.
+// It computes the other members from them, and throws if the members do not describe a valid
+// object. A class without a public default constructor has a private default constructor; an object
+// made by it is used only to be overwritten by reading.
 #pragma once
 
 #include <tuple>  // for the classes that include this header
 
 namespace moreau {
 
-/// The one friend that a serializable class declares.
+/// The class that every serializable class declares as its friend.
 struct SerializationAccess {
   /// Whether X has serialized_members().
   template <class X>
@@ -38,12 +39,12 @@ struct SerializationAccess {
   static auto serialized_members(X& x) {
     return x.serialized_members();
   }
-  /// Calls deserialized() if X has it; passes its exception on if the members are not valid.
+  /// Calls deserialized() if X has it. The call throws if the members are not valid.
   template <class X>
   static void deserialized(X& x) {
     if constexpr (requires { x.deserialized(); }) x.deserialized();
   }
-  /// An object to be read into.
+  /// A default-constructed object, to be overwritten by reading.
   template <class X>
   static X blank() {
     return X();

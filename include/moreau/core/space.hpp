@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The one algebra for two and three dimensions.
+// The algebra that is common to two and three dimensions.
 //
 // Angular quantities are vectors of length A = D(D-1)/2: one number in the plane, three in space.
-// The matrix lever(r), D x A, carries every cross product:
+// The D x A matrix lever(r) represents all cross products:
 //
 //     velocity of a point at r from the centre   v + lever(r) w
 //     torque of a force f at r                   lever(r)^T f
 //     Delassus block                             F^T (1/m + lever(r) I^-1 lever(r)^T) F
 //
-// The mechanics, written with lever(r), is the same text in both dimensions. Only this header and
-// the geometry of single shapes know the dimension.
+// Mechanics that is written with lever(r) is the same code in both dimensions. Only this header and
+// the geometry of single shapes depend on the dimension.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,8 @@
 
 namespace moreau {
 
-/// Types and operations of a D-dimensional Euclidean space over T; specialised for D = 2 and 3.
+/// Types and operations of a D-dimensional Euclidean space with scalars of type T; specialised for
+/// D = 2 and 3.
 template <int Dim, std::floating_point T = double>
 struct Space;
 
@@ -33,7 +34,7 @@ inline constexpr bool is_space = false;
 template <int Dim, class T>
 inline constexpr bool is_space<Space<Dim, T>> = true;
 
-/// The types of a space. A = D(D-1)/2 numbers make an angular quantity.
+/// The types of a space. An angular quantity has A = D(D-1)/2 components.
 template <int Dim, class T, class RotationT>
 struct SpaceTypes {
   using Scalar = T;
@@ -46,19 +47,22 @@ struct SpaceTypes {
   using Angular = Eigen::Matrix<T, angular_dim, 1>;
   using Inertia = Eigen::Matrix<T, angular_dim, angular_dim>;
   using Lever = Eigen::Matrix<T, dim, angular_dim>;
-  using Twist = Eigen::Matrix<T, dofs, 1>;  ///< (v, w), generalized velocity or force of a body
+  using Twist = Eigen::Matrix<T, dofs, 1>;  ///< generalized velocity (v, w) or force (force,
+                                            ///< torque) of a body
   using Rotation = RotationT;
-  using VectorArgument = Components<dim, T>;           ///< of public functions
-  using AngularArgument = Components<angular_dim, T>;  ///< of public functions
+  using VectorArgument = Components<dim, T>;  ///< argument type of public functions for Vector
+  using AngularArgument = Components<angular_dim, T>;  ///< argument type of public functions for
+                                                       ///< Angular
 };
 
 }  // namespace detail
 
-/// A Space<2, T> or Space<3, T>: the argument of templates for both dimensions.
+/// Space<2, T> or Space<3, T>: the parameter of templates for both dimensions.
 template <class S>
 concept EuclideanSpace = detail::is_space<S>;
 
-/// The plane. Rotations are angles, positive from x to y; angular quantities are 1-vectors.
+/// The plane. Rotations are angles, positive from x to y. Angular quantities are vectors with one
+/// component.
 template <std::floating_point T>
 struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
   using Types = detail::SpaceTypes<2, T, Eigen::Rotation2D<T>>;
@@ -68,35 +72,42 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
 
   /// The rotation by the angle w [rad].
   static Rotation exp(const AngularArgument& w) { return Rotation(w[0]); }
-  /// q without the rounding errors of many small rotations: an angle has none of this kind.
+  /// Removes the rounding errors that many small rotations cause. For an angle nothing has to be
+  /// done.
   static Rotation normalized(const Rotation& q) { return q; }
   static Rotation identity() { return Rotation(T(0)); }  ///< no rotation
   /// Whether the angle is finite.
   static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }
-  /// Whether q is a rotation: every finite angle is one.
+  /// Whether q is a valid rotation. Every finite angle is one.
   static bool is_rotation(const Rotation& q) { return is_finite(q); }
-  /// A x A, takes angular quantities from body to world axes: the identity in the plane.
+  /// The A x A matrix that maps angular quantities from body to world axes. In the plane it is the
+  /// identity.
   static Inertia adjoint(const Rotation&) { return Inertia::Ones(); }
-  /// A x A, the contact frame of angular quantities, which have one axis in the plane.
+  /// The A x A contact frame of angular quantities. In the plane they have one axis, so it is the
+  /// identity.
   static Inertia angular_frame(const Matrix&) { return Inertia::Ones(); }
-  /// D x A [m] with lever(r) w = the velocity [m/s] at r [m] of a rotation w [rad/s] about the
-  /// origin.
+  /// The D x A matrix [m] for which lever(r) w is the velocity [m/s] of a point at r [m] in a
+  /// rotation with the angular velocity w [rad/s] about the origin.
   static Lever lever(const VectorArgument& r) { return Lever(-r.y(), r.x()); }
-  /// lever(r) w without forming the matrix [m/s].
+  /// lever(r) w [m/s], computed without forming the matrix.
   static Vector spin(const AngularArgument& w, const VectorArgument& r) {
     return {-w[0] * r.y(), w[0] * r.x()};
   }
-  /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
+  /// lever(r)^T f, computed without forming the matrix: the torque about the origin [N m] of a
+  /// force f [N] at r [m].
   static Angular moment(const VectorArgument& r, const VectorArgument& f) {
     return Angular(r.x() * f.y() - r.y() * f.x());
   }
-  /// w x I w [N m] of an inertia I [kg m^2], w [rad/s]: zero in the plane.
+  /// The gyroscopic torque w x I w [N m] for an inertia I [kg m^2] and an angular velocity w
+  /// [rad/s]. In the plane it is zero.
   static Angular gyroscopic(const Inertia&, const AngularArgument&) { return Angular::Zero(); }
-  /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]: zero in the plane.
+  /// The A x A derivative of I(q) w with respect to a rotation of q, at fixed w [kg m^2/s]. In the
+  /// plane it is zero.
   static Inertia gyroscopic_jacobian(const Inertia&, const AngularArgument&) {
     return Inertia::Zero();
   }
-  /// D x D, orthonormal, right-handed; columns: normal n, tangent t. n must be unit.
+  /// D x D, orthonormal, right-handed. The columns are the normal n and the tangent t.
+  /// @param n  must be unit
   static Matrix contact_frame(const VectorArgument& n) {
     Matrix frame;
     frame << n.x(), -n.y(), n.y(), n.x();
@@ -104,8 +115,8 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
   }
 };
 
-/// Space. Rotations are unit quaternions; angular quantities are vectors in world axes unless
-/// a name ends in _body.
+/// Three-dimensional space. Rotations are unit quaternions. Angular quantities are vectors in world
+/// axes, unless their name ends in _body.
 template <std::floating_point T>
 struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   using Types = detail::SpaceTypes<3, T, Eigen::Quaternion<T>>;
@@ -113,10 +124,11 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   using typename Types::Vector, typename Types::Matrix, typename Types::Rotation;
   using typename Types::VectorArgument, typename Types::AngularArgument;
 
-  /// The rotation by |w| [rad] about w.
+  /// The rotation about w by the angle |w| [rad].
   static Rotation exp(const AngularArgument& w) {
     const T half = w.norm() / T(2);
-    // sin(x)/x by its series where the quotient would lose digits; the next term is x^4/120.
+    // For small x, sin(x)/x is computed by its series, because the quotient would lose digits. The
+    // first neglected term is -x^6/5040.
     const T sinc = half < T(1e-2) ? T(1) - half * half / T(6) * (T(1) - half * half / T(20))
                                   : std::sin(half) / half;
     Rotation q;
@@ -124,36 +136,39 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
     q.vec() = (sinc / T(2)) * w;
     return q;
   }
-  /// q without the rounding errors of many small rotations: of unit length.
+  /// Removes the rounding errors that many small rotations cause: q scaled to unit length.
   static Rotation normalized(const Rotation& q) { return q.normalized(); }
   static Rotation identity() { return Rotation::Identity(); }  ///< no rotation
-  /// Whether all its numbers are finite.
+  /// Whether all components are finite.
   static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
-  /// Whether q is a rotation: a quaternion of unit length.
+  /// Whether q is a valid rotation: a quaternion of unit length, within 1e-5.
   static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
-  /// A x A, takes angular quantities from body to world axes.
+  /// The A x A matrix that maps angular quantities from body to world axes.
   static Inertia adjoint(const Rotation& q) { return q.toRotationMatrix(); }
-  /// A x A, a contact frame for angular quantities: n, t, s.
+  /// The A x A contact frame of angular quantities, with the columns n, t, s.
   static Inertia angular_frame(const Matrix& frame) { return frame; }
-  /// D x A [m] with lever(r) w = w x r.
+  /// The D x A matrix [m] for which lever(r) w = w x r.
   static Lever lever(const VectorArgument& r) {
     Lever l;
     l << T(0), r.z(), -r.y(), -r.z(), T(0), r.x(), r.y(), -r.x(), T(0);
     return l;
   }
-  /// lever(r) w without forming the matrix [m/s].
+  /// lever(r) w = w x r [m/s], computed without forming the matrix.
   static Vector spin(const AngularArgument& w, const VectorArgument& r) { return w.cross(r); }
-  /// lever(r)^T f without forming the matrix: the torque about the origin of f at r [N m].
+  /// lever(r)^T f = r x f, computed without forming the matrix: the torque about the origin [N m]
+  /// of a force f [N] at r [m].
   static Angular moment(const VectorArgument& r, const VectorArgument& f) { return r.cross(f); }
-  /// w x I w [N m] of an inertia I [kg m^2], w [rad/s], both in the same axes.
+  /// The gyroscopic torque w x I w [N m] for an inertia I [kg m^2] and an angular velocity w
+  /// [rad/s], both in the same axes.
   static Angular gyroscopic(const Inertia& I, const AngularArgument& w) { return w.cross(I * w); }
-  /// A x A, derivative of I(q) w at fixed w along a rotation [kg m^2/s]:
-  /// d(I(q) w) = (lever(I w) - I lever(w)) dw, where lever(a) b = b x a.
+  /// The A x A derivative of I(q) w with respect to a rotation of q, at fixed w [kg m^2/s]. For a
+  /// small rotation dr, d(I(q) w) = (lever(I w) - I lever(w)) dr, where lever(a) b = b x a.
   static Inertia gyroscopic_jacobian(const Inertia& I, const AngularArgument& w) {
     return lever(I * w) - I * lever(w);
   }
-  /// D x D, orthonormal, right-handed; columns: normal n, tangents t and s. n must be unit.
+  /// D x D, orthonormal, right-handed. The columns are the normal n and the tangents t and s.
   /// Source: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).
+  /// @param n  must be unit
   static Matrix contact_frame(const VectorArgument& n) {
     const T sign = std::copysign(T(1), n.z());
     const T a = T(-1) / (sign + n.z());
@@ -181,7 +196,7 @@ struct SpaceOfDofs<6, T> {
 
 }  // namespace detail
 
-/// The space whose twists have the type of this vector, D + A entries.
+/// The space in which a twist has the type of this vector. The vector has D + A components.
 template <class Twist>
 using SpaceOfTwist =
     typename detail::SpaceOfDofs<Twist::RowsAtCompileTime, typename Twist::Scalar>::type;

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT
-// The two parts of a generalized velocity (v, w), a generalized force (force, torque) or any other
-// vector whose first D entries are linear and whose next A entries are angular.
+// The linear and the angular part of a generalized velocity (v, w), of a generalized force (force,
+// torque), or of any other vector whose first D components are linear and whose next A components
+// are angular.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace moreau {
 
-/// The linear part, D entries; a reference into the vector.
+/// The linear part of a vector, D components, as a reference into the vector.
 /// @tparam S      the space
-/// @param  twist  S::Twist, or a longer vector that begins like one
+/// @param  twist  an S::Twist, or a longer vector that begins with one
 template <class S, class Derived>
 auto linear(Eigen::MatrixBase<Derived>& twist) {
   return twist.template head<S::dim>();
 }
-/// The same of a vector that is only read.
+/// The linear part of a constant vector.
 template <class S, class Derived>
 auto linear(const Eigen::MatrixBase<Derived>& twist) {
   return twist.template head<S::dim>();
 }
 
-/// The angular part, A entries; a reference into the vector.
+/// The angular part of a vector, A components, as a reference into the vector.
 /// @tparam S      the space
-/// @param  twist  S::Twist, or a longer vector that begins like one
+/// @param  twist  an S::Twist, or a longer vector that begins with one
 template <class S, class Derived>
 auto angular(Eigen::MatrixBase<Derived>& twist) {
   return twist.template segment<S::angular_dim>(S::dim);
 }
-/// The same of a vector that is only read.
+/// The angular part of a constant vector.
 template <class S, class Derived>
 auto angular(const Eigen::MatrixBase<Derived>& twist) {
   return twist.template segment<S::angular_dim>(S::dim);

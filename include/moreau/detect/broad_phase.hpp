@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The concept of a broad phase, which finds the pairs of boxes that overlap. Models are in broad/.
+// The concept of a broad phase, which finds the pairs of boxes that overlap. The classes that model
+// it are in the folder broad/.
 #pragma once
 
 #include <compare>
@@ -19,9 +20,11 @@ struct IndexPair {
   friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 
-/// find_pairs replaces the contents of `pairs` by all pairs of overlapping boxes (boxes that touch
-/// overlap), sorted, each once. Boxes are in world axes [m] and must be finite, which is not
-/// checked. Memory is kept: no allocation once it has grown.
+/// A broad phase has a function find_pairs(boxes, pairs). It replaces the contents of `pairs` by
+/// all pairs of overlapping boxes, sorted, each pair once. Boxes that only touch count as
+/// overlapping. Boxes are in world axes [m]. They must be finite, which is not checked. A broad
+/// phase keeps its memory from call to call, so that it allocates only when the number of boxes or
+/// pairs exceeds all earlier numbers.
 template <class B, class S>
 concept BroadPhase = requires(B broad_phase, std::span<const Aabb<S>> boxes,
                               std::vector<IndexPair>& pairs) {

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
 // The narrow phase: three queries for any pair of shapes, in either order.
 //
-//   bool           overlap(a, b[, cache])                    whether they have a point in common
-//   SignedDistance distance(a, b[, cache])                   gap, normal, nearest points
-//   bool           collide(a, b, margin, manifold[, cache])  contact points, if gap <= margin
+//   bool           overlap(a, b[, cache])                    whether the shapes have a common point
+//   SignedDistance distance(a, b[, cache])                   signed gap, normal, nearest points
+//   bool           collide(a, b, margin, manifold[, cache])  contact points, if the gap <= margin
 //
-// a and b are Placed shapes (placed.hpp). Each kind of pair has a file in pairs/, or convex/ for
-// shapes known by their support function alone, with the functions for the shape of lower rank
-// first; overload resolution selects them. This file adds the reversed order and the forms without
-// a cache.
+// a and b are Placed shapes (placed.hpp). The functions for each kind of pair are in a file of the
+// folder pairs/, or in convex/ for shapes of which only the support function is known. They take
+// the shape of lower rank (collide_rank) as their first argument. Overload resolution selects the
+// function. This file adds functions for the reversed order of arguments and for calls without a
+// cache.
 //
 //   polyhedra, polygons        pairs/collide_polytopes.hpp, polytope/
 //   balls, disks               pairs/collide_spheres.hpp, pairs/collide_sphere_polytope.hpp
-//   capsules, rounded shapes   by their cores: pairs/collide_rounded.hpp
+//   capsules, rounded shapes   pairs/collide_rounded.hpp, which collides their cores
 //   segments                   pairs/collide_segments.hpp, pairs/collide_segment_polytope.hpp
 //   half-spaces                pairs/collide_half_space.hpp
-//   inside of a cylinder       pairs/collide_cylinder_wall.hpp, collide_each()
-//   OneOf                      by the shapes that they hold: pairs/collide_one_of.hpp
+//   inside of a cylinder       pairs/collide_cylinder_wall.hpp, function collide_each()
+//   OneOf                      pairs/collide_one_of.hpp, which collides the shapes that they hold
 //   any convex shape           convex/collide_convex.hpp
 //
-// Your own convex shape needs a support function only. It gets one contact point, and up to seven
-// against a half-space. Or it brings functions of these names in its own namespace.
+// A convex shape of your own needs only a support function. Its contacts then have a single contact
+// point, or up to seven contact points against a half-space. For more, define functions of the
+// three names above in the namespace of your shape.
 #pragma once
 
 #include "moreau/detect/convex/collide_convex.hpp"
@@ -36,8 +38,8 @@
 
 namespace moreau {
 
-/// The rank of a shape: of two shapes of different rank, the functions exist for the lower one
-/// first.
+/// The rank of a shape. For a pair of shapes of different rank, the functions exist only with the
+/// shape of lower rank as first argument.
 template <class Shape>
 inline constexpr int collide_rank = 2;
 template <class S>
@@ -47,13 +49,14 @@ inline constexpr int collide_rank<Segment<S>> = 1;
 template <class S>
 inline constexpr int collide_rank<HalfSpace<S>> = 3;
 
-/// A pair of elementary shapes whose functions exist for the reversed order.
+/// A pair of elementary shapes of which the first has the higher rank, so that functions exist only
+/// for the reversed order.
 template <class A, class B>
 concept ReversedPair = Elementary<A> && Elementary<B> &&(collide_rank<A> > collide_rank<B>);
 
 /// Contact points of a pair in reversed order.
-/// @param margin pairs up to this gap are in contact [m], >= 0
-/// @param out    filled if the pair is in contact, left alone otherwise
+/// @param margin largest gap of a pair in contact [m], >= 0
+/// @param out    filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires ReversedPair<A, B>
@@ -76,9 +79,9 @@ requires ReversedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>&
   return found;
 }
 
-/// Contact points without a memory of the pair.
-/// @param margin pairs up to this gap are in contact [m], >= 0
-/// @param out    filled if the pair is in contact, left alone otherwise
+/// Contact points of a pair without a cache from the previous step.
+/// @param margin largest gap of a pair in contact [m], >= 0
+/// @param out    filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
@@ -93,13 +96,13 @@ bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return distance(a, b).gap <= 0;
 }
 
-/// Signed distance of pairs whose functions use no memory.
+/// Signed distance of a pair whose functions make no use of a cache.
 template <class A, class B>
 SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
                                     PairCache<SpaceOf<A>>&) {
   return distance(a, b);
 }
-/// Whether the shapes have a point in common, for pairs whose functions use no memory.
+/// Whether the shapes have a point in common, for a pair whose functions make no use of a cache.
 template <class A, class B>
 bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>&) {
   return overlap(a, b);

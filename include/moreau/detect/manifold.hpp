@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The answers of the narrow phase for a pair of shapes (a, b): contact points with a common normal
+// The results of the narrow phase for a pair of shapes (a, b): contact points with a common normal
 // (Manifold), or the signed distance with the nearest points (SignedDistance).
 //
 // Convention, everywhere in the library: the normal is a unit vector in world axes from a to b. A
@@ -15,14 +15,14 @@
 
 namespace moreau {
 
-/// The kinds of the two features that touch, irrespective of which of them belongs to a. A
-/// half-space counts as a face, a sphere as a vertex. In the plane the side of a polygon counts as
-/// an edge, so that vertex_edge and edge_edge are the regular classes there.
+/// The kinds of the two features that touch, regardless of which feature belongs to which shape. A
+/// half-space counts as a face, a sphere as a vertex. In the plane, a side of a polygon counts as
+/// an edge. So in the plane vertex_edge and edge_edge are the regular classes.
 enum class ContactClass : std::uint8_t {
   vertex_vertex,  ///< degenerate
-  vertex_edge,    ///< degenerate in space, the simple contact in the plane
+  vertex_edge,    ///< degenerate in space; in the plane simple: one point
   vertex_face,    ///< simple: one point
-  edge_edge,      ///< simple in space: one point; in the plane double: two
+  edge_edge,      ///< in space simple: one point; in the plane double: two points
   edge_face,      ///< double: two points
   face_face,      ///< triple: three points
 };
@@ -34,7 +34,7 @@ constexpr const char* name(ContactClass c) {
   return names[static_cast<int>(c)];
 }
 
-/// Identifies a contact point within its pair from step to step by the two features that make it,
+/// Identifies a contact point of a pair from step to step by the two features that make the point,
 /// for example a vertex of a and a face of b.
 struct FeatureKey {
   /// The kind of a's feature, then that of b's feature.
@@ -46,7 +46,8 @@ struct FeatureKey {
     vertex_edge = 4,    ///< a vertex of a, an edge of b
     edge_vertex = 5     ///< an edge of a, a vertex of b
   };
-  std::uint64_t value = 0;  ///< kind, a and b in one number, ordered so
+  std::uint64_t value = 0;  ///< kind, a and b packed into one number; keys are ordered by kind,
+                            ///< then a, then b
 
   constexpr FeatureKey() = default;  ///< the smallest key: vertex 0 of a, face 0 of b
   /// @param kind of the two features
@@ -55,10 +56,11 @@ struct FeatureKey {
       : value(static_cast<std::uint64_t>(kind) << 56 | static_cast<std::uint64_t>(a) << 28 |
               static_cast<std::uint64_t>(b)) {}
 
-  constexpr Kind kind() const { return static_cast<Kind>(value >> 56); }  ///< of the two features
-  constexpr std::size_t a() const { return value >> 28 & 0xfffffff; }     ///< index of a's feature
-  constexpr std::size_t b() const { return value & 0xfffffff; }           ///< index of b's feature
-  /// The same point with the roles of a and b exchanged.
+  /// The kinds of the two features.
+  constexpr Kind kind() const { return static_cast<Kind>(value >> 56); }
+  constexpr std::size_t a() const { return value >> 28 & 0xfffffff; }  ///< index of a's feature
+  constexpr std::size_t b() const { return value & 0xfffffff; }        ///< index of b's feature
+  /// The key of the same point after the shapes a and b have exchanged their roles.
   constexpr FeatureKey swapped() const {
     constexpr Kind other[] = {Kind::face_vertex,   Kind::vertex_face, Kind::edge_edge,
                               Kind::vertex_vertex, Kind::edge_vertex, Kind::vertex_edge};
@@ -85,7 +87,7 @@ constexpr ContactClass class_of_point(FeatureKey feature) {
   }
 }
 
-/// The kind of key of a vertex of a on a face of b: in the plane, faces are edges.
+/// The kind of the key for a vertex of a on a face of b. In the plane the faces are called edges.
 template <std::floating_point T>
 constexpr FeatureKey::Kind vertex_on_face(Space<2, T>) {
   return FeatureKey::Kind::vertex_edge;
@@ -101,19 +103,21 @@ constexpr FeatureKey::Kind vertex_on_face(Space<3, T>) {
 template <class S>
 struct ManifoldPoint {
   typename S::Vector position;  ///< world axes, midway between the two surfaces [m]
-  typename S::Scalar gap;       ///< along the manifold's normal [m], < 0 is penetration
-  FeatureKey feature;           ///< the features that make the point
+  typename S::Scalar gap;  ///< signed gap along the manifold's normal [m]; < 0 means penetration
+  FeatureKey feature;      ///< the features that make the point
 };
 
-/// The points where a pair of shapes touches, or may touch soon, with one common normal.
-/// Reuse an object from pair to pair: clear() keeps its memory.
+/// The points at which a pair of shapes touches or has a gap of at most the margin, with one common
+/// normal. Reuse one object for many pairs: clear() keeps its memory.
 template <class S>
 struct Manifold {
   typename S::Vector normal = S::Vector::Zero();             ///< unit, from a to b, world axes
-  typename S::Scalar gap = 0;                                ///< signed distance [m]
+  typename S::Scalar gap = 0;                                ///< signed gap of the pair [m]
   ContactClass contact_class = ContactClass::vertex_vertex;  ///< of the features that touch
-  std::vector<ManifoldPoint<S>> points;     ///< gap at most the margin; sorted by feature
-  std::vector<typename S::Scalar> scratch;  ///< working memory of the function that fills it
+  std::vector<ManifoldPoint<S>> points;     ///< points with a gap of at most the margin, sorted by
+                                            ///< feature
+  std::vector<typename S::Scalar> scratch;  ///< working memory of the function that fills the
+                                            ///< manifold
 
   /// Removes the points; keeps the memory.
   void clear() { points.clear(); }
@@ -123,7 +127,7 @@ struct Manifold {
     normal = new_normal;
     gap = new_gap;
   }
-  /// Becomes the manifold of a contact of one point.
+  /// Makes this the manifold of a contact with one point.
   /// @param position  midway between the two surfaces, world axes [m]
   void set_single_point(const typename S::Vector& new_normal, typename S::Scalar new_gap,
                         const typename S::Vector& position, FeatureKey feature) {
@@ -136,7 +140,7 @@ struct Manifold {
     std::sort(points.begin(), points.end(),
               [](const auto& p, const auto& q) { return p.feature < q.feature; });
   }
-  /// Turns the manifold of (a, b) into that of (b, a).
+  /// Turns the manifold of the pair (a, b) into the manifold of the pair (b, a).
   void swap_sides() {
     normal = -normal;
     for (auto& point : points) point.feature = point.feature.swapped();
@@ -144,21 +148,22 @@ struct Manifold {
   }
 };
 
-/// The signed distance of a pair. The witness points may lie beside the surfaces if the shapes
-/// overlap by a tenth of their size or more and one of them is a segment or is known by its support
-/// alone.
+/// The signed distance of a pair. The witness points may lie off the surfaces if the shapes overlap
+/// by a tenth of their size or more and one of the shapes is a segment or a shape of which only the
+/// support function is known.
 template <class S>
 struct SignedDistance {
-  typename S::Scalar gap;        ///< [m]; if < 0, minus the depth of penetration
+  typename S::Scalar gap;        ///< signed gap [m]; if < 0, minus the depth of penetration
   typename S::Vector normal;     ///< unit, from a to b, world axes
-  typename S::Vector witness_a;  ///< nearest or deepest point of a's surface, world axes [m]
-  typename S::Vector witness_b;  ///< that of b's surface: witness_a + gap normal, world axes [m]
+  typename S::Vector witness_a;  ///< point of a's surface nearest to b or deepest in b, world axes
+                                 ///< [m]
+  typename S::Vector witness_b;  ///< witness_a + gap normal, on b's surface, world axes [m]
 };
 
 namespace detail {
 
 /// Starts the manifold of a pair, without points, if the gap is at most the margin [m].
-/// @returns whether it is
+/// @returns whether the gap is at most the margin
 template <class S>
 bool start_if_touching(const SignedDistance<S>& found, typename S::Scalar margin,
                        Manifold<S>& out) {
@@ -167,7 +172,7 @@ bool start_if_touching(const SignedDistance<S>& found, typename S::Scalar margin
   return true;
 }
 /// Fills the manifold of a pair that touches at one point, midway between the witness points.
-/// @param out  filled if the gap is at most the margin [m], left alone otherwise
+/// @param out  filled if the gap is at most the margin [m], unchanged otherwise
 /// @returns whether the gap is at most the margin
 template <class S>
 bool touch_at_one_point(const SignedDistance<S>& found, typename S::Scalar margin,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memory of a pair between time steps: the features of two shapes that made their separating
-// axis in the last query, a guess at the axis of the next one.
+// What the narrow phase stores of a pair from one time step to the next: the features that made the
+// separating axis in the last query. They are the first guess of the next query.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +11,34 @@ namespace moreau {
 
 namespace detail {
 
-/// The features that make the separating axis of a pair. Edges of polygons count as faces.
+/// The kinds of features that make the separating axis of a pair. Edges of polygons count as faces.
 enum class AxisKind : std::uint8_t {
-  none,            ///< not known
-  face_a,          ///< a face of a and the vertex of b that is deepest below it
-  face_b,          ///< a face of b and the vertex of a that is deepest below it
-  edges,           ///< an edge of each
-  vertices,        ///< a vertex of each; the shapes are apart, as in all that follow
-  vertex_edge,     ///< a vertex of a, an edge of b
-  edge_vertex,     ///< an edge of a, a vertex of b
-  nearest_points,  ///< the nearest points of pairs that are so aligned that rounding decides
+  none,         ///< the features are not known
+  face_a,       ///< a face of a and the vertex of b that is deepest below it
+  face_b,       ///< a face of b and the vertex of a that is deepest below it
+  edges,        ///< an edge of a and an edge of b
+  vertices,     ///< a vertex of a and a vertex of b; for this kind and those below, the shapes are
+                ///< apart
+  vertex_edge,  ///< a vertex of a and an edge of b
+  edge_vertex,  ///< an edge of a and a vertex of b
+  nearest_points,  ///< the nearest points; for pairs so nearly parallel that rounding decides on
+                   ///< the features
 };
 
 }  // namespace detail
 
-/// What the narrow phase remembers of a pair from one step to the next, to save time. Every answer
-/// is the same, bit by bit, with an empty cache or with that of another pair: the features are only
-/// a guess, which is proved anew for the present poses before it is used (polytope/prove_axis.hpp).
+/// What the narrow phase stores of a pair from one step to the next, to save time. An empty cache,
+/// or the cache of another pair, gives the same results bit by bit: the features are only a guess,
+/// which is proved for the present poses before it is used (polytope/prove_axis.hpp).
 template <class S>
 struct PairCache {
-  /// The axis found last, unit, from a to b, world axes; it separated the shapes by more than the
-  /// margin if kind is none. Zero if there is none.
+  /// The axis found last, a unit vector from a to b in world axes; zero if no axis is known. If
+  /// `kind` is none and the axis is not zero, the shapes were separated along it by more than the
+  /// margin.
   typename S::Vector axis = S::Vector::Zero();
-  detail::AxisKind kind = detail::AxisKind::none;  ///< the features that made the axis
-  std::uint32_t a = 0;                             ///< number of a's feature
-  std::uint32_t b = 0;                             ///< number of b's feature
+  detail::AxisKind kind = detail::AxisKind::none;  ///< the kinds of features that made the axis
+  std::uint32_t a = 0;                             ///< index of a's feature
+  std::uint32_t b = 0;                             ///< index of b's feature
 };
 
 }  // namespace moreau

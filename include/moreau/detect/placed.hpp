@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Placed<Shape>: a shape at the pose that it has in this step. The narrow phase reads nothing else.
+// Placed<Shape>: a shape at the pose that it has in this step. The narrow phase takes shapes in
+// this form only.
 //
-// All but the centre is kept relative to the centre, in world axes. A pair is then judged in
-// coordinates of the size of the shapes, however far from the world's origin it lies.
+// The centre is a position in world axes. Everything else is stored relative to the centre, in
+// world axes. So the narrow phase computes with coordinates of the size of the shapes, however far
+// the pair lies from the world's origin.
 //
-// detail::Placement holds what is kept of each kind of shape; its functions are those of Placed.
+// detail::Placement holds the data stored for each kind of shape. Its functions are the functions
+// of Placed.
 #pragma once
 
 #include <type_traits>
@@ -23,7 +26,7 @@ namespace moreau {
 
 namespace detail {
 
-/// What is kept of a convex shape of which only the support function is known.
+/// The placed data of a convex shape of which only the support function is known.
 template <class ShapeT>
 class Placement {
  public:
@@ -31,24 +34,24 @@ class Placement {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   void update(const ShapeT& shape, const Pose<S>& pose) {
     shape_ = &shape;
     pose_ = pose;
   }
-  /// Moves the centre, world axes [m]; the orientation stays.
+  /// Moves the centre, world axes [m]. The orientation is unchanged.
   void move_to(const Vector& center) { pose_.position = center; }
 
   const ShapeT& shape() const { return *shape_; }          ///< the shape that was placed
   const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
-  /// Radius of the ball about the centre that holds the shape [m].
+  /// Radius of a ball about the centre that contains the shape [m].
   Scalar radius() const requires HasCircumradius<ShapeT> { return shape_->circumradius(); }
-  /// The farthest point in the direction (any length but zero), relative to the centre, world
-  /// axes [m].
+  /// The point of the shape farthest in the direction, relative to the centre, world axes [m].
+  /// @param direction  world axes, of any length but zero
   Vector support(const Vector& direction) const {
     return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);
   }
-  /// World axes [m].
+  /// The bounding box, world axes [m].
   Aabb<S> bounding_box() const { return shape_->bounding_box(pose_); }
 
  private:
@@ -56,7 +59,7 @@ class Placement {
   Pose<S> pose_;
 };
 
-/// What is kept of a polytope: vertices and face normals, turned into world axes once per step.
+/// The placed data of a polytope: vertices and face normals, rotated into world axes once per step.
 template <class ShapeT>
 requires Polytope<ShapeT>
 class Placement<ShapeT> {
@@ -66,7 +69,7 @@ class Placement<ShapeT> {
   using Vector = typename S::Vector;
 
   /// Places the shape at a pose, world axes [m]. Allocates only if the shape has more vertices or
-  /// faces than any before. The shape must outlive this object's use.
+  /// faces than every shape placed before. The shape must outlive this object.
   void update(const ShapeT& shape, const Pose<S>& pose) {
     const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
     shape_ = &shape;
@@ -79,7 +82,8 @@ class Placement<ShapeT> {
     offsets_.tail(offsets_.size() - count).setConstant(offsets_[0]);
   }
 
-  /// Moves the centre, world axes [m]; the orientation stays. Costs nothing, unlike update().
+  /// Moves the centre, world axes [m]. The orientation is unchanged. Unlike update(), this function
+  /// does not rotate the vertices.
   void move_to(const Vector& center) { center_ = center; }
 
   const ShapeT& shape() const { return *shape_; }   ///< the shape that was placed
@@ -88,18 +92,18 @@ class Placement<ShapeT> {
   const Rows<S>& vertices() const { return vertices_; }
   /// The F face normals, unit, outward, world axes.
   const Rows<S>& normals() const { return normals_; }
-  /// Distance of face f's plane from the centre [m].
+  /// Signed distance of the plane of face f from the centre, along the face's normal [m].
   Scalar offset(std::size_t f) const { return offsets_[static_cast<Eigen::Index>(f)]; }
-  /// The offsets of all faces [m], as many as normals().padded_size().
+  /// The offsets of all faces [m]. The array has normals().padded_size() elements.
   const Scalar* offsets() const { return offsets_.data(); }
-  /// Radius of the ball about the centre that holds the shape [m].
+  /// Radius of a ball about the centre that contains the shape [m].
   Scalar radius() const { return shape_->circumradius(); }
-  /// The farthest vertex in the direction (any length but zero), relative to the centre, world
-  /// axes [m].
+  /// The vertex farthest in the direction, relative to the centre, world axes [m].
+  /// @param direction  world axes, of any length but zero
   Vector support(const Vector& direction) const {
     return vertices_[vertices_.farthest(direction).index];
   }
-  /// World axes [m].
+  /// The bounding box, world axes [m].
   Aabb<S> bounding_box() const {
     Aabb<S> box = vertices_.bounding_box();
     box.lower += center_;
@@ -114,7 +118,7 @@ class Placement<ShapeT> {
   Eigen::Array<Scalar, Eigen::Dynamic, 1> offsets_;
 };
 
-/// What is kept of a ball or disk.
+/// The placed data of a ball or disk.
 template <class S>
 class Placement<BallIn<S>> {
  public:
@@ -130,10 +134,10 @@ class Placement<BallIn<S>> {
   void move_to(const Vector& center) { center_ = center; }
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
   Scalar radius() const { return radius_; }         ///< [m]
-  /// The farthest point in the direction (any length but zero), relative to the centre, world
-  /// axes [m].
+  /// The point of the shape farthest in the direction, relative to the centre, world axes [m].
+  /// @param direction  world axes, of any length but zero
   Vector support(const Vector& direction) const { return radius_ * direction.normalized(); }
-  /// World axes [m].
+  /// The bounding box, world axes [m].
   Aabb<S> bounding_box() const { return {center_.array() - radius_, center_.array() + radius_}; }
 
  private:
@@ -141,7 +145,7 @@ class Placement<BallIn<S>> {
   Scalar radius_ = 0;
 };
 
-/// What is kept of a half-space. The solid is { x : normal . (x - center) <= 0 }.
+/// The placed data of a half-space. The solid is { x : normal . (x - center) <= 0 }.
 template <class S>
 class Placement<HalfSpace<S>> {
  public:
@@ -153,16 +157,16 @@ class Placement<HalfSpace<S>> {
     center_ = pose.position;
     normal_ = pose.rotation * shape.normal();
   }
-  const Vector& center() const { return center_; }        ///< a point of the plane, world axes [m]
-  const Vector& normal() const { return normal_; }        ///< unit, out of the solid, world axes
-  Scalar offset() const { return normal_.dot(center_); }  ///< normal . x = offset on the plane [m]
+  const Vector& center() const { return center_; }  ///< a point of the plane, world axes [m]
+  const Vector& normal() const { return normal_; }  ///< unit, pointing out of the solid, world axes
+  Scalar offset() const { return normal_.dot(center_); }  ///< normal . x on the plane [m]
 
  private:
   Vector center_ = Vector::Zero();
   Vector normal_ = Vector::Zero();
 };
 
-/// What is kept of a segment, the core of a capsule.
+/// The placed data of a segment, the core of a capsule.
 template <class S>
 class Placement<Segment<S>> {
  public:
@@ -176,14 +180,15 @@ class Placement<Segment<S>> {
     half_ = pose.rotation * Vector(radius_ * Vector::UnitX());
   }
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
-  Scalar radius() const { return radius_; }         ///< of the ball about the centre around it [m]
-  const Vector& half() const { return half_; }      ///< from the centre to vertex 1, world axes [m]
+  /// Radius of the ball about the centre that contains the segment: its half length [m].
+  Scalar radius() const { return radius_; }
+  const Vector& half() const { return half_; }  ///< from the centre to vertex 1, world axes [m]
   /// Vertex 0 or 1, relative to the centre, world axes [m].
   Vector vertex(std::size_t v) const { return v == 0 ? Vector(-half_) : half_; }
-  /// The farthest end in the direction (any length but zero), relative to the centre, world
-  /// axes [m].
+  /// The end of the segment farthest in the direction, relative to the centre, world axes [m].
+  /// @param direction  world axes, of any length but zero
   Vector support(const Vector& direction) const { return vertex(direction.dot(half_) < 0 ? 0 : 1); }
-  /// World axes [m].
+  /// The bounding box, world axes [m].
   Aabb<S> bounding_box() const { return {center_ - half_.cwiseAbs(), center_ + half_.cwiseAbs()}; }
 
  private:
@@ -193,8 +198,8 @@ class Placement<Segment<S>> {
 
 }  // namespace detail
 
-/// A shape at a pose. Its functions are update(shape, pose), which places it anew, center(),
-/// support(direction), bounding_box() and those of its detail::Placement.
+/// A shape at a pose. Its functions are update(shape, pose), which places the shape again,
+/// center(), support(direction), bounding_box() and the other functions of its detail::Placement.
 template <class ShapeT>
 class Placed : public detail::Placement<ShapeT> {
  public:
@@ -202,13 +207,13 @@ class Placed : public detail::Placement<ShapeT> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// Places the shape at the origin, not turned. The shape must outlive this object's use.
+  /// Places the shape at the world's origin, without rotation. The shape must outlive this object.
   explicit Placed(const ShapeT& shape) { this->update(shape, Pose<Space>{}); }
-  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   Placed(const ShapeT& shape, const Pose<Space>& pose) { this->update(shape, pose); }
 };
 
-/// A rounded shape at a pose: its placed core, and the radius about it.
+/// A rounded shape at a pose: its placed core and the rounding radius.
 template <class Core>
 class Placed<Rounded<Core>> {
  public:
@@ -216,13 +221,13 @@ class Placed<Rounded<Core>> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   explicit Placed(const Rounded<Core>& shape, const Pose<Space>& pose = {})
       : core_(shape.core(), shape.core_pose(pose)),
         center_(pose.position),
         radius_(shape.radius()) {}
 
-  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   void update(const Rounded<Core>& shape, const Pose<Space>& pose) {
     core_.update(shape.core(), shape.core_pose(pose));
     center_ = pose.position;
@@ -231,13 +236,13 @@ class Placed<Rounded<Core>> {
   /// The core at its pose.
   const Placed<Core>& core() const { return core_; }
   const Vector& center() const { return center_; }    ///< the body's origin, world axes [m]
-  Scalar rounding_radius() const { return radius_; }  ///< of the surface about the core [m]
-  /// The farthest point in the direction (any length but zero), relative to the centre, world
-  /// axes [m].
+  Scalar rounding_radius() const { return radius_; }  ///< distance of the surface from the core [m]
+  /// The point of the shape farthest in the direction, relative to the centre, world axes [m].
+  /// @param direction  world axes, of any length but zero
   Vector support(const Vector& direction) const {
     return (core_.center() - center_) + core_.support(direction) + radius_ * direction.normalized();
   }
-  /// World axes [m].
+  /// The bounding box, world axes [m].
   Aabb<Space> bounding_box() const { return core_.bounding_box().inflated(radius_); }
 
  private:
@@ -246,7 +251,7 @@ class Placed<Rounded<Core>> {
   Scalar radius_;
 };
 
-/// A OneOf shape at a pose: the shape that it holds.
+/// A OneOf shape at a pose: the placed shape that the OneOf holds.
 template <class... Shapes>
 class Placed<OneOf<Shapes...>> {
  public:
@@ -254,14 +259,14 @@ class Placed<OneOf<Shapes...>> {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// Places the shape at a pose, world axes [m]. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   explicit Placed(const OneOf<Shapes...>& shape, const Pose<Space>& pose = {})
       : held_(shape.visit([&](const auto& kind) -> Held {
           return Placed<KindOf<decltype(kind)>>(kind, pose);
         })) {}
 
-  /// Places the shape at a pose, world axes [m]. Keeps its memory while the shape is of the same
-  /// kind as before. The shape must outlive this object's use.
+  /// Places the shape at a pose, world axes [m]. Keeps its memory if the shape held is of the same
+  /// type as the shape placed before. The shape must outlive this object.
   void update(const OneOf<Shapes...>& shape, const Pose<Space>& pose) {
     shape.visit([&](const auto& kind) {
       using Kind = Placed<KindOf<decltype(kind)>>;
@@ -271,7 +276,7 @@ class Placed<OneOf<Shapes...>> {
         held_.template emplace<Kind>(kind, pose);
     });
   }
-  /// Calls use with the Placed shape of the kind that is held.
+  /// Calls use(placed) with the Placed shape that is held.
   template <class Use>
   decltype(auto) visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), held_);
@@ -280,12 +285,12 @@ class Placed<OneOf<Shapes...>> {
   Vector center() const {
     return visit([](const auto& kind) -> Vector { return kind.center(); });
   }
-  /// The farthest point in the direction (any length but zero), relative to the centre, world
-  /// axes [m].
+  /// The point of the shape farthest in the direction, relative to the centre, world axes [m].
+  /// @param direction  world axes, of any length but zero
   Vector support(const Vector& direction) const {
     return visit([&](const auto& kind) -> Vector { return kind.support(direction); });
   }
-  /// World axes [m].
+  /// The bounding box, world axes [m].
   Aabb<Space> bounding_box() const {
     return visit([](const auto& kind) -> Aabb<Space> { return kind.bounding_box(); });
   }

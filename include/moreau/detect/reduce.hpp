@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// reduce: from all contact points of a pair to at most three that carry nearly the same load.
+// reduce: reduces the contact points of a pair to at most three that carry nearly the same load.
 //
-// Three points carry a load whose centre of pressure lies in their triangle. If the load moves
-// beyond a side of the triangle, the bodies tip about that side until a point that was left out
-// penetrates. This deepest point then joins the triangle, together with the two points with which
-// the bodies would come to rest under the previous load: among all triangles that hold the centre
-// of pressure, the one that is lowest there. The load can move on to the new point, and the tipping
-// ends. If the triangle were chosen by its area alone, it would lose the centre of pressure again,
-// and the bodies would rock for ever.
+// Three points can carry a load if its centre of pressure lies in their triangle. If the centre of
+// pressure moves beyond a side of the triangle, the bodies tip about that side until a point that
+// was left out penetrates. This point is now the deepest one and is chosen. The two points chosen
+// with it are those on which the bodies would come to rest under the load of the previous step.
+// They are found so: among all triangles that have the deepest point as a corner and contain the
+// centre of pressure, take the triangle with the smallest gap at the centre of pressure. The load
+// can then move to the new point, and the tipping ends. A choice by the area of the triangle alone
+// would lose the centre of pressure again, and the bodies would rock for ever.
 #pragma once
 
 #include <algorithm>
@@ -22,37 +23,40 @@
 
 namespace moreau {
 
-/// How reduce() chooses points. Fractions [-] are of the size of the contact, lengths are in [m].
+/// Parameters of reduce(). Fractions [-] are relative to the extent of the contact: the distance of
+/// the farthest contact point from the first one. Lengths are in [m].
 struct Reduction {
-  /// Points count as equally deep as the deepest one if they lie within this fraction of the
-  /// contact's extent above it [-]. The first of them by key is chosen, so that the choice does not
-  /// depend on rounding.
+  /// Points whose gap exceeds the smallest gap by at most this fraction of the extent count as
+  /// deepest [-]. Among them the point with the first feature key is chosen, so that the choice
+  /// does not depend on rounding.
   double as_deep = 1e-6;
-  /// The points of the step before are kept while they span this fraction of the largest area [-].
+  /// The triangle of the previous step is kept while its area is at least this fraction of the area
+  /// of the best triangle [-].
   double keep = 0.8;
-  /// A triangle flatter than this fraction of the contact's extent squared [-] counts as two
-  /// points.
+  /// A triangle counts as two points if twice its area is at most this fraction of the square of
+  /// the extent [-].
   double flat = 1e-6;
-  /// Two points closer together than this count as one point, and a triangle lower than this counts
-  /// as two points [m]. Two points at nearly one place make the contact problem nearly singular.
+  /// Two points closer together than this length count as one point, and a triangle with a smaller
+  /// height counts as two points [m]. Two points at nearly the same place make the contact problem
+  /// nearly singular.
   double resolution = 0;
-  /// The points of the step before are kept only if one of them is at most this much shallower than
-  /// the deepest point [m].
+  /// The points of the previous step are kept only if the gap of at least one of them exceeds the
+  /// smallest gap by at most this length [m].
   double shallower = 0;
-  /// If three points or more lie at most this far above the deepest point [m], points that lie
-  /// higher, which are open, are not considered.
+  /// If the gaps of three points or more exceed the smallest gap by at most this length [m], all
+  /// other points are ignored, because their gaps are open.
   double near = std::numeric_limits<double>::infinity();
 };
 
-/// A contact point that was kept in the step before.
+/// A contact point that was kept in the previous step.
 struct KeptPoint {
-  FeatureKey feature;  ///< of the point
-  double push = 0;     ///< normal impulse that the point carried, >= 0 [N s]
+  FeatureKey feature;  ///< the features that make the point
+  double push = 0;     ///< normal impulse of the point in the previous step, >= 0 [N s]
 };
 
 namespace detail {
 
-/// Four times the squared area of a triangle [m^4].
+/// Four times the square of the area of a triangle [m^4].
 template <class S>
 typename S::Scalar area2(const ManifoldPoint<S>& a, const ManifoldPoint<S>& b,
                          const ManifoldPoint<S>& c) {
@@ -61,8 +65,8 @@ typename S::Scalar area2(const ManifoldPoint<S>& a, const ManifoldPoint<S>& b,
   return p.squaredNorm() * q.squaredNorm() - dot * dot;
 }
 
-/// A choice among the points of one manifold: the deepest point, and the two others that are found
-/// by comparing all pairs.
+/// Selects points of one manifold: the deepest point, and two more points, which are found by
+/// comparing all pairs.
 template <class S>
 class PointChoice {
  public:
@@ -72,7 +76,7 @@ class PointChoice {
 
   explicit PointChoice(const Points& points) : points_(points) {}
 
-  /// Finds the deepest point and the centre of pressure; must come before the other functions.
+  /// Finds the deepest point and the centre of pressure. Call it before all other functions.
   void update(std::span<const KeptPoint> previous, const Reduction& reduction) {
     T deepest = points_[0].gap;
     for (const auto& point : points_) {
@@ -103,11 +107,14 @@ class PointChoice {
       if (is_better(distance2(i), distance2(best))) best = i;
     return best;
   }
-  /// The two points that make with the deepest point the triangle on which the bodies come to rest
-  /// under the previous load. Among the triangles that hold the centre of pressure it is the lowest
-  /// there; among equally low ones, as if the centre lies on a side, the one whose corners close
-  /// first; among equals again the widest. If no triangle holds the centre of pressure, it is the
-  /// widest.
+  /// The two points that form the best triangle with the deepest point. If there was a load in the
+  /// previous step, the criteria are, in this order:
+  ///   1. the smallest gap at the centre of pressure, among triangles that contain it;
+  ///   2. if these gaps are nearly equal, for example because the centre of pressure lies on a side
+  ///      of two triangles, the triangle whose largest gap is smallest;
+  ///   3. if these are nearly equal too, the largest area.
+  /// A triangle that does not contain the centre of pressure has an infinite gap in criterion 1.
+  /// Without a previous load the triangle of largest area is chosen.
   std::array<std::size_t, 2> best() const {
     std::array<std::size_t, 2> best{first_, first_};
     T lowest = std::numeric_limits<T>::infinity(), closest = lowest;
@@ -127,15 +134,17 @@ class PointChoice {
   }
 
  private:
-  /// Whether a value is larger by more than rounding: among equals the first by key stays.
+  /// Whether a value exceeds the best value by more than rounding. Of equal values the first one is
+  /// kept.
   static bool is_better(T value, T best) { return value > best * T(1 + 1e-6); }
-  /// -1, 0 or 1: whether a gap is smaller, nearly equal, or larger.
+  /// -1, 0 or 1: whether `gap` is smaller than, nearly equal to, or larger than `other`.
   int ordered(T gap, T other) const {
     return gap < other - nearly_ ? -1 : (gap > other + nearly_ ? 1 : 0);
   }
   bool is_near(const ManifoldPoint<S>& point) const { return point.gap <= highest_; }
 
-  /// Finds the centre of pressure of the step before, with the points at their present positions.
+  /// Finds the centre of pressure of the previous step's impulses at the present positions of the
+  /// points.
   void find_pressure(std::span<const KeptPoint> previous) {
     T sum = 0;
     for (const KeptPoint& old : previous)
@@ -147,8 +156,9 @@ class PointChoice {
     loaded_ = sum > 0;
     if (loaded_) pressure_ /= sum;
   }
-  /// The gap between the bodies at the centre of pressure [m], interpolated over the triangle with
-  /// the deepest point; infinite if the centre lies more than a little outside of the triangle.
+  /// The gap between the bodies at the centre of pressure [m]: linear interpolation over the
+  /// triangle of the deepest point and points i and j. Infinite if the centre of pressure lies
+  /// outside of the triangle by more than 2 % in barycentric coordinates, or if there was no load.
   T height_of_pressure(std::size_t i, std::size_t j) const {
     constexpr T beside = T(0.02), infinity = std::numeric_limits<T>::infinity();
     if (!loaded_) return infinity;
@@ -169,10 +179,10 @@ class PointChoice {
   bool loaded_ = false;
 };
 
-/// Finds the points of the step before in the manifold.
-/// @param lowest    at least one of them must have at most this gap [m]
-/// @param triangle  their indices
-/// @returns whether all three are there and one of them is deep enough
+/// Finds the points of the previous step in the manifold.
+/// @param lowest    at least one of the three points must have at most this gap [m]
+/// @param triangle  out: indices of the three points
+/// @returns whether all three points were found and at least one of them has a gap <= lowest
 template <class S>
 bool find_previous(const Manifold<S>& manifold, std::span<const KeptPoint> previous,
                    typename S::Scalar lowest, std::array<std::size_t, 3>& triangle) {
@@ -187,7 +197,8 @@ bool find_previous(const Manifold<S>& manifold, std::span<const KeptPoint> previ
   return deep;
 }
 
-/// Whether all points carry a load: the centre of pressure lies within them.
+/// Whether every point carried an impulse, so that the centre of pressure lay inside their
+/// triangle.
 inline bool carries(std::span<const KeptPoint> previous) {
   return std::all_of(previous.begin(), previous.end(),
                      [](const KeptPoint& point) { return point.push > 0; });
@@ -206,18 +217,20 @@ void keep_points(Manifold<S>& manifold, std::span<std::size_t> chosen) {
 
 }  // namespace detail
 
-/// Keeps at most max_points (1, 2 or 3) points of a manifold: the deepest point; and the one
-/// farthest from it, or the two that make with it the lowest triangle under the previous load, or
-/// the widest triangle without a previous load. The same points and the same memory give the same
-/// choice. The class stays that of the full contact.
-/// @param manifold   in: all points, sorted by feature; out: the points that are kept, in that
-/// order
+/// Keeps at most max_points points of a manifold.
+///   1 point: the deepest one.
+///   2 points: the deepest point and the point farthest from it.
+///   3 points: the deepest point and the two that form with it the triangle with the smallest gap
+///     at the centre of pressure of the previous step, or the largest triangle if there is no
+///     previous load. If the triangle counts as two points (Reduction), two points are kept.
+/// The result depends only on the arguments. The contact class remains that of the full contact.
+/// @param manifold   in: all points, sorted by feature; out: the points kept, in the same order
 /// @param max_points 1, 2 or 3
-/// @param previous   the points that were kept in the step before. Their triangle stays if it has
-/// one
-///                   of the deepest points, and if all its points carry a load or it has most of
-///                   the largest area; pass none for a choice without memory
-/// @param reduction  how to choose
+/// @param previous   the points kept in the previous step. If these are three, they are kept if one
+///                   of them is among the deepest and if all three carried an impulse or their
+///                   triangle has at least the fraction reduction.keep of the best triangle's area.
+///                   Pass an empty span for a choice without memory
+/// @param reduction  parameters of the choice
 template <class S>
 void reduce(Manifold<S>& manifold, std::size_t max_points, std::span<const KeptPoint> previous = {},
             const Reduction& reduction = {}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Concepts and traits that select the functions of the narrow phase for a pair of shapes.
+// Concepts and traits by which overload resolution selects the narrow-phase functions of a pair of
+// shapes.
 #pragma once
 
 #include "moreau/shape/ball.hpp"
@@ -22,7 +23,7 @@ inline constexpr bool is_segment = false;
 template <class S>
 inline constexpr bool is_segment<Segment<S>> = true;
 
-/// Whether a shape is a Rounded one.
+/// Whether a shape is a Rounded shape.
 template <class ShapeT>
 inline constexpr bool is_rounded = false;
 template <class Core>
@@ -34,7 +35,7 @@ inline constexpr bool is_one_of = false;
 template <class... Shapes>
 inline constexpr bool is_one_of<OneOf<Shapes...>> = true;
 
-/// A shape with functions of its own: neither rounded nor a OneOf.
+/// A shape with narrow-phase functions of its own: neither a Rounded nor a OneOf.
 template <class ShapeT>
 concept Elementary = !is_rounded<ShapeT> && !is_one_of<ShapeT>;
 
@@ -43,18 +44,19 @@ template <class ShapeT>
 concept SupportOnly =
     ConvexCore<ShapeT> && Elementary<ShapeT> && !Polytope<ShapeT> && !is_sphere<ShapeT>;
 
-/// A pair of elementary shapes for which there are only the general algorithms GJK and EPA
-/// (convex/collide_convex.hpp). Spheres and segments come first, see collide_rank.
+/// A pair of elementary shapes that only the general algorithms GJK and EPA can treat
+/// (convex/collide_convex.hpp). A sphere or a segment must be the first shape of the pair
+/// (collide_rank in collide.hpp).
 template <class A, class B>
 concept GeneralPair =
     ConvexCore<A> && ConvexCore<B> && Elementary<A> && Elementary<B> && !is_sphere<B> &&
     !is_segment<B> && (SupportOnly<A> || SupportOnly<B>);
 
-/// A pair with a rounded shape and no OneOf.
+/// A pair that has a Rounded shape and no OneOf.
 template <class A, class B>
 concept RoundedPair = !is_one_of<A> && !is_one_of<B> && (is_rounded<A> || is_rounded<B>);
 
-/// A pair with a OneOf, the kind of which is known at run time only.
+/// A pair with a OneOf. The type of the shape that it holds is known only at run time.
 template <class A, class B>
 concept MixedPair = is_one_of<A> || is_one_of<B>;
 

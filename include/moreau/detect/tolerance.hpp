@@ -8,29 +8,31 @@
 
 namespace moreau {
 
-/// Lengths that the narrow phase takes for zero, relative to the sum of the circumradii of the pair
-/// [-], and a few angles.
+/// Tolerances of the narrow phase. Lengths below them are treated as zero. Lengths are relative to
+/// the sum of the circumradii of the pair [-]; a few tolerances are angles [rad].
 template <std::floating_point T>
 struct DetectionTolerance {
-  /// Difference of two separations that rounding alone can make [-].
+  /// Largest difference of two computed separations that are equal in exact arithmetic [-].
   static constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
-  /// Depth of a point within a tetrahedron, and thickness of the tetrahedron, above which rounding
-  /// does not decide on which side of a face the point is [-].
+  /// If a point is deeper inside a tetrahedron than this, and the tetrahedron is thicker than this,
+  /// the side of each face on which the point lies is certain despite rounding [-].
   static constexpr T certain = std::same_as<T, float> ? T(1.4e-3) : T(6e-8);
-  /// Two corners of a contact polygon nearer than this are one, and a corner this near to an edge
-  /// lies on it [-], so that shapes stacked flush keep their features while they tremble.
+  /// Two corners of a contact polygon closer together than this count as one corner, and a corner
+  /// this close to an edge lies on the edge [-]. So the features of shapes stacked flush do not
+  /// change when the shapes vibrate.
   static constexpr T coincident = std::same_as<T, float> ? T(3.5e-4) : T(1.5e-8);
-  /// Sine of the angle [-] within which the direction of two nearest points is taken for the normal
-  /// of a face that is as far away.
+  /// If the direction between two nearest points differs from the normal of a face at the same
+  /// distance by an angle with a smaller sine [-], the normal of the face is used.
   static constexpr T aligned = std::same_as<T, float> ? T(1e-3) : T(1e-5);
-  /// Angle [rad] between two axes above which one can be proved to separate better
-  /// (polytope/prove_axis.hpp).
+  /// Angle [rad] between two axes above which it can be proved which of them separates the shapes
+  /// by more (polytope/prove_axis.hpp).
   static constexpr T distinct = std::same_as<T, float> ? T(1e-2) : T(1e-7);
-  /// Angle [rad] by which the normal is tilted to find how far a surface is flat, if only its
-  /// support function is known. The surface is flat if its farthest point then moves by more than
-  /// ten times this angle times the size of the shape's box.
+  /// Angle [rad] by which the normal is tilted to measure the flat part of a surface of which only
+  /// the support function is known. The surface counts as flat if its support point then moves by
+  /// more than ten times this angle times the size of the shape's bounding box.
   static constexpr T tilt = T(1e-3);
-  /// Difference of two separations that counts as a proof that one is larger [-].
+  /// If two computed separations differ by more than this, the larger one is proved to be larger
+  /// [-].
   static constexpr T doubt = T(16) * rounding;
 };
 

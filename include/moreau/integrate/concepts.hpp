@@ -9,18 +9,18 @@
 
 namespace moreau {
 
-/// Moves the bodies through one step in three parts:
+/// A time integrator for contact impulses. It advances the bodies by one step in three parts:
 ///
 /// - predict_configuration(bodies, momentum, h): moves the bodies to the configuration in which
-///   contacts are detected; fills the angular momentum of every body at the start of the step
-///   [kg m^2/s]
-/// - free_velocity(bodies, gravity, momentum, free, h): fills the velocities at the end of the step
-///   without contacts
-/// - advance_configuration(bodies, after, h): moves the bodies to the end of the step with the
-///   velocities `after` the contact impulses
+///   contacts are detected. Output: the angular momentum of every body at the start of the step [kg
+///   m^2/s]
+/// - free_velocity(bodies, gravity, momentum, free, h): computes the velocities at the end of the
+///   step without contacts
+/// - advance_configuration(bodies, after, h): sets the velocities to those after the contact
+///   impulses, `after`, and moves the bodies to the end of the step
 ///
-/// h is the step [s], gravity an acceleration [m/s^2]. momentum, free and after have one entry per
-/// body; velocities are (v, w) [m/s, rad/s]. All are in world axes.
+/// h is the step [s], and gravity is an acceleration [m/s^2]. momentum, free and after have one
+/// element per body. Velocities are twists (v, w) [m/s, rad/s]. All quantities are in world axes.
 template <class I, class S>
 concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
                                      std::span<typename S::Angular> momentum,
@@ -32,15 +32,16 @@ concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
   integrator.advance_configuration(bodies, after, step);
 };
 
-/// Moves the bodies under contact forces in two parts:
+/// A time integrator for contact forces. It advances the bodies by one step in two parts:
 ///
-/// - predict_configuration(bodies, loads, gravity, h): moves the bodies to the configuration in
-///   which contacts are detected and forces evaluated, under the loads of the step before
+/// - predict_configuration(bodies, loads, gravity, h): moves the bodies, under the loads of the
+///   previous step, to the configuration in which contacts are detected and forces are evaluated
 /// - advance_configuration(bodies, loads, gravity, h): advances the velocities to the end of the
 ///   step under the new loads
 ///
-/// A load is the (force [N], torque about the centre [N m]) of all contacts on a body, in world
-/// axes; there is one per body. h is the step [s], gravity an acceleration [m/s^2].
+/// A load is the sum of all contact forces [N] on a body and of their torques about its centre [N
+/// m], in world axes. `loads` has one element per body. h is the step [s], and gravity is an
+/// acceleration [m/s^2].
 template <class I, class S>
 concept ForceIntegrator = requires(const I integrator, Bodies<S> bodies,
                                    std::span<const typename S::Twist> loads,
@@ -49,7 +50,8 @@ concept ForceIntegrator = requires(const I integrator, Bodies<S> bodies,
   integrator.advance_configuration(bodies, loads, gravity, step);
 };
 
-/// An integrator of impulses, for set-valued laws, or of forces, for regularized laws.
+/// An integrator of impulses, for set-valued contact laws, or of forces, for regularized contact
+/// laws.
 template <class I, class S>
 concept TimeIntegrator = ImpulseIntegrator<I, S> || ForceIntegrator<I, S>;
 

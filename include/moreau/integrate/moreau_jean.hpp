@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Moreau-Jean time stepping. Velocities jump once per step, at a configuration within the step:
+// Moreau-Jean time stepping. Velocities jump once per step, at a configuration within the step.
+// With the generalized coordinates q, velocities v, external forces F and contact impulses r:
 //
 //   q_m = q_i + h (1 - theta) v_i      detection configuration
 //   v_free = v_i + h M^-1 F
-//   v_{i+1} = v_free + M^-1 J^T r      r from the contact problem
+//   v_{i+1} = v_free + M^-1 J^T r      r: solution of the contact problem
 //   q_{i+1} = q_m + h theta v_{i+1}
 //
-// Without forces the angular momentum L is conserved to rounding. With I_m = I(q_m) the free
-// angular velocity is w = I_m^-1 (L_i + h tau), and w_{i+1} solves I(exp(h theta w) q_m) w =
-// L_{i+1} by Newton's method, so that the gyroscopic terms are implicit (in the plane, I w = L).
+// Without forces the angular momentum L is conserved to rounding. With I_m = I(q_m) and the torque
+// tau, the free angular velocity is w = I_m^-1 (L_i + h tau). Let L_{i+1} be the angular momentum
+// after the contact impulses. The new angular velocity w solves I(exp(h theta w) q_m) w = L_{i+1}
+// by Newton's method, so that the gyroscopic terms are implicit. In the plane the equation is I w =
+// L_{i+1}.
 #pragma once
 
 #include <Eigen/LU>
@@ -16,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <tuple>
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
@@ -25,15 +29,16 @@
 
 namespace moreau {
 
-/// The theta scheme of Moreau and Jean; the head of this file has its equations. Model of
-/// ImpulseIntegrator, for set-valued laws. Source of all but the rotations: M. Jean, Comput.
-/// Methods Appl. Mech. Engrg. 177 (1999) 235.
+/// The theta scheme of Moreau and Jean, with the equations at the top of this file. It models
+/// ImpulseIntegrator and is used with set-valued contact laws. Source, except for the rotations: M.
+/// Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235.
 class MoreauJean {
  public:
-  /// theta = 1/2.
+  /// The scheme with theta = 1/2.
   MoreauJean() = default;
-  /// @param theta in [1/2, 1] [-]: 1/2 is second order and conserves energy, 1 is fully implicit
-  /// @throws std::invalid_argument for a theta outside [1/2, 1]
+  /// @param theta in [1/2, 1] [-]. With 1/2 the scheme is second order and conserves energy; with 1
+  ///              it is fully implicit
+  /// @throws std::invalid_argument if theta is outside of [1/2, 1]
   explicit MoreauJean(double theta) : theta_(theta) {
     require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
   }
@@ -41,8 +46,8 @@ class MoreauJean {
 
   /// Computes the angular momentum of every body and moves the bodies to the detection
   /// configuration.
-  /// @param momentum out: L_i about the centre, one per body, world axes [kg m^2/s]
-  /// @param step     [s]
+  /// @param momentum out: angular momentum L_i of each body about its centre, world axes [kg m^2/s]
+  /// @param step     h [s]
   template <class S>
   void predict_configuration(Bodies<S>& bodies, std::span<typename S::Angular> momentum,
                              typename S::Scalar step) const {
@@ -54,9 +59,9 @@ class MoreauJean {
   }
 
   /// Computes the velocities at the end of the step without contacts.
-  /// @param gravity  world axes [m/s^2]
-  /// @param momentum in: L_i, out: L_i + h tau, one per body, world axes [kg m^2/s]
-  /// @param free     out: (v, w), one per body, world axes [m/s, rad/s]
+  /// @param gravity  acceleration, world axes [m/s^2]
+  /// @param momentum in: L_i, out: L_i + h tau of each body, world axes [kg m^2/s]
+  /// @param free     out: twist (v, w) of each body, world axes [m/s, rad/s]
   /// @param step     h [s]
   template <class S>
   void free_velocity(const Bodies<S>& bodies, const typename S::Vector& gravity,
@@ -72,10 +77,10 @@ class MoreauJean {
     }
   }
 
-  /// Moves the bodies to the end of the step.
-  /// @param after (v, w) after the contact impulses, at the detection configuration, one per body,
-  ///              world axes [m/s, rad/s]
-  /// @param step  [s]
+  /// Sets the new velocities and moves the bodies to the end of the step.
+  /// @param after twist (v, w) of each body after the contact impulses, in the detection
+  ///              configuration, world axes [m/s, rad/s]
+  /// @param step  h [s]
   template <class S>
   void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> after,
                              typename S::Scalar step) const {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Velocity Verlet for forces that depend smoothly on the configuration (molecular dynamics):
+// Velocity Verlet for forces that depend smoothly on the configuration, as in molecular dynamics:
 //
 //   v_{i+1/2} = v_i + h/2 M^-1 F_i         q_{i+1} = q_i + h v_{i+1/2}
 //   F_{i+1} from q_{i+1}, v_{i+1/2}        v_{i+1} = v_{i+1/2} + h/2 M^-1 F_{i+1}
 //
-// Rotations use the angular momentum L in place of v: w at the half step solves
-// I(q_{i+1/2}) w = L_{i+1/2}, which conserves L to rounding without forces. Second order in h;
-// stable for h < 2 / (largest eigenfrequency), accurate in practice for h up to a twentieth of the
-// duration of a contact (L. Verlet, Phys. Rev. 159 (1967) 98; P. A. Cundall and O. D. L. Strack,
-// Geotechnique 29 (1979) 47).
+// Rotations are treated in the same way, with the angular momentum L in place of v. The angular
+// velocity w at the half step solves I(q_{i+1/2}) w = L_{i+1/2}. So L is conserved to rounding if
+// there are no torques. The scheme is second order in h. It is stable for h < 2 / (largest angular
+// eigenfrequency). In practice it is accurate if h is at most a twentieth of the duration of a
+// contact (L. Verlet, Phys. Rev. 159 (1967) 98; P. A. Cundall and O. D. L. Strack, Geotechnique 29
+// (1979) 47).
 #pragma once
 
 #include <cstddef>
@@ -20,14 +21,14 @@
 
 namespace moreau {
 
-/// Velocity Verlet; the head of this file has its equations and their source. Model of
-/// ForceIntegrator, for regularized laws.
+/// The velocity Verlet scheme, with the equations and sources at the top of this file. It models
+/// ForceIntegrator and is used with regularized contact laws.
 class VelocityVerlet {
  public:
   /// Advances the velocities by half a step and moves the bodies to the end of the step.
-  /// @param loads   contact force [N] and torque about the centre [N m] of every body, world axes
-  /// @param gravity world axes [m/s^2]
-  /// @param step    [s]
+  /// @param loads   contact force [N] and torque about the centre [N m] on each body, world axes
+  /// @param gravity acceleration, world axes [m/s^2]
+  /// @param step    h [s]
   template <class S>
   void predict_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> loads,
                              const typename S::Vector& gravity, typename S::Scalar step) const {
@@ -52,11 +53,12 @@ class VelocityVerlet {
     }
   }
 
-  /// Advances the velocities by the other half of the step, with the forces of the new
+  /// Advances the velocities by the second half of the step, with the forces of the new
   /// configuration.
-  /// @param loads   in the new configuration, as in predict_configuration()
-  /// @param gravity world axes [m/s^2]
-  /// @param step    [s]
+  /// @param loads   contact force [N] and torque about the centre [N m] on each body in the new
+  ///                configuration, world axes
+  /// @param gravity acceleration, world axes [m/s^2]
+  /// @param step    h [s]
   template <class S>
   void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> loads,
                              const typename S::Vector& gravity, typename S::Scalar step) const {

@@ -155,7 +155,7 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::si
   const bool by_rows = form == compressed_rows;
   const auto outer = std::size_t(by_rows ? rows : columns);
   require(p.size() > outer, self, "size of " + name + "/p", p.size(),
-          "must exceed the rows or columns");
+          "must exceed the number of rows or columns");
   for (std::size_t o = 0; o < outer; ++o) {
     const std::string where = name + "/p[" + std::to_string(o + 1) + "]";
     require(p[o] >= 0 && p[o + 1] >= p[o], self, where, p[o + 1], "must not decrease");

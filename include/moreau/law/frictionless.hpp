@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <tuple>
 
 #include "moreau/contact/lane_block.hpp"
 #include "moreau/contact/local_block.hpp"

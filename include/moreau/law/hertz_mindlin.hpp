@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <tuple>
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <tuple>
 
 #include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/error.hpp"

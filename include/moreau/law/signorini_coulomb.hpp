@@ -18,6 +18,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 
 #include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"

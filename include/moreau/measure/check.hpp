@@ -18,7 +18,7 @@ namespace moreau {
 /// Judges the last step of a simulation.
 /// @param simulation after step()
 /// @param report     what step() returned
-/// @returns one sentence for each of these, with the numbers; empty if there is none of them:
+/// @returns one sentence with numbers for each of the following faults; empty if there are none:
 ///          - surfaces moved by more than the detection margin in the step: contacts can be missed
 ///          - the smallest grain is ten times smaller or larger than the grain size, to which all
 ///            tolerances are relative (for shapes that have a circumradius())

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The exact volume of a polytope inside an axis-aligned box.
 //
-// The surface is a set of oriented rings of points: in space the faces, in the plane the outline.
-// The planes of the box cut the rings one after the other:
+// The surface of the polytope is stored as oriented rings of points: in space its faces, in the
+// plane its outline. The planes of the box cut the rings one after the other:
 //
-//   1. Each ring is clipped. Where it leaves the kept side at a point p and returns at a point q,
-//      it is closed along the segment from p to q.
-//   2. In space the cut leaves a hole whose rim consists of the segments from q to p. The triangles
-//      (apex, q, p) with any common apex on the plane fill the hole. Segments need no sorting.
+//   1. Each ring is clipped. Where it leaves the kept side of the plane at a point p and returns at
+//      a point q, it is closed by the segment from p to q.
+//   2. In space the cut leaves a hole in the surface. The rim of the hole consists of the segments
+//      from q to p. The hole is filled by triangles (apex, q, p), where apex is any point of the
+//      plane, the same for all segments. The segments need not be sorted.
 //
-// The surface stays closed for any rounding: two neighbouring rings compute the point on their
-// common edge from the same two ends in the same order, so that all bits agree. A plane through
-// vertices, edges or whole faces is therefore no special case.
+// The surface stays closed despite rounding: two neighbouring rings compute the point on their
+// common edge from the same two ends in the same order, so that both get the same bits. A plane
+// through vertices, edges or whole faces is therefore not a special case.
 //
-// The volume is a sum of signed simplices over one point of the surface (divergence theorem). Its
-// error is a few rounding errors of the volume of the polytope, not of the result.
+// The volume is a sum of signed simplices with one common corner on the surface (divergence
+// theorem). Its error is a few rounding errors of the volume of the whole polytope, however small
+// the volume inside the box is.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +53,8 @@ struct Rings {
       start = end;
     }
   }
-  /// Makes a ring of the points behind the last ring. Drops them if there are fewer than three.
+  /// Makes a ring of the points that were added after the last ring. Removes these points if there
+  /// are fewer than three.
   void close() {
     const std::size_t start = ends.empty() ? 0 : ends.back();
     if (points.size() - start > 2)
@@ -61,7 +64,8 @@ struct Rings {
   }
 };
 
-/// The half-space side (x[axis] - limit) <= 0, side = 1 or -1.
+/// The half-space side (x[axis] - limit) <= 0, where side is 1 or -1. A point is kept if it lies in
+/// the half-space.
 template <class S>
 struct AxisPlane {
   using Scalar = typename S::Scalar;
@@ -73,7 +77,7 @@ struct AxisPlane {
 
   Scalar height(const Vector& x) const { return side * (x[axis] - limit); }
   bool keeps(const Vector& x) const { return height(x) <= 0; }
-  /// Where the segment from a kept point to one that is not meets the plane.
+  /// The point at which the segment from a kept point to a cut point meets the plane.
   Vector crossing(const Vector& kept, const Vector& cut) const {
     const Scalar below = height(kept);
     Vector x = kept + below / (below - height(cut)) * (cut - kept);
@@ -82,7 +86,8 @@ struct AxisPlane {
   }
 };
 
-/// Fills the hole that a plane cuts into a surface. In the plane a cut leaves no hole.
+/// Fills the hole that a cut leaves in a surface. In the plane a cut leaves no hole, so this class
+/// does nothing.
 template <class S>
 class Cap {
  public:
@@ -96,7 +101,7 @@ class Cap<Space<3, T>> {
   using Vector = typename Space<3, T>::Vector;
 
   explicit Cap(Rings<Space<3, T>>& triangles) : triangles_(triangles) {}
-  /// A ring leaves the kept side at p and comes back at q.
+  /// Adds a segment of the rim: a ring leaves the kept side at p and returns to it at q.
   void add(const Vector& p, const Vector& q) {
     if (!has_apex_) apex_ = p;
     has_apex_ = true;
@@ -111,14 +116,14 @@ class Cap<Space<3, T>> {
   bool has_apex_ = false;
 };
 
-/// Appends what the plane keeps of one ring.
+/// Appends to `kept` the part of one ring that lies on the kept side of the plane.
 template <class S>
 void clip_ring(std::span<const typename S::Vector> ring, const AxisPlane<S>& plane, Rings<S>& kept,
                Cap<S>& cap) {
   using Vector = typename S::Vector;
   const Vector* from = &ring.back();
   bool from_kept = plane.keeps(*from);
-  // The ring may start on the far side: its first return then closes its last leave.
+  // If the ring starts on the cut side, its first return belongs to its last leave.
   const bool starts_cut = !from_kept;
   bool left = false, returned = false;
   Vector leave = Vector::Zero(), first_return = Vector::Zero();
@@ -158,7 +163,7 @@ void clip(const Rings<S>& rings, const AxisPlane<S>& plane, Rings<S>& kept, Ring
   for (const std::size_t end : caps.ends) kept.ends.push_back(shift + end);
 }
 
-/// The area inside the rings, counter-clockwise counts as positive [m^2].
+/// The area inside the rings [m^2]. The area of a counter-clockwise ring is positive.
 template <class T>
 T enclosed_volume(const Rings<Space<2, T>>& rings) {
   using Vector = typename Space<2, T>::Vector;
@@ -174,7 +179,7 @@ T enclosed_volume(const Rings<Space<2, T>>& rings) {
   return doubled / 2;
 }
 
-/// The volume inside the rings, counter-clockwise seen from outside [m^3].
+/// The volume inside the rings [m^3]. Seen from outside, the rings are counter-clockwise.
 template <class T>
 T enclosed_volume(const Rings<Space<3, T>>& rings) {
   using Vector = typename Space<3, T>::Vector;
@@ -182,7 +187,8 @@ T enclosed_volume(const Rings<Space<3, T>>& rings) {
   rings.for_each_ring([&](std::size_t start, std::size_t end) {
     const Vector& origin = rings.points.front();
     const Vector& corner = rings.points[start];
-    Vector normal = Vector::Zero();  // times twice the ring's area
+    Vector normal = Vector::Zero();  // sum of the normals of the triangles, its length is twice the
+                                     // area of the ring
     for (std::size_t i = start + 1; i + 1 < end; ++i)
       normal += (rings.points[i] - corner).cross(rings.points[i + 1] - corner);
     sixfold += (corner - origin).dot(normal);
@@ -190,7 +196,7 @@ T enclosed_volume(const Rings<Space<3, T>>& rings) {
   return sixfold / 6;
 }
 
-/// The outline of a polygon: one ring.
+/// Appends the outline of a polygon as one ring.
 template <class T, class Polygon>
 void append_surface(const Polygon&, std::span<const typename Space<2, T>::Vector> vertices,
                     Rings<Space<2, T>>& rings) {
@@ -198,7 +204,7 @@ void append_surface(const Polygon&, std::span<const typename Space<2, T>::Vector
   rings.close();
 }
 
-/// The faces of a polyhedron.
+/// Appends the faces of a polyhedron, one ring each.
 template <class T, class Polyhedron>
 void append_surface(const Polyhedron& shape, std::span<const typename Space<3, T>::Vector> vertices,
                     Rings<Space<3, T>>& rings) {
@@ -210,18 +216,21 @@ void append_surface(const Polyhedron& shape, std::span<const typename Space<3, T
 
 }  // namespace detail
 
-/// Buffers of clipped_volume, kept from call to call so that it allocates nothing once warm.
+/// Buffers of clipped_volume. They keep their memory from call to call, so that later calls do not
+/// allocate.
 template <class S>
 struct ClipWorkspace {
-  std::vector<typename S::Vector> vertices;  ///< of the grain, world axes [m]
-  detail::Rings<S> rings;                    ///< its faces
-  detail::Rings<S> kept;                     ///< what a plane has left of them
-  detail::Rings<S> caps;                     ///< what closes the cut
+  std::vector<typename S::Vector> vertices;  ///< vertices of the grain relative to its centre,
+                                             ///< world axes [m]
+  detail::Rings<S> rings;                    ///< surface of the grain
+  detail::Rings<S> kept;                     ///< part of `rings` that remains after a cut
+  detail::Rings<S> caps;                     ///< triangles that close the hole of a cut
 };
 
 namespace detail {
 
-/// The box around the vertices, in world axes from the grain's centre; fills workspace.vertices.
+/// Rotates the vertices of a grain into world axes, stores them in workspace.vertices, and returns
+/// their bounding box. All positions are relative to the grain's centre [m].
 template <Polytope Shape, class S>
 Aabb<S> turn_vertices(const Shape& shape, const Pose<S>& pose, ClipWorkspace<S>& workspace) {
   const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
@@ -234,8 +243,10 @@ Aabb<S> turn_vertices(const Shape& shape, const Pose<S>& pose, ClipWorkspace<S>&
   return box;
 }
 
-/// The volume between `lower` and `upper` of the polytope with workspace.vertices, and with
-/// `around` as their box; only the planes that cut that box are used.
+/// The volume of the part of a polytope inside the box `limits`. Only those planes of the box are
+/// used that cut the polytope.
+/// @param around  bounding box of workspace.vertices, the vertices of the polytope [m]
+/// @param limits  relative to the grain's centre, world axes [m]
 template <Polytope Shape, class S>
 typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, const Aabb<S>& limits,
                                   ClipWorkspace<S>& workspace) {
@@ -256,16 +267,18 @@ typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, con
 
 }  // namespace detail
 
-/// The volume of a polytope at a pose that lies in the control volume, in the plane its area [m^D].
-/// Exact to some rounding errors of the volume of the polytope.
-/// @param control_volume  in world axes [m]
-/// @param workspace       buffers, reused
+/// The volume of that part of a polytope which lies in a control volume; in the plane the area
+/// [m^D]. The error is a few rounding errors of the volume of the whole polytope.
+/// @param pose            pose of the polytope, world axes [m]
+/// @param control_volume  a box in world axes [m]
+/// @param workspace       buffers, which may be reused for the next call
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <Polytope Shape, class S = SpaceOf<Shape>>
 typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
                                   const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
   require_control_volume(control_volume, "clipped_volume");
-  // From the grain's centre, so that no digits go into its distance from the origin.
+  // All positions are relative to the grain's centre, so that a grain far from the world's origin
+  // loses no digits.
   const Aabb<S> limits{control_volume.lower - pose.position, control_volume.upper - pose.position};
   const typename S::Scalar reach = shape.circumradius();
   if (limits.lower.maxCoeff() >= reach || limits.upper.minCoeff() <= -reach) return 0;

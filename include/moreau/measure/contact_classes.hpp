@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shares of the classes of contacts: corners, edges, faces.
+// The share of each class of contacts (vertex-face, edge-edge, ...) in number and force.
 #pragma once
 
 #include <array>
@@ -10,30 +10,35 @@
 
 namespace moreau {
 
-/// Share of one class of contacts.
+/// The share of one class of contacts.
 struct ContactClassShare {
-  std::size_t pairs = 0;   ///< of bodies that carry force
-  std::size_t points = 0;  ///< their points that carry force
-  double neighbours = 0;   ///< per grain: a pair of grains adds two, a grain and a wall one [-]
-  double force = 0;        ///< part of the sum of all normal forces, in [0, 1] [-]
+  std::size_t pairs = 0;   ///< number of pairs of bodies with a contact of this class that carries
+                           ///< force
+  std::size_t points = 0;  ///< number of contact points of these pairs that carry force
+  double neighbours = 0;   ///< mean number of neighbours of a grain with a contact of this class
+                           ///< [-]; a pair of two grains counts twice, a pair of a grain and a wall
+                           ///< once
+  double force = 0;        ///< sum of the normal forces of this class, divided by the sum over all
+                           ///< classes, in [0, 1] [-]
 };
 
 /// The share of every ContactClass.
 struct ContactClasses {
-  /// In the order of ContactClass.
+  /// The shares in the order of the enumerators of ContactClass.
   std::array<ContactClassShare, static_cast<std::size_t>(ContactClass::face_face) + 1> shares;
 
-  /// Of one class.
+  /// The share of one class.
   const ContactClassShare& operator[](ContactClass c) const {
     return shares[static_cast<std::size_t>(c)];
   }
 };
 
-/// The coordination by class of contact. The sum over all classes is the coordination number that
-/// CoordinationCounter returns for all grains.
-/// @param pairs       of pair_forces()
-/// @param grain_count number of grains; without any, neighbours are 0
-/// @param is_grain    body -> false for a wall; bodies by BodyId::index()
+/// The coordination by class of contact. The sum of `neighbours` over all classes is the
+/// coordination number that CoordinationCounter returns if it removes no rattlers.
+/// @param pairs       result of pair_forces()
+/// @param grain_count number of grains; if it is 0, all `neighbours` are 0
+/// @param is_grain    function: index of a body (BodyId::index()) -> true for a grain, false for a
+///                    wall
 template <class S>
 ContactClasses contact_classes(std::span<const PairForce<S>> pairs, std::size_t grain_count,
                                const auto& is_grain) {

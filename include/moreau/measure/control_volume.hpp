@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks of a control volume: the box, at rest in world axes, in which a measure is taken.
+// Checks of a control volume: the axis-aligned box, fixed in world axes, in which a quantity is
+// measured.
 #pragma once
 
 #include <sstream>
@@ -33,9 +34,9 @@ bool is_control_volume(const Aabb<S>& box) {
 
 /// Checks a control volume.
 /// @param box      world axes [m]
-/// @param function the public name the caller used
-/// @throws std::invalid_argument naming the function and the box if it is empty, inverted or not
-///         finite
+/// @param function the public function that the caller of the library called, for the message
+/// @throws std::invalid_argument naming the function and the box if the box is empty, inverted or
+///                               not finite
 template <class S>
 void require_control_volume(const Aabb<S>& box, std::string_view function) {
   if (is_control_volume(box)) return;
@@ -43,9 +44,10 @@ void require_control_volume(const Aabb<S>& box, std::string_view function) {
                 "must be finite with lower < upper on every axis");
 }
 
-/// Checks that a control volume lies inside the container of the grains, both in world axes [m].
-/// @throws std::invalid_argument naming both boxes if it does not, or if a box is empty, inverted
-///         or not finite
+/// Checks that a control volume lies inside the container of the grains. Both are boxes in world
+/// axes [m].
+/// @throws std::invalid_argument naming both boxes if the control volume does not lie inside, or if
+///                               a box is empty, inverted or not finite
 template <class S>
 void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
   require_control_volume(control_volume, "require_inside");
@@ -55,7 +57,7 @@ void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
                 "must lie inside the box " + detail::describe(box));
 }
 
-/// The volume of the box, in the plane its area [m^D]; without meaning for an inverted box.
+/// The volume of a box, in the plane its area [m^D]. For an inverted box the result has no meaning.
 template <class S>
 typename S::Scalar volume(const Aabb<S>& box) {
   return (box.upper - box.lower).prod();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Coordination number: mean number of neighbours in contact with force.
+// Coordination number: the mean number of neighbours with which a grain has a contact that carries
+// force.
 #pragma once
 
 #include <cstddef>
@@ -12,33 +13,37 @@
 
 namespace moreau {
 
-/// Coordination number: mean number of neighbours in contact with force.
+/// Coordination number: the mean number of neighbours with which a grain has a contact that carries
+/// force.
 struct Coordination {
-  std::size_t grains = 0;    ///< grains counted; rattlers are not, if they are removed
-  std::size_t rattlers = 0;  ///< grains removed
-  std::size_t points = 0;    ///< contact points with normal impulse > 0 of the counted bodies
-  std::size_t pairs = 0;     ///< pairs of bodies with such a point
-  /// Mean number of neighbours of a grain: bodies whose contact with it is in compression [-]. A
-  /// pair of grains adds two, a grain and a wall one. A pair counts once, independently of its
-  /// number of points. 0 without grains.
+  std::size_t grains = 0;    ///< number of grains counted, without the rattlers that were removed
+  std::size_t rattlers = 0;  ///< number of rattlers that were removed
+  std::size_t points = 0;  ///< number of contact points of the counted bodies with normal impulse >
+                           ///< 0
+  std::size_t pairs = 0;   ///< number of pairs of counted bodies with at least one such point
+  /// Mean number of neighbours of a grain [-]: bodies that have a contact point with normal impulse
+  /// > 0 with the grain. A pair of two grains adds two to the sum over all grains, a pair of a
+  /// grain and a wall adds one. A pair counts once, whatever its number of points. 0 if there are
+  /// no grains.
   double neighbours = 0;
-  double points_per_grain = 0;  ///< the same, counting points instead of pairs [-]
+  double points_per_grain = 0;  ///< mean number of contact points of a grain with normal impulse >
+                                ///< 0 [-]
 };
 
-/// Counts neighbours. Reuses its buffers from call to call.
+/// Counts neighbours. The object keeps its buffers from call to call.
 template <class S>
 class CoordinationCounter {
  public:
   /// Counts the contacts with normal impulse > 0.
-  /// @param points     sorted by (a, b), as in Contacts
-  /// @param impulses   of the points, contact frames, normal first [N s]
-  /// @param body_count number of bodies, walls included
-  /// @param is_grain   body -> false for a wall
-  /// @param fewest     grains with fewer neighbours are rattlers. They are removed with their
-  ///                   contacts, repeatedly until there are no more. 0 keeps all grains. Use S::dim
-  ///                   + 1 for frictionless rigid spheres; with friction a grain can be held by two
-  ///                   contacts.
-  /// @throws std::invalid_argument if points and impulses differ in number
+  /// @param points     contact points, sorted by (a, b) as in Contacts
+  /// @param impulses   impulse of each point in its contact frame, normal component first [N s]
+  /// @param body_count number of bodies, including walls
+  /// @param is_grain   function: index of a body -> true for a grain, false for a wall
+  /// @param fewest     grains with fewer neighbours than this are rattlers. They are removed with
+  ///                   their contacts. This is repeated until no rattlers are left. With 0 all
+  ///                   grains are counted. Use S::dim + 1 for frictionless rigid spheres. With
+  ///                   friction two contacts can hold a grain.
+  /// @throws std::invalid_argument if the numbers of points and impulses differ
   Coordination count(std::span<const Contact<S>> points,
                      std::span<const typename S::Vector> impulses, std::size_t body_count,
                      const auto& is_grain, std::size_t fewest = 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Energy and momentum of rigid bodies.
+// Kinetic energy, linear and angular momentum of rigid bodies.
 #pragma once
 
 #include <cmath>
@@ -16,12 +16,13 @@ template <class S>
 struct BodyMotion {
   typename S::Scalar mass = 0;                       ///< [kg]
   typename S::Inertia inertia = S::Inertia::Zero();  ///< about the centre of mass [kg m^2]
-  typename S::Vector position = S::Vector::Zero();   ///< of the centre of mass [m]
-  typename S::Twist velocity = S::Twist::Zero();     ///< (v, w) [m/s, rad/s]
+  typename S::Vector position = S::Vector::Zero();   ///< position of the centre of mass [m]
+  typename S::Twist velocity = S::Twist::Zero();     ///< twist (v, w) of the centre of mass [m/s,
+                                                     ///< rad/s]
 
-  BodyMotion() = default;  ///< no mass, at rest at the origin
+  BodyMotion() = default;  ///< a body without mass, at rest at the origin
   /// @param m       mass [kg]
-  /// @param about_x inertia, A x A, about the centre of mass [kg m^2]
+  /// @param about_x inertia tensor about the centre of mass, A x A, world axes [kg m^2]
   /// @param x       position of the centre of mass [m]
   /// @param v       twist (v, w) [m/s, rad/s]
   BodyMotion(typename S::Scalar m, const typename S::Inertia& about_x, const VectorArgument<S>& x,
@@ -29,23 +30,23 @@ struct BodyMotion {
       : mass(m), inertia(about_x), position(x), velocity(v) {}
 };
 
-/// Kinetic energy of one body or of many, >= 0.
+/// Kinetic energy of one body or the sum over many bodies, >= 0.
 template <class S>
 struct KineticEnergy {
-  typename S::Scalar translation = 0;  ///< m v^2/2 [J]
+  typename S::Scalar translation = 0;  ///< m v^2/2 of the centre of mass [J]
   typename S::Scalar rotation = 0;     ///< w.I w/2 [J]
 
-  typename S::Scalar total() const { return translation + rotation; }  ///< of both [J]
+  typename S::Scalar total() const { return translation + rotation; }  ///< sum of both parts [J]
 };
 
-/// Momentum of one body or of many, world axes.
+/// Linear and angular momentum of one body or the sum over many bodies, world axes.
 template <class S>
 struct Momentum {
-  typename S::Vector linear = S::Vector::Zero();     ///< [kg m/s]
+  typename S::Vector linear = S::Vector::Zero();     ///< m v [kg m/s]
   typename S::Angular angular = S::Angular::Zero();  ///< about the given origin [kg m^2/s]
 };
 
-/// Kinetic energy of one body: m v^2/2 and w.I w/2 [J].
+/// Kinetic energy of one body: m v^2/2 of the translation and w.I w/2 of the rotation [J].
 template <class S>
 KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
   const auto v = linear<S>(body.velocity);
@@ -53,8 +54,8 @@ KineticEnergy<S> kinetic_energy(const BodyMotion<S>& body) {
   return {body.mass * v.squaredNorm() / 2, w.dot(body.inertia * w) / 2};
 }
 
-/// Momentum of one body: m v [kg m/s], and I w + r x m v [kg m^2/s] with r from `origin` (world
-/// axes [m]) to the centre of mass.
+/// Momentum of one body: linear momentum m v [kg m/s] and angular momentum I w + r x m v about
+/// `origin` [kg m^2/s]. r is the vector from `origin` (world axes [m]) to the centre of mass.
 template <class S>
 Momentum<S> momentum(const BodyMotion<S>& body,
                      const VectorArgument<S>& origin = S::Vector::Zero()) {
@@ -64,7 +65,7 @@ Momentum<S> momentum(const BodyMotion<S>& body,
 
 /// Kinetic energy of many bodies [J].
 /// @param count     number of bodies
-/// @param motion_of k -> BodyMotion<S> of body k, k < count
+/// @param motion_of function: k -> BodyMotion<S> of body k, for k < count
 template <class S, class MotionOf>
 KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   KineticEnergy<S> sum;
@@ -76,10 +77,10 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   return sum;
 }
 
-/// Momentum of many bodies; angular momentum about the origin.
+/// Sum of the momenta of many bodies.
 /// @param count     number of bodies
-/// @param motion_of k -> BodyMotion<S> of body k, k < count
-/// @param origin    world axes [m]
+/// @param motion_of function: k -> BodyMotion<S> of body k, for k < count
+/// @param origin    the point about which the angular momentum is taken, world axes [m]
 template <class S, class MotionOf>
 Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
                      const VectorArgument<S>& origin = S::Vector::Zero()) {

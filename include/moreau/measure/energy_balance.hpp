@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the energy of a simulation comes from and goes to, term by term:
+// The energy balance of a simulation, term by term:
 //
 //   kinetic - kinetic at the start = gravity + forces + drives
 //                                    - impacts - friction - rolling - elastic - correction
@@ -8,15 +8,17 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
-// Each term is measured on its own. The imbalance is the part of the kinetic energy that no term
-// explains:
+// Each term is measured independently. The imbalance is the part of the kinetic energy that the
+// other terms do not explain. Its size depends on the integrator, the bodies and the contact law:
 //
-//   - MoreauJean(1/2), in the plane, or with equal moments of inertia (balls, cubes): rounding.
-//   - MoreauJean(1/2), other bodies in space: first order in the step, because the inertia tensor
-//     rotates during the step.
-//   - MoreauJean(theta > 1/2): also the numerical damping of the scheme, first order in the step.
-//   - a regularized law: the error of forces that are constant during a step. `impacts` and
-//     `friction` then include the energy stored in the springs.
+//   - MoreauJean(1/2) in the plane, or with bodies of equal principal moments of inertia (balls,
+//     cubes): rounding errors.
+//   - MoreauJean(1/2) with other bodies in space: first order in the step, because the inertia
+//     tensor rotates during the step.
+//   - MoreauJean(theta > 1/2): in addition the numerical damping of the scheme, first order in the
+//     step.
+//   - A regularized contact law: the error of the assumption that forces are constant during a
+//     step. `impacts` and `friction` then include the energy stored in the springs.
 #pragma once
 
 #include <cmath>
@@ -34,51 +36,60 @@
 
 namespace moreau {
 
-/// Sums since the balance began, with the signs of the equation at the top of this file. In the
-/// plane they are energies per unit of the thickness that the densities refer to.
+/// The terms of the energy balance, summed since the balance began, with the signs of the equation
+/// at the top of this file. In the plane they are energies per thickness, for the thickness to
+/// which the densities refer.
 struct EnergyTerms {
-  double gravity = 0;     ///< work of gravity on grains: minus the gain of potential energy [J]
-  double forces = 0;      ///< work of set_force() on grains, and on walls along their mass [J]
-  double drives = 0;      ///< work of whatever moves bodies, or axes of them, that have no mass [J]
-  double impacts = 0;     ///< taken by normal impulses: restitution, inelastic shocks [J]
-  double friction = 0;    ///< taken by tangential impulses [J]
-  double rolling = 0;     ///< taken by couples of rolling and twisting resistance [J]
-  double elastic = 0;     ///< taken by the springs of compliant contacts; < 0 if they gave more [J]
-  double correction = 0;  ///< work of gravity and forces along the shifts of the overlap
-                          ///< correction, which made no velocity: < 0 where it lifts grains [J]
+  double gravity = 0;  ///< work of gravity on grains: minus the increase of their potential energy
+                       ///< [J]
+  double forces = 0;   ///< work of the forces of set_force() on grains, and on walls along the axes
+                       ///< along which they have a mass [J]
+  double drives = 0;   ///< work of the drives that move bodies without mass, or bodies along axes
+                       ///< without mass [J]
+  double impacts = 0;  ///< energy dissipated by normal impulses (inelastic impacts), > 0 for a loss
+                       ///< [J]
+  double friction = 0;  ///< energy dissipated by tangential impulses, > 0 for a loss [J]
+  double rolling = 0;  ///< energy dissipated by rolling and twisting resistance, > 0 for a loss [J]
+  double elastic = 0;  ///< energy taken by the springs of compliant contacts, < 0 if they gave
+                       ///< energy back [J]
+  double correction = 0;  ///< work of gravity and forces along the displacements of the overlap
+                          ///< correction, which do not change velocities; < 0 if grains are lifted
+                          ///< [J]
 
-  /// What the kinetic energy should have gained [J].
+  /// The increase of the kinetic energy that the terms explain [J].
   double gain() const {
     return gravity + forces + drives - impacts - friction - rolling - elastic - correction;
   }
 };
 
-/// Follows one simulation. If velocities or poses of bodies with a mass are set between two steps,
-/// the change appears in the imbalance, or in the work of gravity and forces. write_snapshot() can
-/// store the balance with the simulation, so that it continues with a restarted run.
+/// The energy balance of one simulation. If the user sets velocities or poses of bodies with a mass
+/// between two steps, the change appears in the imbalance, or in the work of gravity and forces.
+/// write_snapshot() can store the balance together with the simulation, so that a restarted run
+/// continues it.
 template <class S>
 class EnergyBalance {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Begins with the simulation as it stands.
+  /// Begins the balance with the present state of the simulation.
   template <class Simulation>
   explicit EnergyBalance(const Simulation& simulation) {
     remember(simulation.bodies());
     start_ = kinetic_;
   }
 
-  /// Adds the last step. Forces and gravity must still be those of the step.
-  /// @param step its length [s], > 0
-  /// @throws std::invalid_argument for a step that is not positive, or bodies added since the start
+  /// Adds the last step to the balance. Forces and gravity must still be those of this step.
+  /// @param step length of the step [s], > 0
+  /// @throws std::invalid_argument if the step is not positive, or if bodies were added since the
+  ///                               start
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
     const Bodies<S>& bodies = simulation.bodies();
     require(std::isfinite(step) && step > 0, "EnergyBalance::add", "step", step,
             "must be finite and > 0");
     require(bodies.size() == positions_.size(), "EnergyBalance::add", "number of bodies",
-            bodies.size(), "must be that of the start");
+            bodies.size(), "must be their number at the start of the balance");
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector way = bodies.pose[i].position - positions_[i];
       const Vector force = linear<S>(bodies.force[i]);
@@ -94,17 +105,18 @@ class EnergyBalance {
     remember(bodies);
   }
 
-  const EnergyTerms& terms() const { return terms_; }  ///< sums so far [J]
-  double kinetic() const { return kinetic_; }          ///< of grains and walls with a mass [J]
-  double kinetic_at_start() const { return start_; }   ///< kinetic() as the balance began [J]
-  /// What the kinetic energy gained beyond what the terms explain [J].
+  const EnergyTerms& terms() const { return terms_; }  ///< the terms, summed so far [J]
+  /// kinetic energy of grains, and of walls with a mass [J]
+  double kinetic() const { return kinetic_; }
+  double kinetic_at_start() const { return start_; }  ///< kinetic() when the balance began [J]
+  /// The increase of the kinetic energy that the terms do not explain [J].
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(terms_, positions_, kinetic_, start_); }
 
-  /// The part of a vector along the axes of the body that have a mass.
+  /// The component of a vector along those axes of the body along which the body has a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x) {
     const typename S::Matrix axes = bodies.axes(i);
     Vector along = axes.transpose() * x;
@@ -122,8 +134,8 @@ class EnergyBalance {
     return energy;
   }
 
-  /// Work of the prescribed part of a body's motion against the impulse that the body receives. The
-  /// drive of the body supplies the same work.
+  /// Work of the impulse and couple that a body receives, along the prescribed part of its motion
+  /// [J]. The drive that prescribes this motion supplies the opposite work.
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
                         const Vector& impulse, const typename S::Angular& couple) {
     if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;

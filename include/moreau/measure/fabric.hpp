@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fabric: the orientation of the contacts of an assembly.
+// Fabric tensor: the distribution of the orientations of contact normals in an assembly.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,18 @@
 
 namespace moreau {
 
-/// Distribution of the contact normals.
+/// Distribution of the orientations of contact normals.
 template <class S>
 struct Fabric {
-  /// Mean of n n^T over the pairs, D x D, world axes: symmetric, of trace 1, identity / D if the
-  /// normals point everywhere alike [-]. Zero without pairs.
+  /// Mean of n n^T over the pairs, where n is the contact normal of a pair: D x D, world axes,
+  /// symmetric, trace 1 [-]. For isotropic normals it is identity / D. Zero if there are no pairs.
   typename S::Matrix tensor = S::Matrix::Zero();
-  std::size_t pairs = 0;  ///< counted
+  std::size_t pairs = 0;  ///< number of pairs counted
 
-  /// The traceless a [-], D x D, world axes, of E(n) = (1 + n . a n) / (area of the unit sphere),
-  /// the density of normals that has this tensor: a = D (D + 2)/2 (tensor - identity / D). In the
-  /// plane its eigenvalues are +-a of E = (1 + a cos 2(theta - theta_c)) / 2 pi.
+  /// The anisotropy tensor a: D x D, world axes, symmetric, trace 0 [-]. E(n) = (1 + n . a n) /
+  /// (area of the unit sphere) is the probability density of normals with the same mean of n n^T.
+  /// It follows a = D (D + 2)/2 (tensor - identity / D). In the plane its eigenvalues are +-a of
+  /// the usual form E = (1 + a cos 2(theta - theta_c)) / 2 pi, with theta the angle of the normal.
   /// Source: K. Kanatani, Int. J. Eng. Sci. 22 (1984) 149, fabric tensors of the third kind.
   typename S::Matrix anisotropy() const {
     using Scalar = typename S::Scalar;
@@ -31,15 +32,15 @@ struct Fabric {
   }
 };
 
-/// The fabric tensor of the pairs of grains that carry force and whose centre of pressure lies in
-/// the control volume. Each pair counts once, whatever it carries and by however many points.
-/// Contacts with walls are left out: their normals are the walls'.
-/// @param pairs          of pair_forces()
+/// The fabric tensor of the pairs of grains that carry force and have their centre of pressure in
+/// the control volume. Each pair has the same weight, whatever its force and its number of points.
+/// Contacts with walls are not counted, because the walls prescribe their normals.
+/// @param pairs          result of pair_forces()
 /// @param control_volume world axes [m]
-/// @param position_of    body -> its centre of mass in world axes [m]
-/// @param is_grain       body -> false for a wall; bodies by BodyId::index()
-/// @param cell           if it is periodic: a pair counts if an image of it lies in the control
-///                       volume, which is at most as long as the cell
+/// @param position_of    function: index of a body -> its centre of mass in world axes [m]
+/// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall
+/// @param cell           periodic cell of the simulation. A pair is counted if one of its images
+///                       lies in the control volume, which must not be longer than the cell
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 /// Source: M. Satake, IUTAM Conf. on Deformation and Failure of Granular Materials (1982) 63.
 template <class S>

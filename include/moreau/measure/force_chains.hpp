@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts as segments between the centres of their bodies.
+// The force chains: each contact as a segment between the centres of its two bodies.
 #pragma once
 
 #include <cmath>
@@ -14,31 +14,31 @@
 
 namespace moreau {
 
-/// One contact point. If a body is a wall, which has no centre, its end of the segment is the
-/// contact point. All vectors in world axes.
+/// One contact point, with the segment between the centres of its two bodies. A wall has no centre;
+/// if a body is a wall, the segment ends at the contact point. All vectors are in world axes.
 template <class S>
 struct ContactSegment {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a;             ///< first body
-  std::uint32_t b;             ///< second body
+  std::uint32_t a;             ///< index of the first body
+  std::uint32_t b;             ///< index of the second body
   Vector from;                 ///< centre of a [m]
   Vector to;                   ///< centre of b [m]
   Vector point;                ///< contact point [m]
-  Scalar normal_force;         ///< > 0 pushes [N]
+  Scalar normal_force;         ///< normal force, > 0 for compression [N]
   Scalar friction_force;       ///< magnitude of the tangential force [N]
-  Scalar gap;                  ///< [m], < 0 is penetration
-  ContactClass contact_class;  ///< of the pair
+  Scalar gap;                  ///< signed gap [m], < 0 means penetration
+  ContactClass contact_class;  ///< contact class of the pair
 };
 
-/// The segment of point c, c < contacts.size().
-/// @param step        impulses are divided by it [s], > 0; not checked here
-/// @param position_of body -> its centre of mass in world axes [m]
-/// @param is_grain    body -> false for a wall
-/// @param cell        if it is periodic: the segment begins at the position of a and ends at that
-///                    image of b which the contact is with
-/// @throws std::invalid_argument if there is no such point
+/// The segment of contact point c, for c < contacts.size().
+/// @param step        length of the step [s], > 0, by which impulses are divided; not checked here
+/// @param position_of function: index of a body -> its centre of mass in world axes [m]
+/// @param is_grain    function: index of a body -> false for a wall
+/// @param cell        periodic cell of the simulation. The segment begins at the position of a and
+///                    ends at the image of b that a is in contact with
+/// @throws std::invalid_argument if c is not smaller than the number of contact points
 template <class S>
 ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
                                   typename S::Scalar step, const auto& position_of,
@@ -64,8 +64,8 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
   return segment;
 }
 
-/// Fills `segments` with the contacts whose normal force is > 0, in the order of `contacts`;
-/// arguments as of contact_segment().
+/// Replaces the contents of `segments` by the segments of all contact points with normal force > 0,
+/// in the order of `contacts`. The arguments are those of contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>
 void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
@@ -78,8 +78,8 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
       segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
 }
 
-/// Fills `segments` with all contacts, also contacts without force; arguments as of
-/// contact_segment().
+/// Replaces the contents of `segments` by the segments of all contact points, including points
+/// without force. The arguments are those of contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
 template <class S>
 void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,

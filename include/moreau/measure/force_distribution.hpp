@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Distribution of the contact forces of an assembly.
+// Probability distribution of the contact forces of an assembly.
 #pragma once
 
 #include <cmath>
@@ -11,30 +11,32 @@
 
 namespace moreau {
 
-/// The probability density of f over the mean of f as a histogram of equal bins from zero on.
+/// Histogram of the probability density of f / (mean of f), with bins of equal width that begin at
+/// zero.
 template <std::floating_point T>
 struct ForceDistribution {
-  std::size_t count = 0;   ///< forces
-  T mean = 0;              ///< of all forces [N]
-  T width = 0;             ///< of a bin, in means [-]
-  std::vector<T> density;  ///< per bin; times width it sums to 1 - beyond [-]
-  T beyond = 0;            ///< share of the forces above the last bin, in [0, 1] [-]
+  std::size_t count = 0;   ///< number of forces
+  T mean = 0;              ///< mean of all forces [N]
+  T width = 0;             ///< width of a bin, in units of the mean [-]
+  std::vector<T> density;  ///< density in each bin; sum(density) * width = 1 - beyond [-]
+  T beyond = 0;            ///< fraction of the forces above the last bin, in [0, 1] [-]
 
-  /// The middle of bin k, in means [-].
+  /// The middle of bin k, in units of the mean [-].
   T ratio(std::size_t k) const { return (static_cast<T>(k) + T(0.5)) * width; }
 };
 
-/// Normal forces, friction forces or any other magnitudes, e.g. those of pair_forces():
+/// The distribution of normal forces, friction forces or other magnitudes, for example of the
+/// result of pair_forces():
 ///
 ///   force_distribution<double>(pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; })
 ///
 /// @param count    number of forces
-/// @param force_of k -> the magnitude of force k [N], >= 0
-/// @param bins     > 0
-/// @param reach    where the last bin ends, in means, > 0 [-]
-/// @returns densities of zero if there is no force greater than zero
-/// @throws std::invalid_argument for no bins, a reach that is not finite or not positive, a force
-///         that is not finite or negative
+/// @param force_of function: k -> magnitude of force k [N], >= 0
+/// @param bins     number of bins, > 0
+/// @param reach    upper end of the last bin, in units of the mean, > 0 [-]
+/// @returns zero in all bins if no force is greater than zero
+/// @throws std::invalid_argument if bins is 0, if reach is not finite or not positive, or if a
+///                               force is not finite or negative
 template <std::floating_point T>
 ForceDistribution<T> force_distribution(std::size_t count, const auto& force_of,
                                         std::size_t bins = 24, T reach = 6) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Means over the grains in each cell of a grid: fields of velocity, displacement, or any other
-// vector of the grains.
+// Means over the grains in each cell of a grid: fields of velocity, of displacement, or of any
+// other vector quantity of the grains.
 //
 //   GridField<S> velocity(box, {20, 20, 10}), displacement(box, {20, 20, 10});
-//   velocity.add(x, v, mass);               // for every grain, in one step or in many
-//   displacement.add(x_then, x - x_then);   // since the configuration then, which it refers to
+//   velocity.add(x, v, mass);              // for every grain, in one step or in several
+//   displacement.add(x_0, x - x_0);        // x_0 = reference position, to which the field refers
 //
-// The poses of a periodic simulation are not wrapped, so that their differences are displacements.
+// The poses of a periodic simulation are not wrapped into the cell. So the difference of two poses
+// of a grain is its displacement.
 #pragma once
 
 #include <cmath>
@@ -19,16 +20,17 @@
 
 namespace moreau {
 
-/// One cell of a grid.
+/// The result for one cell of a grid.
 template <class S>
 struct GridSample {
-  typename S::Vector position;  ///< its centre, world axes [m]
-  typename S::Vector value;     ///< weighted mean over its grains, in their unit; zero without
-  typename S::Scalar weight;    ///< sum over its grains, in the unit of their weights
-  std::size_t grains;           ///< counted, in all steps
+  typename S::Vector position;  ///< centre of the cell, world axes [m]
+  typename S::Vector value;     ///< weighted mean over the grains in the cell, in the unit of the
+                                ///< values; zero without grains
+  typename S::Scalar weight;    ///< sum of the weights of these grains, in the unit of the weights
+  std::size_t grains;           ///< number of grains added, in all steps
 };
 
-/// Weighted means of a vector over the grains whose centres lie in each cell.
+/// Weighted means of a vector quantity over the grains whose centres lie in each cell of a grid.
 template <class S>
 class GridField {
  public:
@@ -37,8 +39,9 @@ class GridField {
   using Cells = Eigen::Matrix<std::size_t, S::dim, 1>;
 
   /// @param control_volume world axes [m]
-  /// @param cells          number of them along every axis, > 0
-  /// @throws std::invalid_argument for no cells along an axis, or a control volume that is empty,
+  /// @param cells          number of cells along each axis, > 0
+  /// @throws std::invalid_argument if there are no cells along an axis, or if the control volume is
+  ///                               empty,
   ///         inverted or not finite
   GridField(const Aabb<S>& control_volume, const Components<S::dim, std::size_t>& cells)
       : box_(control_volume), cells_(cells) {
@@ -55,14 +58,15 @@ class GridField {
   /// Removes all grains.
   void clear() { sums_.assign(sums_.size(), Sum{}); }
 
-  /// Counts a grain if its centre lies in the control volume; call it over several steps to average
-  /// in time.
-  /// @param position of its centre, world axes [m]; in a periodic cell, of any image
-  /// @param value    in any unit
-  /// @param weight   > 0; with masses [kg] the field of velocities is that of the momentum
-  /// @param periodic the simulation's cell
-  /// @throws std::invalid_argument for a number that is not finite, or a weight that is not
-  ///         positive
+  /// Adds a grain, if its centre lies in the control volume. Call this function in several steps to
+  /// average over time.
+  /// @param position position of the grain's centre, world axes [m]; in a periodic cell, of any
+  ///                 image
+  /// @param value    the quantity to average, in any unit
+  /// @param weight   > 0. If the value is the velocity and the weight the mass [kg], the mean in a
+  ///                 cell is the momentum of its grains divided by their mass
+  /// @param periodic periodic cell of the simulation
+  /// @throws std::invalid_argument if a number is not finite, or if the weight is not positive
   void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";
@@ -85,9 +89,9 @@ class GridField {
   }
 
   const Aabb<S>& control_volume() const { return box_; }  ///< world axes [m]
-  const Cells& cells() const { return cells_; }           ///< along every axis
-  std::size_t size() const { return sums_.size(); }       ///< cells in all
-  /// Cell number k; the first axis runs fastest.
+  const Cells& cells() const { return cells_; }           ///< number of cells along each axis
+  std::size_t size() const { return sums_.size(); }       ///< total number of cells
+  /// The result for cell k. Consecutive k run along the first axis.
   /// @throws std::invalid_argument unless k < size()
   GridSample<S> sample(std::size_t k) const {
     require(k < size(), "GridField::sample", "k", k, "must be below the number of cells");

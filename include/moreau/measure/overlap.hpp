@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of the overlaps of contacts.
+// Statistics of the overlaps (interpenetrations) of contacts.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,17 @@
 
 namespace moreau {
 
-/// Statistics of overlaps, each -gap > 0 [m]. Zero if nothing overlaps.
+/// Statistics of overlaps. The overlap of a contact point is -gap [m], counted if it is > 0. All
+/// fields are zero if there is no overlap.
 template <class T>
 struct OverlapStatistics {
   std::size_t points = 0;  ///< contact points with gap < 0
-  std::size_t pairs = 0;   ///< pairs of bodies with such a point
-  T mean = 0;              ///< over these points [m]
-  T mean_of_pairs = 0;     ///< over these pairs, each with its deepest point [m]
-  T max = 0;               ///< of all points [m]
+  std::size_t pairs = 0;   ///< number of pairs of bodies with at least one such point
+  T mean = 0;              ///< mean overlap of these points [m]
+  T mean_of_pairs = 0;     ///< mean over these pairs of the largest overlap of each pair [m]
+  T max = 0;               ///< largest overlap of all points [m]
 
-  /// Adds points of another set, e.g. of another step.
+  /// Adds the statistics of another set of points, for example of another step.
   void merge(const OverlapStatistics& other) {
     const auto join = [](T a, std::size_t n, T b, std::size_t m) {
       return n + m == 0 ? T(0) : (a * T(n) + b * T(m)) / T(n + m);
@@ -33,7 +34,7 @@ struct OverlapStatistics {
 };
 
 /// Statistics of the overlaps of contact points.
-/// @param points sorted by (a, b), as Contacts keeps them
+/// @param points contact points, sorted by (a, b) as in Contacts
 template <class S>
 OverlapStatistics<typename S::Scalar> overlap_statistics(std::span<const Contact<S>> points) {
   using Scalar = typename S::Scalar;

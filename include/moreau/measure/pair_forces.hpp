@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contact force of a pair of bodies: the sum over its contact points. Statistics of contact forces
-// count pairs, so that they do not depend on the number of points of a contact.
+// The contact force of each pair of bodies: the sum over the pair's contact points. Statistics of
+// contact forces count pairs, so that they do not depend on the number of points of a contact.
 #pragma once
 
 #include <cmath>
@@ -13,26 +13,28 @@
 
 namespace moreau {
 
-/// Sum over the points of a pair with normal impulse > 0. All vectors in world axes.
+/// Sum over those contact points of a pair that have a normal impulse > 0. All vectors are in world
+/// axes.
 template <class S>
 struct PairForce {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  std::uint32_t a;             ///< first body
-  std::uint32_t b;             ///< second body
-  std::size_t points;          ///< that carry force, > 0
-  ContactClass contact_class;  ///< of the pair
-  Vector normal;               ///< unit, from a to b; in a CylinderWall the mean over points
-  Vector lever_a;              ///< from the centre of a to the centre of pressure [m]
-  Vector lever_b;              ///< from the centre of b to the centre of pressure [m]
-  Vector force;                ///< that b receives [N]
-  Scalar normal_force;         ///< sum over the points, > 0 [N]
-  Scalar friction_force;       ///< magnitude of the sum of the tangential forces [N]
+  std::uint32_t a;             ///< index of the first body
+  std::uint32_t b;             ///< index of the second body
+  std::size_t points;          ///< number of points with normal impulse > 0
+  ContactClass contact_class;  ///< contact class of the pair
+  Vector normal;        ///< unit, from a to b; if points differ in normal (CylinderWall), the mean
+                        ///< weighted by force
+  Vector lever_a;       ///< from the centre of a to the centre of pressure of the contact [m]
+  Vector lever_b;       ///< from the centre of b to the centre of pressure of the contact [m]
+  Vector force;         ///< force on b [N]
+  Scalar normal_force;  ///< sum of the normal forces of the points, > 0 [N]
+  Scalar friction_force;  ///< magnitude of the sum of the tangential forces [N]
 };
 
-/// Fills `pairs` with the pairs that carry force, in the order of `contacts`.
-/// @param step impulses are divided by it [s], > 0
+/// Replaces the contents of `pairs` by the pairs that carry force, in the order of `contacts`.
+/// @param step length of the step [s], > 0, by which impulses are divided
 /// @throws std::invalid_argument if the step is not positive
 template <class S>
 void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,

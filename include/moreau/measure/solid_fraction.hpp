@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The share of a control volume that grains fill, computed exactly, without sample points.
+// The fraction of a control volume that is filled by grains, computed exactly, without sampling.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@
 
 namespace moreau {
 
-/// The solid fraction in a control volume [-]. Where grains overlap, the overlap counts twice.
-/// @param control_volume  world axes [m]; if it reaches beyond the container, so does the void that
-///                        is counted: require_inside() checks that
+/// The solid fraction in a control volume [-]: the volume of the grains inside the control volume
+/// divided by the volume of the control volume. Where two grains overlap, the overlap counts twice.
+/// @param control_volume  world axes [m]. It should lie inside the container, which
+///                        require_inside() checks. Otherwise the volume outside of the container
+///                        counts as void
 /// @param grain_count     number of grains
-/// @param shape_of        k -> the shape of grain k
-/// @param pose_of         k -> its pose, world axes [m]
-/// @param workspace       buffers, reused
-/// @returns volume of the grains in the control volume over its volume
+/// @param shape_of        function: k -> shape of grain k
+/// @param pose_of         function: k -> pose of grain k, world axes [m]
+/// @param workspace       buffers, which may be reused for the next call
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <class S, class ShapeOf, class PoseOf>
 typename S::Scalar solid_fraction(const Aabb<S>& control_volume, std::size_t grain_count,

@@ -11,19 +11,21 @@
 
 namespace moreau {
 
-/// Love-Weber stress sigma_ij = (1/V) sum over contact points of l_i f_j, where f is the force on b
-/// and l the branch vector from the centre of a to the centre of b, both in world axes. Compression
-/// is positive. A contact point counts with its whole branch if it lies in the control volume. At a
-/// wall, which has no centre, the branch ends at the contact point. The tensor is symmetric up to
-/// the angular accelerations of the grains. In the plane it is per unit of thickness.
-/// @param step           impulses are divided by it [s], > 0
+/// Love-Weber stress sigma_ij = (1/V) sum over contact points of l_i f_j. Here f is the force on b,
+/// and l is the branch vector from the centre of a to the centre of b, both in world axes.
+/// Compression is positive. A contact point that lies in the control volume counts with its whole
+/// branch vector, even if a centre lies outside. At a wall, which has no centre, the branch vector
+/// ends at the contact point. The tensor is symmetric if no grain has an angular acceleration. In
+/// the plane it is per unit of thickness.
+/// @param step           length of the step [s], > 0, by which impulses are divided
 /// @param control_volume world axes [m]
-/// @param position_of    body -> its centre of mass in world axes [m]
-/// @param is_grain       body -> false for a wall; bodies by BodyId::index()
-/// @param cell           periodic cell: a point counts if one of its images lies in the control
-///                       volume, which must not be longer than the cell; positions may be those of
-///                       any image, because branches are differences of levers
-/// @returns D x D, world axes [Pa], in the plane [N/m]
+/// @param position_of    function: index of a body -> its centre of mass in world axes [m]
+/// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall
+/// @param cell           periodic cell of the simulation. A point is counted if one of its images
+///                       lies in the control volume, which must not be longer than the cell. The
+///                       positions may be those of any image, because branch vectors are computed
+///                       as differences of levers
+/// @returns stress tensor, D x D, world axes [Pa], in the plane [N/m]
 /// @throws std::invalid_argument if the step is not positive, or the control volume is empty,
 ///         inverted or not finite
 /// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The mean velocity of grains in the vertical section, and the rotation of this field.
+// The mean velocity of grains in a vertical section, and the rotation of this velocity field.
 //
-// The section is spanned by the first axis, x, drawn to the right, and the last one (z in space, y
-// in the plane), drawn upwards. Turning is positive counter-clockwise as one sees it in that
-// picture; a field that goes right above the centre and left below it is clockwise, negative.
+// The section is spanned by the first axis, x, drawn to the right, and by the last axis (z in
+// space, y in the plane), drawn upwards. A rotation that is counter-clockwise in this picture is
+// positive. A field that points to the right above its centre and to the left below is clockwise,
+// so its rotation is negative.
 #pragma once
 
 #include <cmath>
@@ -15,26 +16,29 @@
 
 namespace moreau {
 
-/// A point of the section and the mean velocity there: (first axis, last axis).
+/// A cell of the section and the mean velocity in it. Vectors have two components: along the first
+/// axis and along the last axis.
 template <class T>
 struct SectionSample {
   Eigen::Matrix<T, 2, 1> position;  ///< centre of the cell [m]
   Eigen::Matrix<T, 2, 1> velocity;  ///< mean over the grains in the cell [m/s]
-  std::size_t grains;               ///< counted, in all steps
+  std::size_t grains;               ///< number of grains added, in all steps
 };
 
-/// How much a velocity field turns as a whole.
+/// The mean rotation of a velocity field.
 template <class T>
 struct Roll {
-  T angular_velocity = 0;  ///< sum r x v / sum r^2, > 0 counter-clockwise [rad/s]
-  /// sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1] [-]; +-1 is a rigid rotation.
+  T angular_velocity = 0;  ///< sum r x v / sum r^2, > 0 if counter-clockwise [rad/s]; r, v: see
+                           ///< VelocityField::roll()
+  /// sum r x v / sqrt(sum r^2 sum v^2), in [-1, 1] [-]. It is 1 or -1 for a rigid rotation.
   T strength = 0;
-  /// Share of the samples, weighted by |r x v|, that turn as the whole does, in [0, 1] [-].
+  /// Sum of |r x v| over the samples that rotate in the direction of the whole field, divided by
+  /// the sum over all samples, in [0, 1] [-].
   T agreement = 0;
 };
 
-/// Mean velocity of the grains whose centres lie in each cell of a grid over the section of a
-/// control volume.
+/// The mean velocity of the grains whose centres lie in each cell of a two-dimensional grid. The
+/// grid divides the section of a control volume.
 template <class S>
 class VelocityField {
  public:
@@ -43,7 +47,7 @@ class VelocityField {
   using Sample = SectionSample<Scalar>;
 
   /// @param control_volume world axes [m]
-  /// @param columns,rows   number of cells along the first and the last axis, > 0
+  /// @param columns,rows   number of cells along the first axis and along the last axis, > 0
   /// @throws std::invalid_argument for no cells, or a control volume that is empty, inverted or not
   ///         finite
   VelocityField(const Aabb<S>& control_volume, std::size_t columns, std::size_t rows)
@@ -59,12 +63,13 @@ class VelocityField {
   /// Removes all grains.
   void clear() { cells_.assign(cells_.size(), Cell{}); }
 
-  /// Counts a grain if its centre lies in the control volume; call it over several steps to
-  /// average in time.
-  /// @param position of its centre, world axes [m]; in a periodic cell, of any image
-  /// @param velocity of its centre, world axes [m/s]
-  /// @param periodic the simulation's cell
-  /// @throws std::invalid_argument for a number that is not finite
+  /// Adds a grain, if its centre lies in the control volume. Call this function in several steps to
+  /// average over time.
+  /// @param position position of the grain's centre, world axes [m]; in a periodic cell, of any
+  ///                 image
+  /// @param velocity velocity of the grain's centre, world axes [m/s]
+  /// @param periodic periodic cell of the simulation
+  /// @throws std::invalid_argument if a number is not finite
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
@@ -78,14 +83,15 @@ class VelocityField {
     ++cell.grains;
   }
 
-  std::size_t columns() const { return columns_; }  ///< cells along the first axis
-  std::size_t rows() const { return rows_; }        ///< cells along the last axis
-  /// The cell in a column (from the left) and row (from below); velocity zero if it holds no grain.
+  std::size_t columns() const { return columns_; }  ///< number of cells along the first axis
+  std::size_t rows() const { return rows_; }        ///< number of cells along the last axis
+  /// The cell in a column (counted from the left) and a row (counted from below). Its velocity is
+  /// zero if it contains no grain.
   /// @throws std::invalid_argument unless column < columns() and row < rows()
   Sample sample(std::size_t column, std::size_t row) const {
     constexpr const char* self = "VelocityField::sample";
-    require(column < columns_, self, "column", column, "must be below their number");
-    require(row < rows_, self, "row", row, "must be below their number");
+    require(column < columns_, self, "column", column, "must be below the number of columns");
+    require(row < rows_, self, "row", row, "must be below the number of rows");
     const Cell& cell = cells_[row * columns_ + column];
     const Section extent = section(box_.upper - box_.lower);
     const Section share{(Scalar(column) + Scalar(0.5)) / Scalar(columns_),
@@ -94,8 +100,9 @@ class VelocityField {
     return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
   }
 
-  /// Rotation about the centre of the cells that hold grains, after subtraction of their mean
-  /// velocity. All cells that hold grains have the same weight. Zero if the field does not rotate.
+  /// Rotation of the field. Each cell that contains grains is a sample of equal weight. r is the
+  /// position of the cell relative to the mean position of these cells, and v its velocity relative
+  /// to their mean velocity. Zero if the field does not rotate.
   Roll<Scalar> roll() const {
     Section centre = Section::Zero(), drift = Section::Zero();
     Scalar count = 0;

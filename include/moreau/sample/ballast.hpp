@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Random grain shapes that look like railway ballast: crushed rock, angular, roughly equant.
+// Random grain shapes similar to railway ballast: crushed rock, angular, roughly equant.
 //
-// In space a shape is the hull of points near an ellipsoid with the semi-axes 1, e, e f:
+// In space a shape is the convex hull of points near an ellipsoid with the semi-axes 1, e, e f:
 //
 //   1. Draw the elongation e and the flatness f between 0.7 and 1, and the number V of vertices.
-//   2. Draw random directions with a least distance, and their points on the ellipsoid.
-//   3. Pull each point inwards by up to a fifth, so that faces differ in size and corners in angle.
-//   4. Accept the hull if it has V vertices. All faces are triangles, 2 V - 4 of them.
+//   2. Draw random directions with a prescribed smallest distance between any two. Take the points
+//      of the ellipsoid in these directions.
+//   3. Move each point inwards by up to a fifth of its distance from the centre. So the faces
+//      differ in size and the corners differ in angle.
+//   4. Accept the hull if it has V vertices. All its 2 V - 4 faces must be triangles.
 //
-// The ratios of the axes of the hulls (of ellipsoids of the same inertia) lie between about 0.55
-// and 1, most around 0.83. Crushed rock is a little flatter on average and seldom as equant as a
-// ball. A hull fills 0.37 of its circumscribed ball on average. In the plane the algorithm is the
-// same, with 5 to 7 corners on an ellipse of semi-axes 1, e.
+// Let the axes of a hull be those of the ellipsoid with the same inertia. The ratios of these axes
+// lie between about 0.55 and 1, most of them around 0.83. Crushed rock is on average a little
+// flatter and seldom as equant as a ball. A hull fills on average 0.37 of the volume of its
+// circumscribed ball. In the plane the algorithm is the same, with 5 to 7 corners on an ellipse
+// with the semi-axes 1, e.
 //
-// All shapes are scaled to circumradius 1 (to rounding), their largest distance from the centre of
-// mass to a vertex.
+// All shapes are scaled to a circumradius of 1 (to rounding). The circumradius is the largest
+// distance of a vertex from the centre of mass.
 #pragma once
 
 #include <cmath>
@@ -34,24 +37,27 @@
 
 namespace moreau {
 
-/// Draws random grains of a shape; specialise it for your own shape. draw(random) returns a random
-/// grain of circumradius 1 (to rounding).
+/// Draws random grains of a type of shape. Specialise this class for a shape of your own.
+/// draw(random) returns a random grain with the circumradius 1 (to rounding).
 template <class Shape>
 struct Ballast;
 
-/// A shape with a specialisation of Ballast, so that random grains can be drawn.
+/// A type of shape for which random grains can be drawn, because Ballast is specialised for it.
 template <class Shape>
 concept BallastShape = requires(std::mt19937_64& random) {
   { Ballast<Shape>::draw(random) } -> std::same_as<Shape>;
 };
 
 /// Parameters of the random shapes described at the top of this file. Lengths are relative to the
-/// largest semi-axis [-].
+/// largest semi-axis of the ellipsoid [-].
 struct BallastParameters {
-  double lowest_axis_ratio = 0.7;  ///< of e and f, uniform up to 1
-  double pull = 0.2;      ///< radii are uniform between 1 - pull and 1, times the ellipsoid
-  double spacing = 0.55;  ///< least distance of two directions, in that of V points spread evenly
-  double lowest_inradius = 0.35;  ///< over the circumradius: no splinters, no flakes
+  double lowest_axis_ratio = 0.7;  ///< e and f are uniform between this and 1
+  double pull = 0.2;  ///< distances of points from the centre are uniform between 1 - pull and 1,
+                      ///< relative to the ellipsoid
+  double spacing = 0.55;  ///< smallest distance of two directions, relative to the distance of V
+                          ///< evenly spread directions
+  double lowest_inradius = 0.35;  ///< smallest inradius / circumradius, which excludes splinters
+                                  ///< and flakes
 };
 
 namespace detail {
@@ -60,7 +66,7 @@ inline double uniform(double low, double high, std::mt19937_64& random) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// A direction drawn uniformly.
+/// A random direction with a uniform distribution.
 template <int Dim>
 Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   Eigen::Matrix<double, Dim, 1> x;
@@ -70,8 +76,8 @@ Eigen::Matrix<double, Dim, 1> random_direction(std::mt19937_64& random) {
   return x.normalized();
 }
 
-/// Random directions with at least the spacing (chord length) between any two. Returns fewer than
-/// `count` if no further direction is found.
+/// Random directions whose end points on the unit sphere have at least the distance `spacing` from
+/// each other. Returns fewer than `count` directions if no further direction is found.
 template <int Dim>
 std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, double spacing,
                                                              std::mt19937_64& random) {
@@ -85,7 +91,8 @@ std::vector<Eigen::Matrix<double, Dim, 1>> spaced_directions(std::size_t count, 
   return directions;
 }
 
-/// Points on an ellipsoid with the semi-axes 1, e, e f, .., pulled inwards at random.
+/// Random points on an ellipsoid with the semi-axes 1, e, e f, ..., moved inwards by random
+/// amounts.
 template <class S>
 std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spacing,
                                                    std::mt19937_64& random) {
@@ -103,8 +110,9 @@ std::vector<typename S::Vector> jittered_ellipsoid(std::size_t count, double spa
   return points;
 }
 
-/// The hull of the points at circumradius 1. Nothing if a point is not a vertex or if the inradius
-/// is below BallastParameters::lowest_inradius.
+/// The convex hull of the points, scaled to the circumradius 1. Returns nothing if the hull has not
+/// exactly the given number of vertices, or if its inradius is below
+/// BallastParameters::lowest_inradius.
 template <class Shape>
 std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
                                 std::size_t vertices) {
@@ -118,16 +126,17 @@ std::optional<Shape> sound_hull(std::span<const typename Shape::Vector> points,
 
 }  // namespace detail
 
-/// 8 to 37 vertices, 12 to 70 faces, all triangles.
+/// Random polyhedra with 8 to 37 vertices and 12 to 70 faces, all triangles.
 template <std::floating_point T>
 struct Ballast<Polyhedron<T>> {
-  /// A grain of circumradius 1.
+  /// A grain with the circumradius 1.
   static Polyhedron<T> draw(std::mt19937_64& random) {
     using S = Space<3, T>;
     const auto count = std::uniform_int_distribution<std::size_t>(8, 37)(random);
     const double even = std::sqrt(4 * std::numbers::pi / static_cast<double>(count));
     for (;;) {
-      // More points than vertices: some of those pulled inwards end inside the hull.
+      // More points than vertices are drawn, because some of the points moved inwards lie inside
+      // the hull.
       const std::size_t extra = std::uniform_int_distribution<std::size_t>(0, count / 2)(random);
       const auto points =
           detail::jittered_ellipsoid<S>(count + extra, BallastParameters{}.spacing * even, random);
@@ -137,10 +146,10 @@ struct Ballast<Polyhedron<T>> {
   }
 };
 
-/// 5 to 7 sides.
+/// Random polygons with 5 to 7 sides.
 template <std::floating_point T>
 struct Ballast<Polygon<T>> {
-  /// A grain of circumradius 1.
+  /// A grain with the circumradius 1.
   static Polygon<T> draw(std::mt19937_64& random) {
     using S = Space<2, T>;
     const auto count = std::uniform_int_distribution<std::size_t>(5, 7)(random);
@@ -153,17 +162,18 @@ struct Ballast<Polygon<T>> {
   }
 };
 
-/// Balls and disks, the reference without corners: all grains are equal.
+/// Balls and disks, for comparison with angular grains. All grains are equal.
 template <class S>
 struct Ballast<BallIn<S>> {
-  /// The ball of radius 1.
+  /// The ball with the radius 1.
   static BallIn<S> draw(std::mt19937_64&) { return BallIn<S>(1); }
 };
 
-/// Random grain shapes of circumradius 1, each drawn by Ballast<Shape>.
-/// @param count  how many, at least 1
-/// @param random its state goes on; the same state gives the same shapes
-/// @throws std::invalid_argument for count = 0
+/// Random grain shapes with the circumradius 1, drawn by Ballast<Shape>.
+/// @param count  number of shapes, at least 1
+/// @param random random number generator. Its state is advanced; the same state gives the same
+///               shapes
+/// @throws std::invalid_argument if count is 0
 template <BallastShape Shape>
 std::vector<Shape> ballast_shapes(std::size_t count, std::mt19937_64& random) {
   require(count > 0, "ballast_shapes", "count", count, "must be at least 1");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A loose sample above a floor, to be compressed or to fall: random ballistic deposition.
+// A loose sample of grains above a floor, made by random ballistic deposition. It can then be
+// compressed, or fall under gravity.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +16,20 @@
 
 namespace moreau {
 
-/// Poses of grains of these circumradii, in a box whose floor is [0, length] along every axis but
-/// the last, which points up; the floor is at height 0. The circumscribed spheres lie in the box
-/// and do not overlap, so neither do the grains.
+/// Poses of grains with the given circumradii in a box with side walls. The last axis points up,
+/// and the floor is at height 0. Along each other axis the box is [0, length]. The circumscribed
+/// spheres of the grains lie in the box and do not overlap. So the grains do not overlap.
 ///
-/// The spheres are lowered one by one. Each is lowered at 40 random places, until it touches the
-/// floor or a sphere, and takes the lowest place. The rotations are random. The work grows with the
-/// square of the number of grains.
+/// The spheres are placed one by one. For each sphere, 40 random horizontal positions are tried. At
+/// each position the sphere is lowered until it touches the floor or another sphere. The lowest of
+/// these 40 places is taken. The rotations are random. The cost is proportional to the square of
+/// the number of grains.
 /// @tparam S      the space, e.g. Space<3>
-/// @param radii   of the circumscribed spheres, > 0 [m]
-/// @param length  of the floor, at least the largest diameter [m]
-/// @throws std::invalid_argument for a length that is not finite, or a radius that is not > 0 or
-///         does not fit
+/// @param radii   radii of the circumscribed spheres, > 0 [m]
+/// @param length  length of the floor, at least the largest diameter [m]
+/// @param random  random number generator, whose state is advanced
+/// @throws std::invalid_argument if the length is not finite, or if a radius is not > 0 or does not
+///                               fit into the box
 template <class S>
 std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& radii,
                                        typename S::Scalar length, std::mt19937_64& random) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of grains by size, and the meaning of "size".
+// Distribution of the sizes of grains by number, and the definition of "size".
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,15 @@
 
 namespace moreau {
 
-/// The meaning of a grain's size d, which publications do not always state.
+/// The definition of a grain's size d. Publications do not always state it.
 enum class SizeReading : std::uint8_t {
   circumdiameter,  ///< twice the largest distance from the centre of mass to a vertex
-  circumradius     ///< that distance itself
+  circumradius     ///< largest distance from the centre of mass to a vertex
 };
 
-/// The largest distance from the centre of mass to a vertex [m] of a grain of the size [m], > 0.
+/// The circumradius of a grain: the largest distance from its centre of mass to a vertex [m].
+/// @param size     size of the grain [m], > 0
+/// @param reading  definition of the size
 /// @throws std::invalid_argument unless the size is finite and greater than zero
 inline double circumradius_of(double size, SizeReading reading) {
   require(std::isfinite(size) && size > 0, "circumradius_of", "size", size,
@@ -30,17 +32,17 @@ inline double circumradius_of(double size, SizeReading reading) {
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
-/// Classes of sizes with shares by number. SizeReading tells what a size means.
+/// Classes of sizes with their shares by number. SizeReading defines what a size means.
 class SizeDistribution {
  public:
-  /// Grains of one size.
+  /// A class of grains with the same size.
   struct Class {
-    double size;   ///< [m], > 0
-    double share;  ///< by number, relative to the sum of all shares, >= 0 [-]
+    double size;   ///< size of the grains [m], > 0
+    double share;  ///< share by number, >= 0, relative to the sum of all shares [-]
   };
 
-  /// @throws std::invalid_argument for no class, a size that is not finite and positive, a share
-  ///   that is not finite or negative, or shares that are all zero
+  /// @throws std::invalid_argument if there is no class, if a size is not finite or not positive,
+  ///                               if a share is not finite or negative, or if all shares are zero
   explicit SizeDistribution(std::vector<Class> classes) : classes_(std::move(classes)) {
     require(!classes_.empty(), "SizeDistribution", "classes.size()", classes_.size(),
             "must be at least 1");
@@ -57,26 +59,30 @@ class SizeDistribution {
             "must be finite and greater than zero");
   }
 
-  /// 50 % of 2.5 cm, 34 % of 3.75 cm, 16 % of 5 cm, by number.
+  /// By number, 50 % of the grains have the size 2.5 cm, 34 % have 3.75 cm and 16 % have 5 cm.
   /// Source: E. Azema et al., "Short-time dynamics of a packing of polyhedral grains under
   /// horizontal vibrations" (2008), section 2.
   static SizeDistribution azema2008() {
     return SizeDistribution({{0.025, 0.50}, {0.0375, 0.34}, {0.05, 0.16}});
   }
 
-  const std::vector<Class>& classes() const { return classes_; }  ///< in the order given
-  double smallest() const { return std::min_element(begin(), end(), by_size)->size; }  ///< [m]
-  double largest() const { return std::max_element(begin(), end(), by_size)->size; }   ///< [m]
+  /// in the order in which they were given
+  const std::vector<Class>& classes() const { return classes_; }
+  /// size of the smallest class [m]
+  double smallest() const { return std::min_element(begin(), end(), by_size)->size; }
+  /// size of the largest class [m]
+  double largest() const { return std::max_element(begin(), end(), by_size)->size; }
 
-  /// How many of n grains are of each class: the shares of n rounded down, and the grains left over
-  /// given to the largest remainders (the first class among equals). They sum up to n.
+  /// The number of grains in each class, for n grains in total. Each class gets its share of n
+  /// rounded down. The remaining grains are given to the classes with the largest remainders; of
+  /// equal remainders, to the first class. The numbers add up to n.
   std::vector<std::size_t> counts(std::size_t n) const {
     std::vector<std::size_t> count(classes_.size());
     std::vector<double> remainder(classes_.size());
     std::size_t left = n;
     for (std::size_t i = 0; i < classes_.size(); ++i) {
       const double exact = classes_[i].share / total_ * static_cast<double>(n);
-      // A share of a whole number of grains may come out one rounding error below it.
+      // If a share is a whole number of grains, rounding errors may make it slightly smaller.
       const double whole = std::floor(exact * (1 + 1e-14));
       count[i] = std::min(left, static_cast<std::size_t>(whole));
       remainder[i] = exact - whole;
@@ -91,8 +97,9 @@ class SizeDistribution {
     return count;
   }
 
-  /// The sizes [m] of n grains: counts(n) of each class, in random order, which `random` decides.
-  /// @throws std::invalid_argument for n = 0
+  /// The sizes [m] of n grains: counts(n) grains of each class, in random order.
+  /// @param random random number generator, whose state is advanced
+  /// @throws std::invalid_argument if n is 0
   std::vector<double> sample(std::size_t n, std::mt19937_64& random) const {
     require(n > 0, "SizeDistribution::sample", "n", n, "must be at least 1");
     std::vector<double> sizes;

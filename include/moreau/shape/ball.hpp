@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -10,8 +11,8 @@
 
 namespace moreau {
 
-/// A solid ball in space, a solid disk in the plane, about the origin of the body frame: Ball<T> or
-/// Disk<T> where the dimension is known.
+/// A solid ball in space or a solid disk in the plane. Its centre is the origin of the body frame.
+/// Programs for one dimension write Ball<T> or Disk<T>.
 template <EuclideanSpace S>
 class BallIn {
  public:
@@ -19,31 +20,31 @@ class BallIn {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// @param radius [m], > 0
+  /// @param radius radius [m], > 0
   /// @throws std::invalid_argument unless the radius is finite and greater than zero
   explicit BallIn(Scalar radius) : radius_(radius) {
     detail::require_positive(radius, "Ball", "radius");
   }
 
   Scalar radius() const { return radius_; }  ///< [m]
-  Scalar circumradius() const {
-    return radius_;
-  }  ///< the radius, by the name that all shapes share [m]
-  Scalar inradius() const {
-    return radius_;
-  }  ///< the radius, by the name that all shapes share [m]
-  /// [m^D]: pi r^2 in the plane, pi r^2 (4 r / 3) in space.
+  /// The radius [m], under the name that all shapes have in common.
+  Scalar circumradius() const { return radius_; }
+  /// The radius [m], under the name that all shapes have in common.
+  Scalar inradius() const { return radius_; }
+  /// The volume [m^D]: pi r^2 in the plane, pi r^2 (4 r / 3) in space.
   Scalar volume() const {
     return std::numbers::pi_v<Scalar> * radius_ * radius_ *
            std::pow(Scalar(4) / Scalar(3) * radius_, Scalar(S::dim - 2));
   }
 
-  /// The farthest point in the direction (any length but zero), body coordinates [m].
+  /// The point of the shape farthest in the direction, body coordinates [m].
+  /// @param direction  body coordinates, of any length but zero
   Vector support(const VectorArgument<S>& direction) const {
     MOREAU_ASSERT(direction.squaredNorm() > 0);
     return radius_ * direction.normalized();
   }
 
+  /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero
   MassProperties<S> mass_properties(Scalar density) const {
@@ -56,14 +57,14 @@ class BallIn {
     return properties;
   }
 
-  /// The tight box around it at the pose, world axes [m].
+  /// The smallest axis-aligned box around the shape at a pose, world axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const {
     return {pose.position.array() - radius_, pose.position.array() + radius_};
   }
 
-  /// A ball of radius() times the factor [-], > 0.
-  /// @throws std::invalid_argument unless the factor, and then the radius, is finite and greater
-  ///         than zero
+  /// A ball with the radius multiplied by `factor` [-], > 0.
+  /// @throws std::invalid_argument unless the factor and the new radius are finite and greater than
+  ///                               zero
   BallIn scaled(Scalar factor) const {
     detail::require_positive(factor, "Ball::scaled", "factor");
     return BallIn(radius_ * factor);
@@ -77,13 +78,13 @@ class BallIn {
   Scalar radius_ = 0;
 };
 
-/// The ball of the plane.
+/// A disk in the plane.
 template <std::floating_point T = double>
 using Disk = BallIn<Space<2, T>>;
-/// The ball of space.
+/// A ball in space.
 template <std::floating_point T = double>
 using Ball = BallIn<Space<3, T>>;
-/// A ball is solid; a sphere is its surface.
+/// Deprecated name of Ball. A ball is a solid, a sphere is its surface.
 template <std::floating_point T = double>
 using Sphere [[deprecated("write Ball<T>, in the plane Disk<T>")]] = Ball<T>;
 

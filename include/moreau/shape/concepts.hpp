@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Requirements on shapes. A shape is immutable geometry in its own (body) frame, with the centre of
-// mass at the origin. It holds no pose: the simulation holds the pose of each body.
+// mass at the origin. It has no pose: the simulation stores the pose of each body.
 #pragma once
 
 #include <concepts>
@@ -11,14 +11,14 @@
 
 namespace moreau {
 
-/// The space a shape lives in.
+/// The space of a shape: plane or three-dimensional space, with a scalar type.
 template <class Shape>
 using SpaceOf = typename Shape::Space;
 
-/// A body with a mass and a bounding box.
+/// A shape with a mass and a bounding box. Its functions are:
 ///
-/// - mass_properties(density): at a uniform density [kg/m^D]; the centre of a grain must be the
-///   origin
+/// - mass_properties(density): mass, centre of mass and inertia at a uniform density [kg/m^D]. For
+///   a grain the centre of mass must be the origin
 /// - bounding_box(pose): a box around the whole shape at the pose, world axes [m]
 template <class T>
 concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<SpaceOf<T>> pose) {
@@ -26,15 +26,16 @@ concept Shape = requires(const T shape, typename T::Space::Scalar density, Pose<
   { shape.bounding_box(pose) } -> std::same_as<Aabb<SpaceOf<T>>>;
 };
 
-/// A convex shape. support(direction) returns the farthest point in a direction (any length but
-/// zero), in body coordinates [m]. A user's own shape needs no other function.
+/// A convex shape. support(direction) returns the point of the shape farthest in a direction, in
+/// body coordinates [m]; the direction has any length but zero. A shape defined by a user needs no
+/// functions but these three.
 template <class T>
 concept ConvexShape = Shape<T> && requires(const T shape, typename T::Space::Vector direction) {
   { shape.support(direction) } -> std::same_as<typename T::Space::Vector>;
 };
 
-/// A convex set with a support function and a bounding box. It may be flat and need not have a
-/// mass. Rounded<Core> (rounded.hpp) is the set of points near a core.
+/// A convex set with a support function and a bounding box. It may have no thickness, and it needs
+/// no mass. Rounded<Core> (rounded.hpp) is the set of all points close to such a core.
 template <class T>
 concept ConvexCore = requires(const T core, typename T::Space::Vector direction,
                               Pose<SpaceOf<T>> pose) {
@@ -42,10 +43,11 @@ concept ConvexCore = requires(const T core, typename T::Space::Vector direction,
   { core.bounding_box(pose) } -> std::same_as<Aabb<SpaceOf<T>>>;
 };
 
-/// A convex shape with flat faces. vertices(): N x D, one row each; face_normals(): F x D, unit and
-/// outward; face_offsets(): F, the distance of each face's plane from the origin, normal . x =
-/// offset on it. Lengths in [m], all in body coordinates. In the plane the faces are the edges:
-/// face i runs from vertex i to vertex i + 1.
+/// A convex shape with flat faces, in body coordinates. In the plane the faces are the edges: face
+/// i runs from vertex i to vertex i + 1. Its functions are:
+/// - vertices(): N x D matrix, one vertex per row [m]
+/// - face_normals(): F x D matrix, one unit outward normal per row
+/// - face_offsets(): F numbers, normal . x for the points x of each face [m]
 template <class T>
 concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.vertices();
@@ -53,24 +55,25 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.face_offsets();
 };
 
-// Optional members. A shape composed of other shapes has a member if all its parts have it.
+// Optional member functions. A shape composed of other shapes has one of them if all its parts have
+// it.
 
-/// volume() [m^D].
+/// A shape with volume() [m^D].
 template <class T>
 concept HasVolume = requires(const T shape) {
   shape.volume();
 };
-/// circumradius(): the farthest point's distance from the origin [m].
+/// A shape with circumradius(): the distance of its farthest point from the origin [m].
 template <class T>
 concept HasCircumradius = requires(const T shape) {
   shape.circumradius();
 };
-/// inradius(): the distance of the surface's nearest point from the origin [m].
+/// A shape with inradius(): the distance of the nearest point of its surface from the origin [m].
 template <class T>
 concept HasInradius = requires(const T shape) {
   shape.inradius();
 };
-/// scaled(factor): the same shape, all lengths times the factor [-], > 0.
+/// A shape with scaled(factor): the same shape with all lengths multiplied by `factor` [-], > 0.
 template <class T>
 concept Scalable = requires(const T shape, typename T::Space::Scalar factor) {
   { shape.scaled(factor) } -> std::same_as<T>;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Convex hulls of points in the plane and in space.
+// Convex hulls of points in the plane and in space. A valid hull is computed for any finite input,
+// in three steps:
 //
-// Three steps give a valid hull for any finite input:
+//   1. Points closer together than the tolerance (HullTolerance) are merged.
+//   2. The hull of the remaining points is computed with exact signs of determinants
+//      (orientation.hpp). It is therefore always closed and convex.
+//   3. Edges in the plane that are collinear within the tolerance are joined. In space triangles
+//      that are coplanar within the tolerance are joined (face_merging.hpp).
 //
-//   1. Points closer together than the tolerance are merged.
-//   2. The hull of the remaining points is computed with exact signs (orientation.hpp). It is
-//      therefore always closed and convex.
-//   3. Collinear edges (in the plane) and coplanar triangles (in space, face_merging.hpp) are
-//      joined, within the tolerance.
-//
-// All steps take the points in lexicographic order, so that the result does not depend on the order
-// of the input.
+// All steps process the points in lexicographic order, so that the result does not depend on the
+// order of the input.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +30,7 @@ namespace moreau {
 
 namespace detail {
 
-/// The first point whose measure is largest.
+/// Index of the first point for which `measure` is largest.
 template <class Point, class Measure>
 std::uint32_t farthest(const std::vector<Point>& points, const Measure& measure) {
   std::uint32_t best = 0;
@@ -41,9 +40,10 @@ std::uint32_t farthest(const std::vector<Point>& points, const Measure& measure)
   return best;
 }
 
-/// Four points that span a fat tetrahedron: the first, the farthest from it, from the line of those
-/// two, from the plane of those three.
-/// @throws std::invalid_argument if the last distance is too small
+/// Four points that span a thick tetrahedron: the first point; the point farthest from it; the
+/// point farthest from the line through these two; the point farthest from the plane through these
+/// three.
+/// @throws std::invalid_argument if one of these distances is too small
 inline std::array<std::uint32_t, 4> seed_of(const HullInput<3>& input, std::string_view function) {
   const auto& x = input.points;
   const auto along = [&](const auto& p) { return (p - x[0]).norm(); };
@@ -60,7 +60,7 @@ inline std::array<std::uint32_t, 4> seed_of(const HullInput<3>& input, std::stri
   return {0, b, c, d};
 }
 
-/// @throws std::invalid_argument if all points are near one line
+/// @throws std::invalid_argument if all points lie near one line
 inline void require_width(const HullInput<2>& input, std::string_view function) {
   const auto& x = input.points;
   const auto along = [&](const auto& p) { return (p - x[0]).norm(); };
@@ -73,8 +73,8 @@ inline void require_width(const HullInput<2>& input, std::string_view function) 
   if (width <= input.thin) input.throw_thin(function, width, "they are collinear");
 }
 
-/// Drops the vertex nearest to the line of its neighbours while that distance is within the
-/// tolerance.
+/// Repeats while this distance is within the tolerance: removes the vertex with the smallest
+/// distance from the line through its two neighbours.
 inline void drop_collinear(std::vector<std::uint32_t>& ring, const HullInput<2>& input) {
   const auto bulge = [&](std::size_t i) {
     const auto& x = input.points;
@@ -92,19 +92,19 @@ inline void drop_collinear(std::vector<std::uint32_t>& ring, const HullInput<2>&
   }
 }
 
-/// Rotates a cycle so that it begins with its smallest element.
+/// Rotates a cyclic list so that it begins with its smallest element.
 inline void begin_with_smallest(std::vector<std::uint32_t>& cycle) {
   std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
 }
 
 }  // namespace detail
 
-/// The hull of points in the plane: indices of its vertices, counter-clockwise, the smallest first;
-/// points inside or on an edge are not among them.
+/// The convex hull of points in the plane: the indices of its vertices, counter-clockwise,
+/// beginning with the smallest index. Points inside the hull or on an edge are left out.
 /// @param vertices N points, in any order [m]
-/// @param function named in errors
-/// @throws std::invalid_argument for fewer than 3 points, one that is not finite, or points that
-///         coincide or are collinear within HullTolerance
+/// @param function name of the calling function, for error messages
+/// @throws std::invalid_argument for fewer than 3 points, a point that is not finite, or points
+///                               that coincide or are collinear within HullTolerance
 /// Source: A. M. Andrew, Inf. Process. Lett. 9 (1979).
 template <std::floating_point T>
 std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> vertices,
@@ -113,7 +113,8 @@ std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> v
   detail::require_width(input, function);
   const auto& x = input.points;
   std::vector<std::uint32_t> ring;
-  const auto chain = [&](auto begin, auto end) {  // ends with the last point, not included
+  const auto chain = [&](auto begin, auto end) {  // appends a chain of the hull, without its last
+                                                  // point
     const std::size_t first = ring.size();
     for (auto i = begin; i != end; ++i) {
       while (ring.size() > first + 1 &&
@@ -135,13 +136,14 @@ std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> v
   return ring;
 }
 
-/// The hull of points in space: its faces, each a cycle of vertex indices, counter-clockwise from
-/// outside, the smallest first; points inside, on a face or on an edge are in none of them.
-/// Triangles that are coplanar within HullTolerance are one face.
+/// The convex hull of points in space: its faces. Each face is a cyclic list of vertex indices,
+/// counter-clockwise seen from outside, beginning with the smallest index. Triangles that are
+/// coplanar within HullTolerance form one face. Points inside the hull, on a face or on an edge are
+/// left out.
 /// @param vertices N points, in any order [m]
-/// @param function named in errors
-/// @throws std::invalid_argument for fewer than 4 points, one that is not finite, or points that
-///         coincide, are collinear or coplanar within HullTolerance
+/// @param function name of the calling function, for error messages
+/// @throws std::invalid_argument for fewer than 4 points, a point that is not finite, or points
+///                               that coincide or are collinear or coplanar within HullTolerance
 template <std::floating_point T>
 std::vector<std::vector<std::uint32_t>> convex_hull(
     std::span<const Eigen::Matrix<T, 3, 1>> vertices, std::string_view function = "convex_hull") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <tuple>
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/error.hpp"
@@ -10,9 +11,9 @@
 
 namespace moreau {
 
-/// All points farther than a radius from an axis through the body's origin: in space the outside of
-/// an infinite cylinder, in the plane the outside of a circle. It models a wall around the grains.
-/// It has no mass and no bounding box, so it is no Shape.
+/// A wall around the grains: all points whose distance from an axis through the body's origin is
+/// larger than a radius. In space it is the outside of an infinite cylinder, in the plane the
+/// outside of a circle. It has no mass and no bounding box, so it is not a Shape.
 template <EuclideanSpace S>
 class CylinderWall {
  public:
@@ -20,11 +21,12 @@ class CylinderWall {
   using Scalar = typename S::Scalar;
   using Angular = typename S::Angular;
 
-  /// @param axis   axis of rotation, body coordinates, of any length but zero: a vector in space, a
-  ///               number in the plane, to which the axis is normal
-  /// @param radius [m], > 0
-  /// @throws std::invalid_argument if the axis is not finite or zero, or for a radius that is not
-  ///         finite or not positive
+  /// @param axis   direction of the cylinder's axis, body coordinates, of any length but zero: a
+  ///               vector in space; in the plane a single number, because the axis is normal to the
+  ///               plane
+  /// @param radius radius of the cylinder [m], > 0
+  /// @throws std::invalid_argument if the axis is not finite or zero, or if the radius is not
+  ///                               finite or not positive
   CylinderWall(const AngularArgument<S>& axis, Scalar radius)
       : axis_(axis.stableNormalized()), radius_(radius) {
     require(axis.allFinite(), "CylinderWall", "axis", axis, "must be finite");

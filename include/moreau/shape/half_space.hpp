@@ -7,9 +7,8 @@
 
 namespace moreau {
 
-/// All points on one side of a plane (in the plane: of a line) through the body's origin: the solid
-/// is { x : normal . x <= 0 }. It models a wall. It has no mass and no bounding box, so it is no
-/// Shape.
+/// A wall: all points on one side of a plane through the body's origin, or of a line in the plane.
+/// The solid is { x : normal . x <= 0 }. It has no mass and no bounding box, so it is not a Shape.
 template <EuclideanSpace S>
 class HalfSpace {
  public:
@@ -17,14 +16,13 @@ class HalfSpace {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// @param normal points out of the solid, body coordinates; of any length but zero
-  /// @throws std::invalid_argument if the normal is not finite or its length is zero
+  /// @param normal outward normal of the solid, body coordinates, of any length but zero
   explicit HalfSpace(const VectorArgument<S>& normal) : normal_(normal.stableNormalized()) {
     require(normal.allFinite(), "HalfSpace", "normal", normal, "must be finite");
     require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");
   }
 
-  /// Unit, points out of the solid, body coordinates.
+  /// Outward normal of the solid, unit, body coordinates.
   const Vector& normal() const { return normal_; }
 
  private:

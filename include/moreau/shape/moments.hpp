@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Exact volume, centre and second moment of a polytope, as a sum over simplices.
+// Exact volume, first moment and second moment of a polytope, as a sum over simplices.
 //
-// A polytope is cut into simplices (triangles, tetrahedra) with one corner at the origin and the
-// others v_1..v_D on its surface; their signed volumes add up. For one of them, with s = sum v_k,
+// A polytope is divided into simplices (triangles in the plane, tetrahedra in space). Each simplex
+// has one corner at the origin and the other corners v_1..v_D on the surface of the polytope. The
+// moments of the polytope are the sums of the signed moments of the simplices. With s = sum v_k,
+// the moments of one simplex are
 //
 //     V = det[v_1..v_D] / D!      int x = V s / (D+1)
 //     int x x^T = V / ((D+1)(D+2)) (sum v_k v_k^T + s s^T)
 //
 // Source: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its
-// vertex coordinates", J. Math. Stat. 1 (2005); the form above holds in any dimension.
+// vertex coordinates", J. Math. Stat. 1 (2005). The form above holds in any dimension.
 #pragma once
 
 #include <cmath>
@@ -17,8 +19,8 @@
 
 namespace moreau {
 
-/// Moments of a body of density one [-] about the origin, in the axes of its coordinates.
-/// Formulas and source stand at the top of this file.
+/// Moments about the origin of a body with density one [-], in the axes of its coordinates. The
+/// formulas and their source are given at the top of this file.
 template <class S>
 struct Moments {
   using Scalar = typename S::Scalar;
@@ -29,8 +31,8 @@ struct Moments {
   Vector first = Vector::Zero();   ///< int x [m^(D+1)]
   Matrix second = Matrix::Zero();  ///< int x x^T, D x D [m^(D+2)]
 
-  /// Adds the simplex of the origin and the columns of v, D x D [m]; negative if they are
-  /// left-handed.
+  /// Adds the simplex whose corners are the origin and the columns of v, D x D [m]. Its moments are
+  /// negative if the columns are left-handed (the determinant is negative).
   void add_simplex(const Matrix& v) {
     const Scalar part = v.determinant() / factorial(S::dim);
     const Vector s = v.rowwise().sum();
@@ -39,7 +41,7 @@ struct Moments {
     second += part / Scalar((S::dim + 1) * (S::dim + 2)) * (v * v.transpose() + s * s.transpose());
   }
 
-  /// Adds another body.
+  /// Adds the moments of another body.
   Moments& operator+=(const Moments& other) {
     volume += other.volume;
     first += other.first;
@@ -47,29 +49,29 @@ struct Moments {
     return *this;
   }
 
-  /// The moments of the same body about its own centre, first / volume; its volume must not be 0.
+  /// The moments of the same body about its own centre, first / volume. The volume must not be 0.
   Moments centered() const {
     return {volume, Vector::Zero(), second - first * first.transpose() / volume};
   }
 
-  /// Whether the scalar can hold the moments. They over- or underflow if the shape is far too large
-  /// or far too small.
+  /// Whether the scalar type can represent the moments. They overflow or underflow if the shape is
+  /// far too large or far too small.
   bool are_regular() const {
     const typename S::Inertia about_origin = inertia();
     return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&
            (about_origin.diagonal().array() > 0).all();
   }
 
-  /// n!
+  /// The factorial n!.
   static constexpr Scalar factorial(int n) { return n < 2 ? 1 : Scalar(n) * factorial(n - 1); }
 
-  /// The moments of the same body, all lengths times the factor [-].
+  /// The moments of the same body with all lengths multiplied by `factor` [-].
   Moments scaled(Scalar factor) const {
     const Scalar of_volume = std::pow(factor, Scalar(S::dim));
     return {of_volume * volume, of_volume * factor * first, of_volume * factor * factor * second};
   }
 
-  /// int lever(x)^T lever(x), A x A: the inertia about the origin at density one [m^(D+2)].
+  /// The inertia about the origin at density one, int lever(x)^T lever(x), A x A [m^(D+2)].
   typename S::Inertia inertia() const {
     typename S::Inertia sum = S::Inertia::Zero();
     for (int i = 0; i < S::dim; ++i) {

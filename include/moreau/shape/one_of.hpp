@@ -12,9 +12,10 @@
 
 namespace moreau {
 
-/// A shape that is one of several kinds: the shape of a mixed assembly. Detection finds the kinds
-/// of a pair by one visit and then runs as for a pair of these kinds (detect/collide.hpp).
-/// @tparam Shapes  different types, all of the same space
+/// A shape whose type is chosen at run time, for assemblies of several types of shapes. For each
+/// pair, detection finds out the two types and calls the function for these types
+/// (detect/collide.hpp).
+/// @tparam Shapes  different types of shapes, all of the same space
 template <Shape... Shapes>
 requires(sizeof...(Shapes) > 0 &&
          (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> &&
@@ -24,28 +25,28 @@ requires(sizeof...(Shapes) > 0 &&
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// Not explicit: a Ball converts to OneOf<Ball<T>, Polyhedron<T>>.
+  /// Not explicit, so that a Ball<T> converts to OneOf<Ball<T>, Polyhedron<T>>.
   template <class ShapeT>
   requires(std::same_as<ShapeT, Shapes> || ...) OneOf(ShapeT shape) : held_(std::move(shape)) {}
 
-  /// Index of its kind in Shapes.
+  /// Index in Shapes of the type of the shape held.
   std::size_t index() const { return held_.index(); }
-  /// The shape if it is of this kind, else null.
+  /// Pointer to the shape held if it is of type ShapeT, otherwise null.
   template <class ShapeT>
   const ShapeT* get_if() const {
     return std::get_if<ShapeT>(&held_);
   }
-  /// Calls use(shape) with the shape of its own type.
+  /// Calls use(shape) with the shape held, in its own type.
   template <class Use>
   decltype(auto) visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), held_);
   }
 
-  /// [m^D], if all kinds have volume().
+  /// The volume [m^D]. Exists if all types have volume().
   Scalar volume() const requires(HasVolume<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.volume(); });
   }
-  /// Distance of the farthest point from the origin [m].
+  /// Distance of the farthest point of the shape from the origin [m].
   Scalar circumradius() const requires(HasCircumradius<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.circumradius(); });
   }
@@ -53,21 +54,23 @@ requires(sizeof...(Shapes) > 0 &&
   Scalar inradius() const requires(HasInradius<Shapes>&&...) {
     return visit([](const auto& shape) { return shape.inradius(); });
   }
-  /// The farthest point in the direction (any length but zero), body coordinates [m].
+  /// The point of the shape farthest in the direction, body coordinates [m].
+  /// @param direction  body coordinates, of any length but zero
   Vector support(const VectorArgument<Space>& direction) const requires(ConvexShape<Shapes>&&...) {
     return visit([&](const auto& shape) -> Vector { return shape.support(direction); });
   }
+  /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
-  /// @throws what the shape throws
+  /// @throws the exceptions of the shape held
   MassProperties<Space> mass_properties(Scalar density) const {
     return visit([&](const auto& shape) { return shape.mass_properties(density); });
   }
-  /// The box around it at the pose, world axes [m].
+  /// A box around the shape at a pose, world axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return visit([&](const auto& shape) { return shape.bounding_box(pose); });
   }
-  /// The same shape, all lengths times the factor [-], > 0.
-  /// @throws what the shape throws
+  /// The same shape with all lengths multiplied by `factor` [-], > 0.
+  /// @throws the exceptions of the shape held
   OneOf scaled(Scalar factor) const requires(Scalable<Shapes>&&...) {
     return visit([&](const auto& shape) { return OneOf(shape.scaled(factor)); });
   }

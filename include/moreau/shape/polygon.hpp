@@ -22,8 +22,8 @@ struct PolygonNames {
 
 }  // namespace detail
 
-/// A convex polygon. Face i is the edge from vertex i to vertex i + 1; the vertices run
-/// counter-clockwise.
+/// A convex polygon. Its vertices are ordered counter-clockwise. Its faces are its edges: face i
+/// leads from vertex i to vertex i + 1.
 template <std::floating_point T = double>
 class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
   using Base = PolytopeBase<moreau::Space<2, T>, detail::PolygonNames>;
@@ -31,23 +31,25 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
  public:
   using typename Base::Space, typename Base::Vector;
 
-  /// The convex hull of the vertices [m]. Vertices inside the hull or on an edge are dropped. The
-  /// others keep their cyclic order, beginning with the first of the input.
+  /// The convex hull of points. Points inside the hull or on an edge are removed. The others keep
+  /// their cyclic order, beginning with the point that comes first in the input.
   /// @param vertices N points, in any order and in any frame [m]
   /// @throws std::invalid_argument for fewer than 3 points, a point that is not finite, points that
-  ///         coincide or are collinear, or moments that the scalar cannot hold
+  ///                               coincide or are collinear, or moments that the scalar type
+  ///                               cannot represent
   explicit Polygon(std::span<const Vector> vertices);
-  /// The same from a list of points: Polygon<double>({{0, 0}, {1, 0}, ..}).
+  /// The convex hull of a list of points: Polygon<double>({{0, 0}, {1, 0}, ..}).
   explicit Polygon(std::initializer_list<VectorArgument<Space>> vertices)
       : Polygon(std::span<const Vector>(std::vector<Vector>(vertices.begin(), vertices.end()))) {}
 
-  std::size_t face_count() const { return this->vertex_count(); }  ///< N: the faces are the edges
+  /// N, because the faces are the edges
+  std::size_t face_count() const { return this->vertex_count(); }
   std::size_t edge_count() const { return this->vertex_count(); }  ///< N
-  T area() const { return this->volume(); }                        ///< [m^2]
+  T area() const { return this->volume(); }                        ///< the area [m^2]
 
-  /// The same polygon, all lengths times the factor [-], > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
-  ///         the moments
+  /// The same polygon with all lengths multiplied by `factor` [-], > 0.
+  /// @throws std::invalid_argument unless the factor and the new moments are finite and greater
+  ///                               than zero
   Polygon scaled(T factor) const {
     Polygon copy = *this;
     copy.scale(factor);
@@ -62,7 +64,7 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
   void deserialized() const {
     const Eigen::Index count = vertices_.rows();
     require(count >= 3 && face_normals_.rows() == count && face_offsets_.size() == count, "Polygon",
-            "vertices", count, "must be 3 at least, with as many edges");
+            "vertices", count, "must be at least 3, with one edge for each");
   }
 
   Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
@@ -90,7 +92,8 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
   }
 };
 
-// Outside of the class: compiled once where a program declares the class extern.
+// Defined outside of the class, so that it is compiled only once where a program declares the class
+// extern.
 template <std::floating_point T>
 Polygon<T>::Polygon(std::span<const Vector> vertices) {
   const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");

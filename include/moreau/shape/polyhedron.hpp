@@ -39,50 +39,52 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   using typename Base::Space, typename Base::Vector;
   using Edge = PolyhedronEdge;
 
-  /// The convex hull of the vertices [m]. Vertices inside the hull, on a face or on an edge are
-  /// dropped. The others keep their order. Coplanar triangles are one face.
+  /// The convex hull of points. Points inside the hull, on a face or on an edge are removed. The
+  /// others keep their order. Coplanar triangles form one face.
   /// @param vertices N points, in any order and in any frame [m]
   /// @throws std::invalid_argument for fewer than 4 points, a point that is not finite, points that
-  ///         coincide, are collinear or coplanar, or moments that the scalar cannot hold
+  ///                               coincide or are collinear or coplanar, or moments that the
+  ///                               scalar type cannot represent
   explicit Polyhedron(std::span<const Vector> vertices);
-  /// The same from a list of points: Polyhedron<double>({{0, 0, 0}, {1, 0, 0}, ..}).
+  /// The convex hull of a list of points: Polyhedron<double>({{0, 0, 0}, {1, 0, 0}, ..}).
   explicit Polyhedron(std::initializer_list<VectorArgument<Space>> vertices)
       : Polyhedron(std::span<const Vector>(std::vector<Vector>(vertices.begin(), vertices.end()))) {
   }
 
-  /// From vertices [m] and faces given as cycles of them, counter-clockwise from outside.
+  /// A polyhedron from its vertices and faces.
   /// @param vertices N points, in any frame [m]
-  /// @param faces    F cycles of indices of vertices
-  /// @throws std::invalid_argument for fewer than 4 vertices, or unless they are finite, every one
-  ///         is in 3 faces at least, every edge is in two faces, once in each direction, the
-  ///         surface is one piece without holes, every face is planar and has all other vertices
-  ///         strictly below it (coplanar neighbours have to be one face), and the scalar can hold
-  ///         the moments
+  /// @param faces    F cyclic lists of vertex indices, counter-clockwise seen from outside
+  /// @throws std::invalid_argument unless all of these hold: there are at least 4 vertices; they
+  ///                               are finite; each vertex belongs to at least 3 faces; each edge
+  ///                               belongs to two faces, once in each direction; the surface is one
+  ///                               piece without handles; each face is planar and has all other
+  ///                               vertices strictly below it, so that coplanar neighbours must be
+  ///                               one face; the scalar type can represent the moments
   static Polyhedron from_faces(std::span<const Vector> vertices,
                                std::span<const std::vector<std::uint32_t>> faces);
 
   std::size_t face_count() const { return topology_.faces.size(); }  ///< F
   std::size_t edge_count() const { return topology_.edges.size(); }  ///< N + F - 2
-  /// Triangles that its surface consists of if every face is cut into triangles: 2 V - 4.
+  /// Number of triangles of the surface if every face is divided into triangles: 2 N - 4.
   std::size_t triangle_count() const { return 2 * vertex_count() - 4; }
 
-  /// The vertices of face f, f < face_count(), counter-clockwise seen from outside.
+  /// The vertices of face f, for f < face_count(), counter-clockwise seen from outside.
   std::span<const std::uint32_t> face(std::size_t f) const { return topology_.faces[f]; }
-  /// The edges of face f; the k-th runs between face(f)[k] and face(f)[k + 1].
+  /// The edges of face f, for f < face_count(). Edge k joins face(f)[k] and face(f)[k + 1].
   std::span<const std::uint32_t> face_edges(std::size_t f) const { return topology_.face_edges[f]; }
-  std::span<const Edge> edges() const { return topology_.edges; }  ///< each once
-  /// The faces around vertex v, v < vertex_count(), ascending.
+  std::span<const Edge> edges() const { return topology_.edges; }  ///< all edges, each listed once
+  /// The faces at vertex v, for v < vertex_count(), in ascending order.
   std::span<const std::uint32_t> vertex_faces(std::size_t v) const {
     return topology_.vertex_faces[v];
   }
-  /// The edges at vertex v, v < vertex_count(), ascending.
+  /// The edges at vertex v, for v < vertex_count(), in ascending order.
   std::span<const std::uint32_t> vertex_edges(std::size_t v) const {
     return topology_.vertex_edges[v];
   }
 
-  /// The same polyhedron, all lengths times the factor [-], > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and so are
-  ///         the moments
+  /// The same polyhedron with all lengths multiplied by `factor` [-], > 0.
+  /// @throws std::invalid_argument unless the factor and the new moments are finite and greater
+  ///                               than zero
   Polyhedron scaled(T factor) const;
 
  private:
@@ -90,7 +92,8 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   using Base::vertices_, Base::face_normals_, Base::face_offsets_;
   Polyhedron() = default;
   auto serialized_members() { return std::tuple_cat(std::tie(topology_), Base::members()); }
-  /// What follows from the faces.
+  /// Computes the edges and the incidences from the faces that were read, and checks the number of
+  /// planes.
   void deserialized() {
     std::vector<std::vector<std::uint32_t>> faces;
     for (std::size_t f = 0; f < topology_.faces.size(); ++f)
@@ -105,7 +108,8 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     return vertices_.row(static_cast<Eigen::Index>(i)).transpose();
   }
 
-  /// The vertices that faces name, in their order; the faces then name those.
+  /// Returns the vertices that occur in a face, in their order, and replaces the indices in the
+  /// faces by indices into this result.
   static std::vector<Vector> drop_unused(std::span<const Vector> vertices,
                                          std::vector<std::vector<std::uint32_t>>& faces) {
     constexpr std::uint32_t unused = ~0U;
@@ -141,7 +145,7 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     return sum;
   }
 
-  /// In long double, because the area of a sliver is a small difference.
+  /// Computes in long double, because the area of a sliver is a small difference of large products.
   void set_planes() {
     using Wide = Eigen::Matrix<long double, 3, 1>;
     face_normals_.resize(static_cast<Eigen::Index>(face_count()), 3);
@@ -157,8 +161,8 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     this->summarize_faces();
   }
 
-  /// Every vertex lies on the faces that name it and strictly below the others, within the rounding
-  /// of the input.
+  /// Requires that each vertex lies on the planes of its own faces, and strictly below the planes
+  /// of all other faces, within the rounding errors of the input.
   void require_convex(std::span<const Vector> input, std::string_view function) const {
     T size = 0;
     for (const Vector& x : input) size = std::max(size, x.cwiseAbs().maxCoeff());
@@ -185,7 +189,8 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   FaceTopology topology_;
 };
 
-// Outside of the class: compiled once where a program declares the class extern.
+// Defined outside of the class, so that they are compiled only once where a program declares the
+// class extern.
 template <std::floating_point T>
 Polyhedron<T>::Polyhedron(std::span<const Vector> vertices) {
   auto faces = convex_hull(vertices, "Polyhedron");

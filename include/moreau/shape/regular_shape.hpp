@@ -13,17 +13,17 @@ namespace moreau {
 
 namespace detail {
 
-/// A shape that is the convex hull of the points it is constructed from.
+/// A shape that can be constructed from points, as their convex hull.
 template <class T>
 concept HullOfPoints =
     Polytope<T> && std::constructible_from<T, std::span<const typename T::Space::Vector>>;
 
 }  // namespace detail
 
-/// The simplest grain of each shape, so that a program changes its shape in one line: for polyhedra
-/// a cube, for polygons a square.
-/// @param size length of an edge [m], > 0
-/// @throws std::invalid_argument for a size that is not finite or not positive
+/// The simplest grain of each shape: for polyhedra a cube, for polygons a square. With this
+/// function a program can change its shape in one line.
+/// @param size edge length [m], > 0
+/// @throws std::invalid_argument if the size is not finite or not positive
 template <detail::HullOfPoints Shape>
 Shape regular_shape(typename Shape::Space::Scalar size) {
   using S = SpaceOf<Shape>;
@@ -35,9 +35,9 @@ Shape regular_shape(typename Shape::Space::Scalar size) {
   return Shape(std::span<const typename S::Vector>(corners));
 }
 
-/// A ball, in the plane a disk.
+/// A ball, or in the plane a disk.
 /// @param size diameter [m], > 0
-/// @throws std::invalid_argument for a size that is not finite or not positive
+/// @throws std::invalid_argument if the size is not finite or not positive
 template <class Shape>
 requires std::same_as<Shape, BallIn<SpaceOf<Shape>>> Shape
 regular_shape(typename Shape::Space::Scalar size) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <tuple>
 
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -11,17 +12,19 @@
 
 namespace moreau {
 
-/// A core with a function rounded_moments(core, radius), see rounded_moments.hpp.
+/// A core for which a function rounded_moments(core, radius) exists (rounded_moments.hpp).
 template <class Core>
 concept HasRoundedMoments = requires(const Core core, typename Core::Space::Scalar radius) {
   { rounded_moments(core, radius) } -> std::same_as<Moments<SpaceOf<Core>>>;
 };
 
-/// The Minkowski sum of a convex core (Polygon, Polyhedron, Segment, any shape known by its
-/// support) and a ball: all points at most the radius away from the core. The body frame has the
-/// axes of the core's and its origin at the centre of mass of the sum, which is not that of the
-/// core unless the core is symmetric. core_position() is the position of the core's origin. A core
-/// without rounded_moments() keeps its own frame, and the sum then has no mass and is no Shape.
+/// The Minkowski sum of a convex core and a ball: all points whose distance from the core is at
+/// most a radius. The core is a Polygon, Polyhedron, Segment or any shape with a support function.
+///
+/// The body frame has the axes of the core's frame and its origin at the centre of mass of the sum.
+/// This is not the centre of mass of the core unless the core is symmetric. core_position() is the
+/// position of the core's origin in the body frame. For a core without rounded_moments(), the body
+/// frame is the core's frame. The sum then has no mass and is not a Shape.
 template <ConvexCore Core>
 class Rounded {
  public:
@@ -29,10 +32,10 @@ class Rounded {
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;
 
-  /// @param core   in its own frame; copied
-  /// @param radius of the ball [m], > 0
-  /// @throws std::invalid_argument unless the radius is finite and greater than zero, and so is the
-  ///         volume, where it is known
+  /// @param core   in its own frame; it is copied
+  /// @param radius radius of the ball [m], > 0
+  /// @throws std::invalid_argument unless the radius is finite and greater than zero, and also the
+  ///                               volume if it is known
   Rounded(const Core& core, Scalar radius) : core_(core), radius_(radius) {
     detail::require_positive(radius, "Rounded", "radius");
     if constexpr (HasRoundedMoments<Core>) {
@@ -44,15 +47,15 @@ class Rounded {
     }
   }
 
-  const Core& core() const { return core_; }  ///< the rounded core, in its own frame
-  Scalar radius() const { return radius_; }   ///< of the ball [m]
-  /// Where the origin of the core's frame is in this shape's frame [m].
+  const Core& core() const { return core_; }  ///< the core in its own frame
+  Scalar radius() const { return radius_; }   ///< radius of the ball [m]
+  /// Position of the origin of the core's frame in the body frame [m].
   const Vector& core_position() const { return core_position_; }
 
-  /// [m^D], where the core's rounded moments are known.
+  /// The volume [m^D]. Exists if rounded_moments() exists for the core.
   Scalar volume() const requires HasRoundedMoments<Core> { return moments_.volume; }
-  /// Distance of the farthest point from the origin [m]. An upper bound if the core is not a
-  /// polytope and core_position() is not zero.
+  /// Distance of the farthest point of the shape from the origin [m]. If the core is not a polytope
+  /// and core_position() is not zero, it is an upper bound of this distance.
   Scalar circumradius() const requires HasCircumradius<Core> {
     if constexpr (Polytope<Core>) {
       const auto from_origin = core_.vertices().rowwise() + core_position_.transpose();
@@ -61,8 +64,8 @@ class Rounded {
       return core_.circumradius() + core_position_.norm() + radius_;
     }
   }
-  /// Distance of the nearest point of the surface from the origin [m]. A lower bound if the core is
-  /// not a polytope and core_position() is not zero.
+  /// Distance of the nearest point of the surface from the origin [m]. If the core is not a
+  /// polytope and core_position() is not zero, it is a lower bound of this distance.
   Scalar inradius() const requires HasInradius<Core> {
     if constexpr (Polytope<Core>) {
       const auto heights = (core_.face_normals() * core_position_).array() + core_.face_offsets();
@@ -72,11 +75,13 @@ class Rounded {
     }
   }
 
-  /// The farthest point in the direction (any length but zero), body coordinates [m].
+  /// The point of the shape farthest in the direction, body coordinates [m].
+  /// @param direction  body coordinates, of any length but zero
   Vector support(const VectorArgument<Space>& direction) const {
     return core_position_ + core_.support(direction) + radius_ * direction.normalized();
   }
 
+  /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero
   MassProperties<Space> mass_properties(Scalar density) const requires HasRoundedMoments<Core> {
@@ -84,18 +89,18 @@ class Rounded {
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
 
-  /// Pose of the core's frame in the world, from that of this shape's frame [m].
+  /// The pose of the core's frame in the world if this shape has the given pose [m].
   Pose<Space> core_pose(const Pose<Space>& pose) const {
     return {pose(core_position_), pose.rotation};
   }
-  /// The box around it at the pose, world axes [m].
+  /// A box around the shape at a pose, world axes [m].
   Aabb<Space> bounding_box(const Pose<Space>& pose) const {
     return core_.bounding_box(core_pose(pose)).inflated(radius_);
   }
 
-  /// The same shape, all lengths times the factor [-], > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero, and what the
-  ///         core throws
+  /// The same shape with all lengths multiplied by `factor` [-], > 0.
+  /// @throws std::invalid_argument unless the factor is finite and greater than zero; also the
+  ///                               exceptions of the core
   Rounded scaled(Scalar factor) const requires Scalable<Core> {
     detail::require_positive(factor, "Rounded::scaled", "factor");
     return Rounded(core_.scaled(factor), radius_ * factor);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moments of the Minkowski sum of a core and a ball of radius r, in the core's frame, at density
-// one. A user's core needs a function of this name in its own namespace.
+// one. A core defined by a user needs a function rounded_moments(core, r) in the user's namespace.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,9 @@
 
 namespace moreau {
 
-/// Moments of a rounded polygon: the polygon, a rectangle on each edge, a sector at each vertex.
-/// @param r [m], > 0
+/// Moments of a rounded polygon: the sum over the polygon, a rectangle on each edge, and a sector
+/// of a disk at each vertex.
+/// @param r radius of the ball [m], > 0
 /// @returns moments about the core's origin, in its axes, at density one
 template <std::floating_point T>
 Moments<Space<2, T>> rounded_moments(const Polygon<T>& core, T r) {
@@ -40,7 +41,8 @@ Moments<Space<2, T>> rounded_moments(const Polygon<T>& core, T r) {
 
 namespace detail {
 
-/// Moments of face f of a polyhedron, a polygon in space. Adds its corners to their cones.
+/// Moments of face f of a polyhedron. Also adds the angles of this face to the cones of its
+/// vertices.
 template <std::floating_point T>
 Moments<Space<3, T>> face_moments(const Polyhedron<T>& core, std::size_t f,
                                   std::vector<VertexCone<T>>& cones) {
@@ -65,9 +67,9 @@ Moments<Space<3, T>> face_moments(const Polyhedron<T>& core, std::size_t f,
 
 }  // namespace detail
 
-/// Moments of a rounded polyhedron: the polyhedron, a prism on each face, a sector of a cylinder
-/// along each edge, a sector of the ball at each vertex.
-/// @param r [m], > 0
+/// Moments of a rounded polyhedron: the sum over the polyhedron, a prism on each face, a sector of
+/// a cylinder along each edge, and a sector of a ball at each vertex.
+/// @param r radius of the ball [m], > 0
 /// @returns moments about the core's origin, in its axes, at density one
 template <std::floating_point T>
 Moments<Space<3, T>> rounded_moments(const Polyhedron<T>& core, T r) {
@@ -96,9 +98,10 @@ Moments<Space<3, T>> rounded_moments(const Polyhedron<T>& core, T r) {
 }
 
 /// Moments of a capsule: a cylinder between two half balls; in the plane, a rectangle between two
-/// half disks. B_k being the volume of the unit ball of dimension k, the halves, h from the origin,
-/// have int x = B_(D-1) r^(D+1) / (D+1) each about the centres of their balls.
-/// @param r [m], > 0
+/// half disks. The centres of the half balls lie at a distance h from the origin. Each half ball
+/// has the first moment int x = B_(D-1) r^(D+1) / (D+1) about its centre, where B_k is the volume
+/// of the unit ball of dimension k.
+/// @param r radius of the ball [m], > 0
 /// @returns moments about the core's origin, in its axes, at density one
 template <class S>
 Moments<S> rounded_moments(const Segment<S>& core, typename S::Scalar r) {

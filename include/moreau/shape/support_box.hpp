@@ -6,8 +6,8 @@
 
 namespace moreau {
 
-/// The tight box in world axes around a convex shape at the pose [m], computed from support()
-/// alone. A user's own shape may return it from bounding_box().
+/// The smallest box in world axes around a convex shape at a pose [m], computed from support()
+/// only. A shape defined by a user can return it from bounding_box().
 template <class ShapeT>
 Aabb<typename ShapeT::Space> support_box(const ShapeT& shape,
                                          const Pose<typename ShapeT::Space>& pose) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The surface of a convex shape as points and faces, for files and pictures. The mesh of a polytope
-// has its vertices and faces. The mesh of any other shape is inscribed: its points are the support
-// points in the directions of the vertices of a fine polyhedron (in the plane: a polygon).
+// consists of its vertices and faces. The mesh of any other shape is inscribed: its points are the
+// support points in the directions of the vertices of a fine polyhedron (in the plane a polygon).
 #pragma once
 
 #include <cmath>
@@ -19,13 +19,14 @@
 
 namespace moreau {
 
-/// Points and faces. A face lists the indices of its points counter-clockwise, seen from outside.
-/// In the plane there is one face, the outline.
+/// A surface as points and faces. A face is a list of point indices, counter-clockwise seen from
+/// outside. In the plane there is one face, the outline.
 template <class S>
 struct SurfaceMesh {
   std::vector<typename S::Vector> points;  ///< body coordinates [m]
-  std::vector<std::int32_t> corners;       ///< of all faces, as indices into points
-  std::vector<std::int32_t> ends;          ///< where in corners each face ends
+  std::vector<std::int32_t> corners;       ///< the point indices of all faces, face after face
+  std::vector<std::int32_t> ends;  ///< for each face, the index in `corners` one past its last
+                                   ///< corner
 
   /// Removes points and faces; keeps the memory.
   void clear() {
@@ -33,13 +34,13 @@ struct SurfaceMesh {
     corners.clear();
     ends.clear();
   }
-  /// Makes a face of the corners behind the last face.
+  /// Makes a face of the corners that were added after the last face.
   void end_face() { ends.push_back(static_cast<std::int32_t>(corners.size())); }
 };
 
 namespace detail {
 
-/// A regular polygon of 8 * 2^fineness corners on the unit circle.
+/// A regular polygon with 8 * 2^fineness corners on the unit circle.
 template <class T>
 SurfaceMesh<Space<2, T>> unit_mesh(Space<2, T>, int fineness) {
   SurfaceMesh<Space<2, T>> mesh;
@@ -53,7 +54,7 @@ SurfaceMesh<Space<2, T>> unit_mesh(Space<2, T>, int fineness) {
   return mesh;
 }
 
-/// Splits each triangle in four, with the new points on the unit sphere.
+/// Divides each triangle into four triangles. The new points lie on the unit sphere.
 template <class T>
 SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   SurfaceMesh<Space<3, T>> fine;
@@ -81,7 +82,7 @@ SurfaceMesh<Space<3, T>> split(const SurfaceMesh<Space<3, T>>& coarse) {
   return fine;
 }
 
-/// An icosahedron on the unit sphere whose triangles are split in four `fineness` times.
+/// An icosahedron on the unit sphere, each triangle of which is divided into four `fineness` times.
 template <class T>
 SurfaceMesh<Space<3, T>> unit_mesh(Space<3, T>, int fineness) {
   SurfaceMesh<Space<3, T>> mesh;
@@ -120,21 +121,22 @@ void append_faces(const ShapeT& shape, SurfaceMesh<Space<3, T>>& mesh) {
 
 }  // namespace detail
 
-/// Computes meshes of shapes; keeps the directions of the support points.
+/// Computes meshes of shapes. It stores the directions of the support points for shapes with curved
+/// surfaces.
 template <class S>
 class SurfaceMesher {
  public:
-  /// @param fineness of curved surfaces, 0 to 6: 8 * 2^fineness points in the plane,
-  ///                 10 * 4^fineness + 2 in space
-  /// @throws std::invalid_argument for a fineness outside
+  /// @param fineness resolution of curved surfaces, 0 to 6: 8 * 2^fineness points in the plane, 10
+  ///                 * 4^fineness + 2 points in space
+  /// @throws std::invalid_argument if the fineness is not in this range
   explicit SurfaceMesher(int fineness = 2) {
     require(fineness >= 0 && fineness <= 6, "SurfaceMesher", "fineness", fineness,
             "must lie in [0, 6]");
     directions_ = detail::unit_mesh(S{}, fineness);
   }
 
-  /// Fills `mesh` with the surface of a shape in body coordinates [m]: exact for polytopes,
-  /// inscribed for others.
+  /// Replaces the contents of `mesh` by the surface of a shape in body coordinates [m]. It is exact
+  /// for polytopes and inscribed for other shapes.
   template <ConvexShape ShapeT>
   void mesh(const ShapeT& shape, SurfaceMesh<S>& mesh) const {
     mesh.clear();
@@ -149,7 +151,7 @@ class SurfaceMesher {
         mesh.points.push_back(shape.support(direction));
     }
   }
-  /// The mesh of the shape that it holds.
+  /// The mesh of the shape that a OneOf holds.
   template <ConvexShape... Shapes>
   void mesh(const OneOf<Shapes...>& shape, SurfaceMesh<S>& out) const {
     shape.visit([&](const auto& held) { mesh(held, out); });

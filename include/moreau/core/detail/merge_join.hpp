@@ -5,9 +5,10 @@
 
 namespace moreau {
 
-/// Calls found(i, j) for all i, j with left[i] == right[j], in ascending order, in one pass.
-/// @param left,right sequences with size() and [], each strictly ascending by <
-/// @returns how many pairs there are
+/// Calls found(i, j) for all i, j with left[i] == right[j], in ascending order. Each sequence is
+/// traversed once.
+/// @param left,right sequences with size() and operator[], strictly ascending by operator<
+/// @returns the number of such pairs
 template <class Keys>
 std::size_t merge_join(const Keys& left, const Keys& right, const auto& found) {
   std::size_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many vectors, stored so that a scan over them reads whole registers.
+// Many vectors, stored for scans that use vector registers.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,11 @@
 
 namespace moreau::detail {
 
-/// The rows of an N x D matrix, stored in blocks of as many rows as a register has lanes: the x of
-/// each row, the y of each row, ... A scan reads memory in order, and a single row lies on one or
-/// two lines of the cache. The last block is filled up with copies of the first row, so that scans
-/// need no special case at the end. Among equal rows a scan reports the first one, never a copy.
+/// The rows of an N x D matrix, stored in blocks. Each block has as many rows as a register has
+/// lanes. In a block the x of all its rows come first, then the y of all its rows, and so on. So a
+/// scan reads memory in order, and a single row lies on one or two cache lines. The last block is
+/// filled up with copies of the first row, so that scans need no special case at the end. If
+/// several rows are equal, a scan reports the first of them, never a copy.
 template <class S>
 class Rows {
  public:
@@ -27,7 +28,7 @@ class Rows {
   using Vector = typename S::Vector;
   using Wides = std::array<typename W::Values, std::size_t{S::dim}>;
 
-  /// Takes over the rows of a matrix in body axes, turned to world axes.
+  /// Stores the rows of a matrix, rotated from body axes to world axes.
   template <class BodyRows>
   void assign(const BodyRows& body, const typename S::Matrix& rotation) {
     MOREAU_ASSERT(body.rows() > 0);
@@ -47,8 +48,8 @@ class Rows {
 
   std::size_t size() const { return static_cast<std::size_t>(count_); }
   Eigen::Index padded_size() const { return padded_; }
-  /// Row i. Always inlined: g++ counts the copies of this function against its callers and then calls
-  /// it for every vertex.
+  /// Row i. The function is always inlined. Otherwise g++ decides not to inline it and calls it for
+  /// every vertex.
   [[gnu::always_inline]] Vector operator[](std::size_t i) const {
     constexpr std::size_t lanes = W::lanes;
     const T* block = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
@@ -57,7 +58,8 @@ class Rows {
     return row;
   }
 
-  /// direction . row for the block of rows from row i on; d holds the direction in every lane.
+  /// direction . row for the block of rows that starts at row i.
+  /// @param d  the direction, each component in all lanes
   typename W::Values dot(Eigen::Index i, const Wides& d) const {
     const T* block = rows_.data() + S::dim * i;
     typename W::Values sum = d[0] * W::load(block);
@@ -71,14 +73,14 @@ class Rows {
     return wide;
   }
 
-  /// The block of rows from row i on.
+  /// The block of rows that starts at row i.
   Wides wide(Eigen::Index i) const {
     Wides rows;
     for (std::size_t k = 0; k < S::dim; ++k)
       rows[k] = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
     return rows;
   }
-  /// The smallest direction . row over all rows, for another direction in each lane.
+  /// The smallest value of direction . row over all rows, for a different direction in each lane.
   typename W::Values lowest(const Wides& directions) const {
     constexpr std::size_t lanes = W::lanes;
     auto lowest = W::broadcast(std::numeric_limits<T>::infinity());
@@ -96,7 +98,7 @@ class Rows {
     return lowest;
   }
 
-  /// The largest direction . row, and the index of the row.
+  /// The largest value of direction . row over all rows, and the index of this row.
   Extreme<T> farthest(const Vector& direction) const {
     const auto d = broadcast(direction);
     auto index = W::iota();
@@ -107,7 +109,7 @@ class Rows {
     }
     return best.reduce();
   }
-  /// The largest direction . row.
+  /// The largest value of direction . row over all rows.
   T reach(const Vector& direction) const {
     const auto d = broadcast(direction);
     auto best = dot(0, d);
@@ -117,20 +119,20 @@ class Rows {
     }
     return W::maximum(best)[0];
   }
-  /// How many rows have direction . row >= lowest.
+  /// The number of rows with direction . row >= lowest.
   std::ptrdiff_t count_above(const Vector& direction, T lowest) const {
     const auto d = broadcast(direction);
     auto above = dot(0, d) >= lowest;
-    // The copies of the first row behind the last one do not count.
+    // The copies of the first row at the end are not counted.
     const std::ptrdiff_t copies = above[0] ? padded_ - count_ : 0;
     for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) above += dot(i, d) >= lowest;
     const auto sum = W::template fold<W::lanes / 2>(
         above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
     return -std::ptrdiff_t{sum[0]} - copies;
   }
-  /// The square of the largest ratio of distance to rise of the other rows, seen from one of them
-  /// [-]; infinite if a row rises by `least` or less.
-  /// @param apex   that row
+  /// The square of the largest ratio of distance to rise [-]. The ratio is taken for the vector
+  /// from one row, the apex, to each other row. Infinite if another row rises by `least` or less.
+  /// @param apex   the row from which distances and rises are measured
   /// @param up     direction of the rise, unit
   /// @param least  [m]
   T spread2(const Vector& apex, const Vector& up, T least) const {
@@ -168,7 +170,7 @@ class Rows {
     }
     return box;
   }
-  /// Calls use(index) for each row with direction . row >= lowest, in their order.
+  /// Calls use(index) for each row with direction . row >= lowest, in ascending order of the index.
   template <class Use>
   void for_each_above(const Vector& direction, T lowest, Use&& use) const {
     const auto d = broadcast(direction);
@@ -180,8 +182,8 @@ class Rows {
   }
 
  private:
-  /// Loads a block of rows of a matrix whose columns are contiguous; copies of the first row behind
-  /// the last one.
+  /// Loads a block of rows of a matrix whose columns are contiguous. Rows after the last row are
+  /// copies of the first row.
   template <class BodyRows>
   static Wides load(const BodyRows& body, Eigen::Index i) {
     Wides block;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SIMD: the vector types of g++ and clang++, as wide as the registers of the target machine.
+// SIMD: the vector types of g++ and clang++, with the width of the registers of the target machine.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,21 +14,21 @@
 
 namespace moreau::detail {
 
-/// Bytes of a register that comparisons and shuffles work on at full speed.
+/// Width in bytes of the registers for which the target has fast comparisons and shuffles.
 #if defined(__AVX__)
 inline constexpr int register_bytes = 32;
 #else
 inline constexpr int register_bytes = 16;
 #endif
-/// Bytes of the widest register. Wider types would be passed differently by code that was compiled
-/// for another machine.
+/// Width in bytes of the widest registers. Wider types are not used, because code compiled for
+/// another machine would pass them to functions in a different way.
 #if defined(__AVX512F__)
 inline constexpr int widest_bytes = 64;
 #else
 inline constexpr int widest_bytes = register_bytes;
 #endif
 
-/// Vector registers of T. Loads accept any address.
+/// Operations on vector registers with components of type T. Loads need no alignment.
 template <std::floating_point T, int Bytes = register_bytes>
 struct Wide {
   static constexpr int lanes = Bytes / static_cast<int>(sizeof(T));
@@ -42,7 +42,7 @@ struct Wide {
     return v;
   }
   static Values broadcast(T x) { return x - Values{}; }
-  /// Rotates the lanes: lane l of the result is lane l + shift, cyclically.
+  /// Rotates the lanes: lane l of the result is lane (l + Shift) mod lanes of v.
   template <int Shift, class V>
   static V rotated(const V& v) {
     return rotate<Shift>(v, std::make_integer_sequence<int, lanes>{});
@@ -53,12 +53,12 @@ struct Wide {
     for (int l = 0; l < lanes; ++l) i[l] = l;
     return i;
   }
-  /// The bits set in all lanes.
+  /// Bitwise and of all lanes.
   static Lane common_bits(Indices v) {
     return fold<lanes / 2>(v,
                            [](const Indices& x, const Indices& y) -> Indices { return x & y; })[0];
   }
-  /// Whether a comparison holds in any lane.
+  /// Whether a comparison holds in at least one lane.
   static bool any(const Indices& mask) {
     if constexpr (Bytes == 64) {
       typename Wide<T, 32>::Indices halves[2];
@@ -66,7 +66,8 @@ struct Wide {
       return Wide<T, 32>::any(halves[0] | halves[1]);
 #if defined(__AVX__)
     } else if constexpr (Bytes == 32) {
-      // Comparisons set all bits of a lane, so its halves say the same.
+      // A comparison sets all bits of a lane or none, so it suffices to look at the sign bits of
+      // its 32-bit halves.
       typedef float Floats __attribute__((vector_size(32)));
       return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)) != 0;
 #endif
@@ -86,16 +87,16 @@ struct Wide {
   static T sum(Values v) {
     return fold<lanes / 2>(v, [](const Values& x, const Values& y) -> Values { return x + y; })[0];
   }
-  /// Rows become columns: lane l of row i goes to lane i of row l.
+  /// Transposes a square of rows and lanes: lane l of row i becomes lane i of row l.
   static void transpose(Values (&rows)[std::size_t{lanes}]) {
     transpose<1>(rows);
   }
 
-  /// The largest lane, in every lane.
+  /// The largest of all lanes, in every lane.
   static Values maximum(Values v) {
     return fold<lanes / 2>(v, [](const Values& x, const Values& y) { return x > y ? x : y; });
   }
-  /// Folds the lanes by an associative, commutative operation; the result is in every lane.
+  /// Combines all lanes by an associative and commutative operation. The result is in every lane.
   template <int Shift, class V, class Operation>
   static V fold(V v, const Operation& operation) {
     if constexpr (Shift == 0) {
@@ -104,13 +105,13 @@ struct Wide {
       return fold<Shift / 2>(operation(v, rotated<Shift>(v)), operation);
     }
   }
-  /// The count n of rows, rounded up to whole registers.
+  /// The number n of rows rounded up to a multiple of the number of lanes.
   static constexpr std::ptrdiff_t padded(std::ptrdiff_t n) {
     return (n + lanes - 1) / lanes * lanes;
   }
 
  private:
-  /// Swaps the off-diagonal blocks of every square of 2 Size rows and lanes.
+  /// In every square of 2 Size rows and lanes, swaps the two off-diagonal blocks.
   template <int Size>
   static void transpose(Values (&rows)[std::size_t{lanes}]) {
     if constexpr (Size < lanes) {
@@ -139,14 +140,14 @@ struct Wide {
   }
 };
 
-/// The largest (or smallest) of many numbers and where it is; the first of equals.
+/// The largest (or smallest) of many numbers, and its index. Of equal numbers, the first.
 template <class T>
 struct Extreme {
   T value;
   std::uint32_t index;
 };
 
-/// The running maximum in every lane, and its index.
+/// The running maximum in every lane, and the index at which it occurred.
 template <std::floating_point T>
 struct WideMaximum {
   using W = Wide<T>;
@@ -158,7 +159,8 @@ struct WideMaximum {
     value = larger ? v : value;
     index = larger ? i : index;
   }
-  /// Without branches, as the lane with the maximum is random.
+  /// The maximum over all lanes. Computed without branches, because the lane with the maximum is
+  /// unpredictable.
   Extreme<T> reduce() const {
     const auto top = W::maximum(value);
     const auto none = typename W::Indices{} + std::numeric_limits<typename W::Lane>::max();

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The broad phase that compares every box with every other box.
+// The broad phase that compares every bounding box with every other bounding box.
 #pragma once
 
 #include "moreau/detect/broad_phase.hpp"
 
 namespace moreau {
 
-/// Compares every box with every other box in O(n^2). The other broad phases are tested against it,
-/// and it is the fastest one for a few dozen boxes.
+/// Compares every box with every other box, at a cost of O(n^2). The other broad phases are tested
+/// against this class. For a few dozen boxes it is the fastest broad phase.
 template <class S>
 class AllPairs {
  public:
-  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
+  /// Replaces the contents of `pairs` by the pairs of boxes that overlap, sorted, each pair once;
+  /// see BroadPhase.
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     const auto count = static_cast<std::uint32_t>(boxes.size());

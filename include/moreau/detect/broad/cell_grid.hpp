@@ -14,17 +14,19 @@
 
 namespace moreau {
 
-/// Puts every box into a cell of a grid that suits its size: the grid of level k has cells twice as
-/// wide as that of level k - 1, and a box goes to the first level whose cells are at least as wide
-/// as the box. A box spans at most two cells of its own level, and of each coarser level, along
-/// each axis, so that mixed sizes cost no more than equal sizes. O(n) if boxes do not pile up.
+/// Puts every box into a cell of a grid that suits its size. The cells of the grid of level k are
+/// twice as wide as those of level k - 1. A box goes to the first level whose cells are at least as
+/// wide as the box. So a box spans at most two cells along each axis, of its own level and of each
+/// coarser level, and boxes of mixed sizes cost no more than boxes of equal size. The cost is O(n)
+/// as long as the number of boxes that overlap one box is bounded.
 template <class S>
 class CellGrid {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
+  /// Replaces the contents of `pairs` by the pairs of boxes that overlap, sorted, each pair once;
+  /// see BroadPhase.
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     if (boxes.empty()) return;
@@ -51,8 +53,9 @@ class CellGrid {
       smallest = std::min(smallest, widest(box));
       largest = std::max(largest, widest(box));
     }
-    // The finest cells are a thousandth of the largest box, for smaller boxes too, and cell numbers
-    // must fit into an integer.
+    // The finest cells are at least 1/1024 as wide as the largest box, even if some boxes are
+    // smaller, so that there are few levels. They are also at least 2^-28 as wide as the extent of
+    // all boxes, so that cell numbers fit into a 32-bit integer.
     const Scalar extent = (far - origin_).maxCoeff();
     slack_ = Scalar(4) * std::numeric_limits<Scalar>::epsilon() *
              std::max(origin_.cwiseAbs().maxCoeff(), far.cwiseAbs().maxCoeff());
@@ -102,8 +105,10 @@ class CellGrid {
     return static_cast<std::size_t>(hash >> 32) & (head_.size() - 1);
   }
 
-  /// Compares box i with the boxes of a level whose lower corner lies in a cell that box i can
-  /// reach. A pair of the same level is reported once, by the box with the lower index.
+  /// Compares box i with every box j of a level that can overlap it. Box j lies in the cell of its
+  /// lower corner and is at most one cell wide. So the cells to visit begin one cell width below
+  /// the lower corner of box i and end at its upper corner. A pair of boxes of the same level is
+  /// reported once, when box i has the lower index.
   void look(std::uint32_t i, int level, std::span<const Aabb<S>> boxes,
             std::vector<IndexPair>& pairs) const {
     Vector reach = boxes[i].lower;
@@ -131,7 +136,7 @@ class CellGrid {
   }
 
   Vector origin_ = Vector::Zero();
-  Scalar slack_ = 0;  // rounding of coordinates
+  Scalar slack_ = 0;  // bound of the rounding errors of coordinates [m]
   int levels_ = 0;
   std::array<Scalar, max_levels> width_{};
   std::array<bool, max_levels> occupied_{};

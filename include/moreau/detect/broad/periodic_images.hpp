@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Pairs of boxes in a periodic cell, by any broad phase. Every box is shifted by whole cells until
-// its centre lies in the cell; boxes that reach the other side of the cell get a shifted image
-// there.
+// The pairs of boxes that overlap in a periodic cell.
+//   1. Every box is shifted by a whole number of cell lengths along each periodic axis, so that its
+//      centre lies in the cell.
+//   2. Images of the boxes are added: copies shifted by one cell length along one or more axes, as
+//      far as they can overlap a box in the cell.
+//   3. Any broad phase finds the overlapping pairs among the boxes and their images.
 #pragma once
 
 #include <algorithm>
@@ -16,23 +19,24 @@
 
 namespace moreau {
 
-/// Finds the pairs of boxes that overlap through an image of a periodic cell. Keeps its memory: no
-/// allocation once it has grown.
+/// Finds the pairs of boxes that overlap directly or through an image of a periodic cell. The
+/// object keeps its memory from call to call, so that it allocates only when the number of boxes or
+/// pairs exceeds all earlier numbers.
 template <class S>
 class PeriodicImages {
  public:
   using Vector = typename S::Vector;
 
   /// Replaces the contents of `pairs` by all pairs of boxes that overlap through some image,
-  /// sorted, each once. Boxes may lie anywhere. No two of them may be longer together than the cell
-  /// along a periodic axis (PeriodicCell::require_room), so that a pair overlaps through one image
-  /// at most.
+  /// sorted, each pair once. Boxes may lie anywhere. Along a periodic axis, the extents of any two
+  /// boxes must add up to no more than the length of the cell (PeriodicCell::require_room), so that
+  /// a pair overlaps through at most one image.
   /// @param boxes       world axes [m]
   /// @param broad_phase a BroadPhase of this space
-  /// @param pairs       of indices of boxes
-  /// @param shifts      one per pair: the displacement, by whole cells, that takes the second box
-  /// as
-  ///                    it lies to its image that overlaps the first box, world axes [m]
+  /// @param pairs       pairs of indices into `boxes`
+  /// @param shifts      one vector per pair, world axes [m]: a whole number of cell lengths along
+  ///                    each axis. The second box of the pair, moved by this vector, overlaps the
+  ///                    first box
   template <class Broad>
   void find_pairs(const PeriodicCell<S>& cell, std::span<const Aabb<S>> boxes, Broad& broad_phase,
                   std::vector<IndexPair>& pairs, std::vector<Vector>& shifts) {
@@ -51,10 +55,11 @@ class PeriodicImages {
  private:
   struct Image {
     IndexPair pair;
-    Vector cells;  // whole numbers
+    Vector cells;  // signed numbers of cells along the axes, whole numbers
   };
 
-  /// Shifts every box by whole cells so that its centre lies in the cell.
+  /// Shifts every box by a whole number of cells along each periodic axis, so that its centre lies
+  /// in the cell.
   void bring_home(const PeriodicCell<S>& cell, std::span<const Aabb<S>> boxes) {
     boxes_.clear();
     owner_.clear();
@@ -79,8 +84,9 @@ class PeriodicImages {
     cells_.push_back(cells);
   }
 
-  /// Adds images in half of the neighbouring cells, one of each two opposite cells: a pair that
-  /// overlaps through one of them overlaps through the other with the roles exchanged.
+  /// Adds images in half of the neighbouring cells: of each two opposite neighbours, only one gets
+  /// images. Two boxes that overlap through the neighbour that is left out overlap also through the
+  /// opposite neighbour, with their roles exchanged.
   void add_images(const PeriodicCell<S>& cell, std::size_t count) {
     int neighbours = 1;
     for (int axis = 0; axis < S::dim; ++axis) neighbours *= 3;
@@ -107,7 +113,7 @@ class PeriodicImages {
     }
   }
 
-  /// Turns pairs of boxes in the cell with boxes in the cell or images into pairs of the given
+  /// Turns the pairs that the broad phase found among boxes and images into pairs of the given
   /// boxes.
   void collect(std::size_t count) {
     images_.clear();
@@ -122,10 +128,11 @@ class PeriodicImages {
               [](const Image& x, const Image& y) { return x.pair < y.pair; });
   }
 
-  std::vector<Aabb<S>> boxes_;        // those in the cell, then their images
-  std::vector<std::uint32_t> owner_;  // index of the given box that each of them belongs to
-  std::vector<Vector> cells_;  // how many cells each is shifted from its owner, whole numbers
-  Aabb<S> hull_;               // around the boxes in the cell
+  std::vector<Aabb<S>> boxes_;        // the boxes shifted into the cell, then their images
+  std::vector<std::uint32_t> owner_;  // for each element of boxes_, the index of the given box that
+                                      // it is a copy of
+  std::vector<Vector> cells_;  // for each element of boxes_, its shift from the given box, in cells
+  Aabb<S> hull_;               // bounding box of all boxes in the cell, without images [m]
   std::vector<IndexPair> found_;
   std::vector<Image> images_;
 };

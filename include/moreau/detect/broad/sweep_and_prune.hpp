@@ -10,15 +10,17 @@
 
 namespace moreau {
 
-/// Sorts the boxes by their lower ends along the axis on which they spread most, and compares each
-/// box with those that begin before it ends. Good for up to a few thousand boxes and any mixture of
+/// Sorts the boxes by their lower ends along the axis along which their centres are spread most
+/// (largest variance). Compares each box with the following boxes in this order, up to the first
+/// that begins above the end of the box. Suited to at most a few thousand boxes, of any mixture of
 /// sizes.
 template <class S>
 class SweepAndPrune {
  public:
   using Scalar = typename S::Scalar;
 
-  /// Fills `pairs` with those whose boxes overlap, sorted; see BroadPhase.
+  /// Replaces the contents of `pairs` by the pairs of boxes that overlap, sorted, each pair once;
+  /// see BroadPhase.
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     if (boxes.empty()) return;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Pairs with a shape of which only the support function is known, or for which there is no special
-// function. The contact is one point.
+// Pairs of convex shapes for which only the general algorithms are available: one of the shapes is
+// known only by its support function, or the pair has no function of its own. The contact has one
+// point.
 //
-// Shapes that are apart: GJK (gjk.hpp). Overlapping shapes: EPA (epa.hpp) finds the axis n roughly,
-// then GJK finds it exactly. With b moved out of a along n, by a little more than the depth there,
-// the direction of the nearest points is a better axis. If m is the normal of C = B - A at the
-// point of its surface nearest to the origin, p the depth and R the radius of curvature, this takes
-// an angle e between n and m to about e p / R; a flat face is found at once.
+// Shapes that are apart are treated by GJK (gjk.hpp). For overlapping shapes, EPA (epa.hpp) finds
+// an axis n of limited accuracy. An iteration then improves n:
+//   1. Move b out of a along n, by a little more than the depth along n.
+//   2. The direction between the nearest points, found by GJK, is the new n.
+// Let m be the exact axis: the normal of C = B - A, the set of all differences b - a, at the point
+// of its surface nearest to the origin. Let p be the depth and R the radius of curvature of C at
+// this point. One iteration reduces an angle e between n and m to about e p / R. If the surface of
+// C is flat there, one iteration finds m.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +43,9 @@ class ConvexPair {
         offset_(b.center() - a.center()),
         size_(extent(a.bounding_box()) + extent(b.bounding_box())) {}
 
-  /// Signed distance of the pair. Not inlined, so that every caller gets the same bits.
-  /// @param margin  a gap larger than this may be given as any larger gap [m]
+  /// Signed distance of the pair. The function is not inlined, so that all callers get the same
+  /// bits.
+  /// @param margin  if the gap exceeds this, the result may be any gap that exceeds it [m]
   [[gnu::noinline]] SignedDistance<S> distance(
       T margin = std::numeric_limits<T>::infinity()) const {
     SignedDistance<S> found;
@@ -51,12 +56,12 @@ class ConvexPair {
 
  private:
   static T extent(const Aabb<S>& box) { return (box.upper - box.lower).norm(); }
-  /// The nearest points of shapes that are apart. A simplex of points close together on a curved
-  /// surface gets stuck: GJK is started again from the axis found, until the distance equals the
-  /// separation along the axis.
-  /// @param shift   displacement of b [m]
-  /// @param margin  a gap larger than this may be given as any larger one [m]
-  /// @returns whether the shapes are then apart
+  /// Finds the nearest points if the shapes are apart. On a curved surface GJK may stop early,
+  /// because the points of its simplex are close together. So GJK is started again from the axis
+  /// found, until the distance equals the separation along the axis.
+  /// @param shift   displacement of b, world axes [m]
+  /// @param margin  if the gap exceeds this, the result may be any gap that exceeds it [m]
+  /// @returns whether the shapes are apart with b displaced by `shift`
   bool is_apart(const Vector& start, const Vector& shift, T margin,
                 SignedDistance<S>& found) const {
     Lifted axis = Lifted::Zero();
@@ -70,13 +75,14 @@ class ConvexPair {
     }
     return true;
   }
-  /// GJK from one direction on.
-  /// @param shift  displacement of b [m]
-  /// @returns whether the shapes are then apart
+  /// Runs GJK once.
+  /// @param start  first search direction, of any length
+  /// @param shift  displacement of b, world axes [m]
+  /// @returns whether the shapes are apart with b displaced by `shift`
   bool run_gjk(const Lifted& start, const Vector& shift, T margin, SignedDistance<S>& found) const {
     std::array<Vector, all_steps + 2> on_a;
     std::uint32_t count = 0;
-    // A pair in the plane is taken for one in space without thickness.
+    // A pair in the plane is treated as a pair in space with all points at z = 0.
     const auto support = [&](const Lifted& n) -> DifferencePoint<Lifted> {
       Vector direction = n.template head<S::dim>();
       if (direction.isZero(0)) direction = Vector::UnitX();
@@ -103,28 +109,30 @@ class ConvexPair {
     found.witness_b = found.witness_a + apart;
     return true;
   }
-  /// The accuracy of a distance on a curved surface, which rounding of its points limits [m].
+  /// Accuracy of a distance between curved surfaces, which rounding of the surface points limits
+  /// [m].
   T precise() const { return size_ * T(512) * std::numeric_limits<T>::epsilon(); }
   T rounding() const { return size_ * DetectionTolerance<T>::rounding; }
   ExtremePoint<Vector> reach(const Vector& n) const {
     const Vector on_a = a_.support(-n);
     return {offset_ + (b_.support(n) - on_a), on_a};
   }
-  /// The accuracy to which EPA finds the depth before GJK takes over [m].
+  /// Accuracy to which EPA finds the depth before the iteration with GJK [m].
   T rough() const { return std::max(size_ * T(2e-4), precise()); }
-  /// The distance of a and b when b is moved out of a [m].
+  /// Distance of the shapes after b has been moved out of a [m].
   T aside() const { return size_ * T(1e-2); }
-  /// The depth from which on the climb is slow, so that EPA runs to the full accuracy [m].
+  /// If the depth exceeds this, the iteration converges slowly, and EPA is run to full accuracy too
+  /// [m].
   T deep() const { return size_ * T(2e-2); }
-  /// The separation along a unit vector [m]: a lower bound of the gap.
+  /// The separation along a unit vector n [m]. It is a lower bound of the gap.
   T separation(const Vector& n) const { return n.dot(reach(-n).point); }
 
   SignedDistance<S> depth() const {
     const auto reach_along = [this](const Vector& n) { return reach(n); };
     const auto polytope = epa(S{}, reach_along, rough());
     SignedDistance<S> best = climb_from(polytope.nearest());
-    // Other faces may hide a smaller depth. From those with nearly the same normal, the climb leads
-    // to the same axis.
+    // Other faces of the polytope may lead to a smaller depth. Of faces with nearly the same normal
+    // only one is tried, because the iteration leads to the same axis from each of them.
     std::array<Vector, 8> seen{best.normal};
     std::size_t count = 1;
     for (std::size_t f = 0; f < polytope.size() && count < seen.size(); ++f) {
@@ -142,7 +150,8 @@ class ConvexPair {
     const SignedDistance<S> other = climb_from(epa(S{}, reach_along, precise()).nearest());
     return other.gap > best.gap ? other : best;
   }
-  /// The best axis that is reached by climbing from a face of the polytope.
+  /// Improves the axis, starting from the normal of a face of the polytope, by the iteration
+  /// described at the top of this file.
   SignedDistance<S> climb_from(const NearestFace<Vector>& face) const {
     Vector normal = -face.outward, witness = a_.center() + face.on_a, turn = Vector::Zero();
     T gap = separation(normal);
@@ -163,7 +172,8 @@ class ConvexPair {
     }
     return {gap, normal, witness, witness + gap * normal};
   }
-  /// Extrapolates the normal to the limit of its turns, if these shrink at a constant rate.
+  /// If the changes of the normal shrink at a constant rate, extrapolates the normal to their
+  /// limit.
   void go_farther(const Vector& turn, T rate, Vector& normal, T& gap) const {
     if (!(rate > T(0) && rate < T(1))) return;
     const Vector end = (normal + rate / (T(1) - rate) * turn).normalized();
@@ -181,17 +191,18 @@ class ConvexPair {
 
 }  // namespace detail
 
-/// Signed distance of shapes known by their support functions: exact to rounding for flat faces; on
-/// curved surfaces as accurate as rounding of the support points allows.
+/// Signed distance of convex shapes by their support functions. For shapes with flat faces it is
+/// exact to rounding. On curved surfaces the rounding errors of the support points limit the
+/// accuracy.
 template <class A, class B>
 requires GeneralPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b) {
   return detail::ConvexPair<A, B>(a, b).distance();
 }
 
-/// One contact point, midway between the nearest or deepest points.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// Collides convex shapes with one contact point, midway between the nearest or deepest points.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires GeneralPair<A, B>

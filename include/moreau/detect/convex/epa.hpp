@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// EPA, the expanding polytope algorithm: the depth of two overlapping convex shapes that are known
-// by their support functions. Source: G. van den Bergen, Proximity queries and penetration depth
-// computation on 3D game objects, Game Developers Conference 2001.
+// EPA, the expanding polytope algorithm: the penetration depth of two overlapping convex shapes
+// that are given by their support functions. Source: G. van den Bergen, Proximity queries and
+// penetration depth computation on 3D game objects, Game Developers Conference 2001.
 //
-// The depth is the distance of the origin from the surface of C = B - A. A polytope whose corners
-// are points of C, with the origin inside, grows: the support point of C in the direction of the
-// polytope's nearest face becomes a corner, until C reaches no farther there. The polytope is a
-// ring of points in the plane and a hull of triangles in space.
+// Let C = B - A be the set of all differences b - a. The depth is the distance of the origin from
+// the surface of C. The algorithm expands a polytope that contains the origin and whose corners are
+// points of C. In each iteration the support point of C in the direction of the polytope's nearest
+// face becomes a corner. The algorithm ends when this support point is not farther out than the
+// face. In the plane the polytope is a ring of points, in space a hull of triangles.
 #pragma once
 
 #include <algorithm>
@@ -19,21 +20,23 @@
 
 namespace moreau::detail {
 
-/// A support point of C and the point of A that belongs to it, relative to the centre of a [m].
+/// A support point of C, and the point of A from which it was formed, relative to the centre of a,
+/// world axes [m].
 template <class Vector>
 struct ExtremePoint {
   Vector point, on_a;
 };
 
-/// A face of the polytope. The gap of the shapes is about minus the offset of the nearest face.
+/// A face of the polytope. For the nearest face, minus the offset approximates the signed gap of
+/// the shapes.
 template <class Vector>
 struct NearestFace {
-  Vector outward;                  ///< unit normal, out of the polytope
+  Vector outward;                  ///< unit normal, pointing out of the polytope
   typename Vector::Scalar offset;  ///< distance of the face's plane from the origin [m]
-  Vector on_a;                     ///< the point of A that belongs to the origin's projection [m]
+  Vector on_a;  ///< point of A that belongs to the projection of the origin onto the face [m]
 };
 
-/// The polytope stops growing at so many points. Only curved surfaces, at the limit of rounding,
+/// The largest number of corners of the polytope. Only curved surfaces, at the limit of rounding,
 /// need more.
 inline constexpr int most_points = 1000;
 
@@ -67,7 +70,7 @@ class EpaPolygon {
   }
   Face nearest() const { return face(nearest_side()); }
   std::size_t size() const { return ring_.size(); }
-  /// Side k; infinitely far away if it is too short to have a normal.
+  /// Side k of the ring. Its offset is infinite if the side is too short to have a normal.
   Face face(std::size_t k) const {
     const auto& p = ring_[k];
     const auto& q = ring_[(k + 1) % ring_.size()];
@@ -103,7 +106,7 @@ class EpaPolytope {
  public:
   using Vector = typename Space<3, T>::Vector;
 
-  /// Arguments as those of EpaPolygon.
+  /// The arguments are the same as for EpaPolygon.
   EpaPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
 
   /// Starts from four points of C and grows until C reaches no farther than `precise` beyond the
@@ -115,7 +118,7 @@ class EpaPolytope {
   }
   NearestFace<Vector> nearest() const { return face(nearest_face()); }
   std::size_t size() const { return faces_.size(); }
-  /// Face f; infinitely far away if it is too thin to have a normal.
+  /// Face f. Its offset is infinite if the face is too thin to have a normal.
   NearestFace<Vector> face(std::size_t f) const {
     const Face& face = faces_[f];
     if (!(face.offset < std::numeric_limits<T>::infinity()))
@@ -141,7 +144,7 @@ class EpaPolytope {
     T offset;
   };
 
-  /// Four points of C that do not lie in a plane.
+  /// Finds four points of C that do not lie in one plane, and their four faces.
   void start() {
     points_ = {reach_(Vector::UnitX()), reach_(Vector(-Vector::UnitX()))};
     const Vector along = points_[1].point - points_[0].point;
@@ -157,7 +160,8 @@ class EpaPolytope {
     add_face(v[1], v[2], v[3]);
     add_face(v[2], v[0], v[3]);
   }
-  /// Adds the support point in the direction or against it, whichever is farther from the point.
+  /// Of the support points in `direction` and in the opposite direction, adds the one whose
+  /// distance from the point `from`, measured along `direction`, is larger.
   void add_farther(const Vector& direction, const Vector& from) {
     const auto one = reach_(direction), other = reach_(Vector(-direction));
     const bool take_one = direction.dot(one.point - from) >= direction.dot(from - other.point);
@@ -167,7 +171,8 @@ class EpaPolytope {
     const Vector normal =
         (points_[j].point - points_[i].point).cross(points_[k].point - points_[i].point);
     const T length = normal.norm();
-    // A sliver is never the nearest face, and no point is beyond it.
+    // The offset of a sliver is set to infinity, so that it is never the nearest face and never
+    // visible from a point.
     if (!(length > precise_ * precise_)) {
       faces_.push_back({{i, j, k}, Vector::Zero(), std::numeric_limits<T>::infinity()});
       return;
@@ -181,8 +186,9 @@ class EpaPolytope {
       if (faces_[f].offset < faces_[best].offset) best = f;
     return best;
   }
-  /// Adds the support point beyond the nearest face, and replaces the faces that it sees.
-  /// @returns false if C reaches no farther than the face
+  /// Adds the support point beyond the nearest face, and replaces the faces that are visible from
+  /// it.
+  /// @returns false if C extends no farther than the nearest face
   bool grow() {
     const std::size_t nearest = nearest_face();
     const Face& face = faces_[nearest];
@@ -205,8 +211,8 @@ class EpaPolytope {
     for (const auto& [i, j] : rim_) add_face(i, j, points_.size() - 1);
     return true;
   }
-  /// Marks the faces that a point sees, going from one face to its neighbours, so that rounding
-  /// cannot open a second hole.
+  /// Marks the faces that are visible from a point. The search goes from each visible face to its
+  /// neighbours, so that rounding errors cannot produce a second group of visible faces.
   void mark_visible(std::size_t from, const Vector& point) {
     is_visible_.assign(faces_.size(), false);
     is_visible_[from] = true;
@@ -223,7 +229,8 @@ class EpaPolytope {
       }
     }
   }
-  /// The face with the edge from corner i to corner j; the number of faces if there is none.
+  /// The face with the directed edge from corner i to corner j; the number of faces if there is no
+  /// such face.
   std::size_t face_with(std::size_t i, std::size_t j) const {
     std::size_t f = 0;
     for (; f < faces_.size(); ++f)
@@ -231,8 +238,8 @@ class EpaPolytope {
         if (faces_[f].corner[k] == i && faces_[f].corner[(k + 1) % 3] == j) return f;
     return f;
   }
-  /// Adds an edge to the rim of the visible faces, or removes it if the reversed edge is there: an
-  /// edge of two visible faces is not on the rim.
+  /// Adds an edge to the rim of the visible faces. If the reversed edge is in the rim, removes that
+  /// edge instead, because an edge between two visible faces is not on the rim.
   void toggle(const std::array<std::size_t, 2>& edge) {
     const auto reverse =
         std::find(rim_.begin(), rim_.end(), std::array<std::size_t, 2>{edge[1], edge[0]});
@@ -251,11 +258,11 @@ class EpaPolytope {
   std::vector<std::size_t> stack_;
 };
 
-/// EPA: the polytope of points of C, grown until C reaches no farther than `precise` [m] beyond its
-/// nearest face. The polytope lies within C, so only its faces that are nearer to the origin than a
-/// known depth can hide a smaller depth.
-/// @param reach  reach(n) -> the ExtremePoint of C with the largest n . point; must outlive the
-/// answer
+/// Runs EPA: expands the polytope until C extends no more than `precise` [m] beyond the polytope's
+/// nearest face. The polytope lies inside C. So a face of the polytope can lead to a smaller depth
+/// than a known depth only if the face is nearer to the origin than that depth.
+/// @param reach  reach(n) -> the ExtremePoint of C with the largest n . point; it must outlive the
+///               result
 template <std::floating_point T, class Reach>
 EpaPolygon<T, Reach> epa(Space<2, T>, const Reach& reach, T precise) {
   EpaPolygon<T, Reach> polytope(reach, precise);

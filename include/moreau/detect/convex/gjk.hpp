@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// GJK: the distance of two convex shapes that are known by their support functions, or that they
-// overlap. Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the
-// distance between complex objects in three-dimensional space, IEEE J. Robotics and Automation 4
-// (1988) 193-203.
+// GJK: the distance of two convex shapes that are given by their support functions, or the result
+// that the shapes overlap. Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure
+// for computing the distance between complex objects in three-dimensional space, IEEE J. Robotics
+// and Automation 4 (1988) 193-203.
 //
-// C = B - A is the set of differences b - a. The shapes are apart if and only if C does not hold
-// the origin. The point v of C nearest to the origin is then the distance, and its direction the
-// normal. Two bounds close in on it: the hull of the points of C found so far (simplex.hpp) is at
-// least as far from the origin as C, and for any unit n with the support point w(n), s(n) = n .
-// w(n) is at most the distance.
+// Let C = B - A be the set of all differences b - a. The shapes are apart if and only if C does not
+// contain the origin. Let v be the point of C nearest to the origin. The distance of the shapes is
+// |v|, and the contact normal is v / |v|. The iteration has an upper and a lower bound of |v|:
+//   - The hull of the points of C found so far (simplex.hpp) is a part of C. So its distance from
+//     the origin is at least |v|.
+//   - Let w(n) be the point of C with the smallest n . w, for a unit vector n. Then n . w(n) is at
+//     most |v|.
 #pragma once
 
 #include <limits>
@@ -18,19 +20,21 @@
 namespace moreau::detail {
 
 enum class Proximity {
-  beyond,     ///< a plane separates the shapes by more than the margin
-  apart,      ///< the shapes are apart; the simplex holds the nearest points
-  touching,   ///< the shapes overlap, or their distance is lost in rounding
-  undecided,  ///< the steps were too few to tell
+  beyond,     ///< the shapes are separated by more than the margin along the last direction
+  apart,      ///< the shapes are apart; the simplex contains the nearest points
+  touching,   ///< the shapes overlap, or their distance is smaller than the rounding errors
+  undecided,  ///< the number of steps was too small for a result
 };
 
-/// Runs some steps of GJK.
+/// Runs at most `steps` iterations of GJK.
 /// @param support  support(n) -> the DifferencePoint of C with the smallest n . point
-/// @param simplex  in: points of C to start from; out: the nearest points found
-/// @param axis     out: the last direction of a support point, any length
-/// @param margin   the iteration stops when the gap is known to be larger [m], >= 0
-/// @param size     of the order of the shapes [m]; less than some eps of it counts as zero
-/// @param steps    the most steps to make; about 6 suffice for an answer
+/// @param simplex  in: points of C at which the iteration starts; out: the simplex with the nearest
+///                 point found
+/// @param axis     out: the last direction for which a support point was computed, of any length
+/// @param margin   the iteration stops if the gap is proved to be larger than this [m], >= 0
+/// @param size     order of magnitude of the size of the shapes [m]; lengths below 8 eps size count
+///                 as zero
+/// @param steps    largest number of iterations; usually about 6 are needed
 template <std::floating_point T, class Support>
 Proximity gjk(const Support& support, Simplex<T>& simplex, typename Space<3, T>::Vector& axis,
               T margin, T size, int steps) {
@@ -53,7 +57,7 @@ Proximity gjk(const Support& support, Simplex<T>& simplex, typename Space<3, T>:
   return Proximity::undecided;
 }
 
-/// The most steps of GJK; more would be due to rounding only.
+/// The largest number of GJK iterations. More iterations occur only because of rounding errors.
 inline constexpr int all_steps = 64;
 
 }  // namespace moreau::detail

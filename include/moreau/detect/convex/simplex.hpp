@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The simplex of GJK: at most four points of the Minkowski difference B - A, and the point of their
-// hull that is nearest to the origin. Source: Gilbert, Johnson and Keerthi 1988, see gjk.hpp.
+// The simplex of GJK: at most four points of the set of differences B - A, and the point of their
+// convex hull nearest to the origin. Source: Gilbert, Johnson and Keerthi 1988, see gjk.hpp.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,10 @@ struct DifferencePoint {
   std::uint32_t a, b;
 };
 
-/// The points whose hull holds the nearest point, `nearest()` [m]. `direction()`, of any length, is
-/// parallel to nearest() but computed from the geometry of the points: it keeps its digits if the
-/// nearest point is lost in rounding because the origin all but touches the hull.
+/// At most four points of B - A. `nearest()` is the point of their convex hull nearest to the
+/// origin [m]. `direction()` is parallel to nearest() and of any length. It is computed from the
+/// geometry of the points. So it is accurate even if the origin is so close to the hull that
+/// nearest() consists of rounding errors.
 template <std::floating_point T>
 class Simplex {
  public:
@@ -36,8 +37,8 @@ class Simplex {
   const Vector& nearest() const { return nearest_; }
   const Vector& direction() const { return direction_; }
   T squared_distance() const { return nearest_.squaredNorm(); }
-  /// Whether the origin lies within the hull, at least the depth [m] from its faces, and the hull
-  /// is so thick that rounding does not decide that.
+  /// Whether the origin lies inside the hull, at least `depth` [m] from each face, and the hull is
+  /// so thick that this result does not depend on rounding.
   bool holds_origin(T depth) const {
     if (size_ < 4) return false;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -60,12 +61,13 @@ class Simplex {
   }
 
   enum class Step {
-    nearer,    ///< the hull is nearer to the origin now; points that it does not need are dropped
-    stuck,     ///< the hull is not nearer; nothing has changed
-    enclosed,  ///< the origin lies within the four points
+    nearer,    ///< the hull is now nearer to the origin; points that are not needed were removed
+    stuck,     ///< the new point does not bring the hull nearer to the origin; nothing was changed
+    enclosed,  ///< the origin lies inside the tetrahedron of the four points
   };
-  /// Adds the support point of B - A in the direction of the origin. The nearest feature of the new
-  /// hull has this point, so only the features with it are compared.
+  /// Adds the support point of B - A in the direction of the origin. The point of the new hull
+  /// nearest to the origin lies on a feature that has the new point as a corner. So only these
+  /// features are compared.
   Step add(const Point& s) {
     Feature best{s.point, s.point};
     switch (size_) {
@@ -94,8 +96,9 @@ class Simplex {
   }
 
  private:
-  /// A feature of the hull: the new point with none, one (`first`) or two (`first` < `second`) of
-  /// the old points, and the feature's point nearest to the origin.
+  /// A feature of the hull (vertex, edge or face) with the new point as a corner, and the point of
+  /// the feature nearest to the origin. The other corners are none, one (`first`) or two (`first` <
+  /// `second`) of the old points.
   struct Feature {
     Vector nearest, direction;
     T squared_distance = std::numeric_limits<T>::infinity();
@@ -115,11 +118,12 @@ class Simplex {
     return {x, x, x.squaredNorm(), 2, i, 0};
   }
 
-  // The origin is beyond an edge if it lies on the outer side of the plane through the edge that is
-  // perpendicular to the triangle. If it is beyond no edge, it projects onto the face.
+  // The plane through an edge, perpendicular to the triangle, separates the triangle from the
+  // points that are beyond the edge. If the origin is beyond neither of the two edges at s, it
+  // projects onto the face.
   Feature face(const Vector& s, std::size_t i, std::size_t j, const Vector& n) const {
     const T squared = n.squaredNorm();
-    // The normal of points on a line is rounding only.
+    // If the points lie on a line to rounding, their normal consists of rounding errors.
     constexpr T parallel = T(1024) * std::numeric_limits<T>::epsilon();
     const bool is_flat =
         !(squared > parallel * parallel * to(s, i).squaredNorm() * to(s, j).squaredNorm());
@@ -136,15 +140,16 @@ class Simplex {
     return {x, height < T(0) ? Vector(-n) : n, height * height / squared, 3, i, j};
   }
 
-  /// The nearest of the three faces with the new point beyond which the origin lies.
-  /// @returns false if there is none: the origin lies within the hull
+  /// Of the three faces with the new point as a corner, considers those that separate the origin
+  /// from the hull, and takes the nearest.
+  /// @returns false if there is no such face, so that the origin lies inside the hull
   bool nearest_face(const Vector& s, Feature& best) const {
     constexpr std::array<std::array<std::size_t, 2>, 3> sides = {{{0, 1}, {1, 2}, {0, 2}}};
     const std::array<Vector, 3> normals = {normal(s, 0, 1), normal(s, 1, 2), normal(s, 0, 2)};
     const T volume = normals[0].dot(to(s, 2));
     bool is_outside = false;
     for (std::size_t k = 0; k < 3; ++k) {
-      // The last normal points the other way round.
+      // The normal of the last side has the opposite orientation.
       const T height = normals[k].dot(s) * (k == 2 ? -volume : volume);
       if (height < T(0)) continue;
       is_outside = true;
@@ -159,7 +164,8 @@ class Simplex {
   Vector nearest_, direction_;
 };
 
-/// The weights of the points in the nearest point: none is negative, and their sum is 1.
+/// The weights of the simplex's points in the convex combination that is nearest(): each >= 0, with
+/// the sum 1.
 template <std::floating_point T>
 std::array<T, 3> weights_of(const Simplex<T>& simplex) {
   using Vector = typename Space<3, T>::Vector;

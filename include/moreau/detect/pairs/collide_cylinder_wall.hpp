@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Any shape against the inside of a cylinder (of a circle in the plane). The wall counts as a face;
-// the normal of a contact points into the wall, away from the cylinder's axis.
+// Any shape against the inside of a cylinder, or in the plane of a circle. The wall counts as a
+// face. The normal of a contact points into the wall, away from the axis of the cylinder.
 //
-// The distance from the axis is a convex function of the point. Within a polytope it is therefore
-// largest at a vertex, and the vertices are the contact points, each with a normal of its own. A
-// ball is a vertex with a radius, a capsule two of them. For a shape known by its support function
-// alone, two points are found by climbing outwards from either side of the shape. They coincide if
-// the shape touches at one point; they are the two ends if an edge or a face lies across the axis.
-// Of a line or a face of contact that is parallel to the axis, one point is found.
+// The distance of a point from the axis is a convex function of the point. So the contact points
+// are:
+//   - of a polytope, its vertices, because a convex function has its maximum at a vertex. Each
+//     contact point has a normal of its own;
+//   - of a ball, its centre, with the radius of the ball subtracted from the gap;
+//   - of a capsule, the two ends of its core, with the radius subtracted in the same way;
+//   - of a shape of which only the support function is known, two points, which are found by an
+//     iteration from either side of the shape. The two points coincide if the shape touches the
+//     wall at one point. If an edge or a face lies across the axis, they are its two ends. If an
+//     edge or a face is parallel to the axis, only one of its points is found.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +25,7 @@ namespace moreau {
 
 namespace detail {
 
-/// What is kept of the wall of a cylinder. The solid is { x : |radial(x - center)| >= radius }.
+/// The placed data of a cylinder wall. The solid is { x : |radial(x - center)| >= radius }.
 template <class S>
 class Placement<CylinderWall<S>> {
  public:
@@ -38,9 +42,10 @@ class Placement<CylinderWall<S>> {
   const Vector& center() const { return center_; }  ///< a point of the axis, world axes [m]
   const Angular& axis() const { return axis_; }     ///< unit, world axes
   Scalar radius() const { return radius_; }         ///< [m]
-  /// The part of a vector, world axes, that is perpendicular to the axis: -axis x (axis x r).
+  /// The component of a vector r perpendicular to the axis, world axes: -axis x (axis x r).
   Vector radial(const Vector& r) const { return -S::spin(axis_, S::spin(axis_, r)); }
-  /// Whether a box, world axes [m], may come within the margin [m] of the wall.
+  /// Whether a shape in this bounding box, world axes [m], can have a gap to the wall of at most
+  /// the margin [m].
   bool reaches(const Aabb<S>& box, Scalar margin) const {
     const Vector middle = (box.lower + box.upper) / 2 - center_;
     return radial(middle).norm() + (box.upper - box.lower).norm() / 2 >= radius_ - margin;
@@ -64,9 +69,10 @@ typename S::Vector any_radial(const Placed<CylinderWall<S>>& wall) {
   return longest.normalized();
 }
 
-/// The point of a shape that is farthest from the cylinder's axis, by climbing: from the farthest
-/// point in a direction, again and again to the farthest point in the radial direction. By
-/// convexity each step leads farther from the axis or is the last one.
+/// A point of a shape with a maximal distance from the axis of the cylinder, relative to the centre
+/// of the shape, world axes [m]. It starts from the support point in `direction`. Each step takes
+/// the support point in the radial direction of the last point. By convexity each step increases
+/// the distance from the axis or is the last step.
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Vector climb(const Placed<ShapeT>& a,
                                        const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
@@ -87,16 +93,17 @@ typename SpaceOf<ShapeT>::Vector climb(const Placed<ShapeT>& a,
   return best;
 }
 
-/// Calls use(k, x, r) for the places k where a shape may touch the wall: the ball of radius r [m]
-/// about x, relative to the centre, world axes [m], touches the wall there if and only if the shape
-/// does.
+/// Calls use(k, x, r) for each place at which a shape may touch the wall, k = 0, 1, ... The ball of
+/// radius r [m] about x touches the wall if and only if the shape touches it at this place. x is
+/// relative to the centre of the shape, world axes [m].
 template <class ShapeT, class Use>
 void for_each_outermost(const Placed<ShapeT>& a, const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
                         Use&& use) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
-  constexpr T near = T(1e-3);  // of the shape's box: nearer points are one
+  constexpr T near = T(1e-3);  // fraction of the diagonal of the bounding box; points closer
+                               // together count as one point
   Vector outward = b.radial(a.center() - b.center());
   outward = outward.isZero(0) ? any_radial(b) : Vector(outward.normalized());
   const Vector across = S::spin(b.axis(), outward);
@@ -139,12 +146,13 @@ void for_each_outermost(const Placed<OneOf<Shapes...>>& a,
 
 }  // namespace detail
 
-/// Contact points with normals of their own, each in a manifold of one point. The head of this file
-/// says which points these are.
-/// @param margin points up to this gap are in contact [m], >= 0
-/// @param out    filled anew for each point
-/// @param use    called without arguments after each filling, in the order of the feature keys
-/// @returns whether there was a point
+/// Computes contact points that each have a normal of their own. Each contact point is passed on in
+/// a manifold with one point. The list at the top of this file says which points a shape has.
+/// @param margin largest gap of a contact point [m], >= 0
+/// @param out    overwritten for each contact point
+/// @param use    called without arguments for each contact point, when `out` contains it, in the
+///               order of the feature keys
+/// @returns whether there was a contact point
 template <class ShapeT, class Use>
 bool collide_each(const Placed<ShapeT>& a, const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
                   typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out,

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Any shape against a half-space, the solid behind a plane wall. The half-space counts as a face;
-// the normal of the contact points into it.
+// Any shape against a half-space, the solid behind a plane wall. The half-space counts as a face.
+// The contact normal points into the half-space.
 //
-// Polytopes and segments touch with every vertex within the margin, other shapes with their deepest
-// point and, if nothing but their support function is known, with the corners of a flat spot.
+// The contact points are:
+//   - of a polytope or a segment, all vertices with a gap of at most the margin;
+//   - of another shape, its deepest point;
+//   - of a shape of which only the support function is known, its deepest point and, if the surface
+//     is flat there, corners of the flat part.
 #pragma once
 
 #include <array>
@@ -20,8 +23,8 @@ namespace moreau {
 
 namespace detail {
 
-/// The class of a contact with a half-space by the number of vertices that touch: a vertex or an
-/// edge in the plane; a vertex, an edge or a face in space.
+/// The class of a contact with a half-space, given the number of vertices that touch. In the plane
+/// the touching feature is a vertex or an edge; in space it is a vertex, an edge or a face.
 template <std::floating_point T>
 ContactClass class_at_plane(Space<2, T>, std::size_t vertices) {
   return vertices == 1 ? ContactClass::vertex_edge : ContactClass::edge_edge;
@@ -35,7 +38,7 @@ ContactClass class_at_plane(Space<3, T>, std::size_t vertices) {
 
 }  // namespace detail
 
-/// Signed distance of a convex shape from a half-space: that of its deepest point.
+/// Signed distance of a convex shape from a half-space: the signed distance of its deepest point.
 template <class ShapeT>
 requires Elementary<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
     const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b) {
@@ -47,9 +50,9 @@ requires Elementary<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
   return {gap, normal, witness, witness + gap * normal};
 }
 
-/// One contact point, the deepest point of the shape.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// One contact point: the deepest point of the shape.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class ShapeT>
 requires Elementary<ShapeT>
@@ -62,7 +65,8 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
                                     FeatureKey(detail::vertex_on_face(S{}), 0, 0), out);
 }
 
-/// Contact points of a polytope: every vertex within the margin; arguments as above.
+/// Contact points of a polytope: every vertex with a gap of at most the margin. Arguments and
+/// result are those of the first collide() of this file.
 template <class ShapeT>
 requires Elementary<ShapeT> && Polytope<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,
@@ -88,7 +92,8 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   return true;
 }
 
-/// Contact points of a segment: the ends within the margin; arguments as above.
+/// Contact points of a segment: each end with a gap of at most the margin. Arguments and result are
+/// those of the first collide() of this file.
 template <class S>
 bool collide(const Placed<Segment<S>>& a, const Placed<HalfSpace<S>>& b, typename S::Scalar margin,
              Manifold<S>& out, PairCache<S>&) {
@@ -108,7 +113,8 @@ bool collide(const Placed<Segment<S>>& a, const Placed<HalfSpace<S>>& b, typenam
 
 namespace detail {
 
-/// Calls use(unit vector) for tangents of the contact: two in the plane, six in space.
+/// Calls use(tangent) for unit vectors perpendicular to the contact normal: two in the plane, six
+/// in space.
 /// @param frame  the contact frame
 template <std::floating_point T, class Use>
 void for_each_tangent(Space<2, T>, const typename Space<2, T>::Matrix& frame, Use&& use) {
@@ -123,15 +129,17 @@ void for_each_tangent(Space<3, T>, const typename Space<3, T>::Matrix& frame, Us
   }
 }
 
-/// The corners of the flat spot of a shape around a normal: its farthest points in directions
-/// tilted from the normal, relative to its centre, world axes [m].
+/// Corners of the flat part of a surface near its support point in the direction of a normal: the
+/// support points in directions tilted from this normal, relative to the shape's centre, world axes
+/// [m].
 template <class S>
 struct FlatSpot {
   std::array<typename S::Vector, 6> corners;
-  std::size_t size = 0;  ///< how many corners there are; none if the surface is not flat there
+  std::size_t size = 0;  ///< number of corners; 0 if the surface is not flat
 };
-/// @param deepest  the farthest point along the normal, relative to the centre, world axes [m]
-/// @param size     of the shape [m]
+/// @param deepest  the support point along the normal, relative to the shape's centre, world axes
+///                 [m]
+/// @param size     diagonal of the shape's bounding box [m]
 template <class ShapeT>
 FlatSpot<SpaceOf<ShapeT>> flat_spot(const Placed<ShapeT>& shape,
                                     const typename SpaceOf<ShapeT>::Vector& normal,
@@ -154,9 +162,10 @@ FlatSpot<SpaceOf<ShapeT>> flat_spot(const Placed<ShapeT>& shape,
 
 }  // namespace detail
 
-/// Contact points of a shape known by its support function: the deepest point (vertex 0 of the
-/// feature key) and, where the surface is flat, the corners of the flat spot (vertices 1 to 6), so
-/// that a shape with a flat side can stand on it. Arguments as above.
+/// Contact points of a shape of which only the support function is known: the deepest point (vertex
+/// 0 in the feature key) and, if the surface is flat there, corners of the flat part (vertices 1 to
+/// 6). So a shape with a flat side can stand on this side. Arguments and result are those of
+/// the first collide() of this file.
 template <class ShapeT>
 requires SupportOnly<ShapeT>
 bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& b,

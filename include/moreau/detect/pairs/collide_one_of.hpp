@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairs with a OneOf shape, which holds a shape of one of several kinds: one visit finds which
-// kinds the pair is of and calls their function.
+// Pairs with a OneOf, a shape whose type is chosen at run time. The functions find out which shapes
+// the pair holds, and call the function for these shapes.
 #pragma once
 
 #include <utility>
@@ -33,7 +33,7 @@ requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                              const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return distance(x, y); });
 }
-/// The same, with the memory of the pair.
+/// Signed distance of the shapes that the pair holds, with the pair's cache.
 template <class A, class B>
 requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
                                                              PairCache<SpaceOf<A>>& cache) {
@@ -46,7 +46,7 @@ requires MixedPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return overlap(x, y); });
 }
-/// The same, with the memory of the pair.
+/// Whether the shapes that the pair holds have a point in common, with the pair's cache.
 template <class A, class B>
 requires MixedPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cache) {
@@ -55,8 +55,8 @@ bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cach
 }
 
 /// Contact points of the shapes that the pair holds.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires MixedPair<A, B>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Polyhedron against polyhedron, polygon against polygon. The way of a pair:
+// Polyhedron against polyhedron, polygon against polygon. The steps, each in a file of polytope/:
 //   1. find_axis.hpp or prove_axis.hpp   the separating axis, its features and the signed gap
-//   2. facing_features.hpp               the two faces or edges that look at each other
-//   3. contact_polygon.hpp               where these overlap, with the gap at each corner
+//   2. facing_features.hpp               the two faces, or edges in the plane, that face each other
+//   3. contact_polygon.hpp               the overlap of these faces, with the gap at each corner
 //   4. make_manifold.hpp                 the contact points
-// all in polytope/.
 #pragma once
 
 #include <cmath>
@@ -21,10 +20,11 @@ namespace moreau {
 
 namespace detail {
 
-/// The axis of a pair: proved from the remembered features, or found by search and then remembered.
-/// A proved gap that equals the margin to rounding does not count, so that the answer does not
-/// depend on the memory.
-/// @param margin  a gap larger than this need not be known exactly [m]
+/// The separating axis of a pair. If the features in the cache are proved, the axis is computed
+/// from them. Otherwise the axis is searched, and its features are stored in the cache. If the
+/// proved gap equals the margin to rounding, the axis is searched too, so that the result does not
+/// depend on the cache.
+/// @param margin  the gap need not be exact if it is larger than this [m]
 template <class ShapeT>
 FoundAxis<SpaceOf<ShapeT>> axis_of(const PolytopePair<ShapeT>& pair,
                                    typename SpaceOf<ShapeT>::Scalar margin,
@@ -40,8 +40,9 @@ FoundAxis<SpaceOf<ShapeT>> axis_of(const PolytopePair<ShapeT>& pair,
   return found;
 }
 
-/// Whether GJK alone tells that two polyhedra overlap or are apart; undecided where rounding has a
-/// say, so that the features must be searched for the answer to be that of the other queries.
+/// Tests with GJK alone whether two polyhedra overlap or are apart. The result is `undecided` if it
+/// depends on rounding. The features must then be searched, so that overlap() agrees with collide()
+/// and distance().
 template <std::floating_point T>
 Proximity quick_proximity(const PolytopePair<Polyhedron<T>>& pair) {
   using Vector = typename Space<3, T>::Vector;
@@ -53,7 +54,7 @@ Proximity quick_proximity(const PolytopePair<Polyhedron<T>>& pair) {
   return simplex.holds_origin(pair.size * DetectionTolerance<T>::certain) ? Proximity::touching
                                                                           : Proximity::undecided;
 }
-/// For polygons the search is as quick.
+/// For polygons, always undecided, because the search is as fast as GJK.
 template <std::floating_point T>
 Proximity quick_proximity(const PolytopePair<Polygon<T>>&) {
   return Proximity::undecided;
@@ -61,9 +62,9 @@ Proximity quick_proximity(const PolytopePair<Polygon<T>>&) {
 
 }  // namespace detail
 
-/// All points of the contact of two polytopes of one kind; reduce() keeps a few of them.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// All contact points of two polytopes of the same kind. reduce() selects a few of them.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class ShapeT>
 requires Polytope<ShapeT>
@@ -79,7 +80,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<ShapeT>& b,
   return true;
 }
 
-/// Signed distance of two polytopes, exact to rounding, with the memory of the pair.
+/// Signed distance of two polytopes, exact to rounding, with the pair's cache.
 template <class ShapeT>
 requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
     const Placed<ShapeT>& a, const Placed<ShapeT>& b, PairCache<SpaceOf<ShapeT>>& cache) {
@@ -94,7 +95,7 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
   return {axis.gap, axis.normal, a.center() + (middle - half), a.center() + (middle + half)};
 }
 
-/// Signed distance of two polytopes, without a memory of the pair.
+/// Signed distance of two polytopes, without a cache.
 template <class ShapeT>
 requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(const Placed<ShapeT>& a,
                                                                    const Placed<ShapeT>& b) {
@@ -102,8 +103,8 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(const Placed<
   return distance(a, b, none);
 }
 
-/// Whether two polytopes have a point in common, with the memory of the pair: the features are
-/// found along with the answer, so that they can be remembered.
+/// Whether two polytopes have a point in common, with the pair's cache. The function also finds the
+/// features of the separating axis and stores them in the cache.
 template <class ShapeT>
 requires Polytope<ShapeT>
 bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b, PairCache<SpaceOf<ShapeT>>& cache) {
@@ -111,7 +112,7 @@ bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b, PairCache<SpaceOf
   return !pair.is_clearly_apart(0, cache) && !detail::axis_of(pair, 0, cache).is_beyond;
 }
 
-/// Whether two polytopes have a point in common, without a memory of the pair.
+/// Whether two polytopes have a point in common, without a cache.
 template <class ShapeT>
 requires Polytope<ShapeT>
 bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Pairs with a rounded shape: the query of the cores, with the radii added to the margin, and the
-// surfaces put back where they are. This is exact, because along any axis the separation of two
-// rounded shapes is that of their cores less the radii. Feature keys and class of the contact are
-// those of the cores.
+// Pairs with a rounded shape. The query is made for the cores, with the rounding radii added to the
+// margin. Then the gaps and positions are corrected by the radii. This is exact, because along any
+// axis the separation of two rounded shapes is the separation of their cores minus the sum of the
+// radii. The feature keys and the contact class are those of the cores.
 #pragma once
 
 #include "moreau/detect/manifold.hpp"
@@ -14,7 +14,7 @@ namespace moreau {
 
 namespace detail {
 
-/// The core of a rounded shape; any other shape itself.
+/// The core of a rounded shape; for any other shape, the shape itself.
 template <class ShapeT>
 const Placed<ShapeT>& core_of(const Placed<ShapeT>& shape) {
   return shape;
@@ -23,7 +23,7 @@ template <class Core>
 const Placed<Core>& core_of(const Placed<Rounded<Core>>& shape) {
   return shape.core();
 }
-/// How far the surface lies outside of the core [m].
+/// Distance of the surface from the core [m]; 0 if the shape is not rounded.
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar radius_about_core(const Placed<ShapeT>&) {
   return 0;
@@ -33,7 +33,7 @@ typename SpaceOf<Core>::Scalar radius_about_core(const Placed<Rounded<Core>>& sh
   return shape.rounding_radius();
 }
 
-/// The signed distance of rounded shapes, given that of their cores.
+/// The signed distance of rounded shapes, computed from the signed distance of their cores.
 template <class S>
 SignedDistance<S> rounded(const SignedDistance<S>& cores, typename S::Scalar radius_a,
                           typename S::Scalar radius_b) {
@@ -44,14 +44,14 @@ SignedDistance<S> rounded(const SignedDistance<S>& cores, typename S::Scalar rad
 
 }  // namespace detail
 
-/// Signed distance of the cores less the radii.
+/// Signed distance of rounded shapes: the signed distance of the cores minus the radii.
 template <class A, class B>
 requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b) {
   return detail::rounded(distance(detail::core_of(a), detail::core_of(b)),
                          detail::radius_about_core(a), detail::radius_about_core(b));
 }
-/// The same, with the memory of the cores.
+/// Signed distance of rounded shapes, with the cache of the pair of cores.
 template <class A, class B>
 requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b,
@@ -60,9 +60,9 @@ requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& 
                          detail::radius_about_core(a), detail::radius_about_core(b));
 }
 
-/// The contact points of the cores, moved to midway between the surfaces.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// The contact points of the cores, moved along the normal to midway between the rounded surfaces.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires RoundedPair<A, B>

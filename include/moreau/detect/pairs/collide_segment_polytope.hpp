@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Segment, the core of a capsule, against polyhedron or polygon.
+// A segment, the core of a capsule, against a polyhedron or polygon.
 //
-// Axis and gap are those of two convex shapes (convex/collide_convex.hpp), which are exact because
-// both shapes are flat. The contact points are the ends of the part of the segment that lies above
-// the facing face; if these miss the deepest point, the nearest points are added.
+// The separating axis and the gap are computed by the general algorithms for convex shapes
+// (convex/collide_convex.hpp). They are exact, because both shapes are flat. The contact points are
+// the two ends of that part of the segment which lies above the facing face. If neither of them is
+// as deep as the gap, the point midway between the nearest points is added.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +24,9 @@ namespace moreau {
 
 namespace detail {
 
-/// The part of a segment that lies above a face of a polyhedron, seen along the normal: its ends as
-/// fractions of the segment from vertex 0, and the edges of the face that the segment crosses
-/// there.
+/// The part of a segment that lies above a face of a polyhedron, seen along the normal. Each end of
+/// this part is stored as a fraction of the segment from its vertex 0, with the edge of the face
+/// that the segment crosses there, if any.
 template <std::floating_point T>
 class SegmentOnFace {
  public:
@@ -36,8 +37,8 @@ class SegmentOnFace {
                 const Vector& normal)
       : a_(a), b_(b), face_(face), normal_(normal), offset_(b.center() - a.center()) {}
 
-  /// Cuts the segment at the edges of the face. Must come before for_each_corner.
-  /// @param near  distance within which a point lies on an edge [m]
+  /// Cuts the segment at the edges of the face. Call it before for_each_corner.
+  /// @param near  a point closer to an edge than this lies on the edge [m]
   void clip(T near) {
     const auto loop = b_.shape().face(face_);
     for (std::size_t k = 0; k < loop.size() && !is_empty(); ++k) {
@@ -49,7 +50,8 @@ class SegmentOnFace {
     steepness_ = b_.normals()[face_].dot(normal_);
     if (!(steepness_ < T(-0.1))) ends_[0].fraction = T(2);
   }
-  /// Calls use(ManifoldPoint) for each end of that part; once if they coincide.
+  /// Calls use(ManifoldPoint) for each end of the part above the face, or once if the ends
+  /// coincide.
   template <class Use>
   void for_each_corner(T near, Use&& use) const {
     if (is_empty()) return;
@@ -65,7 +67,8 @@ class SegmentOnFace {
   };
 
   bool is_empty() const { return ends_[0].fraction > ends_[1].fraction; }
-  /// @param from,to  heights of the two vertices above an edge's line, > 0 inside [m]
+  /// @param from,to  signed distances of the two vertices from the line of an edge, > 0 inside of
+  ///                 the face [m]
   void cut(T from, T to, T near, std::size_t edge) {
     if (from >= -near && to >= -near) return;
     const T fraction = from / (from - to);
@@ -94,9 +97,9 @@ class SegmentOnFace {
   std::array<End, 2> ends_{End{T(0), none}, End{T(1), none}};
 };
 
-/// Adds the contact points within the margin.
-/// @returns whether a face takes part in the contact; in the plane, a side of the polygon or the
-///          segment itself
+/// Adds the contact points with a gap of at most the margin.
+/// @returns whether a face makes the contact. In space it is a face of the polyhedron; in the plane
+///          it is a side of the polygon or the segment itself
 template <std::floating_point T>
 bool add_corners(const Placed<Segment<Space<3, T>>>& a, const Placed<Polyhedron<T>>& b,
                  const SignedDistance<Space<3, T>>& found, T margin, T near,
@@ -129,8 +132,9 @@ bool add_corners(const Placed<Segment<Space<2, T>>>& a, const Placed<Polygon<T>>
          std::abs(found.normal.dot(a.half())) < aligned * a.radius();
 }
 
-/// The contact point if no face takes part: that of the nearest points, keyed by an end or the
-/// inside of the segment and by the farthest vertex of the polytope towards it.
+/// The contact point if no face makes the contact: the point midway between the nearest points. Its
+/// key has an end of the segment, or the segment itself as edge 0, and the support vertex of the
+/// polytope in the direction of the segment.
 template <class ShapeT>
 ManifoldPoint<SpaceOf<ShapeT>> witness_point(const Placed<Segment<SpaceOf<ShapeT>>>& a,
                                              const Placed<ShapeT>& b,
@@ -144,7 +148,7 @@ ManifoldPoint<SpaceOf<ShapeT>> witness_point(const Placed<Segment<SpaceOf<ShapeT
                      b.vertices().farthest(-found.normal).index)};
 }
 
-/// The class of a contact of two points along the segment.
+/// The class of a contact with two points along the segment.
 template <std::floating_point T>
 constexpr ContactClass class_of_edge(Space<2, T>, bool) {
   return ContactClass::edge_edge;
@@ -156,9 +160,9 @@ constexpr ContactClass class_of_edge(Space<3, T>, bool has_face) {
 
 }  // namespace detail
 
-/// Contact points: two where the segment lies along a face, else one.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// Contact points of a segment and a polytope: two if the segment lies along a face, otherwise one.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class ShapeT>
 requires Polytope<ShapeT>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Segment against segment and ball against segment: the cores of capsules.
+// Segment against segment and ball against segment. Segments are the cores of capsules.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace moreau {
 
 /// Signed distance of a ball from a segment. If the centre of the ball lies on the segment, the
-/// normal is any perpendicular of the segment.
+/// normal is any unit vector perpendicular to the segment.
 template <class S>
 SignedDistance<S> distance(const Placed<BallIn<S>>& a, const Placed<Segment<S>>& b) {
   using T = typename S::Scalar;
@@ -28,9 +28,9 @@ SignedDistance<S> distance(const Placed<BallIn<S>>& a, const Placed<Segment<S>>&
   return {between - a.radius(), normal, witness, witness + (between - a.radius()) * normal};
 }
 
-/// One contact point.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// Contact of a ball and a segment at one point.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class S>
 bool collide(const Placed<BallIn<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,
@@ -44,8 +44,7 @@ bool collide(const Placed<BallIn<S>>& a, const Placed<Segment<S>>& b, typename S
   return detail::touch_at_one_point(distance(a, b), margin, feature, out);
 }
 
-/// Signed distance of two segments; < 0 where they cross in the plane, 0 where they meet in
-/// space.
+/// Signed distance of two segments. If they intersect, the gap is < 0 in the plane and 0 in space.
 template <class S>
 SignedDistance<S> distance(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b) {
   using Vector = typename S::Vector;
@@ -57,8 +56,8 @@ SignedDistance<S> distance(const Placed<Segment<S>>& a, const Placed<Segment<S>>
 
 namespace detail {
 
-/// Adds the ends of each segment that lie beside the other segment and within the margin of it,
-/// each with its own distance from the other segment.
+/// Adds as contact points the ends of each segment that project onto the other segment and whose
+/// gap is at most the margin. The gap of each end is its own distance from the other segment.
 template <class S>
 void add_ends(const SegmentPair<S>& pair, const SegmentAxis<S>& axis,
               const typename S::Vector& center, typename S::Scalar margin, Manifold<S>& out) {
@@ -86,13 +85,13 @@ void add_ends(const SegmentPair<S>& pair, const SegmentAxis<S>& axis,
   }
 }
 
-/// Whether the point at the parameter s of a segment is one of its ends.
+/// Whether the point with the parameter s of a segment is one of the segment's ends.
 template <std::floating_point T>
 bool is_end(T s) {
   return std::abs(s) >= T(1);
 }
 
-/// The key of the nearest points.
+/// The feature key of the nearest points of two segments.
 template <class S>
 FeatureKey feature_of(const SegmentAxis<S>& axis) {
   using Kind = FeatureKey::Kind;
@@ -106,11 +105,11 @@ FeatureKey feature_of(const SegmentAxis<S>& axis) {
 
 }  // namespace detail
 
-/// Contact points: the ends of each segment that lie beside the other segment within the margin, so
-/// two points where one segment lies along the other; and the nearest points, if they are not among
-/// these.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// Contact points of two segments: the ends of each segment that project onto the other segment and
+/// have a gap of at most the margin. There are two of them if one segment lies along the other. If
+/// none of them is as deep as the gap, the point midway between the nearest points is added.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class S>
 bool collide(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b, typename S::Scalar margin,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Ball against polyhedron, disk against polygon: the signed distance of the ball's centre from the
-// polytope, less the radius.
+// Ball against polyhedron, disk against polygon. The signed distance is that of the ball's centre
+// from the polytope, minus the radius.
 //
-// Inside the polytope, and outside above the face whose plane is farthest below the centre, if the
-// centre projects onto that face, the distance is that from the face's plane. Elsewhere a vertex or
-// an edge is nearest: found by comparing all vertices of a polygon, and by GJK for a polyhedron.
+// Take the face above whose plane the centre is highest. The signed distance of the centre is its
+// height above this plane in two cases: the centre is inside the polytope, or it is outside and
+// projects onto this face. Otherwise the nearest feature is a vertex or an edge. For a polygon it
+// is found by comparing all vertices, for a polyhedron by GJK.
 #pragma once
 
 #include <limits>
@@ -22,16 +23,17 @@ namespace moreau {
 
 namespace detail {
 
-/// The signed distance of a point from a polytope's surface, < 0 inside.
+/// The signed distance of a point from the surface of a polytope, < 0 inside.
 template <class S>
 struct PointDistance {
   typename S::Scalar distance;  ///< [m]
-  typename S::Vector outward;   ///< unit, out of the polytope at the nearest point of its surface
-  FeatureKey feature;           ///< the point as vertex 0 of a, the polytope as b
+  typename S::Vector outward;   ///< unit normal at the nearest point of the surface, out of the
+                                ///< polytope, world axes
+  FeatureKey feature;  ///< feature key with the point as vertex 0 of a and the polytope as b
 };
 
-/// The face above whose plane a point, relative to the shape's centre, is highest, and that height
-/// [m].
+/// The face above whose plane a point is highest, and the height of the point above this plane [m].
+/// @param x  the point, relative to the shape's centre, world axes [m]
 template <class ShapeT>
 Extreme<typename SpaceOf<ShapeT>::Scalar> highest_face(const Placed<ShapeT>& shape,
                                                        const typename SpaceOf<ShapeT>::Vector& x) {
@@ -47,8 +49,8 @@ Extreme<typename SpaceOf<ShapeT>::Scalar> highest_face(const Placed<ShapeT>& sha
   return best.reduce();
 }
 
-/// The distance of a point outside a polygon from the edge `highest`, if the point projects onto
-/// it, or from the nearest vertex.
+/// The distance of a point outside of a polygon: from the edge `highest` if the point projects onto
+/// it, otherwise from the nearest vertex.
 template <std::floating_point T>
 PointDistance<Space<2, T>> nearest_outside(const Placed<Polygon<T>>& shape,
                                            const Extreme<T>& highest,
@@ -68,9 +70,9 @@ PointDistance<Space<2, T>> nearest_outside(const Placed<Polygon<T>>& shape,
           FeatureKey(Kind::vertex_vertex, 0, nearest)};
 }
 
-/// The distance of a point outside a polyhedron from the face `highest`, if the point projects onto
-/// it, or by GJK.
-/// @param size  of the order of the pair [m]
+/// The distance of a point outside of a polyhedron: from the face `highest` if the point projects
+/// onto it, otherwise by GJK.
+/// @param size  order of magnitude of the size of the pair [m]
 template <std::floating_point T>
 PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
                                            const Extreme<T>& highest,
@@ -88,7 +90,8 @@ PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
   Simplex<T> simplex(support(axis));
   const Proximity proximity =
       gjk<T>(support, simplex, axis, std::numeric_limits<T>::infinity(), size, all_steps);
-  // The point projects onto the rim of a face, or rounding hides whether it touches.
+  // The point projects onto the rim of a face, or rounding decides whether it touches the
+  // polyhedron.
   if (proximity == Proximity::touching || simplex.size() == 3) return above_face;
   FeatureKey feature(Kind::vertex_vertex, 0, simplex[0].a);
   if (simplex.size() == 2)
@@ -100,8 +103,9 @@ PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
   return {simplex.nearest().norm(), simplex.direction().normalized(), feature};
 }
 
-/// The signed distance of a point x, relative to the polytope's centre, from the polytope.
-/// @param size  of the order of the pair [m]
+/// The signed distance of a point from a polytope.
+/// @param x     the point, relative to the polytope's centre, world axes [m]
+/// @param size  order of magnitude of the size of the pair [m]
 template <class ShapeT>
 PointDistance<SpaceOf<ShapeT>> point_distance(const Placed<ShapeT>& shape,
                                               const typename SpaceOf<ShapeT>::Vector& x,
@@ -114,7 +118,7 @@ PointDistance<SpaceOf<ShapeT>> point_distance(const Placed<ShapeT>& shape,
 
 }  // namespace detail
 
-/// Signed distance of a ball from a polytope: that of its centre less the radius.
+/// Signed distance of a ball from a polytope: the signed distance of its centre minus its radius.
 template <class ShapeT>
 requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
     const Placed<BallIn<SpaceOf<ShapeT>>>& a, const Placed<ShapeT>& b) {
@@ -123,9 +127,9 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
           a.center() - found.distance * found.outward};
 }
 
-/// One contact point.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// Contact of a ball and a polytope at one point.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class ShapeT>
 requires Polytope<ShapeT>

@@ -14,9 +14,9 @@ namespace moreau {
 
 namespace detail {
 
-/// The length of a vector, without overflow of its squares. Eigen's stableNorm() adds the squares
-/// in an order that depends on the address of the vector, so that its bits change from build to
-/// build.
+/// The length of a vector, without overflow of the squares of its components. Eigen's stableNorm()
+/// is not used, because it adds the squares in an order that depends on the memory address of the
+/// vector. Its last bits therefore change from build to build.
 template <class Vector>
 typename Vector::Scalar stable_length(const Vector& v) {
   using T = typename Vector::Scalar;
@@ -29,7 +29,7 @@ typename Vector::Scalar stable_length(const Vector& v) {
 
 }  // namespace detail
 
-/// Signed distance of two balls. The normal of concentric balls is the x axis.
+/// Signed distance of two balls. If their centres coincide, the normal is the x axis.
 template <class S>
 SignedDistance<S> distance(const Placed<BallIn<S>>& a, const Placed<BallIn<S>>& b) {
   using Vector = typename S::Vector;
@@ -40,9 +40,9 @@ SignedDistance<S> distance(const Placed<BallIn<S>>& a, const Placed<BallIn<S>>& 
           b.center() - b.radius() * normal};
 }
 
-/// One contact point.
-/// @param margin  pairs up to this gap are in contact [m], >= 0
-/// @param out     filled if the pair is in contact, left alone otherwise
+/// Contact of two balls at one point.
+/// @param margin  largest gap of a pair in contact [m], >= 0
+/// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin
 template <class S>
 bool collide(const Placed<BallIn<S>>& a, const Placed<BallIn<S>>& b, typename S::Scalar margin,

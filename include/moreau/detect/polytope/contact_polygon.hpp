@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// contact_polygon: where two facing features overlap, seen along the normal of the contact, with
-// the gap between the two surfaces at each corner. Here the contact points of a pair get their
-// gaps.
+// contact_polygon: the region in which two facing features overlap, seen along the normal of the
+// contact, and the gap between the two surfaces at each corner of the region. The contact points of
+// polytopes get their gaps here.
 //
 // In space the features are faces, and the overlap of their projections is a convex polygon. In the
-// plane they are edges, and the overlap is a segment. A corner is a vertex of one feature within
-// the other or, in space, a crossing of two edges. Its gap is the height of b's surface minus that
-// of a's, both along the normal; it is negative where the shapes overlap. The point lies midway.
+// plane the features are edges, and the overlap of their projections is a segment. A corner of the
+// overlap is a vertex of one feature inside the other feature or, in space, a crossing of two
+// edges. The gap at a corner is the height of b's surface minus the height of a's surface, both
+// along the normal; it is negative where the shapes overlap. The contact point lies midway between
+// the two surfaces.
 //
-// Each corner is found on its own, from the signs of every vertex against every edge line of the
-// other face. None depends on which face is called the reference of a clipping, so neither do the
-// feature keys.
+// Each corner is found independently of the other corners, from the side of each edge line of one
+// face on which each vertex of the other face lies. Neither face serves as the reference face, as
+// it does in Sutherland-Hodgman clipping. So the feature keys of the points do not depend on the
+// choice of a reference face.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +27,9 @@
 
 namespace moreau::detail {
 
-/// The polygon in which two faces of polyhedra overlap, seen along the normal. Both faces run
-/// counter-clockwise. Coordinates are relative to the centre of a: x and y along the tangents of
-/// the contact frame, h along the normal [m].
+/// The polygon in which two faces of polyhedra overlap, seen along the normal. Both faces are
+/// stored counter-clockwise. Coordinates are relative to the centre of a [m]: x and y along the
+/// tangents of the contact frame, h along the normal.
 template <std::floating_point T>
 class ContactPolygon {
  public:
@@ -34,7 +37,7 @@ class ContactPolygon {
   using Vector = typename S::Vector;
   using Shape = Placed<Polyhedron<T>>;
 
-  /// @param near  distance below which a corner lies on an edge [m]
+  /// @param near  a corner closer to an edge than this lies on the edge [m]
   ContactPolygon(const Shape& a, std::size_t face_a, const Shape& b, std::size_t face_b,
                  const Vector& normal, T near)
       : a_(a),
@@ -46,9 +49,9 @@ class ContactPolygon {
         loop_b_(b.shape().face(face_b)),
         near_(near) {}
 
-  /// Projects the two faces. Must come before for_each_corner.
+  /// Projects the two faces. Call it before for_each_corner.
   /// @param offset   centre of b minus centre of a, world axes [m]
-  /// @param scratch  memory that this object works in from then on
+  /// @param scratch  memory in which this object stores the projections; it must outlive the object
   void project(const Vector& offset, std::vector<T>& scratch) {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     scratch.resize(3 * (n + m) + 2 * n * m);
@@ -57,7 +60,7 @@ class ContactPolygon {
     beside_a_ = corners_b_ + 3 * m;
     beside_b_ = beside_a_ + n * m;
     for (std::size_t i = 0; i < n; ++i) project(a_.vertices()[loop_a_[i]], corners_a_ + 3 * i);
-    // Seen along the normal, b's face runs clockwise: it is read backwards.
+    // Seen along the normal, b's face is clockwise. So its vertices are read in reverse order.
     for (std::size_t j = 0; j < m; ++j)
       project(b_.vertices()[loop_b_[m - 1 - j]] + offset, corners_b_ + 3 * j);
     sides(corners_a_, n, corners_b_, m, beside_a_);
@@ -66,7 +69,7 @@ class ContactPolygon {
     plane_b_ = plane(b_, face_b_, offset);
   }
 
-  /// Calls use(ManifoldPoint) for each corner.
+  /// Calls use(ManifoldPoint) for each corner of the polygon.
   template <class Use>
   void for_each_corner(Use&& use) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
@@ -89,14 +92,16 @@ class ContactPolygon {
  private:
   using Loop = std::span<const std::uint32_t>;
 
-  /// Writes x, y and h of a point relative to the centre of a.
+  /// Writes the coordinates x, y and h of a point given relative to the centre of a, in world axes.
   void project(const Vector& x, T* corner) const {
     corner[0] = frame_.col(1).dot(x);
     corner[1] = frame_.col(2).dot(x);
     corner[2] = frame_.col(0).dot(x);
   }
 
-  /// side[i * m + j]: twice the area of edge i and point j, > 0 if j lies left; 0 if it lies on it.
+  /// Computes on which side of each edge each point lies. side[i * m + j] is twice the area of the
+  /// triangle of edge i and point j [m^2], > 0 if point j lies to the left of edge i and 0 if point
+  /// j is so close to the line of edge i that it counts as on the edge.
   void sides(const T* edges, std::size_t n, const T* points, std::size_t m, T* side) const {
     for (std::size_t i = 0; i < n; ++i) {
       const T* from = edges + 3 * i;
@@ -114,7 +119,8 @@ class ContactPolygon {
       if (side[i * points + j] < T(0)) return false;
     return true;
   }
-  /// Whether corner j of b coincides with a corner of a that is inside b's face and so was used.
+  /// Whether corner j of b coincides with a corner of a inside b's face, for which `use` was called
+  /// already.
   bool is_corner_of_a(std::size_t j) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -126,7 +132,8 @@ class ContactPolygon {
     return false;
   }
 
-  /// Calls use for the crossing of edge i of a and edge j of b, if they cross within both.
+  /// Calls use(ManifoldPoint) for the crossing of edge i of a and edge j of b, if they cross
+  /// between their ends.
   template <class Use>
   void cross(std::size_t i, std::size_t j, Use& use) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
@@ -145,7 +152,7 @@ class ContactPolygon {
                          edges_b[j + 1 < m ? m - 2 - j : m - 1])));
   }
 
-  /// The plane of a face: h = plane[0] + plane[1] x + plane[2] y.
+  /// Coefficients of the plane of a face: h = plane[0] + plane[1] x + plane[2] y [m].
   std::array<T, 3> plane(const Shape& shape, std::size_t face, const Vector& center) const {
     const Vector normal = shape.normals()[face];
     const T inverse = T(1) / normal.dot(frame_.col(0));
@@ -166,14 +173,15 @@ class ContactPolygon {
   const std::size_t face_a_, face_b_;
   const Loop loop_a_, loop_b_;
   const T near_;
-  T *corners_a_ = nullptr, *corners_b_ = nullptr;  // x, y, h of each
-  T* beside_a_ = nullptr;                          // sides() of a's edges and b's corners
-  T* beside_b_ = nullptr;                          // sides() of b's edges and a's corners
+  T *corners_a_ = nullptr, *corners_b_ = nullptr;  // x, y, h of each corner [m]
+  T* beside_a_ = nullptr;  // result of sides() for a's edges and b's corners
+  T* beside_b_ = nullptr;  // result of sides() for b's edges and a's corners
   std::array<T, 3> plane_a_{}, plane_b_{};
 };
 
-/// The segment in which two edges overlap, of polygons or a segment alone, seen along the normal.
-/// Coordinates are relative to the centre of a: x along the tangent, h along the normal [m].
+/// The segment in which two edges in the plane overlap, seen along the normal. Edge a belongs to a
+/// polygon or is a segment shape; edge b belongs to a polygon. Coordinates are relative to the
+/// centre of a [m]: x along the tangent, h along the normal.
 template <std::floating_point T>
 class ContactSegment {
  public:
@@ -181,9 +189,9 @@ class ContactSegment {
   using Vector = typename S::Vector;
   using Shape = Placed<Polygon<T>>;
 
-  /// @param a       a polygon or a segment; the segment is its own edge 0
+  /// @param a       a polygon, or a segment shape, whose only edge has index 0
   /// @param offset  centre of b minus centre of a, world axes [m]
-  /// @param near    distance within which two ends are one [m]
+  /// @param near    two ends closer together than this count as one point [m]
   template <class ShapeA>
   ContactSegment(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
                  const Vector& offset, const Vector& normal, T near)
@@ -192,7 +200,7 @@ class ContactSegment {
     b_ = project(b, edge_b, offset);
   }
 
-  /// Calls use(ManifoldPoint) for each end; once if they coincide.
+  /// Calls use(ManifoldPoint) for each end of the segment, or once if the two ends coincide.
   template <class Use>
   void for_each_corner(Use&& use) const {
     for (const End& end : a_.ends)
@@ -252,9 +260,9 @@ class ContactSegment {
   Edge a_, b_;
 };
 
-/// The overlap of the facing features of a pair; call for_each_corner of it.
-/// @param normal   of the contact, unit, from a to b, world axes
-/// @param scratch  memory for the answer, which refers to it
+/// The overlap of the facing features of a pair. Call for_each_corner of the result.
+/// @param normal   normal of the contact, unit, from a to b, world axes
+/// @param scratch  memory that the result refers to
 template <std::floating_point T>
 ContactPolygon<T> contact_polygon(const PolytopePair<Polyhedron<T>>& pair,
                                   const FacingFeatures& facing,

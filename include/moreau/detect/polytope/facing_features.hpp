@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// facing_features: which faces of two polyhedra, or edges of two polygons, look at each other along
-// the axis. Their overlap is the region of contact (contact_polygon.hpp).
+// facing_features: the face of each polyhedron, or the edge of each polygon, that faces the other
+// shape along the axis. The overlap of the two faces is the region of contact
+// (contact_polygon.hpp).
 //
-// A face that makes the axis is taken itself. At an edge or a vertex that makes it, the adjacent
-// face is taken that has most vertices near the top of the shape along the axis.
+// If a face makes the axis, that face is taken. If an edge or a vertex makes the axis, one of its
+// adjacent faces is taken: the face with the most vertices near the top of the shape along the
+// axis.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +17,16 @@
 
 namespace moreau::detail {
 
-/// Faces of two polyhedra or edges of two polygons, by their numbers.
+/// The indices of a face of each polyhedron, or of an edge of each polygon.
 struct FacingFeatures {
   std::uint32_t a, b;
 };
 
-/// The edge of a polygon that faces the direction: the edge that makes the axis itself; or of the
-/// two at the top vertex the one with both ends less than the slab [m] below the top, if there is
-/// one such edge, else the one whose normal is more aligned with the direction.
-/// @param id  the feature that makes the axis: an edge or the top vertex along the direction
+/// The edge of a polygon that faces the direction. If an edge makes the axis, that edge is
+/// returned. If the top vertex makes the axis, one of the two edges at this vertex is returned: the
+/// edge of which both ends lie at most `slab` [m] below the top vertex, or, if both or neither edge
+/// does, the edge whose normal is more aligned with the direction.
+/// @param id  index of the feature that makes the axis: an edge, or the top vertex in the direction
 template <std::floating_point T>
 std::uint32_t facing_feature(const Placed<Polygon<T>>& shape, FeatureKind kind, std::uint32_t id,
                              const typename Space<2, T>::Vector& direction, T slab) {
@@ -37,7 +40,7 @@ std::uint32_t facing_feature(const Placed<Polygon<T>>& shape, FeatureKind kind, 
   return direction.dot(shape.normals()[before]) > direction.dot(shape.normals()[id]) ? before : id;
 }
 
-/// The candidate whose normal is most aligned with the direction.
+/// The candidate face whose normal is most aligned with the direction.
 template <std::floating_point T>
 std::uint32_t most_aligned(const Placed<Polyhedron<T>>& shape,
                            std::span<const std::uint32_t> candidates,
@@ -52,8 +55,8 @@ std::uint32_t most_aligned(const Placed<Polyhedron<T>>& shape,
   return best;
 }
 
-/// The candidate with the most vertices (three are enough) at or above a height [m] along the
-/// direction; among equals the one whose normal is most aligned with the direction.
+/// The candidate face with the most vertices, counted up to three, at or above a height [m] along
+/// the direction. Of equal candidates, the face whose normal is most aligned with the direction.
 template <std::floating_point T>
 std::uint32_t topmost_face(const Placed<Polyhedron<T>>& shape,
                            std::span<const std::uint32_t> candidates,
@@ -74,16 +77,18 @@ std::uint32_t topmost_face(const Placed<Polyhedron<T>>& shape,
   return best;
 }
 
-/// The face of a polyhedron that faces the direction, at the feature that makes the axis.
-/// @param id    the feature: a face, an edge or the top vertex along the direction
-/// @param slab  only vertices less than this below the top one can be within the margin [m]
+/// The face of a polyhedron that faces the direction. It is the feature that makes the axis or is
+/// adjacent to it.
+/// @param id    index of the feature: a face, an edge, or the top vertex in the direction
+/// @param slab  vertices more than this below the top vertex cannot be within the margin [m]
 template <std::floating_point T>
 std::uint32_t facing_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint32_t id,
                              const typename Space<3, T>::Vector& direction, T slab) {
   if (kind == FeatureKind::face) return id;
   const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
   const auto choose = [&](std::span<const std::uint32_t> candidates, T top, int own) {
-    // If no vertices but those of the feature are that high, all candidates have as many.
+    // If no vertices but those of the feature are that high, all candidates have the same number of
+    // high vertices.
     return shape.vertices().count_above(direction, top - slab) <= own
                ? most_aligned(shape, candidates, direction)
                : topmost_face(shape, candidates, direction, top - slab);
@@ -93,9 +98,9 @@ std::uint32_t facing_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kin
   return choose(edge.face, std::max(height(edge.vertex[0]), height(edge.vertex[1])), 2);
 }
 
-/// The two features whose overlap is the region of contact. Only vertices within margin - gap of
-/// the top of a shape can be within the margin of the other shape.
-/// @param margin  points up to this gap are in contact [m]
+/// The two features whose overlap is the region of contact. Only vertices at most margin - gap
+/// below the top of their shape can have a gap of at most the margin.
+/// @param margin  largest gap of a contact point [m]
 template <class ShapeT>
 FacingFeatures facing_features(const PolytopePair<ShapeT>& pair, const Axis<SpaceOf<ShapeT>>& axis,
                                typename SpaceOf<ShapeT>::Scalar margin) {

@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: MIT
-// find_axis: the separating axis of a pair of polytopes, and with it the signed gap, by search.
+// find_axis: searches the separating axis of a pair of polytopes and the signed gap along it. The
+// separation s(n) along a unit vector n is defined in axis.hpp.
 //
-// Polygons. The gap is at least the largest separation s(n) over the normals of all edges. It
-// equals that if the shapes overlap, because the edges of B - A are theirs, or if the deepest
-// vertex projects onto the edge. What remains are shapes apart with two vertices nearest to each
-// other.
+// Polygons. The largest separation s(n) over the normals of all edges is a lower bound of the gap.
+// It equals the gap in two cases:
+//   - The shapes overlap, because every edge of B - A, the set of all differences b - a, is
+//     parallel to an edge of A or B.
+//   - The deepest vertex projects onto the edge.
+// Otherwise the shapes are apart, and two vertices may be nearest to each other. All vertices and
+// edges are then compared.
 //
 // Polyhedra.
-//   1. Two steps of GJK part most pairs that are apart, or else give vertices near the contact.
+//   1. Two iterations of GJK separate most pairs that are apart. For other pairs they give vertices
+//      near the contact.
 //   2. The faces of a are searched (detail/face_edge_search.hpp).
-//   3. If a face of a parts the shapes without being proved the answer, GJK is run to its end. The
-//      features that it ends on are a guess, which is proved as features from the step before are.
-//   4. The faces of b and the pairs of edges are searched. The best axis is exact except for shapes
-//      that are apart with a vertex nearest to a vertex or an edge.
-//   5. For those GJK is run to its end, and where GJK ends on rounding, all features that can be
-//      nearest are compared (detail/nearest_features.hpp).
+//   3. If a face of a separates the shapes, but is not proved to make the axis, GJK is run to its
+//      end. The features on which GJK ends are a guess, which prove_axis proves or rejects.
+//   4. The faces of b and the pairs of edges are searched. The best axis is then exact, except for
+//      shapes that are apart and of which a vertex is nearest to a vertex or an edge.
+//   5. For these shapes GJK is run to its end. If GJK ends on rounding errors, all features that
+//      can be nearest are compared (detail/nearest_features.hpp).
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "moreau/detect/convex/gjk.hpp"
 #include "moreau/detect/polytope/axis.hpp"
@@ -30,7 +36,8 @@
 
 namespace moreau::detail {
 
-/// The edge of own along whose normal the lowest vertex of other is highest, and that height [m].
+/// The edge of `own` along whose normal the separation from `other` is largest, and this separation
+/// [m].
 /// @param offset  centre of other minus centre of own, world axes [m]
 template <std::floating_point T>
 Extreme<T> best_edge(const Placed<Polygon<T>>& own, const Placed<Polygon<T>>& other,
@@ -49,11 +56,14 @@ Extreme<T> best_edge(const Placed<Polygon<T>>& own, const Placed<Polygon<T>>& ot
   return best.reduce();
 }
 
-/// Compares a vertex x of one polygon with an edge of the other one, from vertex `edge` on, and
-/// with that vertex; takes over the nearer one. For shapes that are apart.
-/// @param x     relative to the centre of the edge's shape, world axes [m]
-/// @param sign  1 if the edge is that of a, -1 if it is that of b
-/// @param a,b   numbers of the edge and the vertex, that of a first
+/// Compares a vertex x of one polygon with an edge of the other polygon and with the first vertex
+/// of this edge. If one of them is nearer than the nearest features so far, replaces `best`. For
+/// shapes that are apart.
+/// @param edge  index of the edge and of its first vertex
+/// @param x     position of the vertex relative to the centre of the edge's shape, world axes [m]
+/// @param sign  1 if the edge belongs to a, -1 if it belongs to b
+/// @param a,b   indices of a's and b's feature: the edge and the vertex, or the reverse
+/// @param best  the axis of the nearest features so far
 template <std::floating_point T>
 void compare_point(const Placed<Polygon<T>>& shape, std::uint32_t edge,
                    const typename Space<2, T>::Vector& x, T sign, std::uint32_t a, std::uint32_t b,
@@ -73,7 +83,8 @@ void compare_point(const Placed<Polygon<T>>& shape, std::uint32_t edge,
     best = {sign / gap * apart, gap, AxisKind::vertices, a, b};
   }
 }
-/// The axis of the nearest points of two polygons that are apart: every vertex against every edge.
+/// The axis of the nearest points of two polygons that are apart. Every vertex of each polygon is
+/// compared with every edge of the other polygon.
 template <std::floating_point T>
 Axis<Space<2, T>> nearest_features(const PolytopePair<Polygon<T>>& pair) {
   using Vector = typename Space<2, T>::Vector;
@@ -89,14 +100,14 @@ Axis<Space<2, T>> nearest_features(const PolytopePair<Polygon<T>>& pair) {
                                          : best;
 }
 
-/// The axis of two polygons among the normals of their edges.
+/// The normal of an edge along which the separation of two polygons is largest.
 template <std::floating_point T>
 struct EdgeAxis {
   Axis<Space<2, T>> axis;
-  bool is_exact;  ///< whether it has the signed gap; otherwise the shapes are apart by the gap or
-                  ///< more
+  bool is_exact;  ///< whether axis.gap is the signed gap; if not, the signed gap is at least
+                  ///< axis.gap
 };
-/// @param margin  the search stops at an axis that separates by more [m]
+/// @param margin  the search stops at an axis that separates the shapes by more than this [m]
 template <std::floating_point T>
 EdgeAxis<T> find_edge_axis(const PolytopePair<Polygon<T>>& pair, T margin) {
   const Extreme<T> of_a = best_edge(pair.a, pair.b, pair.offset);
@@ -111,14 +122,15 @@ EdgeAxis<T> find_edge_axis(const PolytopePair<Polygon<T>>& pair, T margin) {
   return {axis, is_exact};
 }
 
-/// The axis of two polygons.
-/// @param margin  a gap larger than this need not be known exactly [m], >= 0
+/// The separating axis of two polygons.
+/// @param margin  the gap need not be exact if it is larger than this [m], >= 0
 template <std::floating_point T>
 FoundAxis<Space<2, T>> find_axis(const PolytopePair<Polygon<T>>& pair, T margin) {
   const auto [axis, is_exact] = find_edge_axis(pair, margin);
   if (axis.gap > margin || is_exact) return {axis, axis.gap > margin};
   const auto nearest = nearest_features(pair);
-  // Where two vertices all but touch, their difference has no direction: the edge's normal stays.
+  // If two vertices almost touch, rounding decides on the direction between them. Then the normal
+  // of the edge is kept.
   const T doubt = T(4) * pair.rounding();
   const bool take_nearest =
       pair.separation(nearest.normal) >= nearest.gap - doubt || axis.gap < nearest.gap - doubt;
@@ -126,24 +138,24 @@ FoundAxis<Space<2, T>> find_axis(const PolytopePair<Polygon<T>>& pair, T margin)
   return {best, best.gap > margin};
 }
 
-/// GJK on a pair of polyhedra, a few steps at a time.
+/// GJK on a pair of polyhedra. It can be run in portions of a few iterations.
 template <std::floating_point T>
 struct PairGjk {
   using Vector = typename Space<3, T>::Vector;
   const PolytopePair<Polyhedron<T>>& pair;
-  const T margin;                              ///< the iteration stops beyond this gap [m]
-  Simplex<T> simplex;                          ///< the nearest points so far
-  Vector direction = Vector::Zero();           ///< the last direction, any length
-  Proximity proximity = Proximity::undecided;  ///< of the shapes, as far as it is known
+  const T margin;      ///< the iteration stops if the gap exceeds this [m]
+  Simplex<T> simplex;  ///< the current simplex, which contains the nearest point found so far
+  Vector direction = Vector::Zero();  ///< the last search direction, of any length, world axes
+  Proximity proximity = Proximity::undecided;  ///< what is known of the distance of the shapes
   bool is_beyond() const { return proximity == Proximity::beyond; }
 
-  /// Goes on by some steps, unless it is decided how near the shapes are.
+  /// Runs some more iterations, unless it is already known how near the shapes are.
   void run(int steps) {
     if (proximity != Proximity::undecided) return;
     proximity = gjk<T>([this](const Vector& n) { return pair.support(n); }, simplex, direction,
                        margin, pair.size, steps);
   }
-  /// An axis that separates by more than the margin.
+  /// The axis found if the shapes are separated by more than the margin.
   FoundAxis<Space<3, T>> separating_axis() const {
     FoundAxis<Space<3, T>> found;
     found.axis.normal = direction.normalized();
@@ -152,8 +164,8 @@ struct PairGjk {
   }
 };
 
-/// The vertices of a simplex of GJK as two sets of points, each relative to the other shape's
-/// centre.
+/// Adds the vertices of a GJK simplex to two sets of points. Vertices of a are stored relative to
+/// the centre of b, vertices of b relative to the centre of a.
 template <std::floating_point T>
 void collect_vertices(const PolytopePair<Polyhedron<T>>& pair, const Simplex<T>& simplex,
                       PointSet<T>& points_a, PointSet<T>& points_b) {
@@ -164,10 +176,10 @@ void collect_vertices(const PolytopePair<Polyhedron<T>>& pair, const Simplex<T>&
   }
 }
 
-/// The axis that GJK ended on, with the distance of two points of the shapes.
+/// The axis on which GJK ended, and the distance of two points of the shapes.
 template <std::floating_point T>
 struct GjkEnd {
-  T distance;  ///< [m]: an upper bound of the gap
+  T distance;  ///< distance of a point of a from a point of b, an upper bound of the gap [m]
   Axis<Space<3, T>> axis = {};
   std::optional<WitnessPoints<Space<3, T>>> nearest = std::nullopt;  ///< see FoundAxis
 };
@@ -186,14 +198,15 @@ GjkEnd<T> measure_end(const PolytopePair<Polyhedron<T>>& pair, const Simplex<T>&
           points};
 }
 
-/// Step 5: the axis of the nearest points of two polyhedra, unless the face or the edges of `flat`
-/// lie across it just as far away, so that the nearest points are on them. The normal of a face or
-/// of edges does not suffer from the rounding of a small difference, as that of two points does.
+/// Step 5: the axis of the nearest points of two polyhedra. The axis `flat` of a face or of two
+/// edges is kept if it has the same gap and nearly the same direction, because the nearest points
+/// then lie on these features. The direction between two points suffers from rounding if the points
+/// are close together; the normal of a face or of two edges does not.
 ///
-/// The distance of any two points of the shapes is an upper bound of the gap, the separation along
-/// any direction a lower bound. What GJK ended on is taken where the two meet; else all features
-/// are compared that can be nearest.
-/// @param flat  the best axis of faces and edges
+/// The distance of any point of a from any point of b is an upper bound of the gap. The separation
+/// along any direction is a lower bound. If both bounds agree for the result of GJK, this result is
+/// exact. Otherwise all features that can be nearest are compared.
+/// @param flat  the best axis of a face or of two edges
 template <std::floating_point T>
 FoundAxis<Space<3, T>> find_nearest_points(const PolytopePair<Polyhedron<T>>& pair,
                                            const Simplex<T>& simplex, const Axis<Space<3, T>>& flat,
@@ -223,8 +236,8 @@ FoundAxis<Space<3, T>> find_nearest_points(const PolytopePair<Polyhedron<T>>& pa
   return {end.axis, end.axis.gap > margin, end.nearest};
 }
 
-/// The axis of two polyhedra; the head of this file numbers the steps.
-/// @param margin  a gap larger than this need not be known exactly [m], >= 0
+/// The separating axis of two polyhedra. The steps are numbered at the top of this file.
+/// @param margin  the gap need not be exact if it is larger than this [m], >= 0
 template <std::floating_point T>
 FoundAxis<Space<3, T>> find_axis(const PolytopePair<Polyhedron<T>>& pair, T margin) {
   constexpr int first_steps = 2;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// make_manifold: the contact points of two polytopes, once the axis is known.
+// make_manifold: computes the contact points of two polytopes from their separating axis.
 //
-//   1. If the pair is recognised to touch at a single point, that point is the witness point of the
-//      axis (detail/single_contact_point.hpp, detail/witness_points.hpp).
-//   2. Else the corners of the contact polygon, or in the plane the ends of the contact segment,
-//      within the margin are the points (facing_features.hpp, contact_polygon.hpp). Each has the
-//      gap between the two surfaces there.
-//   3. If the polygon has no corner as deep as the axis says, the witness point is added.
+//   1. If a test shows that the pair touches at a single point, the contact point is the witness
+//      point of the axis (detail/single_contact_point.hpp, detail/witness_points.hpp).
+//   2. Otherwise the contact points are the corners of the contact polygon whose gap is at most the
+//      margin. In the plane they are the ends of the contact segment (facing_features.hpp,
+//      contact_polygon.hpp). Each contact point has its own gap.
+//   3. If no corner of the polygon is as deep as the gap of the axis, the witness point is added.
 #pragma once
 
 #include <algorithm>
@@ -22,10 +22,12 @@
 
 namespace moreau::detail {
 
-/// Step 3 for polyhedra. A polygon narrower than the length below which two points are one may miss
-/// the deepest point. That is the witness point, unless it lies beside the face: then the deepest
-/// corner of the polygon is as near to it as can be told, and is given the gap of the axis.
-/// @param deepest  corner of the contact polygon; its gap is infinite if there are no corners
+/// Step 3 for polyhedra. If the contact polygon is narrower than the distance below which two
+/// points count as one, it may lack the deepest point. The deepest point is then the witness point.
+/// If the witness point lies beside the face, the deepest corner of the polygon takes its place and
+/// gets the gap of the axis.
+/// @param deepest  the deepest corner of the contact polygon; its gap is infinite if the polygon
+///                 has no corners
 template <std::floating_point T>
 void add_deepest(const PolytopePair<Polyhedron<T>>& pair, const FoundAxis<Space<3, T>>& found,
                  const ManifoldPoint<Space<3, T>>& deepest, Manifold<Space<3, T>>& out) {
@@ -37,14 +39,15 @@ void add_deepest(const PolytopePair<Polyhedron<T>>& pair, const FoundAxis<Space<
   for (auto& point : out.points)
     if (point.feature == deepest.feature) point.gap = found.axis.gap;
 }
-/// Step 3 for polygons: the segment of contact has no width that could be lost.
+/// Step 3 for polygons. The witness point is always added, because the contact segment has no width
+/// that could be too small.
 template <std::floating_point T>
 void add_deepest(const PolytopePair<Polygon<T>>& pair, const FoundAxis<Space<2, T>>& found,
                  const ManifoldPoint<Space<2, T>>&, Manifold<Space<2, T>>& out) {
   out.points.push_back(witness_point(pair, found));
 }
 
-/// Steps 2 and 3: adds the contact points of the facing features, sorted by feature.
+/// Steps 2 and 3: adds the contact points of the facing features, sorted by feature key.
 template <class ShapeT>
 void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
                  const FacingFeatures& facing, typename SpaceOf<ShapeT>::Scalar margin,
@@ -58,7 +61,8 @@ void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<Shape
         if (corner.gap < deepest.gap) deepest = corner;
         if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
       });
-  // Two nearest vertices, or a vertex and an edge, lie above each other, but no face takes part.
+  // Two nearest vertices, or a nearest vertex and edge, lie opposite each other. If they are the
+  // only contact point, the point gets the key of these features, not of a face.
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   const bool is_degenerate = !has_face && axis.kind != AxisKind::edges && out.points.size() == 1;
   if (is_degenerate) out.points.clear();
@@ -67,8 +71,8 @@ void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<Shape
   out.sort();
 }
 
-/// The class of a contact of some points.
-/// @param has_face  whether a face makes the axis
+/// The contact class of a set of contact points.
+/// @param has_face  whether a face makes the separating axis
 template <std::floating_point T>
 ContactClass class_of_points(const std::vector<ManifoldPoint<Space<3, T>>>& points, bool has_face) {
   if (points.size() == 1) return class_of_point(points[0].feature);
@@ -81,8 +85,8 @@ ContactClass class_of_points(const std::vector<ManifoldPoint<Space<2, T>>>& poin
 }
 
 /// Fills the manifold of a pair.
-/// @param found   the axis of the pair, with a gap of at most the margin
-/// @param margin  points up to this gap are in contact [m], >= 0
+/// @param found   the separating axis of the pair, with a gap of at most the margin
+/// @param margin  largest gap of a contact point [m], >= 0
 template <class ShapeT>
 void make_manifold(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
                    typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out) {
@@ -104,8 +108,8 @@ void make_manifold(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<Sha
 }
 
 /// The point midway between the surfaces where they are nearest or deepest, relative to the centre
-/// of a, world axes [m]: the witness point, or the deepest corner of the contact polygon if the
-/// witness point lies beside a feature.
+/// of a, world axes [m]. It is the witness point or, if the witness point lies beside a feature,
+/// the deepest corner of the contact polygon.
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Vector middle_of_contact(const PolytopePair<ShapeT>& pair,
                                                    const FoundAxis<SpaceOf<ShapeT>>& found) {

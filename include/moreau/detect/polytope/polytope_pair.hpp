@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Two placed polygons or two placed polyhedra in coordinates relative to the centre of the first.
+// Two placed polygons, or two placed polyhedra, in coordinates relative to the centre of the first.
 //
-// All directions are in world axes. Points of a are relative to the centre of a and points of b to
-// the centre of b, unless a comment says otherwise; `offset` leads from the one to the other, so
-// that a pair far from the world's origin loses no digits.
+// All directions are in world axes. Points of a are relative to the centre of a, and points of b
+// are relative to the centre of b, unless a comment says otherwise. `offset` is the vector from the
+// centre of a to the centre of b. So a pair far from the world's origin loses no digits.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace moreau::detail {
 
-/// A pair of polytopes of one kind.
+/// A pair of two polygons or of two polyhedra.
 template <class ShapeT>
 class PolytopePair {
  public:
@@ -36,28 +36,32 @@ class PolytopePair {
   const Shape& a;
   const Shape& b;
   const Vector offset;  ///< centre of b minus centre of a, world axes [m]
-  const T size;         ///< sum of the circumradii [m]: the length that tolerances are relative to
+  const T size;         ///< sum of the circumradii [m]; tolerances are relative to it
 
-  /// What rounding may add to a separation [m].
+  /// Bound of the rounding error of a separation [m].
   T rounding() const { return size * DetectionTolerance<T>::rounding; }
-  /// The separation along a unit vector [m]: a lower bound of the signed gap for any vector.
+  /// The separation along a unit vector, world axes [m]. Along any vector it is a lower bound of
+  /// the signed gap.
   T separation(const Vector& n) const {
     return n.dot(offset) - (a.vertices().reach(n) + b.vertices().reach(-n));
   }
-  /// The point of B - A with the smallest product with n, relative to the centre of a [m].
+  /// The difference b - a of a vertex of b and a vertex of a with the smallest product with n,
+  /// world axes [m].
   Point support(const Vector& n) const {
     const std::uint32_t i = a.vertices().farthest(n).index;
     const std::uint32_t j = b.vertices().farthest(-n).index;
     return {offset + (b.vertices()[j] - a.vertices()[i]), i, j};
   }
-  /// A first direction for GJK: from the centre of a to that of b; the x axis if they coincide.
+  /// The first search direction of GJK: from the centre of a to the centre of b, or the x axis if
+  /// the centres coincide.
   Vector start() const {
     return offset.squaredNorm() > rounding() * rounding() ? offset : Vector(Vector::UnitX());
   }
 
-  /// Whether the balls about the shapes, or the axis that separated the shapes in the step before,
-  /// show that the gap exceeds the margin [m] by more than rounding. Every other query of the pair
-  /// then finds the same.
+  /// Whether it is certain, without a search, that the gap exceeds the margin [m] by more than
+  /// rounding. This is certain if the circumscribed balls are that far apart, or if the axis that
+  /// separated the shapes in the previous step still separates them. The search would return the
+  /// same result then.
   bool is_clearly_apart(T margin, const PairCache<S>& cache) const {
     const T reach = size + margin + rounding();
     if (offset.squaredNorm() > reach * reach) return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a point projects onto a face of a polytope: whether its orthogonal projection on the plane
-// of the face lies within the face. Faces of polygons are their edges.
+// Whether a point projects onto a face of a polytope: whether its orthogonal projection onto the
+// plane of the face lies inside the face. The faces of a polygon are its edges.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,10 @@
 
 namespace moreau::detail {
 
-/// Whether the projection of a point on the line of an edge lies within the edge.
+/// Whether the projection of a point onto the line of an edge lies inside the edge.
 /// @param x           relative to the shape's centre, world axes [m]
-/// @param clearance2  square of the least distance of the projection from both ends [m^2]
+/// @param clearance2  square of the smallest allowed distance of the projection from both ends
+///                    [m^2]
 template <std::floating_point T>
 bool projects_within(const Placed<Polygon<T>>& shape, std::size_t edge,
                      const typename Space<2, T>::Vector& x, T clearance2) {
@@ -23,13 +24,14 @@ bool projects_within(const Placed<Polygon<T>>& shape, std::size_t edge,
   const Vector along = shape.vertices()[next] - from;
   const T t = along.dot(x - from), length2 = along.squaredNorm();
   const T inside =
-      std::min(t, length2 - t);  // distance from the nearer end times the edge's length
+      std::min(t, length2 - t);  // distance from the nearer end times the length of the edge [m^2]
   return inside >= T(0) && inside * inside >= clearance2 * length2;
 }
 
-/// Whether the projection of a point on the plane of a face lies within the face.
+/// Whether the projection of a point onto the plane of a face lies inside the face.
 /// @param x           relative to the shape's centre, world axes [m]
-/// @param clearance2  square of the least distance of the projection from the face's rim [m^2]
+/// @param clearance2  square of the smallest allowed distance of the projection from the rim of the
+///                    face [m^2]
 template <std::floating_point T>
 bool projects_within(const Placed<Polyhedron<T>>& shape, std::size_t face,
                      const typename Space<3, T>::Vector& x, T clearance2) {
@@ -39,13 +41,14 @@ bool projects_within(const Placed<Polyhedron<T>>& shape, std::size_t face,
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Vector from = shape.vertices()[loop[k]];
     const Vector along = shape.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] - from;
-    const T inside = normal.cross(along).dot(x - from);  // its distance times the edge's length
+    const T inside = normal.cross(along).dot(x - from);  // distance of the projection from the edge
+                                                         // times the edge's length
     if (inside < T(0) || inside * inside < clearance2 * along.squaredNorm()) return false;
   }
   return true;
 }
 
-/// Whether the projection of a point lies within a face, at least the clearance [m] from its rim.
+/// Whether the projection of a point lies inside a face, at least `clearance` [m] from its rim.
 /// @param x  relative to the shape's centre, world axes [m]
 template <class ShapeT>
 bool projects_onto(const Placed<ShapeT>& shape, std::size_t face,

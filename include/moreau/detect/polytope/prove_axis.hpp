@@ -1,34 +1,42 @@
 // SPDX-License-Identifier: MIT
-// prove_axis: the axis of a pair of polytopes from features remembered from the step before.
+// prove_axis: proves that the features which made the axis of a pair of polytopes in the previous
+// step make it also for the present poses.
 //
-// Remembered features can be proved, from the present poses alone, to give the signed gap. No bound
-// on the motion is needed or assumed.
+// The proof uses the present poses only. It needs no bound on the motion since the previous step.
 //
-// Let C = B - A be the set of differences b - a, and F(m) = min over c in C of m . c the separation
-// along the unit vector m. The signed gap is the largest F(m). Let n be the axis of the remembered
-// features, s = F(n) and d = max(0, -s). Suppose two things about C.
+// Let C = B - A be the set of all differences b - a. Let F(m) = min over c in C of m . c be the
+// separation along the unit vector m. The signed gap is the largest F(m). Let n be the axis that
+// the remembered features make, s = F(n), and d = max(0, -s). Suppose that two conditions hold for
+// C.
 //
-//   1. The point s n lies in C's facet at n, at least r from the facet's rim: the projection of one
-//      feature on the other lies inside it. The disk of radius r about s n is then in C, and for m
-//      at an angle theta from n
+//   1. The point s n lies in the facet of C with the normal n, at a distance of at least r from the
+//      rim of the facet. That is so if the projection of one feature onto the other lies that far
+//      inside. The disk of radius r about s n then lies in C. So for every m at an angle theta from
+//      n
 //          F(m) <= s cos theta - r sin theta.
-//      With tau = tan(theta / 2) this falls short of s by at least 2 tau (r - d tau) / (1 + tau^2).
-//   2. The shapes hold balls about their centres, of radii that add up to rho. C then holds a ball
-//      of radius rho about c, the difference of the centres. With h = c . n and t^2 = |c|^2 - h^2
-//          F(m) <= h cos theta + t sin theta - rho,
-//      which is below -d where (h + rho - d) tau^2 - 2 t tau - (h + d - rho) >= 0, so for all tau
-//      beyond the larger root, tau_0 = (t + sqrt(|c|^2 - (rho - d)^2)) / (h + rho - d).
+//      With tau = tan(theta / 2), the right side is less than s by at least
+//      2 tau (r - d tau) / (1 + tau^2).
+//   2. The shapes contain balls about their centres, and rho is the sum of the radii of these
+//      balls. C then contains a ball of radius rho about c, the difference of the centres. Let
+//      h = c . n and t^2 = |c|^2 - h^2. So for every m at an angle theta from n
+//          F(m) <= h cos theta + t sin theta - rho.
+//      The right side is less than -d where (h + rho - d) tau^2 - 2 t tau - (h + d - rho) >= 0.
+//      The inequality is true for all tau beyond the larger root,
+//          tau_0 = (t + sqrt(|c|^2 - (rho - d)^2)) / (h + rho - d).
 //
-// So if r >= d tau_0, the first bound rules out all m up to tau_0 and the second bound all m
-// beyond: no axis separates better than n. In words: an overlap that is shallow, with a projection
-// well inside the features, is the global one. Where the shapes are apart (d = 0), any projection
-// inside the features suffices, because the distance of convex shapes is a convex problem.
+// So if r >= d tau_0, the first bound excludes all m up to tau_0 and the second bound excludes all
+// m beyond tau_0: no axis separates the shapes by more than n does. In words: if the overlap is
+// shallow and the projection lies well inside the features, this overlap is the global one. If the
+// shapes are apart (d = 0), any projection inside the features suffices, because the distance of
+// convex shapes is a convex problem.
 //
-// The answer must also be the one that the full search gives, which takes the first of several axes
-// whose separations tie within rounding. So no other candidate may tie. Axes more than the angle
-// `distinct` from n lose by more than `doubt` if r >= d tau_0 + 2 doubt / distinct, where d
-// includes the doubt, and tau_0 < 100. Nearer axes are ruled out below: no other feature of either
-// shape may be that parallel. A pair that fails any of this is searched in full.
+// The result must also be equal to the result of the full search. If several axes have the same
+// separation to within rounding, the full search returns the first of them. So the proof must
+// exclude other axes with the same separation. An axis at an angle of more than `distinct` from n
+// has a separation smaller by more than `doubt` if r >= d tau_0 + 2 doubt / distinct and tau_0 <
+// 100, where d includes `doubt` (DetectionTolerance). Axes at a smaller angle are excluded by
+// requiring that no other feature of either shape has a direction that close to n. If any of these
+// conditions fails, prove_axis returns nothing, and the full search is made.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +49,8 @@
 
 namespace moreau::detail {
 
-/// How far inside the facet the projection has to be, r [m]; infinite if there is no proof.
+/// The smallest distance r [m] of the projection from the rim of the facet for which the proof
+/// holds; infinite if no distance suffices.
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar needed_clearance(const PolytopePair<ShapeT>& pair,
                                                   const Axis<SpaceOf<ShapeT>>& axis) {
@@ -58,9 +67,10 @@ typename SpaceOf<ShapeT>::Scalar needed_clearance(const PolytopePair<ShapeT>& pa
          T(2) * doubt / DetectionTolerance<T>::distinct;
 }
 
-/// How many vertices a direction less than the angle [rad] away can have for its top: only they can
-/// belong to a face or an edge perpendicular to such a direction.
-/// @param top  height of the top vertex along the direction [m]
+/// The number of vertices of a shape that can be its top vertex along a direction at most `angle`
+/// [rad] from `direction`. Only these vertices can belong to a face or an edge perpendicular to
+/// such a direction.
+/// @param top  height of the top vertex along `direction` [m]
 template <class ShapeT>
 std::ptrdiff_t count_top(const Placed<ShapeT>& shape,
                          const typename SpaceOf<ShapeT>::Vector& direction,
@@ -69,14 +79,14 @@ std::ptrdiff_t count_top(const Placed<ShapeT>& shape,
   using T = typename SpaceOf<ShapeT>::Scalar;
   return shape.vertices().count_above(direction, top - T(2) * angle * shape.radius());
 }
-/// Whether the vertex is the only one at the top.
+/// Whether count_top counts this vertex only.
 template <class ShapeT>
 bool vertex_is_top(const Placed<ShapeT>& shape, std::uint32_t vertex,
                    const typename SpaceOf<ShapeT>::Vector& direction,
                    typename SpaceOf<ShapeT>::Scalar angle) {
   return count_top(shape, direction, direction.dot(shape.vertices()[vertex]), angle) == 1;
 }
-/// Whether the ends of the edge are the only vertices at the top.
+/// Whether count_top counts the two ends of this edge only.
 template <std::floating_point T>
 bool edge_is_top(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
                  const typename Space<3, T>::Vector& direction, T angle) {
@@ -88,8 +98,9 @@ bool edge_is_top(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
          count_top(shape, direction, top, angle) == 2;
 }
 
-/// The search takes a face of a unless another axis is better by more than rounding. So it suffices
-/// that no other face of a is parallel.
+/// Proves an axis of a face of a. The full search takes a face of a unless another axis separates
+/// by more than rounding beyond it. So the only further condition is that no two faces of a have
+/// nearly the same normal.
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pair,
                                                   std::uint32_t face) {
@@ -102,8 +113,9 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pa
     return std::nullopt;
   return axis;
 }
-/// Here no face of a may be parallel either. A face has at least as many vertices as the space has
-/// dimensions, so a must have fewer at the top.
+/// Proves an axis of a face of b. In addition, no face of a may be nearly perpendicular to the
+/// axis. A face has at least as many vertices as the space has dimensions, so the number of a's
+/// vertices near the top must be smaller than that.
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_face_b(const PolytopePair<ShapeT>& pair,
                                                   std::uint32_t face) {
@@ -119,9 +131,10 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_face_b(const PolytopePair<ShapeT>& pa
   return axis;
 }
 
-/// Whether features of shapes that are apart by a vertex are far enough apart for a proof. C lies
-/// beyond the plane through gap * n, so an axis at the angle theta from n separates by no more than
-/// gap cos theta: here the angle that tells axes apart is larger.
+/// Whether the shapes are so far apart that an axis of two vertices, or of a vertex and an edge,
+/// can be proved. C lies beyond the plane n . c = gap, so an axis at the angle theta from n
+/// separates by at most gap cos theta. For these axes the smallest angle that can be told apart is
+/// `aligned`, which is larger than `distinct`.
 template <class ShapeT>
 bool is_far_enough(const PolytopePair<ShapeT>& pair, const Axis<SpaceOf<ShapeT>>& axis) {
   using T = typename SpaceOf<ShapeT>::Scalar;
@@ -139,7 +152,7 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_vertices(const PolytopePair<ShapeT>& 
     return std::nullopt;
   return axis;
 }
-/// An edge of one polyhedron and a vertex of the other, or the reverse.
+/// Proves an axis of an edge of one polyhedron and a vertex of the other polyhedron.
 template <std::floating_point T>
 std::optional<Axis<Space<3, T>>> prove_edge_and_vertex(const PolytopePair<Polyhedron<T>>& pair,
                                                        AxisKind kind, std::uint32_t a,
@@ -160,8 +173,9 @@ std::optional<Axis<Space<3, T>>> prove_edge_and_vertex(const PolytopePair<Polyhe
   return is_top ? std::optional(axis) : std::nullopt;
 }
 
-/// Whether the crossing of two edges, seen along the normal, is at least the clearance [m] from the
-/// rim of the parallelogram that the edges span. False if they are nearly parallel.
+/// Whether the crossing of two edges, seen along the normal, lies at least `clearance` [m] inside
+/// the parallelogram of all differences between points of the two edges. False if the edges are
+/// nearly parallel.
 template <std::floating_point T>
 bool crosses_inside(const EdgeView<T>& a, const EdgeView<T>& b,
                     const PolytopePair<Polyhedron<T>>& pair,
@@ -181,7 +195,8 @@ bool crosses_inside(const EdgeView<T>& a, const EdgeView<T>& b,
   return is_inside(sign * apart.dot(across_b), length2_b) &&
          is_inside(sign * apart.dot(across_a), length2_a);
 }
-/// No face and no other edge may be parallel: the two ends must be the only vertices at the top.
+/// Proves an axis of two edges. No face and no other edge may be nearly perpendicular to the axis,
+/// so the two ends of each edge must be the only vertices near the top.
 template <std::floating_point T>
 std::optional<Axis<Space<3, T>>> prove_edges(const PolytopePair<Polyhedron<T>>& pair,
                                              std::uint32_t id_a, std::uint32_t id_b) {
@@ -195,7 +210,7 @@ std::optional<Axis<Space<3, T>>> prove_edges(const PolytopePair<Polyhedron<T>>& 
   return axis;
 }
 
-/// An axis of edges of two polyhedra.
+/// Proves an axis of two edges, or of an edge and a vertex, of two polyhedra.
 template <std::floating_point T>
 std::optional<Axis<Space<3, T>>> prove_edge_axis(const PolytopePair<Polyhedron<T>>& pair,
                                                  const PairCache<Space<3, T>>& features) {
@@ -209,14 +224,14 @@ std::optional<Axis<Space<3, T>>> prove_edge_axis(const PolytopePair<Polyhedron<T
       return std::nullopt;
   }
 }
-/// Edges of polygons are their faces.
+/// For polygons there is nothing to prove here, because their edges count as faces.
 template <std::floating_point T>
 std::optional<Axis<Space<2, T>>> prove_edge_axis(const PolytopePair<Polygon<T>>&,
                                                  const PairCache<Space<2, T>>&) {
   return std::nullopt;
 }
 
-/// Whether a shape has the feature.
+/// Whether a shape has a feature of this kind with this index.
 template <std::floating_point T>
 bool has_feature(const Placed<Polygon<T>>& shape, FeatureKind, std::uint32_t id) {
   return id < shape.vertices().size();
@@ -228,9 +243,9 @@ bool has_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint
                                            : shape.vertices().size());
 }
 
-/// The axis of remembered features, if they are proved to be those that find_axis would find. It is
-/// then the axis of find_axis to the bit.
-/// @param features  kind and numbers of any features; those of another pair do no harm
+/// The axis of remembered features, if it is proved that find_axis would find the same features.
+/// The result then equals the result of find_axis bit by bit.
+/// @param features  kind and indices of any features; features of another pair are allowed
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_axis(const PolytopePair<ShapeT>& pair,
                                                 const PairCache<SpaceOf<ShapeT>>& features) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Signed gap and axis of two segments without thickness.
+// The signed gap and the separating axis of two segments without thickness.
 //
-// The gap of segments that are apart is the distance of their nearest points: an end of one segment
-// and a point of the other, or two inner points. If the segments meet, C = B - A holds the origin.
-// In the plane C is a parallelogram, and its side nearest to the origin gives the axis. In space C
-// is flat, and the gap is 0 along its normal.
+// If the segments are apart, the gap is the distance of their nearest points. These are an end of
+// one segment and a point of the other segment, or two inner points. If the segments intersect, C =
+// B - A, the set of all differences b - a, contains the origin. In the plane C is a parallelogram,
+// and the normal of its side nearest to the origin is the axis. In space C has no thickness, and
+// along its normal the gap is 0.
 #pragma once
 
 #include <algorithm>
@@ -16,45 +17,45 @@
 
 namespace moreau::detail {
 
-/// Two segments relative to the centre of a, world axes [m]: the points s half_a and offset + t
-/// half_b with s and t in [-1, 1].
+/// Two segments in coordinates relative to the centre of a, world axes [m]. The points of a are s
+/// half_a, those of b are offset + t half_b, with s and t in [-1, 1].
 template <class S>
 struct SegmentPair {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
 
   const Vector half_a, half_b, offset;
-  const T size;  ///< sum of the half lengths [m]: the length that tolerances are relative to
+  const T size;  ///< sum of the half lengths [m]; tolerances are relative to it
 
   SegmentPair(const Placed<Segment<S>>& a, const Placed<Segment<S>>& b)
       : half_a(a.half()),
         half_b(b.half()),
         offset(b.center() - a.center()),
         size(a.radius() + b.radius()) {}
-  /// @param first,second  the half segments, from the middle to an end [m]
-  /// @param between       from the middle of the first segment to that of the second one [m]
+  /// @param first,second  for each segment, the vector from its middle to its end, world axes [m]
+  /// @param between       from the middle of the first segment to the middle of the second one [m]
   SegmentPair(const Vector& first, const Vector& second, const Vector& between)
       : half_a(first), half_b(second), offset(between), size(first.norm() + second.norm()) {}
 
-  /// From the point s of a to the point t of b [m].
+  /// The vector from the point with parameter s of a to the point with parameter t of b [m].
   Vector apart(T s, T t) const { return offset + t * half_b - s * half_a; }
-  /// The parameter of the projection of b's point t on the line of a, and of a's point s on that of
-  /// b.
+  /// project_on_a: the parameter s of the projection of b's point t onto the line of a.
+  /// project_on_b: the parameter t of the projection of a's point s onto the line of b.
   T project_on_a(T t) const { return half_a.dot(offset + t * half_b) / half_a.squaredNorm(); }
   T project_on_b(T s) const { return half_b.dot(s * half_a - offset) / half_b.squaredNorm(); }
 };
 
-/// The axis of the signed gap, and the points of the segments that are nearest or deepest along it.
+/// The axis along which two segments have their signed gap, and the nearest or deepest points.
 template <class S>
 struct SegmentAxis {
   typename S::Vector normal;  ///< unit, from a to b, world axes
-  typename S::Scalar gap = std::numeric_limits<typename S::Scalar>::infinity();  ///< [m]
-  typename S::Scalar s = 0, t = 0;  ///< parameters of the points on a and on b
+  typename S::Scalar gap = std::numeric_limits<typename S::Scalar>::infinity();  ///< signed gap [m]
+  typename S::Scalar s = 0, t = 0;  ///< parameters of the point of a and of the point of b
 };
 
-/// Calls take(s, t) with the inner points of two segments in space where their lines are nearest,
-/// if there are any. They are computed from the common normal, which keeps its digits longer than a
-/// determinant does.
+/// Calls take(s, t) with the parameters of the points at which the lines of two segments in space
+/// are nearest, if both points lie strictly inside the segments. The parameters are computed from
+/// the common normal, which loses fewer digits than the determinant of the normal equations.
 template <std::floating_point T, class Take>
 void take_inner(const SegmentPair<Space<3, T>>& pair, const Take& take) {
   using Vector = typename Space<3, T>::Vector;
@@ -67,11 +68,12 @@ void take_inner(const SegmentPair<Space<3, T>>& pair, const Take& take) {
   const T t = pair.offset.cross(pair.half_a).dot(across) / length2;
   if (std::abs(s) < T(1) && std::abs(t) < T(1)) take(s, t);
 }
-/// In the plane, segments cross if no end of one is nearest to the other.
+/// In the plane two segments that are apart have an end as a nearest point, so there is nothing to
+/// do.
 template <std::floating_point T, class Take>
 void take_inner(const SegmentPair<Space<2, T>>&, const Take&) {}
 
-/// The nearest points; the normal is not set.
+/// The nearest points of two segments. The normal of the result is not set.
 template <class S>
 SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
   using T = typename S::Scalar;
@@ -88,7 +90,8 @@ SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
   return best;
 }
 
-/// The axis of segments that meet, in the plane: the normal of the side of C nearest to the origin.
+/// The axis of two segments that intersect, in the plane: the normal of the side of C nearest to
+/// the origin.
 template <std::floating_point T>
 SegmentAxis<Space<2, T>> crossing_axis(const SegmentPair<Space<2, T>>& pair,
                                        const SegmentAxis<Space<2, T>>&) {
@@ -110,8 +113,8 @@ SegmentAxis<Space<2, T>> crossing_axis(const SegmentPair<Space<2, T>>& pair,
   return best;
 }
 
-/// The same in space: the common normal, towards b's centre; of parallel segments any
-/// perpendicular.
+/// The axis of two segments that intersect, in space: their common normal, towards the centre of b.
+/// If the segments are parallel, any direction perpendicular to them.
 template <std::floating_point T>
 SegmentAxis<Space<3, T>> crossing_axis(const SegmentPair<Space<3, T>>& pair,
                                        const SegmentAxis<Space<3, T>>& nearest) {
@@ -125,8 +128,9 @@ SegmentAxis<Space<3, T>> crossing_axis(const SegmentPair<Space<3, T>>& pair,
   return axis;
 }
 
-/// Improves the axis of segments that pass each other at a small distance, where the difference of
-/// the nearest points has lost its digits. In the plane such segments meet.
+/// Computes the axis of two segments again if their nearest points are inner points at a small
+/// distance, because the difference of these points has then lost digits. In the plane such
+/// segments intersect, so there is nothing to do.
 template <std::floating_point T>
 void refine(const SegmentPair<Space<2, T>>&, SegmentAxis<Space<2, T>>&) {}
 template <std::floating_point T>
@@ -135,7 +139,8 @@ void refine(const SegmentPair<Space<3, T>>& pair, SegmentAxis<Space<3, T>>& axis
   const bool is_inner = std::abs(axis.s) < T(1) && std::abs(axis.t) < T(1);
   const T sine = across.norm() / (pair.half_a.norm() * pair.half_b.norm());
   if (!is_inner || !(axis.gap < sine * pair.size)) return;
-  // At the nearest points, where an error of the normal changes the gap in second order only.
+  // The gap is measured at the nearest points, where an error of the normal changes it only in
+  // second order.
   axis.normal = across.normalized();
   axis.gap = axis.normal.dot(pair.apart(axis.s, axis.t));
   if (axis.gap >= T(0)) return;
@@ -143,16 +148,17 @@ void refine(const SegmentPair<Space<3, T>>& pair, SegmentAxis<Space<3, T>>& axis
   axis.gap = -axis.gap;
 }
 
-/// Whether the segments meet.
-/// @param nearest  their nearest points
+/// Whether the segments intersect.
+/// @param nearest  the nearest points of the segments
 template <std::floating_point T>
 bool do_meet(const SegmentPair<Space<3, T>>& pair, const SegmentAxis<Space<3, T>>& nearest) {
   return !(nearest.gap > pair.size * DetectionTolerance<T>::rounding);
 }
-/// In the plane the distance of the nearest end is that of the origin from the rim of C, inside of
-/// C or outside. The origin is inside if it lies below both pairs of sides, by that distance. The
-/// sides alone do not tell it for segments almost in line, because the sides are then almost
-/// parallel.
+/// Whether two segments in the plane intersect. The smallest distance of an end from the other
+/// segment equals the distance of the origin from the rim of C, whether the origin is inside of C
+/// or outside. The origin is inside of C if it lies below both pairs of sides, by that distance.
+/// The sides alone do not suffice for segments almost in one line, because all sides of C are then
+/// almost parallel.
 template <std::floating_point T>
 bool do_meet(const SegmentPair<Space<2, T>>& pair, const SegmentAxis<Space<2, T>>& nearest) {
   const T rounding = pair.size * DetectionTolerance<T>::rounding;
@@ -161,14 +167,14 @@ bool do_meet(const SegmentPair<Space<2, T>>& pair, const SegmentAxis<Space<2, T>
   return below <= T(0) && nearest.gap + below <= rounding;
 }
 
-/// The axis of two segments, with the points that are nearest or deepest along it.
+/// The separating axis of two segments, and the points that are nearest or deepest along it.
 template <class S>
 SegmentAxis<S> segment_axis(const SegmentPair<S>& pair) {
   using T = typename S::Scalar;
   SegmentAxis<S> axis = nearest_points(pair);
   if (do_meet(pair, axis)) return crossing_axis(pair, axis);
-  // The direction is perpendicular to a segment whose nearest point is not an end: remove the part
-  // along the segment, which is rounding.
+  // The direction between the nearest points is perpendicular to each segment whose nearest point
+  // is an inner point. A component along such a segment is a rounding error and is removed.
   typename S::Vector apart = pair.apart(axis.s, axis.t);
   if (std::abs(axis.s) < T(1))
     apart -= apart.dot(pair.half_a) / pair.half_a.squaredNorm() * pair.half_a;

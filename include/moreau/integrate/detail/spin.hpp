@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The motion of one body in a step. Gyroscopic terms are implicit, so that a free body conserves
-// its angular momentum to rounding.
+// The motion of one body during a step. Gyroscopic terms are implicit, so that a body without
+// torques conserves its angular momentum to rounding.
 #pragma once
 
 #include <Eigen/LU>
@@ -13,18 +13,18 @@
 
 namespace moreau::detail {
 
-/// Moves a body at constant velocity: x + h v, exp(h w) q.
+/// Moves a body at constant velocity: x becomes x + h v, and q becomes exp(h w) q.
 template <class S>
 void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
   pose.position += h * linear<S>(velocity);
   pose.rotation = S::normalized(S::exp(h * angular<S>(velocity)) * pose.rotation);
 }
 
-/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method; the derivative
-/// of I(q) w along a rotation is S::gyroscopic_jacobian.
-/// @param momentum L [kg m^2/s], world axes
-/// @param start    start of the iteration [rad/s]
-/// @param h        [s]
+/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method. The derivative
+/// of I(q) w with respect to a rotation is S::gyroscopic_jacobian.
+/// @param momentum L, world axes [kg m^2/s]
+/// @param start    initial value of the iteration [rad/s]
+/// @param h        duration of the rotation [s]
 template <class S>
 typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
                                const typename S::Angular& momentum,
@@ -43,8 +43,8 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
   return w;
 }
 
-/// Change of velocity h M^-1 F [m/s] by the forces on the centre of mass: gravity, the external
-/// force and `load` [N].
+/// The change of velocity h M^-1 F [m/s] by the forces on the centre of mass of body i: gravity,
+/// the external force and the force `load` [N].
 template <class S>
 typename S::Vector kick(const Bodies<S>& bodies, std::size_t i, const typename S::Vector& load,
                         const typename S::Vector& gravity, typename S::Scalar h) {

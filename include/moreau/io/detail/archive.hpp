@@ -186,7 +186,8 @@ class ArchiveReader {
   void number(X& x) {
     if (sizeof x > left_.size()) throw std::runtime_error("ends within an object");
     if constexpr (std::same_as<X, bool>) {
-      if (static_cast<unsigned char>(left_[0]) > 1) throw std::runtime_error("has no such bool");
+      if (static_cast<unsigned char>(left_[0]) > 1)
+        throw std::runtime_error("has a bool that is neither 0 nor 1");
       x = left_[0] != 0;
     } else {
       std::memcpy(&x, left_.data(), sizeof x);
@@ -202,7 +203,7 @@ class ArchiveReader {
       };
       if (!fits(rows, X::RowsAtCompileTime) || !fits(columns, X::ColsAtCompileTime) ||
           (columns > 0 && rows > left_.size() / columns))
-        throw std::runtime_error("has a matrix of another size than it can have");
+        throw std::runtime_error("has a matrix with an impossible number of rows or columns");
       x.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
     }
   }
@@ -219,7 +220,8 @@ class ArchiveReader {
   void choice(std::variant<Kinds...>& variant) {
     std::uint64_t index = 0, kind = 0;
     number(index);
-    if (index >= sizeof...(Kinds)) throw std::runtime_error("has a kind that does not exist");
+    if (index >= sizeof...(Kinds))
+      throw std::runtime_error("has an index of a type that does not exist");
     const auto take = [&]<class Kind>(std::in_place_type_t<Kind>) {
       if (kind++ == index) transfer(*this, variant.template emplace<Kind>(blank<Kind>()));
     };
@@ -231,7 +233,8 @@ class ArchiveReader {
     list(state);
     std::istringstream in(state);
     in.imbue(std::locale::classic());
-    if (!(in >> engine)) throw std::runtime_error("has no state of a random engine");
+    if (!(in >> engine))
+      throw std::runtime_error("has no valid state of a random number generator");
   }
   template <class X>
   void done(X& x) {

@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: MIT
-// The exact volume of a ball, and area of a disk, inside an axis-aligned box.
+// The exact volume of that part of a ball, or area of that part of a disk, which lies inside an
+// axis-aligned box.
 //
-// With G(a, b, c) the volume of the unit ball in [0,a] x [0,b] x [0,c], continued as an odd
-// function of each argument, the volume in a box is the sum of G over its eight corners, upper ones
-// counted as +, lower ones as -, per axis: nothing but the way an integral is taken between limits.
-// For 0 <= a, b, c <= 1:
+// Let G(a, b, c), for a, b, c >= 0, be the volume of the part of the unit ball that lies in
+// [0,a] x [0,b] x [0,c]. For other arguments G is continued as an odd function of each argument.
+// The volume in a box is then the sum of +-G over the eight corners of the box. As with the limits
+// of an integral, the sign is the product of one sign per axis: + for the upper end, - for the
+// lower end. For arguments between 0 and 1:
 //
-//     corner inside the ball    G = a b c
-//     else                      G = pi/6 - C(a) - C(b) - C(c) + E(a,b) + E(b,c) + E(c,a)
+//     corner (a, b, c) inside the ball    G = a b c
+//     otherwise                           G = pi/6 - C(a) - C(b) - C(c)
+//                                             + E(a,b) + E(b,c) + E(c,a)
 //
-// C(a), the part of the octant with x > a, is a quarter of a cap; E(a,b), that with x > a, y > b,
-// is half a wedge; all three at once cannot be when the corner is outside. With s^2 = 1 - a^2 - b^2
-// > 0 the wedge is a third of (its spherical surface W - a A - b B): A, B are its flat sides, half
-// segments of circles of radius^2 1-a^2, 1-b^2, and the Gauss-Bonnet theorem gives
-// W = t - a p - b q, where t = atan2(s, ab), p = atan2(s, b), q = atan2(s, a), so
+// Here pi/6 is the volume of the octant x, y, z > 0 of the ball. C(a) is the volume of its part
+// with x > a, a quarter of a spherical cap. E(a,b) is the volume of its part with x > a and y > b,
+// half of a wedge. The part with x > a, y > b and z > c is empty, because the corner is outside of
+// the ball. Let s^2 = 1 - a^2 - b^2 > 0. The volume of the half wedge is (W - a A - b B) / 3, where
+// W is the area of its spherical surface and A and B are the areas of its flat sides at x = a and y
+// = b. The flat sides are halves of circular segments in circles of the radii sqrt(1 - a^2) and
+// sqrt(1 - b^2). The Gauss-Bonnet theorem gives W = t - a p - b q with t = atan2(s, a b), p =
+// atan2(s, b) and q = atan2(s, a). So
 //
 //     E = (t + a b s)/3 - (a (3 - a^2) p + b (3 - b^2) q)/6,        C(a) = pi/12 (1-a)^2 (2+a).
 //
-// The disk: G = a b, or else pi/4 - C(a) - C(b) with C(a) = (acos a - a sqrt(1-a^2))/2.
-// Error: some rounding errors of the volume of the ball, not of the result.
+// For the unit disk, G = a b if the corner is inside the disk. Otherwise G = pi/4 - C(a) - C(b)
+// with C(a) = (acos a - a sqrt(1-a^2))/2. The error is a few rounding errors of the volume of the
+// whole ball, however small the volume inside the box is.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +39,7 @@ namespace moreau {
 
 namespace detail {
 
-/// The area of the unit disk in [0,a] x [0,b], 0 <= a, b <= 1.
+/// The area of the part of the unit disk in [0,a] x [0,b], for 0 <= a, b <= 1.
 template <class T>
 T unit_ball_in_orthant(const Eigen::Matrix<T, 2, 1>& corner) {
   if (corner.squaredNorm() <= 1) return corner.prod();
@@ -41,7 +48,8 @@ T unit_ball_in_orthant(const Eigen::Matrix<T, 2, 1>& corner) {
   return area;
 }
 
-/// E(a,b) above: the volume of the unit ball with x > a, y > b, z > 0.
+/// E(a,b) of the formula at the top of this file: the volume of the part of the unit ball with x >
+/// a, y > b, z > 0.
 template <class T>
 T unit_wedge(T a, T b) {
   const T square = 1 - a * a - b * b;
@@ -51,7 +59,7 @@ T unit_wedge(T a, T b) {
          (a * (3 - a * a) * std::atan2(s, b) + b * (3 - b * b) * std::atan2(s, a)) / 6;
 }
 
-/// The volume of the unit ball in [0,a] x [0,b] x [0,c], 0 <= a, b, c <= 1.
+/// The volume of the part of the unit ball in [0,a] x [0,b] x [0,c], for 0 <= a, b, c <= 1.
 template <class T>
 T unit_ball_in_orthant(const Eigen::Matrix<T, 3, 1>& corner) {
   if (corner.squaredNorm() <= 1) return corner.prod();
@@ -63,7 +71,8 @@ T unit_ball_in_orthant(const Eigen::Matrix<T, 3, 1>& corner) {
   return volume;
 }
 
-/// The same with the sign of the corner's orthant, limits beyond the ball allowed.
+/// unit_ball_in_orthant continued to any corner, as an odd function of each coordinate. Coordinates
+/// larger than 1 count as 1.
 template <class Vector>
 typename Vector::Scalar signed_unit_ball_in_orthant(const Vector& corner) {
   using T = typename Vector::Scalar;
@@ -74,10 +83,11 @@ typename Vector::Scalar signed_unit_ball_in_orthant(const Vector& corner) {
 
 }  // namespace detail
 
-/// The volume of a ball (area of a disk) that lies in the control volume [m^D], by the formula
-/// at the top of this file. Exact to some rounding errors of the volume of the ball. The workspace
-/// is not used.
-/// @param control_volume  in world axes [m]
+/// The volume of that part of a ball (area of a disk) which lies in the control volume [m^D], by
+/// the formula at the top of this file. The error is a few rounding errors of the volume of the
+/// whole ball. The workspace is not used.
+/// @param pose            pose of the ball, world axes [m]
+/// @param control_volume  a box in world axes [m]
 /// @throws std::invalid_argument if the control volume is empty, inverted or not finite
 template <class S>
 typename S::Scalar clipped_volume(const BallIn<S>& shape, const Pose<S>& pose,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Merges the coplanar triangles of a convex surface into faces.
 //
-// A face grows from the largest triangle that is not yet in a face. Neighbours whose corners lie
-// within the tolerance of its plane are added, and the plane is fitted again to all corners, until
-// no neighbour can be added. The order from large to small makes slivers harmless: they are added
-// to faces whose plane is accurate, and their own normal is not used. A vertex with fewer than
-// three faces then lies inside a face or on an edge, and is removed.
+// A face grows from the largest triangle that is not yet part of a face. Neighbour triangles are
+// added if their corners lie within the tolerance of the face's plane. The plane is then fitted
+// again to all corners. This is repeated until no neighbour can be added. Because faces grow from
+// large triangles, slivers do no harm: they are added to faces whose plane is accurate, and their
+// own normals are not used. After merging, a vertex with fewer than three faces lies inside a face
+// or on an edge, and is removed.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ namespace moreau::detail {
 
 using FaceList = std::vector<std::vector<std::uint32_t>>;
 
-/// Sorted directed edges of faces.
+/// The directed edges of all faces, sorted.
 inline std::vector<std::array<std::uint32_t, 2>> directed_edges(const FaceList& faces) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const auto& face : faces) {
@@ -40,7 +41,7 @@ inline std::vector<std::array<std::uint32_t, 2>> directed_edges(const FaceList& 
   return edges;
 }
 
-/// Whether every edge occurs once in each direction and V - E + F = 2.
+/// Whether every edge occurs once in each direction, and Euler's formula V - E + F = 2 holds.
 inline bool is_closed_surface(const FaceList& faces) {
   const auto edges = directed_edges(faces);
   std::size_t vertices = 0;
@@ -76,7 +77,7 @@ class FaceMerging {
     }
   }
 
-  /// The faces; nothing if the merged faces do not bound a solid.
+  /// The faces, or nothing if the merged faces do not bound a solid.
   std::optional<FaceList> faces() const {
     FaceList faces;
     for (std::uint32_t g = 0; g < members_.size(); ++g) {
@@ -125,7 +126,8 @@ class FaceMerging {
     });
   }
 
-  /// The cycle of edges around a group.
+  /// The cyclic list of vertices around a group of triangles, or nothing if there is more than one
+  /// such cycle.
   std::optional<std::vector<std::uint32_t>> boundary_of(std::uint32_t g) const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> next;
     for (const std::uint32_t t : members_[g]) {
@@ -164,15 +166,16 @@ class FaceMerging {
   std::span<const HullTriangle> triangles_;
   std::span<const Eigen::Vector3d> points_;
   double tolerance_;
-  std::vector<Eigen::Vector3d> area_;  ///< outward, twice the area long
+  std::vector<Eigen::Vector3d> area_;  ///< area vectors: outward, twice as long as the area
   std::vector<std::uint32_t> group_;
   std::vector<std::vector<std::uint32_t>> members_;
   Eigen::Vector3d normal_, center_;
 };
 
-/// Whether the plane of each face has all points on or below it and its own vertices on it, within
-/// the tolerance, even after the vertices have moved by the rounding. Rounding tilts a face of
-/// width w about its long axis by rounding / w.
+/// Whether the plane of each face is a supporting plane: all points lie on or below it, and the
+/// face's own vertices lie on it, both within the tolerance. This must hold even if the vertices
+/// are later displaced by the rounding. Such a displacement can tilt a face of width w about its
+/// long axis by the angle rounding / w.
 inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::Vector3d> points,
                                   double tolerance, double rounding) {
   return std::all_of(faces.begin(), faces.end(), [&](const auto& face) {
@@ -192,12 +195,13 @@ inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::
   });
 }
 
-/// The faces of a closed convex surface of triangles, with coplanar triangles merged. If the
-/// distances of points from a plane are close to the tolerance, some triangles are not merged, and
-/// slivers with meaningless normals remain between them. The function then tries a larger
-/// tolerance.
-/// @param tolerance vertices this close to a plane lie on it; a length
-/// @param rounding  largest later displacement of the points, much smaller than the tolerance
+/// The faces of a closed convex surface of triangles, with coplanar triangles merged. If some
+/// points have a distance from a plane that is close to the tolerance, some triangles may not be
+/// merged, and slivers with meaningless normals remain. The function then tries larger tolerances,
+/// up to 64 times as large. If none succeeds, the triangles are returned.
+/// @param tolerance vertices closer to a plane than this lie on it, in the unit of the points
+/// @param rounding  largest later displacement of the points, in their unit, much smaller than the
+///                  tolerance
 inline FaceList merged_faces(std::span<const HullTriangle> triangles,
                              std::span<const Eigen::Vector3d> points, double tolerance,
                              double rounding) {

@@ -8,23 +8,23 @@
 
 namespace moreau {
 
-/// The plane of a face of a polyhedron, in the coordinates of its vertices.
+/// The plane of a face of a polyhedron, in the coordinates of the polyhedron's vertices.
 template <class T>
 struct FacePlane {
   using Vector = Eigen::Matrix<T, 3, 1>;
 
-  Vector center = Vector::Zero();  ///< the mean of the vertices [m]
-  Vector axis = Vector::Zero();    ///< unit, from there to the farthest vertex: its long direction
+  Vector center = Vector::Zero();  ///< mean of the vertices [m]
+  Vector axis = Vector::Zero();    ///< unit, from the center to the farthest vertex: the long
+                                   ///< direction of the face
   Vector normal = Vector::Zero();  ///< unit, outward
-  T width = 0;                     ///< width across the axis, approximately: area / length [m]
+  T width = 0;  ///< approximate width perpendicular to the axis: area / length [m]
 };
 
-/// The plane of the polygon with the vertices at(0) .. at(count - 1), counter-clockwise from
-/// outside: through their mean, normal to the area vector. The area vector of a sliver is a small
-/// difference of large products, and its error along the sliver would tilt the plane most. The
-/// normal is therefore made orthogonal to the long axis.
+/// The plane through the mean of a polygon's vertices, perpendicular to its area vector. The area
+/// vector of a sliver is a small difference of large products. The component of its error along the
+/// sliver would tilt the plane most. So the normal is made orthogonal to the long axis.
 /// @param count number of vertices, >= 3; not checked
-/// @param at    k -> vertex k [m], k < count
+/// @param at    function: k -> vertex k [m], for k < count; counter-clockwise seen from outside
 template <class T, class At>
 FacePlane<T> face_plane(std::size_t count, const At& at) {
   using Vector = Eigen::Matrix<T, 3, 1>;

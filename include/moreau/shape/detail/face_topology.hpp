@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which vertices, edges and faces of a polyhedron meet.
+// Incidence of the vertices, edges and faces of a polyhedron.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "moreau/core/error.hpp"
@@ -16,12 +17,12 @@
 
 namespace moreau {
 
-/// Lists of indices of varying length, stored one after the other in one array.
+/// Lists of indices, of different lengths, stored one after the other in one array.
 class IndexLists {
  public:
-  std::size_t size() const { return begins_.size() - 1; }  ///< lists
-  std::size_t total() const { return items_.size(); }      ///< indices in all lists
-  /// List i, i < size().
+  std::size_t size() const { return begins_.size() - 1; }  ///< number of lists
+  std::size_t total() const { return items_.size(); }  ///< number of indices in all lists together
+  /// List i, for i < size().
   std::span<const std::uint32_t> operator[](std::size_t i) const {
     MOREAU_ASSERT(i < size());
     return {items_.data() + begins_[i], begins_[i + 1] - begins_[i]};
@@ -38,41 +39,41 @@ class IndexLists {
   void deserialized() const {
     require(!begins_.empty() && begins_.front() == 0 && begins_.back() == items_.size() &&
                 std::is_sorted(begins_.begin(), begins_.end()),
-            "IndexLists", "begins", begins_.size(), "of them must rise to the number of items");
+            "IndexLists", "begins", begins_.size(),
+            "entries, which must rise from 0 to the number of items");
   }
 
   std::vector<std::uint32_t> begins_{0}, items_;
 };
 
-/// An edge and the two faces that share it: face[0] has it running from vertex[0] to vertex[1],
-/// face[1] the other way.
+/// An edge and the two faces that share it. Going around face[0] counter-clockwise, the edge leads
+/// from vertex[0] to vertex[1]; going around face[1], from vertex[1] to vertex[0].
 struct PolyhedronEdge {
-  std::array<std::uint32_t, 2> vertex;  ///< its ends
-  std::array<std::uint32_t, 2> face;    ///< on its two sides
+  std::array<std::uint32_t, 2> vertex;  ///< the two ends
+  std::array<std::uint32_t, 2> face;    ///< the two adjacent faces
 };
 
-/// The incidences of a closed surface, derived from its faces. Each list is of indices; its place
-/// in the lists is the index of the face or vertex that it belongs to.
+/// The incidences of the vertices, edges and faces of a closed surface, derived from the vertices
+/// of its faces. All lists contain indices. List i belongs to the face or vertex with the index i.
 struct FaceTopology {
-  IndexLists faces;                   ///< vertices of each face, counter-clockwise from outside
-  IndexLists face_edges;              ///< edge k of a face runs between its vertices k and k + 1
-  IndexLists vertex_faces;            ///< faces at each vertex, ascending
-  IndexLists vertex_edges;            ///< edges at each vertex, ascending
-  std::vector<PolyhedronEdge> edges;  ///< each once
+  IndexLists faces;         ///< vertices of each face, counter-clockwise from outside
+  IndexLists face_edges;    ///< edges of each face: edge k joins vertices k and k + 1 of the face
+  IndexLists vertex_faces;  ///< faces at each vertex, in ascending order
+  IndexLists vertex_edges;  ///< edges at each vertex, in ascending order
+  std::vector<PolyhedronEdge> edges;  ///< the edges, each listed once
 
-  /// Of no surface: to be read into.
+  /// An empty topology, to be overwritten by deserialization.
   FaceTopology() = default;
-  auto serialized_members() {
-    return std::tie(faces);
-  }  ///< the rest follows; see core/serialize.hpp
+  /// Only the faces are stored; all other members follow from them. See core/serialize.hpp.
+  auto serialized_members() { return std::tie(faces); }
 
-  /// @param vertex_count number of vertices; each must be in three faces at least
-  /// @param face_list    vertices of each face, counter-clockwise from outside
-  /// @param function     named in errors
-  /// @throws std::invalid_argument for an index out of range, a face of fewer than three vertices
-  ///         or with a vertex twice, an edge that does not occur once in each direction, a vertex
-  ///         in fewer than three faces, or a surface of more than one piece or with a hole through
-  ///         it (V - E + F is not 2)
+  /// @param vertex_count number of vertices; each vertex must belong to at least three faces
+  /// @param face_list    vertices of each face, counter-clockwise seen from outside
+  /// @param function     name of the calling function, for error messages
+  /// @throws std::invalid_argument for an index out of range, a face with fewer than three vertices
+  ///                               or with a repeated vertex, an edge that does not occur once in
+  ///                               each direction, a vertex in fewer than three faces, or a surface
+  ///                               that is not one piece without handles (V - E + F is not 2)
   FaceTopology(std::size_t vertex_count, std::span<const std::vector<std::uint32_t>> face_list,
                std::string_view function) {
     for (std::size_t f = 0; f < face_list.size(); ++f) {
@@ -96,13 +97,15 @@ struct FaceTopology {
 
  private:
   static std::string name(std::uint32_t a, std::uint32_t b) {
-    std::string text(1, '(');  // appended to: g++ 12 warns of "literal" + std::string
+    std::string text(1, '(');  // append() is used because g++ 12 warns about "literal" +
+                               // std::string
     text.append(std::to_string(a)).append(", ").append(std::to_string(b)).append(1, ')');
     return text;
   }
 
   void pair_edges(std::string_view function) {
-    std::map<std::array<std::uint32_t, 2>, std::uint32_t> open;  // waiting for their reverse
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> open;  // edges whose reverse has not been
+                                                                 // found
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       const auto face = faces[f];
       std::vector<std::uint32_t> of_face(face.size());

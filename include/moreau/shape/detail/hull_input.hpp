@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input of a convex hull: the given points, checked, scaled, sorted, without duplicates.
+// The input of a convex hull computation: the given points after checking, scaling, sorting and
+// removal of duplicates.
 #pragma once
 
 #include <algorithm>
@@ -16,26 +17,28 @@
 
 namespace moreau {
 
-/// Lengths below which a hull counts as flat, in units of the machine epsilon of the scalar times
-/// the size of the input (its largest coordinate) [-].
+/// Tolerances of convex hulls. Each is a length divided by the machine epsilon of the scalar type
+/// and by the size of the input, its largest coordinate [-].
 struct HullTolerance {
-  double flat = 32;   ///< vertices this close to the plane of a face (line of an edge) lie on it
-  double thin = 512;  ///< a hull this thin is coplanar (collinear): an error
+  double flat = 32;  ///< a vertex closer to the plane of a face (line of an edge) than this lies on
+                     ///< it
+  double thin = 512;  ///< points thinner than this are coplanar (collinear), which is an error
 };
 
 namespace detail {
 
-/// The points in double, scaled by a power of two (therefore exactly) to coordinates of order one,
-/// in lexicographic order, without points that are within the tolerance of an earlier point.
+/// The points converted to double, divided by a power of two (which is exact) so that the largest
+/// coordinate is of order one, and sorted in lexicographic order. A point closer to an earlier
+/// point than the tolerance is removed.
 template <int Dim>
 struct HullInput {
   using Point = Eigen::Matrix<double, Dim, 1>;
 
   std::vector<Point> points;
-  std::vector<std::uint32_t> labels;  ///< index of each point in the input of the caller
-  double unit = 1;                    ///< [m] per unit of the coordinates
-  double rounding = 0;                ///< rounding error of the largest coordinate, in units
-  double flat = 0, thin = 0;          ///< HullTolerance, in units
+  std::vector<std::uint32_t> labels;  ///< index of each point in the caller's input
+  double unit = 1;                    ///< the length [m] of one unit of the scaled coordinates
+  double rounding = 0;                ///< rounding error of the largest coordinate, in scaled units
+  double flat = 0, thin = 0;          ///< HullTolerance, in scaled units
 
   template <class Vector>
   HullInput(std::span<const Vector> given, std::string_view function) {
@@ -53,8 +56,9 @@ struct HullInput {
     sort(given);
   }
 
-  /// @throws std::invalid_argument with the reason (e.g. that the points coincide), because an
-  ///         extent [units] is too small
+  /// @throws std::invalid_argument always. The message contains the extent that is too small, given
+  ///                               in scaled units, and the finding, for example that the points
+  ///                               coincide
   [[noreturn]] void throw_thin(std::string_view function, double extent,
                                std::string_view finding) const {
     throw_invalid(function, "thickness of vertices", extent * unit,
@@ -79,8 +83,9 @@ struct HullInput {
       labels.push_back(i);
     }
   }
-  /// Coordinates below 2^-200 become zero. All coordinates are then multiples of 2^-253, so
-  /// products of three differences do not underflow, and their signs are exact.
+  /// Divides by `unit`. Coordinates below 2^-200 become zero. All coordinates are then multiples of
+  /// 2^-253. So products of three differences do not underflow, and the signs of determinants are
+  /// exact.
   Point in_units(const Point& x) const {
     const Point y = x / unit;
     return (y.array().abs() < std::ldexp(1.0, -200)).select(0.0, y);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Which side of a line or plane a point lies on, with the exact sign.
+// The side of a line or plane on which a point lies, with the exact sign.
 //
-// The determinant is evaluated in double together with a bound of its rounding error. If the bound
-// exceeds the determinant, it is evaluated again exactly, as a sum of doubles that do not overlap
-// (an expansion). A hull computed with exact signs is closed and convex for every input.
-// Needs IEEE arithmetic: no -ffast-math, and coordinates of order one (no overflow, no underflow).
-// Source: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-// predicates", Discrete Comput. Geom. 18 (1997), theorems 6, 10, 18, and the bounds of section 4.
+// The determinant is evaluated in double precision, together with a bound of its rounding error. If
+// the bound is larger than the absolute value of the determinant, the determinant is evaluated
+// again without rounding errors, as a sum of doubles that do not overlap (an expansion). A hull
+// computed with exact signs is closed and convex for every input. The functions need IEEE
+// arithmetic (no -ffast-math) and coordinates of order one (no overflow, no underflow). Source: J.
+// R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+// Discrete Comput. Geom. 18 (1997), theorems 6, 10, 18, and the bounds of section 4.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,12 +19,12 @@ namespace moreau {
 
 namespace detail {
 
-/// A real number as a sum of doubles, none overlapping the next, in the order of their magnitude.
+/// A real number, stored as a sum of doubles in ascending order of magnitude that do not overlap.
 class Expansion {
  public:
   Expansion() = default;
 
-  /// a - b, exactly.
+  /// a - b without rounding error.
   static Expansion difference(double a, double b) {
     Expansion e;
     e.add(a);
@@ -69,7 +70,7 @@ class Expansion {
   std::vector<double> terms_;
 };
 
-/// a x d - b x c, exactly.
+/// a d - b c without rounding error.
 inline Expansion minor(const Expansion& a, const Expansion& b, const Expansion& c,
                        const Expansion& d) {
   Expansion m = a * d;
@@ -100,9 +101,9 @@ inline double exact_orientation(const Eigen::Vector3d& a, const Eigen::Vector3d&
 
 }  // namespace detail
 
-/// Twice the signed area of the triangle abc, in the square of the coordinates' unit; its sign is
-/// exact: > 0 if c is to the left of a -> b. The top of this file states the range of the
-/// coordinates and the source.
+/// Twice the signed area of the triangle abc, in the square of the coordinates' unit. Its sign is
+/// exact: > 0 if c lies to the left of the line from a to b. The top of this file states the
+/// allowed range of the coordinates and the source.
 inline double orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                           const Eigen::Vector2d& c) {
   constexpr double epsilon = 0x1p-53, bound = (3 + 16 * epsilon) * epsilon;
@@ -113,9 +114,8 @@ inline double orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return detail::exact_orientation(a, b, c);
 }
 
-/// Six times the signed volume of the tetrahedron abcd, in the cube of the coordinates' unit; its
-/// sign is exact: > 0 if d is on the side of the plane abc from which a, b, c run
-/// counter-clockwise.
+/// Six times the signed volume of the tetrahedron abcd, in the cube of the coordinates' unit. Its
+/// sign is exact: > 0 if a, b, c are counter-clockwise seen from d.
 inline double orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
   constexpr double epsilon = 0x1p-53, bound = (7 + 56 * epsilon) * epsilon;

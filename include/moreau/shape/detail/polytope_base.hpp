@@ -12,10 +12,11 @@
 
 namespace moreau {
 
-/// What Polygon and Polyhedron share: vertices and planes of the faces as matrices, exact moments,
-/// and the functions of a shape. The body frame has the axes of the input and its origin at the
-/// centre of mass. In the plane the faces are the edges.
-/// @tparam Names  the strings mass_properties, scaled and unit_of_second_moment for errors
+/// The common base of Polygon and Polyhedron: vertices and planes of the faces as matrices, exact
+/// moments, and the functions of a shape. The body frame has the axes of the input coordinates and
+/// its origin at the centre of mass. In the plane the faces are the edges.
+/// @tparam Names  a class with the strings mass_properties, scaled and unit_of_second_moment for
+///                error messages
 template <EuclideanSpace S, class Names>
 class PolytopeBase {
  public:
@@ -24,38 +25,46 @@ class PolytopeBase {
   using Vector = typename S::Vector;
   using FaceOffsets = Eigen::Array<Scalar, Eigen::Dynamic, 1>;
 
-  const VertexMatrix<S>& vertices() const { return vertices_; }          ///< N x D [m]
-  const VertexMatrix<S>& face_normals() const { return face_normals_; }  ///< F x D, unit, outward
-  const FaceOffsets& face_offsets() const { return face_offsets_; }  ///< F, normal . x on it [m]
+  /// N x D, one vertex per row, body coordinates [m]
+  const VertexMatrix<S>& vertices() const { return vertices_; }
+  /// F x D, one unit outward normal per row, body coordinates
+  const VertexMatrix<S>& face_normals() const { return face_normals_; }
+  /// normal . x for the points x of each face, F numbers [m]
+  const FaceOffsets& face_offsets() const { return face_offsets_; }
   std::size_t vertex_count() const { return static_cast<std::size_t>(vertices_.rows()); }  ///< N
 
-  /// Centre of mass in the coordinates of the input [m].
+  /// Position of the centre of mass in the coordinates of the input [m].
   const Vector& centroid_of_input() const { return centroid_of_input_; }
-  Scalar volume() const { return moments_.volume; }      ///< [m^D]: in the plane the area
-  Scalar circumradius() const { return circumradius_; }  ///< largest |vertex| from the origin [m]
-  Scalar inradius() const { return inradius_; }  ///< from the origin to the nearest face [m]
-  /// About the origin, which is the centre of mass, at density one.
+  Scalar volume() const { return moments_.volume; }  ///< volume, in the plane the area [m^D]
+  /// distance of the farthest vertex from the origin [m]
+  Scalar circumradius() const { return circumradius_; }
+  /// distance of the nearest face from the origin [m]
+  Scalar inradius() const { return inradius_; }
+  /// Moments at density one about the origin, which is the centre of mass.
   const Moments<S>& moments() const { return moments_; }
-  /// Least distance between two face normals, as unit vectors [-]: about the least angle [rad].
+  /// Smallest distance |n_i - n_j| between the unit normals of two faces [-], approximately the
+  /// smallest angle between them [rad].
   Scalar normal_spacing() const { return normal_spacing_; }
 
-  /// Index of the first vertex that lies farthest in the direction (any length but zero), body
-  /// coordinates.
+  /// Index of the first vertex that is farthest in the direction.
+  /// @param direction  body coordinates, of any length but zero
   std::size_t support_vertex(const VectorArgument<S>& direction) const {
     return farthest_vertex<S>(vertices_, direction);
   }
-  /// A vertex that lies farthest in the direction (any length but zero), body coordinates [m].
+  /// A vertex farthest in the direction, body coordinates [m].
+  /// @param direction  body coordinates, of any length but zero
   Vector support(const VectorArgument<S>& direction) const {
     return vertices_.row(static_cast<Eigen::Index>(support_vertex(direction))).transpose();
   }
 
+  /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero
   MassProperties<S> mass_properties(Scalar density) const {
     detail::require_positive(density, Names::mass_properties, "density");
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
-  /// The tight box around the shape at the pose, world axes [m].
+  /// The smallest axis-aligned box around the shape at a pose, world axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const { return box_around<S>(vertices_, pose); }
 
  protected:
@@ -66,22 +75,24 @@ class PolytopeBase {
                     inradius_, normal_spacing_, moments_);
   }
 
-  /// Moves the origin of the vertices to the centre of mass, which `rough` gives in the coordinates
-  /// that have their origin at `origin_in_input`.
+  /// Moves the origin of the vertex coordinates to the centre of mass.
+  /// @param rough            moments in the present coordinates
+  /// @param origin_in_input  position of the present origin in the coordinates of the input [m]
   void move_origin(const Moments<S>& rough, const Vector& origin_in_input) {
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = origin_in_input + center;
     vertices_.rowwise() -= center.transpose();
     circumradius_ = vertices_.rowwise().norm().maxCoeff();
   }
-  /// Takes the moments.
-  /// @throws std::invalid_argument in the name of the function if the second moment is not regular
+  /// Sets the moments.
+  /// @param function  name of the calling function, for error messages
+  /// @throws std::invalid_argument if the scalar type cannot represent the moments
   void set_moments(const Moments<S>& moments, std::string_view function) {
     moments_ = moments;
     require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
             Names::unit_of_second_moment);
   }
-  /// Computes what follows from face_normals_ and face_offsets_.
+  /// Computes inradius and normal spacing from face_normals_ and face_offsets_.
   void summarize_faces() {
     inradius_ = face_offsets_.minCoeff();
     normal_spacing_ = least_distance<S>(face_normals_);

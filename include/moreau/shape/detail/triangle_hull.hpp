@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points in space as triangles, with exact signs: correct for every input.
+// The convex hull of points in space as triangles. Because it uses exact signs, it is correct for
+// every input.
 //
-// A point strictly outside of some triangles replaces them by the cone from the point to their rim.
-// A point in the plane of a triangle counts as not outside of it. All triangles of one plane are
-// therefore replaced together or not at all. The replaced part is what is visible from the point,
-// moved a little inwards. It is a disk, so its rim is one simple cycle, and no edge of the rim is
-// collinear with the point.
+// Points are added one by one. A point that lies strictly outside of some triangles replaces these
+// triangles by triangles from the point to the edges of their rim. A point in the plane of a
+// triangle counts as not outside of this triangle. So of the triangles in one plane, all are
+// replaced or none. The replaced part of the surface is the part visible from the point after the
+// point has been moved a little inwards. It is a disk. So its rim is one simple cycle, and no edge
+// of the rim is collinear with the point.
 #pragma once
 
 #include <algorithm>
@@ -19,20 +21,21 @@
 
 namespace moreau::detail {
 
-/// Counter-clockwise from outside; neighbour[e] lies across the edge vertex[e] -> vertex[e + 1].
+/// A triangle of the hull. Its vertices are counter-clockwise seen from outside. neighbour[e] is
+/// the triangle on the other side of the edge from vertex[e] to vertex[e + 1].
 struct HullTriangle {
   std::array<std::uint32_t, 3> vertex;
   std::array<std::uint32_t, 3> neighbour;
 };
 
-/// Adds points one by one to a tetrahedron. The surface is stored as triangles with their
-/// neighbours.
+/// Computes the hull: starts with a tetrahedron and adds the points one by one. The surface is
+/// stored as triangles with their neighbours.
 class TriangleHull {
  public:
   using Point = Eigen::Vector3d;
 
-  /// @param points distinct, in the order in which they are added
-  /// @param seed   four of them, not coplanar
+  /// @param points different points, in the order in which they are added
+  /// @param seed   indices of four of the points, not coplanar
   TriangleHull(std::span<const Point> points, std::array<std::uint32_t, 4> seed)
       : points_(points), starts_at_(points.size()), ends_at_(points.size()) {
     auto& [a, b, c, d] = seed;
@@ -44,20 +47,23 @@ class TriangleHull {
     for (std::uint32_t i = 0; i < points.size(); ++i) add(i);
   }
 
-  /// Counter-clockwise from outside; convex, closed, and possibly flat across edges.
+  /// The triangles of the hull, counter-clockwise seen from outside. The hull is closed and convex.
+  /// Neighbouring triangles may be coplanar.
   const std::vector<HullTriangle>& triangles() const { return triangles_; }
 
  private:
   struct Rim {
-    std::uint32_t from, to, outside;  ///< an edge of a visible triangle; the hidden one behind it
+    std::uint32_t from, to, outside;  ///< a directed edge of a visible triangle, and the invisible
+                                      ///< triangle on its other side
   };
 
   void add(std::uint32_t p) {
     find_visible(points_[p]);
     if (visible_.empty()) return;
     find_rim();
-    // The new triangles replace the visible ones. There are fewer new triangles only if vertices
-    // vanish; the last triangles then move into the free places.
+    // The new triangles take the places of the visible ones. If vertices of the hull disappear,
+    // there may be fewer new triangles than visible ones. The last triangles then move into the
+    // free places.
     std::vector<std::uint32_t> slots = visible_;
     while (slots.size() < rim_.size()) {
       slots.push_back(static_cast<std::uint32_t>(triangles_.size()));

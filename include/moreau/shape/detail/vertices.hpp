@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functions of the vertices of polytopes in both dimensions. The vertices are an N x D matrix whose
-// columns (all x, all y, ...) are contiguous.
+// Functions for the vertices of polytopes in both dimensions. The vertices are stored as an N x D
+// matrix whose columns (all x, all y, ...) are contiguous.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,12 @@
 
 namespace moreau {
 
-/// N x D, one vertex (or normal) per row.
+/// N x D matrix with one vertex (or normal) per row.
 template <class S>
 using VertexMatrix = Eigen::Matrix<typename S::Scalar, Eigen::Dynamic, S::dim>;
 
-/// Index of the first vertex that lies farthest in the direction (any length but zero), both in the
-/// same axes; there must be a vertex.
+/// Index of the first vertex that is farthest in the direction. There must be at least one vertex.
+/// @param direction  in the axes of the vertices, of any length but zero
 template <class S>
 std::size_t farthest_vertex(const VertexMatrix<S>& vertices, const typename S::Vector& direction) {
   MOREAU_ASSERT(direction.squaredNorm() > 0);
@@ -38,7 +38,8 @@ std::size_t farthest_vertex(const VertexMatrix<S>& vertices, const typename S::V
   return static_cast<std::size_t>(farthest);
 }
 
-/// The tight box in world axes [m] around the vertices, which are in body coordinates, at the pose.
+/// The smallest box in world axes [m] around vertices at a pose.
+/// @param vertices  body coordinates [m]
 template <class S>
 Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
@@ -51,8 +52,8 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   return box;
 }
 
-/// The least distance between two of the rows, in their unit; infinite if there is only one. Sorted
-/// along x, few of them have to be compared.
+/// The smallest distance between two of the rows, in their unit; infinite if there is only one row.
+/// The rows are sorted along x, so that few pairs have to be compared.
 template <class S>
 typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   using T = typename S::Scalar;

@@ -114,7 +114,7 @@ class ContactSprings {
     void add(const Row& work) {
       normal += double(work[0]) / 2;
       tangential += double(work.template segment<S::dim - 1>(1).sum()) / 2;
-      if constexpr (Row::RowsAtCompileTime > S::dim) rolling += double(angular<S>(work).sum()) / 2;
+      if constexpr (RollingLaw<Law, S>) rolling += double(angular<S>(work).sum()) / 2;
     }
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };

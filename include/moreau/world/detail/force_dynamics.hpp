@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"

@@ -8,8 +8,8 @@
 
 namespace moreau::detail {
 
-/// Sorts pairs of indices below `count` in linear time: a counting sort by the first index, then a
-/// sort of the few pairs of each first index by the second index.
+/// Sorts pairs of indices below `count` in linear time: a counting sort by the first index, then,
+/// for each first index, a sort of its few pairs by the second index.
 class PairSorter {
  public:
   void sort(std::vector<IndexPair>& pairs, std::size_t count) {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The signed gap of two polyhedra from the normals of their faces and pairs of edges.
+// The signed gap of two polyhedra from the normals of their faces and of pairs of their edges.
 //
-// With s(n) the separation along a unit vector (axis.hpp), C = B - A is a polytope, and the signed
-// gap is the largest s over all n.
-//   Overlapping shapes: the origin lies in C, and the gap is minus its distance to the nearest face
-//     of C. The face normals of C are those of A, those of B reversed, and the common normals of
-//     pairs of edges; the gap is the largest s over these.
-//   Shapes apart: the largest s over these normals is a lower bound of the gap. It is the gap if
-//   the
-//     nearest points of the two features lie within them, for the features are then that far apart.
+// Let s(n) be the separation along a unit vector n (axis.hpp). The signed gap is the largest s(n)
+// over all n. C = B - A, the set of all differences b - a, is a polytope. Its face normals are the
+// face normals of A, the reversed face normals of B, and common normals of an edge of A and an edge
+// of B.
+//   Overlapping shapes: the origin lies in C. The gap is minus the distance of the origin from the
+//     nearest face of C, which is the largest s over the face normals of C.
+//   Shapes that are apart: the largest s over the face normals of C is a lower bound of the gap. It
+//     equals the gap if the nearest points of the planes or lines of the two features lie within
+//     the features, because the features are then at that distance from each other.
 //
-// A vertex q of B that lies below every face of A, and nowhere less deep than -s(n_f) below the
-// best face f, proves that f is the axis: to bring this one point out of A takes as much along any
-// axis.
+// Let f be the face of A with the largest s(n_f), and let a vertex q of B be at least -s(n_f) deep
+// below every face of A. Then f makes the axis: to move q out of A takes a displacement of at least
+// -s(n_f) along any axis.
 #pragma once
 
 #include <algorithm>
@@ -31,9 +32,10 @@ class FaceEdgeSearch {
   using Vector = typename S::Vector;
 
   /// @param points_a  at least one vertex of a, relative to the centre of b, world axes [m]. The
-  ///                  search is shorter if these lie near the contact; the set grows
-  /// @param points_b  the same of b, relative to the centre of a
-  /// @param margin    the search stops at an axis that separates by more [m]
+  ///                  search takes fewer rounds if these vertices lie near the contact. The search
+  ///                  adds vertices
+  /// @param points_b  at least one vertex of b, relative to the centre of a, used in the same way
+  /// @param margin    the search stops at an axis that separates the shapes by more than this [m]
   FaceEdgeSearch(const PolytopePair<Polyhedron<T>>& pair, PointSet<T>& points_a,
                  PointSet<T>& points_b, T margin)
       : pair_(pair),
@@ -44,7 +46,7 @@ class FaceEdgeSearch {
         below_a_(pair.a, points_b),
         below_b_(pair.b, points_a) {}
 
-  /// First part: the faces of a.
+  /// First part: searches the faces of a.
   void search_faces_of_a() {
     const auto of_a = search_faces(pair_.a, pair_.b, pair_.offset, points_b_,
                                    -std::numeric_limits<T>::infinity());
@@ -54,9 +56,10 @@ class FaceEdgeSearch {
     below_a_.update(level());
     prove_face(pair_.a, of_a, pair_.offset, pair_.b, below_a_);
   }
-  /// Whether the axis is exact or separates by more than the margin, so that the search can end.
+  /// Whether the axis is exact or separates the shapes by more than the margin, so that the search
+  /// can end.
   bool is_done() const { return is_exact_ || axis_.gap > margin_; }
-  /// Second part: the faces of b and the pairs of edges, unless the search is done.
+  /// Second part: searches the faces of b and the pairs of edges, unless the search is done.
   void search_faces_of_b_and_edges() {
     if (is_done()) return;
     const auto of_b =
@@ -74,15 +77,17 @@ class FaceEdgeSearch {
   }
 
   const Axis<S>& axis() const { return axis_; }
-  /// Whether the axis has the signed gap. Otherwise the shapes are apart by axis().gap or more.
+  /// Whether axis().gap is the signed gap. If not, the signed gap is at least axis().gap.
   bool is_exact() const { return is_exact_; }
 
  private:
-  /// The separation [m] that an edge has to exceed; never positive, see edge_search.hpp.
+  /// An edge that separates by no more than this [m] need not be examined. Never positive, because
+  /// the test in edge_search.hpp holds only for t <= 0.
   T level() const { return std::min(axis_.gap + rounding_, T(0)); }
 
-  /// Sets is_exact_ if the face of the shape is proved to make the axis.
-  /// @param below  for each face of the shape, the points of the other shape at most level() above
+  /// Sets is_exact_ if it is proved that the face of the shape makes the axis.
+  /// @param below  for each face of `shape`, the points of the other shape whose height above the
+  ///               face is at most level()
   void prove_face(const Placed<Polyhedron<T>>& shape, const FaceSeparation<T>& found,
                   const Vector& offset, const Placed<Polyhedron<T>>& other,
                   const FaceMasks<T>& below) {
@@ -107,8 +112,8 @@ class FaceEdgeSearch {
     if (try_lower_bound(a, b, n))
       is_exact_ = axis_.gap > T(0) && nearest_points_are_within(a, b, apart, n);
   }
-  /// Takes n if its separation is the best so far. For any n this separation is a lower bound of
-  /// the gap, so errors of rounding in the crossing test cannot make the result too large.
+  /// Takes n as the axis if its separation is the largest so far. The separation along any n is a
+  /// lower bound of the gap. So rounding errors in the crossing test cannot make the gap too large.
   /// @returns whether n was taken
   bool try_lower_bound(const EdgeView<T>& a, const EdgeView<T>& b, const Vector& n) {
     const T separation = pair_.separation(n);
@@ -117,9 +122,10 @@ class FaceEdgeSearch {
     is_exact_ = false;
     return true;
   }
-  /// The normal of edges that are nearly parallel has an error of about eps / sine [rad], and so
-  /// has the separation along it. The distance of the edges is known better. The two are equal if
-  /// the nearest points lie within the edges, as they do for the separating axis.
+  /// Treats two nearly parallel edges. Their common normal has an error of about eps / sine [rad],
+  /// where sine is the sine of the angle between the edges. The separation along the normal has the
+  /// same relative error, but the distance of the two edges is more accurate. The separation and
+  /// the distance are equal if the nearest points lie within the edges, as for the separating axis.
   void try_parallel(const EdgeView<T>& a, const EdgeView<T>& b, const Vector& apart,
                     const Vector& n) {
     constexpr T eps = std::numeric_limits<T>::epsilon();
@@ -136,8 +142,9 @@ class FaceEdgeSearch {
       is_exact_ = false;
     }
   }
-  /// Measures the axis from the ends of its two edges, as the proof of remembered features does.
-  /// Nearly parallel edges have been measured by their distance.
+  /// Measures the axis again, from the ends of its two edges, as prove_axis does for remembered
+  /// features, so that both functions return the same bits. Nearly parallel edges keep their
+  /// distance as the gap.
   void measure_again() {
     const EdgeView<T> a(pair_.a, axis_.a), b(pair_.b, axis_.b);
     if (are_nearly_parallel(a, b)) return;

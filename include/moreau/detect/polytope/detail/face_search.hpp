@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The face of one polyhedron that separates it best from another one.
+// The face of one polyhedron along whose normal the separation from another polyhedron is largest.
 //
 // For a face f of A with unit normal n_f and the plane n_f . x = offset_f, the separation is
-//     s(n_f) = min over b in B of n_f . b - offset_f,
-// so the height of any single point b above the plane is an upper bound of s(n_f). Algorithm:
-//   1. A set of a few vertices of B bounds s for all faces in one sweep.
+//     s(n_f) = min over b in B of n_f . b - offset_f.
+// So the height of any single point b above the plane is an upper bound of s(n_f). Algorithm:
+//   1. A set of a few vertices of B gives an upper bound of s(n_f) for every face f.
 //   2. The face with the largest bound is measured exactly, by the support function of B.
-//   3. Its deepest vertex joins the set, and the search goes back to 1 until the largest bound is
-//      attained. Two or three rounds are usual.
+//   3. The vertex of B that is deepest below this face joins the set. The search returns to step 1
+//      until the measured separation equals the largest bound. Usually two or three rounds are
+//      needed.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ class PointSet {
   const Vector& operator[](std::size_t i) const { return points_[i]; }
   const Vector& back() const { return points_[size_ - 1]; }
   bool contains(std::uint32_t id) const { return find(id) < size_; }
-  /// Place of the vertex with this number in the set; size() if it is not in the set.
+  /// Position in the set of the vertex with this index; size() if the vertex is not in the set.
   std::size_t find(std::uint32_t id) const {
     std::size_t i = 0;
     while (i < size_ && ids_[i] != id) ++i;
@@ -48,8 +49,8 @@ class PointSet {
   std::array<Vector, capacity> points_;
 };
 
-/// A list of indices below a total. If there are more than the list has room for, it stands for all
-/// indices below the total.
+/// A list of indices that are smaller than `total`. If more than 64 indices are added, the list
+/// stands for all indices smaller than `total`.
 class ShortList {
  public:
   explicit ShortList(std::size_t total) : total_(total) {}
@@ -75,7 +76,8 @@ class ShortList {
   std::array<std::uint32_t, 64> ids_;
 };
 
-/// A point set with each coordinate in every lane of a register.
+/// A point set prepared for vector registers: each coordinate is repeated in all lanes of a
+/// register.
 template <std::floating_point T>
 class WidePoints {
  public:
@@ -90,8 +92,8 @@ class WidePoints {
   std::array<Point, PointSet<T>::capacity> points_;
 };
 
-/// For each face of a shape, which points of a set are at most at some height above the face's
-/// plane: bit k of the face's mask is set for point k.
+/// For each face of a shape, a mask that says which points of a set lie at most at a given height
+/// above the plane of the face: bit k is set for point k.
 template <std::floating_point T>
 class FaceMasks {
  public:
@@ -101,7 +103,7 @@ class FaceMasks {
       : shape_(shape), points_(points) {}
 
   /// Computes the masks.
-  /// @param height  of the points above the faces [m]
+  /// @param height  largest height of a point above the plane of a face [m]
   void update(T height) {
     height_ = height;
     const auto& normals = shape_.normals();
@@ -125,10 +127,10 @@ class FaceMasks {
   std::uint32_t operator[](std::size_t face) const {
     return is_stored_ ? masks_[face] : compute(face);
   }
-  /// The masks of all faces; null if the shape has more faces than there is room for, so that
-  /// operator[] computes each mask when it is asked for.
+  /// The masks of all faces. Null if the shape has more than 512 faces; operator[] then computes
+  /// the mask of a face at each call.
   const std::uint16_t* stored() const { return is_stored_ ? masks_.data() : nullptr; }
-  /// The points that are at most at the height above every face.
+  /// Mask of the points whose height above every face is at most the given height.
   std::uint32_t in_common() const {
     if (is_stored_) return in_common_;
     std::uint32_t common = ~0U;
@@ -155,7 +157,8 @@ class FaceMasks {
   std::array<std::uint16_t, capacity> masks_;
 };
 
-/// The face above whose plane the lowest of the points is highest, and the height of that point.
+/// For each face, take the smallest height of the points above its plane. Returns the face with the
+/// largest of these heights, and that height [m].
 template <std::floating_point T>
 Extreme<T> highest_above(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points) {
   using W = Wide<T>;
@@ -174,10 +177,11 @@ Extreme<T> highest_above(const Placed<Polyhedron<T>>& shape, const PointSet<T>& 
   return best.reduce();
 }
 
-/// The face of own along whose normal the separation from other is largest.
+/// The face of `own` along whose normal the separation from `other` is largest.
 /// @param offset    centre of other minus centre of own, world axes [m]
-/// @param points    vertices of other relative to the centre of own, at least one; grows
-/// @param at_least  only larger separations count [m]; is_found says whether there was one
+/// @param points    at least one vertex of other, relative to the centre of own. Vertices are added
+/// @param at_least  only separations larger than this are considered [m]. If there is none,
+///                  is_found of the result is false
 template <std::floating_point T>
 FaceSeparation<T> search_faces(const Placed<Polyhedron<T>>& own, const Placed<Polyhedron<T>>& other,
                                const typename Space<3, T>::Vector& offset, PointSet<T>& points,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The axis that a given pair of features makes, in the four cases
-//   face of a, vertex of b   |  vertex of a, face of b  |  edge, edge  |  vertex or edge, vertex.
+// The axis that a given pair of features makes. There are four cases:
+//   a face of a and a vertex of b  |  a vertex of a and a face of b  |  two edges
+//   a vertex and a vertex or an edge.
 // The search (find_axis.hpp) and the proof of remembered features (prove_axis.hpp) both call these
-// functions. They are not inlined, so that both get the same bits.
+// functions. The functions are not inlined, so that both callers get the same bits.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +17,21 @@
 
 namespace moreau::detail {
 
-/// The height of a point, relative to the shape's centre, above the plane of a face [m].
+/// The height of a point above the plane of a face [m].
+/// @param point  relative to the shape's centre, world axes [m]
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar height_above(const Placed<ShapeT>& shape, std::size_t face,
                                               const typename SpaceOf<ShapeT>::Vector& point) {
   return shape.normals()[face].dot(point) - shape.offset(face);
 }
 
-/// The separation along the normal of a face.
+/// The separation of two shapes along the normal of a face.
 template <std::floating_point T>
 struct FaceSeparation {
   T separation;                ///< [m]
-  std::uint32_t face, vertex;  ///< of the face's shape; the deepest vertex of the other shape
-  bool is_found;               ///< whether a search found a separation that is large enough
+  std::uint32_t face, vertex;  ///< index of the face, and of the vertex of the other shape that is
+                               ///< deepest below it
+  bool is_found;               ///< whether a search found a separation larger than its lower limit
 };
 
 /// The separation of two shapes along the normal of a face of one of them.
@@ -56,7 +59,8 @@ Axis<SpaceOf<ShapeT>> axis_of_face_b(const PolytopePair<ShapeT>& pair, std::uint
   return {-pair.b.normals()[face], found.separation, AxisKind::face_b, found.vertex, face};
 }
 
-/// An edge with the normals of its two faces, relative to the centre of its shape.
+/// An edge and the normals of its two faces. Points are relative to the centre of the edge's shape,
+/// world axes [m].
 template <std::floating_point T>
 struct EdgeView {
   using Vector = typename Space<3, T>::Vector;
@@ -72,17 +76,21 @@ struct EdgeView {
   }
 };
 
-/// The common normal of two edges, from a to b, if their arcs in the Gauss map cross. The arc of an
-/// edge leads from the normal of one of its faces to that of the other; the arc of b is reversed.
-/// The arcs cross if the plane of directions perpendicular to one edge parts the ends of the other
-/// edge's arc, for both edges. Of the two directions perpendicular to both edges, one is then on
-/// the arc of a and one on the reversed arc of b, and they must be the same.
+/// Computes the common normal of two edges, unit, from a to b, if their arcs in the Gauss map
+/// cross. The arc of an edge of a leads from the normal of one face at the edge to the normal of
+/// the other face. For an edge of b the arc is reversed: it connects the negative normals. The arcs
+/// cross if both of these hold:
+///   1. For each edge, the plane perpendicular to this edge separates the two ends of the other
+///      edge's arc. Of the two unit vectors perpendicular to both edges, one then lies on the arc
+///      of a and one on the arc of b.
+///   2. These two vectors are the same.
+/// @returns whether the arcs cross; if not, `normal` has no meaning
 template <std::floating_point T>
 bool crossing_normal(const EdgeView<T>& a, const EdgeView<T>& b,
                      typename Space<3, T>::Vector& normal) {
   if (a.direction.dot(b.normal_0) * a.direction.dot(b.normal_1) >= T(0)) return false;
   if (b.direction.dot(a.normal_0) * b.direction.dot(a.normal_1) >= T(0)) return false;
-  // The normal of edges more parallel than this is that of a face to within rounding.
+  // The common normal of edges more parallel than this equals the normal of a face to rounding.
   constexpr T parallel = T(16) * std::numeric_limits<T>::epsilon();
   normal = a.direction.cross(b.direction);
   const T length2 = normal.squaredNorm();
@@ -93,16 +101,17 @@ bool crossing_normal(const EdgeView<T>& a, const EdgeView<T>& b,
   return normal.dot(b.normal_0 + b.normal_1) < T(0);
 }
 
-/// Whether two edges are so parallel that their common normal has lost digits.
+/// Whether two edges are so parallel (sine of their angle at most 0.01) that rounding errors of
+/// their common normal are large.
 template <std::floating_point T>
 bool are_nearly_parallel(const EdgeView<T>& a, const EdgeView<T>& b) {
   return a.direction.cross(b.direction).squaredNorm() <=
          T(1e-4) * a.direction.squaredNorm() * b.direction.squaredNorm();
 }
 
-/// The axis of two edges: their common normal and the separation of their ends along it.
+/// The axis of two edges: their common normal, and the separation of their end points along it.
 /// @param offset  centre of b minus centre of a, world axes [m]
-/// @returns nothing if the arcs of the edges do not cross
+/// @returns nothing if the arcs of the edges in the Gauss map do not cross
 template <std::floating_point T>
 [[gnu::noinline]] std::optional<Axis<Space<3, T>>> axis_of_edges(
     const EdgeView<T>& a, const EdgeView<T>& b, const typename Space<3, T>::Vector& offset) {
@@ -117,8 +126,9 @@ template <std::floating_point T>
   return axis;
 }
 
-/// Where the line of an edge is nearest to a point relative to the shape's centre: as a fraction of
-/// the edge, below 0 or above 1 beyond its ends.
+/// The position at which the line of an edge is nearest to a point, as a fraction of the edge [-]:
+/// 0 at its start, 1 at its end, below 0 or above 1 outside of the edge.
+/// @param x  relative to the shape's centre, world axes [m]
 template <std::floating_point T>
 T fraction_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
                  const typename Space<3, T>::Vector& x) {
@@ -128,7 +138,7 @@ T fraction_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
   const Vector along = shape.vertices()[ends[1]] - from;
   return along.dot(x - from) / along.squaredNorm();
 }
-/// The point of an edge at a fraction of it, relative to the shape's centre [m].
+/// The point at a fraction of an edge, relative to the shape's centre, world axes [m].
 template <std::floating_point T>
 typename Space<3, T>::Vector point_along(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
                                          T fraction) {
@@ -138,14 +148,16 @@ typename Space<3, T>::Vector point_along(const Placed<Polyhedron<T>>& shape, std
   return from + fraction * (shape.vertices()[ends[1]] - from);
 }
 
-/// The nearest points of a vertex of each polygon, relative to the centre of a [m].
+/// The positions of a vertex of polygon a and a vertex of polygon b, relative to the centre of a,
+/// world axes [m].
 template <std::floating_point T>
 std::array<typename Space<2, T>::Vector, 2> nearest_points_of(const PolytopePair<Polygon<T>>& pair,
                                                               AxisKind, std::uint32_t a,
                                                               std::uint32_t b) {
   return {pair.a.vertices()[a], pair.b.vertices()[b] + pair.offset};
 }
-/// The nearest points of two vertices, or of a vertex and an edge, relative to the centre of a [m].
+/// The nearest points of two vertices, or of a vertex and an edge, relative to the centre of a,
+/// world axes [m].
 template <std::floating_point T>
 std::array<typename Space<3, T>::Vector, 2> nearest_points_of(
     const PolytopePair<Polyhedron<T>>& pair, AxisKind kind, std::uint32_t a, std::uint32_t b) {
@@ -160,8 +172,8 @@ std::array<typename Space<3, T>::Vector, 2> nearest_points_of(
   return {on_a, point_along(pair.b, b, std::clamp(fraction, T(0), T(1))) + pair.offset};
 }
 
-/// The axis of two vertices, or of a vertex and an edge, that are apart: their distance and its
-/// direction.
+/// The axis of two vertices, or of a vertex and an edge, of shapes that are apart. Its normal is
+/// the direction from one nearest point to the other, and its gap is their distance.
 template <class ShapeT>
 [[gnu::noinline]] Axis<SpaceOf<ShapeT>> axis_of_nearest(const PolytopePair<ShapeT>& pair,
                                                         AxisKind kind, std::uint32_t a,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The nearest features of two polyhedra that are apart, by comparison of all that can be nearest:
-// for pairs with edges or faces so parallel that GJK ends on rounding.
+// The nearest features of two polyhedra that are apart, found by comparing all features that can be
+// nearest. It is needed for pairs with edges or faces so parallel that GJK ends on rounding errors.
 //
-// Let n be a unit vector along which the shapes are separated by s, and d the distance of two of
-// their points. The nearest points are no farther apart than d. So along n neither lies more than
-// d - s below the top of its shape, and features without a vertex that high are left out. What is
-// compared are distances between points of the shapes, so that no distance comes out too small.
+// Let n be a unit vector along which the shapes are separated by s, and let d be the distance of
+// some point of a from some point of b. The distance of the nearest points is at most d. So, along
+// n, each nearest point lies at most d - s below the highest point of its shape. Features without a
+// vertex in this range are left out. All distances compared are distances between points of the two
+// shapes, so that no distance is smaller than the gap.
 #pragma once
 
 #include <algorithm>
@@ -27,14 +28,14 @@ class FeatureComparison {
   using Shape = Placed<Polyhedron<T>>;
   using Edge = typename Polyhedron<T>::Edge;
 
-  /// @param direction  n, unit, from a to b, world axes
-  /// @param slab       d - s, plus what rounding may add [m]
+  /// @param direction  the unit vector n, from a to b, world axes
+  /// @param slab       d - s plus an allowance for rounding [m]
   FeatureComparison(const PolytopePair<Polyhedron<T>>& pair, const Vector& direction, T slab)
       : pair_(pair),
         high_a_(find_high(pair.a, direction, slab)),
         high_b_(find_high(pair.b, -direction, slab)) {}
 
-  /// The axis of the nearest features; its gap is infinite if there are none.
+  /// The axis of the nearest features. Its gap is infinite if there are none to compare.
   Axis<S> compare() {
     axis_.gap = std::numeric_limits<T>::infinity();
     compare_edges();
@@ -44,7 +45,7 @@ class FeatureComparison {
   }
 
  private:
-  /// For each vertex, whether it lies at most the slab below the top of the shape.
+  /// For each vertex, whether it lies at most `slab` [m] below the highest vertex along `up`.
   static std::vector<bool> find_high(const Shape& shape, const Vector& up, T slab) {
     std::vector<bool> is_high(shape.vertices().size());
     const T lowest = shape.vertices().reach(up) - slab;
@@ -84,8 +85,8 @@ class FeatureComparison {
     refine(segments, nearest);
     axis_ = {nearest.normal, nearest.gap, AxisKind::edges, i, j};
   }
-  /// Compares the faces of one shape with the vertices of the other shape that project onto them.
-  /// @param sign  1 if the faces are those of a, -1 if they are those of b
+  /// Compares each face of `own` with each vertex of `other` that projects onto the face.
+  /// @param sign  1 if `own` is a, -1 if `own` is b
   void compare_faces(const Shape& own, const std::vector<bool>& high_own, const Shape& other,
                      const std::vector<bool>& high_other, const Vector& offset, T sign) {
     for (std::uint32_t f = 0; f < own.normals().size(); ++f) {
@@ -109,9 +110,10 @@ class FeatureComparison {
 };
 
 /// The axis of the nearest features of two polyhedra that are apart.
-/// @param direction  unit, from a to b, along which the shapes are separated by s, world axes
-/// @param slab       d - s for a distance d of two of their points, plus rounding [m]
-/// @returns an axis with an infinite gap if no features are left to compare
+/// @param direction  unit vector from a to b, along which the shapes are separated by s, world axes
+/// @param slab       d - s, where d is the distance of a point of a from a point of b, plus an
+///                   allowance for rounding [m]
+/// @returns an axis with an infinite gap if there are no features to compare
 template <std::floating_point T>
 Axis<Space<3, T>> nearest_features(const PolytopePair<Polyhedron<T>>& pair,
                                    const typename Space<3, T>::Vector& direction, T slab) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the simplex that GJK ends on to the features of two polyhedra: which vertices, edges or
-// faces the nearest points lie on, and where the points are.
+// The features of two polyhedra that belong to the last simplex of GJK: the vertices, edges or
+// faces on which the nearest points lie, and the positions of these points.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace moreau::detail {
 
-/// The number of the edge between two vertices of a shape, if there is one.
+/// The index of the edge between two vertices of a shape, if there is such an edge.
 template <std::floating_point T>
 std::optional<std::uint32_t> edge_between(const Placed<Polyhedron<T>>& shape, std::uint32_t v,
                                           std::uint32_t w) {
@@ -24,8 +24,9 @@ std::optional<std::uint32_t> edge_between(const Placed<Polyhedron<T>>& shape, st
   return std::nullopt;
 }
 
-/// The features on which the nearest points of a simplex lie, if one of them is a vertex and the
-/// other a vertex or an edge; else kind nearest_points, with the vertices of the first point.
+/// The features on which the nearest points of a simplex lie, if one feature is a vertex and the
+/// other feature is a vertex or an edge. Otherwise the kind is nearest_points, and the indices are
+/// the vertices of the simplex's first point.
 template <std::floating_point T>
 PairCache<Space<3, T>> features_of(const PolytopePair<Polyhedron<T>>& pair,
                                    const Simplex<T>& simplex) {
@@ -50,9 +51,9 @@ PairCache<Space<3, T>> features_of(const PolytopePair<Polyhedron<T>>& pair,
   return found;
 }
 
-/// A guess at the features on which the nearest points of a simplex of three points lie: a face and
-/// a vertex, or an edge of each shape. The face is the one that is turned most towards the other
-/// shape; prove_axis decides whether the guess is right.
+/// A guess of the features on which the nearest points of a simplex of three points lie: a face and
+/// a vertex, or an edge of each shape. A face is guessed as the face whose normal points most
+/// towards the other shape. prove_axis decides whether the guess is correct.
 template <std::floating_point T>
 PairCache<Space<3, T>> guess_features_of(const PolytopePair<Polyhedron<T>>& pair,
                                          const Simplex<T>& simplex) {
@@ -75,7 +76,7 @@ PairCache<Space<3, T>> guess_features_of(const PolytopePair<Polyhedron<T>>& pair
   return guess;
 }
 
-/// The nearest points of the two shapes as GJK ended on them.
+/// The nearest points of the two shapes according to the last simplex of GJK.
 template <std::floating_point T>
 WitnessPoints<Space<3, T>> witness_of(const PolytopePair<Polyhedron<T>>& pair,
                                       const Simplex<T>& simplex) {

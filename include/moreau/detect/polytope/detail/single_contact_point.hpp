@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Pairs of polytopes that touch at a single contact point, recognised without the overlap of two
-// faces, which costs more.
+// Tests whether two polytopes touch at a single contact point. These tests cost less than computing
+// the overlap of two faces.
 //
-// Let `slab` be the height up to which surfaces count as in contact, beyond the gap of the point.
+// Surfaces count as in contact where the gap is at most the margin. Let `slab` be the margin minus
+// the smallest gap. Then only points that lie at most `slab` above the lowest point matter.
 //
-// A vertex on a face. The shape of the vertex lies in the cone of the edges at the vertex. If these
-// edges all rise through the slab, the part of the shape within the slab lies between the points
-// where the edges leave it, at a lateral distance from the vertex of at most slab * length / rise.
-// If the projection of the vertex is farther than that from the rim of the face, the face and this
-// part meet in nothing else.
+// A vertex on a face. The shape of the vertex lies in the cone spanned by the edges at the vertex.
+// Suppose that each of these edges rises by more than `slab`. An edge of a given length that rises
+// by `rise` leaves the slab at a lateral distance of at most slab * length / rise from the vertex.
+// The largest of these distances bounds the part of the shape in the slab. The code takes the
+// largest over all vertices of the shape, which is a bound as well. If the projection of the vertex
+// is farther than that from the rim of the face, this part does not reach the rim, and the vertex
+// is the only contact point.
 //
-// Two faces. The gap between them is linear over their overlap. So the lowest corner of the overlap
-// is the only one within the slab if its two neighbours are not. These lie along the two edges that
-// leave the corner: those of a vertex's face, or the two edges that cross. Each edge has to rise
-// through the slab before it ends and before it leaves the other face.
+// Two faces. The gap between them is a linear function over their overlap, which is a polygon. So
+// the lowest corner of the overlap is the only corner in the slab if its two neighbours are not in
+// the slab. The neighbours lie along the two edges that leave the corner. If the corner is a
+// vertex, they are the edges of the face at this vertex; if it is a crossing, they are the two
+// edges that cross. Each of these edges must rise through the slab before it ends and before it
+// leaves the other shape's face.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +30,11 @@
 
 namespace moreau::detail {
 
-/// Whether a vertex on a face is the only point of the two shapes within the slab.
+/// Whether a vertex above a face is the only point of the contact.
 /// @param up    unit normal of the face, towards the shape of the vertex, world axes
-/// @param apex  the vertex relative to the centre of the face's shape, world axes [m]
-/// @param slab  height above the face [m]
-/// @param near  length below which two points are one [m]
+/// @param apex  the vertex relative to the centre of `ground`, the face's shape, world axes [m]
+/// @param slab  height of the slab above the vertex, along `up` [m]
+/// @param near  two points closer together than this count as one point [m]
 template <class ShapeT, class Vector, class T>
 bool touches_only_at_vertex(const Placed<ShapeT>& shape, std::uint32_t vertex, const Vector& up,
                             const Placed<ShapeT>& ground, std::uint32_t face, const Vector& apex,
@@ -39,7 +44,8 @@ bool touches_only_at_vertex(const Placed<ShapeT>& shape, std::uint32_t vertex, c
          projects_within(ground, face, apex, T(2) * (slab * slab * spread2 + near * near));
 }
 
-/// The same for the vertex and the face that make an axis; false for other axes.
+/// Whether the vertex and the face that make the axis touch only at the vertex. False if the axis
+/// is made by other features.
 /// @param pair  of polygons or polyhedra
 template <class Pair, class S>
 bool touches_only_at_vertex(const Pair& pair, const Axis<S>& axis, typename S::Scalar slab,
@@ -53,11 +59,11 @@ bool touches_only_at_vertex(const Pair& pair, const Axis<S>& axis, typename S::S
                                 Vector(pair.a.vertices()[axis.a] - pair.offset), slab, near);
 }
 
-/// Whether a vertex is the only corner within the slab of the overlap of two faces: one at the
-/// vertex and one of the other shape. It holds for more pairs than the test above, once the faces
-/// are known.
-/// @param own   number of the face at the vertex
-/// @param face  number of the other shape's face
+/// Whether a vertex is the only corner in the slab of the overlap of two faces: face `own`, which
+/// has the vertex, and face `face` of the other shape `ground`. If the faces are known, this test
+/// succeeds for more pairs than touches_only_at_vertex.
+/// @param own   index of the face at the vertex
+/// @param face  index of the other shape's face
 template <std::floating_point T>
 bool touches_only_at_corner(const Placed<Polyhedron<T>>& shape, std::uint32_t vertex,
                             std::uint32_t own, const typename Space<3, T>::Vector& up,
@@ -80,14 +86,15 @@ bool touches_only_at_corner(const Placed<Polyhedron<T>>& shape, std::uint32_t ve
          leaves(loop[(at > 0 ? at : loop.size()) - 1]);
 }
 
-/// Whether an edge of one shape leaves the slab above a face of the other shape before the edge
-/// ends and while it is above that face. Measured along `up`, the edge is level.
-/// @param crossing   where the edge crosses the highest edge of the face, on that edge, relative to
-///                   the centre of the face's shape, world axes [m]
-/// @param part       where that is on the edge: 0 at its start, 1 at its end
+/// Whether an edge of one shape leaves the slab above a face of `ground`, the other shape, before
+/// the edge ends and while it is above that face. The edge is perpendicular to `up`. It begins to
+/// rise above the face where it crosses, seen along `up`, the highest edge of the face.
+/// @param crossing   the point of the face's highest edge at which the edge crosses it, relative to
+///                   the centre of `ground`, world axes [m]
+/// @param part       position of the crossing on the edge [-]: 0 at its start, 1 at its end
 /// @param direction  from the start of the edge to its end, world axes [m]
-/// @param up         unit, from the face's shape to the shape of the edge, world axes
-/// @param near2      square of the length below which two points are one [m^2]
+/// @param up         unit vector from `ground` to the shape of the edge, world axes
+/// @param near2      square of the distance below which two points count as one point [m^2]
 template <std::floating_point T>
 bool leaves_slab(const Placed<Polyhedron<T>>& ground, std::uint32_t face,
                  const typename Space<3, T>::Vector& crossing, T part,
@@ -95,16 +102,16 @@ bool leaves_slab(const Placed<Polyhedron<T>>& ground, std::uint32_t face,
                  const typename Space<3, T>::Vector& up, T slab, T near2) {
   using Vector = typename Space<3, T>::Vector;
   const Vector normal = ground.normals()[face];
-  // To where the face is lower by the slab.
+  // Signed fraction of the edge over which the gap to the face grows by the slab.
   const T step = slab * normal.dot(up) / normal.dot(direction);
   const Vector below = crossing + step * direction - slab * up;
   return part + step > T(0) && part + step < T(1) && projects_within(ground, face, below, near2);
 }
 
-/// Whether the crossing of two edges is the only corner within the slab of the overlap of two
-/// faces, one at each edge.
-/// @param axis  of kind edges
-/// @param near  length below which two points are one [m]
+/// Whether the crossing of two edges is the only corner in the slab of the overlap of two faces.
+/// Each face has one of the edges.
+/// @param axis  an axis of kind AxisKind::edges
+/// @param near  two points closer together than this count as one point [m]
 template <std::floating_point T>
 bool touches_only_at_crossing(const PolytopePair<Polyhedron<T>>& pair,
                               const Axis<Space<3, T>>& axis, const FacingFeatures& facing, T slab,
@@ -127,7 +134,7 @@ bool touches_only_at_crossing(const PolytopePair<Polyhedron<T>>& pair,
                      axis.normal, slab, near2);
 }
 
-/// Whether the overlap of the facing faces of two polyhedra has one corner within the slab.
+/// Whether the overlap of the facing faces of two polyhedra has only one corner in the slab.
 template <std::floating_point T>
 bool touches_at_one_corner(const PolytopePair<Polyhedron<T>>& pair, const Axis<Space<3, T>>& axis,
                            const FacingFeatures& facing, T slab, T near) {
@@ -147,7 +154,8 @@ bool touches_at_one_corner(const PolytopePair<Polyhedron<T>>& pair, const Axis<S
   }
 }
 
-/// The overlap of two edges of polygons costs no more than such a test.
+/// For polygons the test is omitted: to compute the overlap of two edges costs no more than the
+/// test.
 template <std::floating_point T>
 bool touches_at_one_corner(const PolytopePair<Polygon<T>>&, const Axis<Space<2, T>>&,
                            const FacingFeatures&, T, T) {

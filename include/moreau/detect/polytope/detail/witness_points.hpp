@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points of two polytopes that are nearest to each other, or deepest, once the axis is known.
+// The nearest or deepest points of two polytopes, computed from their separating axis.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace moreau::detail {
 
-/// The nearest points of two edges along their common normal. If the edges are so parallel that the
-/// crossing of their lines is lost in rounding, some point of one edge that lies beside the other.
+/// The nearest points of two edges along their common normal. If the edges are so parallel that
+/// rounding hides where their lines cross, a point of one edge that lies opposite the other edge.
 template <std::floating_point T>
 WitnessPoints<Space<3, T>> witness_of_edges(const PolytopePair<Polyhedron<T>>& pair,
                                             const Axis<Space<3, T>>& axis) {
@@ -23,7 +23,8 @@ WitnessPoints<Space<3, T>> witness_of_edges(const PolytopePair<Polyhedron<T>>& p
   const Vector q = pair.b.vertices()[edge_b.vertex[0]] + pair.offset;
   const Vector u = pair.a.vertices()[edge_a.vertex[1]] - p;
   const Vector v = pair.b.vertices()[edge_b.vertex[1]] + pair.offset - q;
-  // Both lines in the plane perpendicular to v: p + t u meets q there.
+  // At this t, the point p + t u of a's edge lies opposite the line of b's edge: both have the same
+  // coordinate along `across`, which is perpendicular to the normal and to b's edge.
   const Vector across = v.cross(axis.normal);
   const T slope = u.dot(across);
   T t = slope == T(0) ? T(0.5) : std::clamp((q - p).dot(across) / slope, T(0), T(1));
@@ -37,7 +38,7 @@ WitnessPoints<Space<3, T>> witness_of_edges(const PolytopePair<Polyhedron<T>>& p
           FeatureKey(FeatureKey::Kind::edge_edge, axis.a, axis.b)};
 }
 
-/// For an axis of a face: the deepest vertex and its projection on the face's plane.
+/// For an axis of a face: the deepest vertex and its projection onto the plane of the face.
 template <std::floating_point T>
 WitnessPoints<Space<3, T>> witness_of_face(const PolytopePair<Polyhedron<T>>& pair,
                                            const Axis<Space<3, T>>& axis) {
@@ -51,7 +52,7 @@ WitnessPoints<Space<3, T>> witness_of_face(const PolytopePair<Polyhedron<T>>& pa
   return {on_a, on_a + across, FeatureKey(FeatureKey::Kind::vertex_face, axis.a, axis.b)};
 }
 
-/// For an axis of a vertex and a vertex or an edge.
+/// For an axis of two vertices, or of a vertex and an edge.
 template <std::floating_point T>
 WitnessPoints<Space<3, T>> witness_of_vertex(const PolytopePair<Polyhedron<T>>& pair,
                                              const Axis<Space<3, T>>& axis) {
@@ -80,7 +81,7 @@ WitnessPoints<Space<3, T>> witness_of(const PolytopePair<Polyhedron<T>>& pair,
   }
 }
 
-/// The contact point midway between the witness points.
+/// The contact point: the point midway between the witness points.
 template <std::floating_point T>
 ManifoldPoint<Space<3, T>> witness_point(const PolytopePair<Polyhedron<T>>& pair,
                                          const FoundAxis<Space<3, T>>& found) {
@@ -116,9 +117,10 @@ typename Space<2, T>::Vector witness_middle(const PolytopePair<Polygon<T>>& pair
   return witness_point(pair, found).position - pair.a.center();
 }
 
-/// Whether the witness points lie on both features that make the axis. One that lies beside a
-/// feature proves nothing: of several vertices that are equally deep, or of edges so parallel that
-/// they separate wherever they end, only some lie opposite the other feature.
+/// Whether the witness points lie on both features that make the axis. A witness point beside a
+/// feature is not a contact point. This happens if several vertices are equally deep, so that the
+/// one found need not lie above the face, or if two edges are so parallel that the separation is
+/// the same for points beyond their ends.
 template <class ShapeT>
 bool witness_is_on_both(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found) {
   using S = SpaceOf<ShapeT>;
