@@ -118,6 +118,10 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--max-sweeps", p.max_sweeps,
                  "largest number of sweeps in a step; run.json counts the steps that reach it")
       ->check(CLI::Range(1, 100000000));
+  app.add_option("--cold-sweeps", p.cold_sweeps,
+                 "largest number of sweeps in a second attempt, from zero impulses, at a step that "
+                 "reaches --max-sweeps; 0: no second attempt")
+      ->check(CLI::Range(0, 100000000));
   app.add_option("--preparation-step", p.preparation_step, "time step of the preparation [s]")
       ->check(positive);
   app.add_option("--preparation-tolerance", p.preparation_tolerance,

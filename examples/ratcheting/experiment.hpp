@@ -234,6 +234,7 @@ class Experiment {
     options.tolerance = p.tolerance;
     options.stop_test = p.stop_test;
     options.max_sweeps = p.max_sweeps;
+    options.cold_sweeps = p.cold_sweeps;
     return Solver(options, p.threads, p.cold_start, p.solver == "plain");
   }
   void set_correction() requires solves {

@@ -34,8 +34,9 @@ int Runner::run(const Parameters& p) {
   std::replace(method.begin(), method.end(), '-', '_');
   const auto found = all().find({p.shape, method});
   if (found != all().end()) return found->second(p);
-  throw std::invalid_argument("--shape: this program was built without " + p.shape +
-                              "; add it to RATCHETING_SHAPES");
+  throw std::invalid_argument("--shape, --method: this program was built without " + p.shape +
+                              " and " + p.method +
+                              "; add them to RATCHETING_SHAPES and RATCHETING_METHODS");
 }
 
 }  // namespace ratcheting

@@ -38,6 +38,7 @@ struct Parameters {
   double tolerance = 1e-4;
   moreau::StopTest stop_test = moreau::StopTest::qm16;
   int max_sweeps = 5000;
+  int cold_sweeps = 0;  ///< cap of a second attempt from zero impulses; see ColouredOptions
   /// The preparation has its own time step, tolerance (QM/16) and limit of sweeps, so that runs
   /// with other values in the experiment start from the same packing.
   double preparation_step = 2e-4;  ///< [s]

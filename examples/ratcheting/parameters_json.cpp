@@ -41,6 +41,7 @@ Json to_json(const Parameters& p) {
       {"seed", p.seed}};
   // The default is left out, as in the runs that were made before there was a choice.
   if (p.solver != Parameters{}.solver) json["solver"] = p.solver;
+  if (p.cold_sweeps > 0) json["cold_sweeps"] = p.cold_sweeps;
   if (!p.from.empty()) {
     json["from"] = p.from;
     json["hold"] = p.hold;

@@ -19,7 +19,8 @@ fi
 cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=OFF \
   "-DCMAKE_CXX_FLAGS=$instructions" \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF \
-  "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" >/dev/null
+  "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" \
+  "-DRATCHETING_METHODS=contact_dynamics;springs" >/dev/null
 echo "building ${targets[*]} in $top/build/study"
 cmake --build "$top/build/study" --target "${targets[@]}"
 [ $# -gt 0 ] || set -- --plan small

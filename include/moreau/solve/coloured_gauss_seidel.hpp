@@ -25,7 +25,9 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <vector>
 
+#include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured/coloured_sweeps.hpp"
@@ -44,6 +46,10 @@ struct ColouredOptions {
   /// Cap, >= 1; if it ends the sweeps, SolveReport::capped is set. A second attempt has a cap of
   /// its own.
   int max_sweeps = 2000;
+  /// Cap of a second attempt, from zero impulses, where the first attempt has reached its cap: a
+  /// warm start can lie far from every solution. The better of both results is kept. 0: no second
+  /// attempt.
+  int cold_sweeps = 0;
   int check_interval = 20;  ///< sweeps from one stopping test to the next, >= 1
   bool accelerate = true;   ///< false: plain sweeps
 };
@@ -57,13 +63,18 @@ class TeamGaussSeidel {
   /// Buffers, kept from step to step.
   template <class Operator, class Law>
   requires PointLaw<Law, typename Operator::Space>
-  using Workspace = detail::ColouredSweeps<Operator, Law>;
+  struct Workspace {
+    detail::ColouredSweeps<Operator, Law> sweeps;
+    std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
+  };
 
   /// @throws std::invalid_argument for a tolerance that is not finite and positive, or a cap or an
   ///         interval below 1
   explicit TeamGaussSeidel(const Options& options = {}, const TeamT& team = TeamT{})
       : options_(options), team_(team) {
     detail::require_stopping(options, "ColouredGaussSeidel");
+    require(options.cold_sweeps >= 0, "ColouredGaussSeidel", "cold_sweeps", options.cold_sweeps,
+            "must be >= 0");
   }
 
   const Options& options() const { return options_; }  ///< as given
@@ -73,16 +84,24 @@ class TeamGaussSeidel {
   template <class Operator, class Law>
   SolveReport solve(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
-                    Workspace<Operator, Law>& sweeps) const {
+                    Workspace<Operator, Law>& workspace) const {
+    using Vector = typename Operator::Vector;
     detail::drop_if_not_finite(impulses);
-    SolveReport report = attempt(problem, impulses, sweeps, options_.accelerate);
-    if (!options_.accelerate || report.relative_approach <= 1) return report;
-    // Worse than no impulses: the warm start or the acceleration made the sweeps diverge. Second
-    // attempt without both.
-    const int first_sweeps = report.sweeps;
-    std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
-    report = attempt(problem, impulses, sweeps, false);
-    report.sweeps += first_sweeps;
+    const SolveReport first =
+        attempt(problem, impulses, workspace.sweeps, options_.max_sweeps, options_.accelerate);
+    // Worse than no impulses: the warm start or the acceleration made the sweeps diverge.
+    const bool diverged = first.relative_approach > 1;
+    const int cap = diverged ? options_.max_sweeps : options_.cold_sweeps;
+    if (!options_.accelerate || first.converged || cap == 0) return first;
+    workspace.first.assign(impulses.begin(), impulses.end());
+    std::fill(impulses.begin(), impulses.end(), Vector::Zero());
+    SolveReport second = attempt(problem, impulses, workspace.sweeps, cap, !diverged);
+    second.sweeps += first.sweeps;
+    if (diverged || second.converged || second.residual < first.residual) return second;
+    std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
+    detail::set_impulses<Operator>(problem.delassus, impulses);
+    SolveReport report = first;
+    report.sweeps = second.sweeps;
     return report;
   }
 
@@ -93,7 +112,8 @@ class TeamGaussSeidel {
   template <class Operator, class Law>
   SolveReport attempt(ContactProblem<Operator, Law>& problem,
                       std::span<typename Operator::Vector> impulses,
-                      Workspace<Operator, Law>& sweeps, bool accelerate) const {
+                      detail::ColouredSweeps<Operator, Law>& sweeps, int max_sweeps,
+                      bool accelerate) const {
     SolveReport report;
     if (problem.size() == 0) return report;
     report.converged = false;
@@ -104,8 +124,8 @@ class TeamGaussSeidel {
     double expected_change = 3 * options_.tolerance;
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0;
-    while (!report.converged && report.sweeps < options_.max_sweeps) {
-      sweep_to_check(sweeps, report);
+    while (!report.converged && report.sweeps < max_sweeps) {
+      sweep_to_check(sweeps, max_sweeps, report);
       const double change = std::max(report.quad_dv, report.quad_dvr);
       if (options_.stop_test == StopTest::qm16) {
         report.converged = passes_qm16(report, options_.tolerance);
@@ -143,8 +163,8 @@ class TeamGaussSeidel {
   /// The sweeps up to the next stopping test. In the first interval, sweeps 1, 2, 4, 8, .. update
   /// the active set.
   template <class Sweeps>
-  void sweep_to_check(Sweeps& sweeps, SolveReport& report) const {
-    const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
+  void sweep_to_check(Sweeps& sweeps, int max_sweeps, SolveReport& report) const {
+    const int block = std::min(options_.check_interval, max_sweeps - report.sweeps);
     for (int k = 1; k < block; ++k)
       if (report.sweeps == 0 && std::has_single_bit(unsigned(k)))
         sweeps.sweep_all(team_);
@@ -162,7 +182,7 @@ class TeamGaussSeidel {
   template <class Operator, class Law>
   static void certify(ContactProblem<Operator, Law>& problem,
                       std::span<typename Operator::Vector> impulses,
-                      Workspace<Operator, Law>& sweeps, SolveReport& report) {
+                      detail::ColouredSweeps<Operator, Law>& sweeps, SolveReport& report) {
     sweeps.unpack(impulses);
     detail::set_impulses<Operator>(problem.delassus, impulses);
     sweeps.load_velocities(problem.delassus);
