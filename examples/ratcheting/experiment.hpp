@@ -136,6 +136,7 @@ class Experiment {
 
   /// One step under f at the middle of the step.
   moreau::StepReport vibrate() {
+    if constexpr (Method::solves) change_stiffness();
     const double f = parameters_.force(time() + parameters_.step / 2);
     simulation_.set_force(wall_, -f * Vector::UnitX());
     return simulation_.step(parameters_.step);
@@ -155,20 +156,24 @@ class Experiment {
   /// Writes the state of the experiment and more members of the run.
   template <class... More>
   void write_checkpoint(const std::filesystem::path& path, const More&... more) const {
-    moreau::write_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
+    moreau::write_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, old_stiffness_,
+                           more...);
   }
   /// Reads such a checkpoint, in place of compress() and release(). The parameters must be the
   /// same.
   /// @throws std::runtime_error naming the path if the file is not such a checkpoint
   template <class... More>
   void read_checkpoint(const std::filesystem::path& path, More&... more) {
-    moreau::read_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, more...);
+    moreau::read_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, old_stiffness_,
+                          more...);
   }
 
   /// Makes the state that read_checkpoint() read the start of a run with other laws, solver, force
-  /// and step, `hold` before a maximum of its force.
-  void start_again() requires solves {
-    simulation_.set_materials(materials(parameters_));
+  /// and step, `hold` before a maximum of its force. The stiffness changes gradually over the first
+  /// half of the hold, because the overlaps are those of the old stiffness.
+  /// @param stiffness of the run that made the checkpoint [N/m]
+  void start_again(double stiffness) requires solves {
+    old_stiffness_ = stiffness;
     simulation_.set_solver(study_solver(parameters_));
     set_correction();
     start_ = simulation_.time() - parameters_.begin();
@@ -228,6 +233,18 @@ class Experiment {
  private:
   /// The speed of the lid in the preparation is that of steps of at least this length [s].
   static constexpr double slowest_step = 2e-4;
+
+  /// Sets the stiffness of this time in the hold of a run from a checkpoint.
+  void change_stiffness() {
+    if (old_stiffness_ == 0) return;
+    const double passed = (time() - parameters_.begin()) / (parameters_.hold / 2);
+    Parameters now = parameters_;
+    if (passed < 1)
+      now.stiffness = old_stiffness_ * std::pow(parameters_.stiffness / old_stiffness_, passed);
+    else
+      old_stiffness_ = 0;
+    simulation_.set_materials(materials(now));
+  }
 
   static Solver study_solver(const Parameters& p) requires solves {
     moreau::ColouredOptions options;
@@ -306,6 +323,7 @@ class Experiment {
   Simulation simulation_;
   double volume_ = 0, thickness_ = 1, mass_ = 0, wall_mass_ = 0, length_ = 0, height_ = 0;
   double start_ = 0;
+  double old_stiffness_ = 0;  // that still changes to the stiffness of the run; 0: none [N/m]
   bool settled_ = false;
   moreau::BodyId wall_, lid_;
 };

@@ -177,7 +177,7 @@ void start_from(const Parameters& p, ExperimentT& experiment, const Read& read) 
     if (sample(made_by) != sample(identity(p)))
       throw std::invalid_argument("--from: " + p.from +
                                   " was made with other parameters: " + made_by);
-    experiment.start_again();
+    experiment.start_again(Json::parse(made_by)["stiffness"].get<double>());
   } else {
     throw std::invalid_argument("--from: --method springs cannot start from a checkpoint");
   }
