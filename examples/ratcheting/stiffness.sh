@@ -22,7 +22,7 @@ run() {
   touch "$name/done"
 }
 rigid=(--method contact-dynamics)
-soft=(--method compliant)
+soft=(--method compliant --max-sweeps 2000 --cold-sweeps 3000)
 tight=(--stop-test residual --tolerance 1e-5)
 for seed in ${SEEDS:-1 2 3}; do
   for shape in "$@"; do
