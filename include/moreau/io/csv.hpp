@@ -22,7 +22,7 @@ namespace moreau {
 /// header of "x" is "x".
 struct CsvColumn {
   std::string_view name;  ///< not empty
-  std::string_view unit;  ///< if empty, the header has no unit
+  std::string_view unit;  ///< if empty, no unit is written
 
   /// Not explicit, so that a string converts to a column without unit.
   constexpr CsvColumn(const char* name_in, const char* unit_in = "")

@@ -10,7 +10,7 @@
 // C.
 //
 //   1. The point s n lies in the facet of C with the normal n, at a distance of at least r from the
-//      rim of the facet. This holds if the projection of one feature onto the other lies that far
+//      rim of the facet. It does if the projection of one feature onto the other lies that far
 //      inside. The disk of radius r about s n then lies in C. So for every m at an angle theta from
 //      n
 //          F(m) <= s cos theta - r sin theta.
@@ -21,7 +21,7 @@
 //      h = c . n and t^2 = |c|^2 - h^2. So for every m at an angle theta from n
 //          F(m) <= h cos theta + t sin theta - rho.
 //      The right side is less than -d where (h + rho - d) tau^2 - 2 t tau - (h + d - rho) >= 0.
-//      This holds for all tau beyond the larger root,
+//      All tau beyond the larger root of this polynomial satisfy the inequality,
 //          tau_0 = (t + sqrt(|c|^2 - (rho - d)^2)) / (h + rho - d).
 //
 // So if r >= d tau_0, the first bound excludes all m up to tau_0 and the second bound excludes all

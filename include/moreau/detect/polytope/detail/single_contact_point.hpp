@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tests whether two polytopes touch at a single contact point. These tests cost less than computing
 // the overlap of two faces.
 //
