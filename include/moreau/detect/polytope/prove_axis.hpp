@@ -21,7 +21,7 @@
 //      h = c . n and t^2 = |c|^2 - h^2. So for every m at an angle theta from n
 //          F(m) <= h cos theta + t sin theta - rho.
 //      The right side is less than -d where (h + rho - d) tau^2 - 2 t tau - (h + d - rho) >= 0.
-//      All tau beyond the larger root of this polynomial satisfy the inequality,
+//      Every tau beyond the larger root of this polynomial satisfies the inequality. The root is
 //          tau_0 = (t + sqrt(|c|^2 - (rho - d)^2)) / (h + rho - d).
 //
 // So if r >= d tau_0, the first bound excludes all m up to tau_0 and the second bound excludes all
