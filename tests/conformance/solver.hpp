@@ -19,7 +19,7 @@ namespace conformance {
 ///   - The solver reaches its tolerance, also under a law that has only the functions of the
 ///     concept, if the solver takes such a law.
 ///   - The residual that it reports equals the residual that is measured afterwards.
-///   - The velocities in the operator are those that belong to the impulses.
+///   - The velocities that the solver leaves in the operator are those that its impulses cause.
 ///   - Started from a solution, it needs no more sweeps.
 ///   - A problem without contacts is reported as converged.
 /// @param tolerance tolerance of the solver for the residual of the natural map

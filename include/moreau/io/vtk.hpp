@@ -227,7 +227,7 @@ class VtkWriter {
   SurfaceMesh<S> mesh_;
   VtkPolyData data_;
   std::vector<std::int32_t> cell_, numbers_;
-  std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays
+  std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays of one file
 };
 
 }  // namespace moreau

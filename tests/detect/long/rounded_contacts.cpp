@@ -91,8 +91,8 @@ TEST_CASE("crossing rods touch in one point, however deep") {
     CHECK((found.points[0].position - V3(0.1, 0, height / 2)).norm() < 1e-12);
     CHECK(found.contact_class == ContactClass::edge_edge);
   }
-  // In the plane, segments that cross overlap. The axis is the one with the shorter displacement
-  // that separates them.
+  // In the plane, segments that cross overlap. The axis is the direction of the shorter
+  // displacement that separates them.
   const CapsuleIn<S2> flat(1, 0.2);
   const auto found = contact(flat, at(V2(0, 0)), flat, at(V2(0.2, 0.7), pi / 2));
   CHECK(found.gap == doctest::Approx(-0.3 - 0.4));

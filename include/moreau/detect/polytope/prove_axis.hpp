@@ -10,9 +10,9 @@
 // C.
 //
 //   1. The point s n lies in the facet of C with the normal n, at a distance of at least r from the
-//      rim of the facet. It does if the projection of one feature onto the other lies that far
-//      inside. The disk of radius r about s n then lies in C. So for every m at an angle theta from
-//      n
+//      rim of the facet. This is the case if the projection of one feature onto the other lies that
+//      far inside. The disk of radius r about s n then lies in C. So for every m at an angle theta
+//      from n
 //          F(m) <= s cos theta - r sin theta.
 //      With tau = tan(theta / 2), the right side is less than s by at least
 //      2 tau (r - d tau) / (1 + tau^2).
