@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a test does a number of times, it does less often under the sanitizers: the code is some ten
-// times slower there, and what they look for shows after a few rounds if it shows at all.
+// Under the sanitizers, repeated parts of a test are repeated less often. The code is about ten
+// times slower with sanitizers, and most errors that they detect occur in the first rounds.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -17,7 +17,7 @@ constexpr int sanitizer_share = 4;
 constexpr int sanitizer_share = 1;
 #endif
 
-/// Rounds to make where the full test makes this many.
+/// The number of rounds to make if the full test makes `full` rounds.
 constexpr int rounds(int full) {
   return (full + sanitizer_share - 1) / sanitizer_share;
 }

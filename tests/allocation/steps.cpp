@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No allocation per step after warm-up: operator new is counted, and Eigen, which calls malloc,
-// asserts that it is allowed to.
+// Checks that a step allocates no memory after the first steps. Calls of operator new are counted.
+// Eigen calls malloc directly; its runtime check asserts that it does not.
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -34,8 +34,9 @@ using Nothrow = std::nothrow_t;
 
 }  // namespace
 
-// All forms: where a library brings its own new[] or nothrow new, these would go uncounted, and be
-// freed by another's delete. Not inline, or the compiler sees malloc and delete as a mismatch.
+// All forms of operator new are replaced. If a library had its own new[] or nothrow new, its
+// allocations would not be counted, and memory would be freed by a delete that does not match. The
+// functions are not inline, because the compiler would then report malloc and delete as a mismatch.
 [[gnu::noinline]] void* operator new(Size n) {
   return or_throw(counted(n));
 }
@@ -101,7 +102,8 @@ TEST_CASE("every form of new is counted") {
   struct alignas(128) Wide {
     char bytes[128];
   };
-  // Stored where the compiler cannot tell that nobody reads it, or it may leave out the pair.
+  // The pointer is stored in a volatile variable. Otherwise the compiler may remove the pair of new
+  // and delete.
   void* volatile seen = nullptr;
   const auto keep = [&](auto* p) {
     seen = p;

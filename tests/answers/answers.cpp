@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Prints a hash of every answer of the narrow phase on the pairs of the benchmarks, and of the
-// state of small simulations, bit by bit. .ci/same_answers compares two revisions by what this
-// prints.
+// Prints hashes of all results of the narrow phase for the pairs of the benchmarks, and of the
+// state of small simulations. The hashes depend on every bit. .ci/same_answers compares the output
+// of two revisions.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -31,7 +31,7 @@ namespace {
 
 using namespace moreau;
 
-/// FNV-1a over the bytes of numbers and of what is made of numbers.
+/// FNV-1a hash of the bytes of numbers, and of objects that consist of numbers.
 class Hash {
  public:
   void add(const void* data, std::size_t size) {
@@ -82,7 +82,7 @@ void add(Hash& hash, const SignedDistance<S>& found) {
   hash.add(found.witness_b);
 }
 
-/// What the three queries say, and the points that are kept of the manifold.
+/// Hashes the results of the three queries, and the points that reduce() keeps of the manifold.
 template <class A, class B>
 void query(Hash& hash, const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
            PairCache<SpaceOf<A>>& cache) {
@@ -160,7 +160,7 @@ void add_report(Hash& hash, const StepReport& report) {
 
 enum class Scene { box, periodic, cylinder };
 
-/// Grains that fall into a box, one wall of which is pressed by a force.
+/// Grains that fall into a box. A force presses on one wall of the box.
 template <class World, class ShapeT>
 void fill(World& world, const std::vector<ShapeT>& shapes, std::size_t count, Scene scene) {
   using S = SpaceOf<ShapeT>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walls under forces and velocities that are functions of time, and walls that keep a pressure.
+// Walls whose force or velocity is a function of time, and walls with a prescribed pressure.
 #include "moreau/boundary/drive.hpp"
 
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 
 using Law = moreau::SignoriniCoulomb<double>;
 
-/// A wall without grains, its normal along x.
+/// A simulation with one wall, whose normal is along x, and no grains.
 template <class ShapeT>
 struct LoneWall {
   using Vector = typename moreau::SpaceOf<ShapeT>::Vector;
@@ -81,7 +81,7 @@ TEST_CASE("a driven velocity is taken in the middle of the step") {
     CHECK(scene.v() == doctest::Approx(3 * std::pow((k + 0.5) * h, 2)));
     scene.simulation.step(h);
   }
-  // The midpoint rule lacks h^2/4 of t^3.
+  // For t^3, the midpoint rule gives a result that is too small by h^2/4.
   CHECK(scene.x() == doctest::Approx(1 - h * h / 4).epsilon(1e-10));
 }
 
@@ -104,7 +104,8 @@ TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT, Polyhedron<>, P
   }
   CHECK(mean == doctest::Approx(pressure).epsilon(0.01));
   CHECK(scene.simulation.bodies().pose[lid.index()].position[Scene::up] > 0.02);
-  // The floor carries it and the grains, less what the side walls do.
+  // The floor carries the load of the lid and the weight of the grains, minus the friction of the
+  // side walls.
   CHECK(moreau::wall_pressure(scene.simulation, scene.walls.back(), h, area) > 0.5 * pressure);
 }
 

@@ -5,7 +5,7 @@
 
 #include "world/assemblies.hpp"
 
-/// A ball, or the cube (square) in it.
+/// A ball of this radius, or the cube (square) inscribed in it.
 template <class ShapeT>
 ShapeT grain_of_radius(double radius) {
   using Vector = typename moreau::SpaceOf<ShapeT>::Vector;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures of whole simulations: across a periodic boundary, along a run.
+// Measures of whole simulations: across a periodic boundary, and during a run.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <string>
@@ -29,8 +29,8 @@ auto position_of(const auto& simulation) {
          typename S::Vector { return simulation.bodies().pose[body].position; };
 }
 
-/// The balance of grains that fall into a box of which one wall closes in, one has a mass and gives
-/// way, and of which the grains rub on all.
+/// The energy balance of grains that fall into a box. One wall moves towards the opposite wall;
+/// another wall has a mass and is pushed back; the grains slide on all walls with friction.
 template <class ShapeT>
 moreau::EnergyBalance<moreau::SpaceOf<ShapeT>> balance_of(double h) {
   using S = moreau::SpaceOf<ShapeT>;
@@ -46,7 +46,7 @@ moreau::EnergyBalance<moreau::SpaceOf<ShapeT>> balance_of(double h) {
   return energy;
 }
 
-/// The size of what is balanced.
+/// Sum of the absolute values of the terms, the scale for the imbalance.
 double turnover(const moreau::EnergyTerms& terms) {
   return std::abs(terms.gravity) + std::abs(terms.forces) + std::abs(terms.drives) +
          std::abs(terms.impacts) + std::abs(terms.friction) + std::abs(terms.correction);
@@ -59,7 +59,7 @@ TEST_CASE_TEMPLATE("the energy balance closes to rounding where the inertia does
   const auto energy = balance_of<ShapeT>(1e-3);
   const moreau::EnergyTerms& terms = energy.terms();
   CHECK(std::abs(energy.imbalance()) < 1e-12 * turnover(terms));
-  // Every term takes part, with its sign.
+  // Every term contributes, and has the right sign.
   CHECK(terms.gravity > 0);
   CHECK(terms.impacts > 0);
   CHECK(terms.friction > 0);
@@ -104,7 +104,8 @@ TEST_CASE("a balance is kept of the bodies that it began with") {
 
 TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, moreau::Ball<>,
                    moreau::Disk<>) {
-  // A chain of three balls that closes through the boundary, squeezed by a shorter cell.
+  // A chain of three balls that is closed through the periodic boundary and compressed by a cell
+  // that is slightly too short.
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   const double h = 1e-3, radius = 0.1, overlap = 1e-4;
@@ -117,10 +118,10 @@ TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, moreau::
   const auto shape = ring.add_shape(ShapeT(radius));
   for (int k = 0; k < 3; ++k) {
     Pose<S> pose;
-    pose.position[0] = 0.05 + (k - 4) * length / 3;  // outside of the cell
+    pose.position[0] = 0.05 + (k - 4) * length / 3;  // all balls start outside of the cell
     ring.add_grain(shape, pose, 1000);
   }
-  // Each pushes on the next: the velocities close all three contacts.
+  // One step finds the three contacts. Their impulses are then set to a known value.
   ring.step(h);
   REQUIRE(ring.contacts().size() == 3);
   auto contacts = ring.contacts();
@@ -129,11 +130,11 @@ TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, moreau::
   Aabb<S> volume;
   volume.lower.setConstant(-0.5);
   volume.upper.setConstant(0.5);
-  volume.lower[0] = 0.3;  // not the cell's own bounds
+  volume.lower[0] = 0.3;  // differs from the bounds of the cell
   volume.upper[0] = 0.3 + length;
   const auto stress =
       moreau::contact_stress(contacts, h, volume, position_of<S>(ring), is_grain, ring.cell());
-  // A chain that carries the force f: f per cross-section.
+  // For a chain that carries the force f, the stress along the chain is f per cross-section.
   CHECK(stress(0, 0) == doctest::Approx(2 / h));
   moreau::CoordinationCounter<S> counter;
   CHECK(counter.count(contacts.points, contacts.impulses, 3, is_grain).neighbours == 2);

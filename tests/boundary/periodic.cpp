@@ -23,8 +23,9 @@ namespace {
 using Law = moreau::SignoriniCoulomb<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Two layers of grains at random angles on a floor, in a cell that is periodic along x; in space
-/// the box has walls along y. The whole scene is shifted along x, poses wrapped.
+/// Two layers of grains with random orientations on a floor, in a cell that is periodic along x. In
+/// space the box has walls along y. The whole scene is shifted along x, and the poses are wrapped
+/// into the cell.
 template <class ShapeT>
 struct Layers {
   using S = moreau::SpaceOf<ShapeT>;
@@ -130,8 +131,8 @@ TEST_CASE_TEMPLATE("two grains hunt each other around the cell", ShapeT, moreau:
   pose.position[0] = 0.7;
   const BodyId target = ring.add_grain(shape, pose, 1000);
   ring.set_velocity(runner, v * Vector::UnitX());
-  // Each impact hands the velocity on. The first path is 0.3 long, the others all that is free on
-  // the ring, 1 - 2 widths.
+  // Each impact transfers the velocity to the other grain. The path before the first impact is 0.3;
+  // all later paths have the free length of the cell, 1 minus two widths of 0.2.
   int impacts = 0;
   bool runs = true;
   while (ring.time() < 20) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every broad phase has to fulfil: find what all pairs find, on boxes of every kind, one call
-// after another. A new one inherits the suite by one line:
+// The requirements on every broad phase: for boxes of many kinds and in consecutive calls, it finds
+// the same pairs as AllPairs. A new broad phase is tested by one line:
 //
 //   TEST_CASE("mine") { conformance::broad_phase<moreau::Space<3>>(MyBroadPhase()); }
 #pragma once
@@ -16,8 +16,9 @@
 
 namespace conformance {
 
-/// @param span    side of the region the boxes lie in
-/// @param ratio   largest to smallest size, drawn evenly by logarithm; the largest is 1
+/// @param span    side length of the region in which the lower corners of the boxes lie
+/// @param ratio   ratio of the largest to the smallest size. The logarithms of the sizes are
+///                uniform, and the largest size is 1
 template <class S>
 std::vector<moreau::Aabb<S>> random_boxes(std::size_t count, double span, double ratio,
                                           double origin, std::mt19937_64& random) {
@@ -34,7 +35,8 @@ std::vector<moreau::Aabb<S>> random_boxes(std::size_t count, double span, double
   return list;
 }
 
-/// The pairs of these boxes: all, each once, in order, and nothing of what was there before.
+/// Checks that all pairs of these boxes are found, each once and in order, and that earlier
+/// contents of the result are removed.
 template <class S, class B>
 void check_pairs(B& tested, const std::vector<moreau::Aabb<S>>& list) {
   std::vector<moreau::IndexPair> expected, found{{7, 9}};
@@ -43,7 +45,7 @@ void check_pairs(B& tested, const std::vector<moreau::Aabb<S>>& list) {
   CHECK(found == expected);
 }
 
-/// Boxes that drift and breathe by a little from call to call, as those of grains do.
+/// Boxes that move and change size slightly from call to call, like the boxes of grains.
 template <class S, class B>
 void check_drifting_boxes(B& tested, std::mt19937_64& random) {
   using T = typename S::Scalar;
@@ -57,7 +59,9 @@ void check_drifting_boxes(B& tested, std::mt19937_64& random) {
         box.lower[k] += by;
         box.upper[k] += by + static_cast<T>(std::abs(shift(random)) / 10);
       }
-    if (call == 15) std::swap(list.front(), list.back());  // two that change places
+    if (call == 15)
+      // Two boxes exchange their places in the list.
+      std::swap(list.front(), list.back());
   }
 }
 
@@ -66,16 +70,16 @@ void check_special_boxes(B& tested) {
   using Vector = typename S::Vector;
   std::vector<moreau::Aabb<S>> list;
   for (int i = 0; i < 20; ++i) list.push_back({Vector::Constant(3), Vector::Constant(3)});
-  check_pairs(tested, list);  // points, all in one place
+  check_pairs(tested, list);  // points, all at the same place
   for (int i = 0; i < 20; ++i) {
     const auto x = static_cast<typename S::Scalar>(i);
     list.push_back({Vector::Constant(x), Vector::Constant(x + 1)});
   }
-  check_pairs(tested, list);  // a row of boxes that touch, corner to corner
+  check_pairs(tested, list);  // a row of boxes that touch at their corners
   list.push_back({Vector::Constant(-100), Vector::Constant(100)});
-  check_pairs(tested, list);  // one around all
+  check_pairs(tested, list);  // with one box that contains all others
   for (auto& box : list) box.upper[0] = box.lower[0];
-  check_pairs(tested, list);  // flat ones
+  check_pairs(tested, list);  // with boxes of zero thickness
 }
 
 template <class S, class B>

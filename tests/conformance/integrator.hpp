@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every integrator has to fulfil with free bodies. A new one inherits the suite by one line:
+// The requirements on every integrator, tested with free bodies. A new integrator is tested by one
+// line:
 //
 //   TEST_CASE("mine") { conformance::integrator<moreau::Space<3>>(MyIntegrator()); }
 #pragma once
@@ -14,7 +15,7 @@
 
 namespace conformance {
 
-/// One body without contacts under either kind of integrator.
+/// One body without contacts, for integrators of impulses and of forces.
 template <class S>
 struct FreeBody {
   using T = typename S::Scalar;
@@ -51,7 +52,7 @@ struct FreeBody {
   double rotation_energy() { return double(spin().dot(angular_momentum())) / 2; }
 };
 
-/// Unequal principal moments, or the one of the plane.
+/// Different principal moments of inertia in space; in the plane the only moment.
 template <class S>
 typename S::Inertia uneven_inertia() {
   typename S::Inertia inertia = S::Inertia::Zero();
@@ -59,9 +60,9 @@ typename S::Inertia uneven_inertia() {
   return inertia;
 }
 
-/// Forces and torques of a second on a body: what they add to linear and angular momentum, each
-/// component for its own; along one oblique axis alone where that is all the mobility there is; as
-/// loads of contacts as well where the integrator takes such.
+/// Applies a constant force and torque to a body for one second and checks the change of its linear
+/// and angular momentum in each component. The same is checked for contact loads, if the integrator
+/// takes loads, and for a body that can move only along one oblique axis.
 template <class S, class Integrator>
 void check_forces(const Integrator& integrator, int steps, double rounding) {
   using T = typename S::Scalar;
@@ -83,7 +84,7 @@ void check_forces(const Integrator& integrator, int steps, double rounding) {
     CHECK(double((body.bodies.pose[0].position - push / 4).norm()) < double(h * push.norm()));
   }
 
-  // A wall that moves along its normal.
+  // A wall with a mass along its normal only.
   FreeBody<S> wall(1, uneven_inertia<S>());
   wall.bodies.inertia_body[0].setZero();
   wall.bodies.inverse_inertia_root_body[0].setZero();
@@ -98,7 +99,7 @@ void check_forces(const Integrator& integrator, int steps, double rounding) {
         steps * rounding * double(push.norm()));
   CHECK(wall.spin().isZero(0));
 
-  // One that turns as it is told.
+  // A wall with a prescribed rotation.
   FreeBody<S> drum(1, uneven_inertia<S>());
   drum.bodies.inertia_body[0].setZero();
   drum.bodies.inverse_inertia_root_body[0].setZero();
@@ -112,9 +113,9 @@ void check_forces(const Integrator& integrator, int steps, double rounding) {
       steps * rounding);
 }
 
-/// Velocity under gravity exact and the path to the order h at least, angular momentum of a torque-
-/// free top and its energy kept, forces and torques as they should act, an axis without mobility
-/// left alone.
+/// Checks that in a fall the velocity is exact and the position accurate to first order in the
+/// step; that a top without torques keeps its angular momentum, and its energy to 1 %; that forces
+/// and torques have the right effect; and that a body without mobility keeps its velocity.
 template <class S, class Integrator>
 requires moreau::TimeIntegrator<Integrator, S>
 void integrator(const Integrator& integrator) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every set-valued law has to fulfil. A new one inherits the suite by one line:
+// The requirements on every set-valued law. A new law is tested by one line:
 //
 //   TEST_CASE("my law") { conformance::set_valued_law<moreau::Space<3>>(MyLaw(...)); }
 #pragma once
@@ -16,13 +16,13 @@
 
 namespace conformance {
 
-/// Block and vector of the law's local problem.
+/// Types of the block and the vectors in the local problem of a law.
 template <class S, class Law>
 using BlockOf =
     std::conditional_t<moreau::RollingLaw<Law, S>, moreau::RollingBlock<S>, moreau::LocalBlock<S>>;
 
-/// A random local problem of condition up to about 1e4, with couples 20; W has a trace of about
-/// one.
+/// A random local problem. The condition number of W is at most about 1e4, or 20 if the law has
+/// couples. W is scaled to trace one.
 template <class S, class Law>
 struct LocalProblem {
   using T = typename S::Scalar;
@@ -62,13 +62,20 @@ struct LocalProblem {
   }
 };
 
-/// What is common to set-valued laws; one that yields to a push (u_n < 0 with r_n > 0) is none of
-/// Signorini's.
+/// The kind of a law in the normal direction. A law for which u_n < 0 is possible with r_n > 0,
+/// such as a compliant law, does not obey Signorini's condition: `other`.
 enum class Normal { signorini, other };
 
+<<<<<<< HEAD
 /// A contact may close its gap within a step and no more, or cannot act before it has. An overlap at
 /// rest is not pushed out, unless the overlap is the compression of a spring. A contact that closes
 /// at a speed separates at a share of it.
+=======
+/// Checks the offset of the normal velocity. A positive gap may close within the step but not more
+/// than close, or the offset is infinite, so that the contact cannot act before the gap has closed.
+/// If the contact overlaps at rest or is opening, the offset is zero. If it is closing, the offset
+/// is between zero and minus the approach velocity (restitution).
+>>>>>>> prose
 template <class S, class Law>
 void check_offset(const Law& law) {
   using T = typename S::Scalar;
@@ -88,10 +95,13 @@ void check_offset(const Law& law) {
   CHECK(back >= -speed);
 }
 
-/// The solution obeys the law, whatever the guess and the unit, and what is not the solution does
-/// not; the normal part is Signorini's, whatever natural_map says; it scales with the velocity,
-/// unless the law has constants of a unit; what is tangential never drives; offsets are those of a
-/// gap.
+/// Checks the solution of random local problems:
+///   - It satisfies the natural map of the law, for any initial guess and any unit of the impulse.
+///   - A point near the solution does not satisfy the natural map.
+///   - It satisfies Signorini's condition, independently of natural_map.
+///   - It is proportional to the velocity, unless the law has constants with a unit.
+///   - Tangential impulses do no positive work.
+/// The offset of the normal velocity is checked by check_offset.
 template <class S, class Law>
 requires moreau::SetValuedLaw<Law, S>
 void set_valued_law(const Law& law, int problems = 5000, Normal normal = Normal::signorini) {
@@ -113,7 +123,8 @@ void set_valued_law(const Law& law, int problems = 5000, Normal normal = Normal:
     map = std::max(map, double(map_of_eight.norm()) / (8 * size));
     pressed =
         std::max({pressed, double(-u[0]) / size, double(std::abs(u[0] * r[0])) / size / size});
-    // Next to a solution there is none: the map sees a hundredth of it.
+    // At a point near the solution the natural map must not vanish. The distance to the solution is
+    // a hundredth of the scale.
     const Vector off = r + T(1e-2 * size) * p.guess.normalized();
     const Vector u_off = p.block * off + p.velocity;
     beside = std::min(beside, double(law.natural_map(u_off, off).norm()) / size);
@@ -122,7 +133,7 @@ void set_valued_law(const Law& law, int problems = 5000, Normal normal = Normal:
     if constexpr (!requires { law.natural_map(u, r, T(8)); }) {
       const Vector twice = law.solve(p.block, Vector(2 * p.velocity), p.guess);
       scaled = std::max(scaled, double((twice - 2 * r).norm()) / size);
-      // So small that squares underflow.
+      // Velocities so small that their squares underflow.
       const T small = std::pow(std::numeric_limits<T>::min(), T(0.7));
       const Vector faint = law.solve(p.block, Vector(small * p.velocity), Vector(small * p.guess));
       CHECK(faint.allFinite());
@@ -145,8 +156,8 @@ void set_valued_law(const Law& law, int problems = 5000, Normal normal = Normal:
   check_offset<S>(law);
 }
 
-/// What a law can be in a step is a law like others; which one it is after a step does not go by
-/// how the tangents are turned.
+/// Checks that each variant of a stateful law satisfies the requirements on a law, and that the
+/// variant after a step does not depend on the orientation of the tangents.
 template <class S, class Law>
 requires moreau::StatefulLaw<Law, S>
 void stateful_law(const Law& law, Normal normal = Normal::signorini) {
@@ -169,7 +180,8 @@ void stateful_law(const Law& law, Normal normal = Normal::signorini) {
   }
 }
 
-/// It attracts, less the farther away, and not at all beyond `range` [m].
+/// Checks that the law attracts, that the attraction decreases with the distance, and that it is
+/// zero beyond `range` [m].
 template <class S, class Law>
 requires moreau::AttractiveLaw<Law, S>
 void attractive_law(const Law& law, typename S::Scalar range) {
@@ -185,7 +197,7 @@ void attractive_law(const Law& law, typename S::Scalar range) {
   CHECK(last == T(0));
 }
 
-/// A law that knows lanes comes to the scalar solution in every lane.
+/// Checks that solve_lanes of a law converges to the scalar solution in every lane.
 template <class S, class Law>
 requires moreau::LaneLaw<Law, S>
 void lane_law(const Law& law) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grains of a shape, or of several, under every law of the library, each with the integrators,
-// broad phases and solvers that go with it.
+// Tests one shape, or a mixture of shapes, under every law of the library. Each law is combined
+// with the integrators, broad phases and solvers that are allowed for it.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@
 
 namespace conformance {
 
-/// Springs and spheres stiff enough for drops of centimetres and steps of 1e-5 s.
-/// @param mass of a grain [kg]
+/// Spring laws that are stiff enough for drops of a few centimetres, with a step of 1e-5 s.
+/// @param mass mass of a grain [kg]
 template <class T>
 moreau::LinearSpringDashpot<T> stiff_springs(T mass) {
   return moreau::LinearSpringDashpot<T>(T(4e7) * mass, T(3e7) * mass, T(0.4), T(0.5));
@@ -38,13 +38,13 @@ struct Implicit : moreau::MoreauJean {
   Implicit() : MoreauJean(1) {}
 };
 
-/// @param shapes of about a centimetre
-/// @param size   diameter of a ball around any of them [m]
+/// @param shapes shapes with a size of about one centimetre
+/// @param size   diameter of a ball that contains any of the shapes [m]
 template <class ShapeT>
 void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT>::Scalar size) {
   using T = typename moreau::SpaceOf<ShapeT>::Scalar;
   const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
-  T mass = std::numeric_limits<T>::infinity();  // of the lightest
+  T mass = std::numeric_limits<T>::infinity();  // mass of the lightest shape
   for (const ShapeT& shape : shapes) mass = std::min(mass, shape.mass_properties(T(1000)).mass);
   SUBCASE("SignoriniCoulomb") {
     world(shapes, coulomb, size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every regularized law has to fulfil. A new one inherits the suite by one line:
+// The requirements on every regularized law. A new law is tested by one line:
 //
 //   TEST_CASE("my law") { conformance::regularized_law<moreau::Space<3>>(MyLaw(...)); }
 #pragma once
@@ -15,7 +15,8 @@
 
 namespace conformance {
 
-/// Speed after a central impact at speed 1 m/s, with a small step [m/s].
+/// Speed [m/s] after a central impact with the initial speed 1 m/s.
+/// @param step small compared with the duration of the impact [s]
 template <class S, class Law>
 double rebound(const Law& law, double mass, double step) {
   using T = typename S::Scalar;
@@ -31,12 +32,16 @@ double rebound(const Law& law, double mass, double step) {
   return speed;
 }
 
-/// Apart there is no force and no memory; pressed together it repels; friction stays in the cone,
-/// if the law has friction(); it brakes; an impact gives back no more than it took; the answer
-/// turns with the tangents.
-/// @param step small against the duration of an impact of 1 kg [s]
-/// @param pull the largest force with which the law attracts [N]; such a law may act where there is
-///             a gap, and its friction is held to mu (f_n + pull)
+/// Checks the force of a regularized law:
+///   - Without contact the force is zero and the memory is cleared.
+///   - In a compressed contact the force repels.
+///   - Friction lies in the cone, if the law has friction().
+///   - Friction opposes sliding.
+///   - An impact does not increase the speed.
+///   - If the tangents are rotated or mirrored, the force is rotated or mirrored in the same way.
+/// @param step small compared with the duration of an impact of a mass of 1 kg [s]
+/// @param pull largest attractive force of the law [N]. An attractive law may act across a gap, and
+///             its friction is limited by mu (f_n + pull)
 template <class S, class Law>
 requires moreau::RegularizedLaw<Law, S>
 void regularized_law(const Law& law, double step, double pull = 0) {
@@ -49,7 +54,7 @@ void regularized_law(const Law& law, double step, double pull = 0) {
   Vector memory = Vector::Constant(T(1e-6));
   const Vector apart = law.force(motion, memory);
   CHECK(double(apart.norm()) <= pull);
-  // A law that does not write its memory has none to clear.
+  // If a law never writes its memory, the memory need not be cleared.
   moreau::ContactMotion<S> pressed = motion;
   pressed.gap = T(-1e-5);
   pressed.velocity.setOnes();
@@ -59,7 +64,7 @@ void regularized_law(const Law& law, double step, double pull = 0) {
   if (pull == 0 && remembers) CHECK(memory.isZero(0));
   if (!remembers) memory.setZero();
   Vector mirrored_memory = memory, turned_memory = memory;
-  Eigen::Matrix<T, tangents, tangents> turn;  // of the tangents, in space by half a radian
+  Eigen::Matrix<T, tangents, tangents> turn;  // rotation of the tangents, in space by 0.5 rad
   turn.setIdentity();
   if constexpr (tangents > 1) turn = Eigen::Rotation2D<T>(T(0.5)).toRotationMatrix();
   const auto turned = [&](Vector v) {
@@ -67,7 +72,8 @@ void regularized_law(const Law& law, double step, double pull = 0) {
     return v;
   };
   bool finite = true;
-  double attracts = 0, outside = 0, mirrors = 0, turns = 0, drives = 0;  // the worst of all
+  // The largest violations of all samples.
+  double attracts = 0, outside = 0, mirrors = 0, turns = 0, drives = 0;
   for (int i = 0; i < 2000; ++i) {
     motion.gap = T(-1e-5 * std::abs(normal(random)));
     for (auto& x : motion.velocity) x = T(0.1 * normal(random));
@@ -91,7 +97,7 @@ void regularized_law(const Law& law, double step, double pull = 0) {
     finite = finite && other.allFinite() && aside_force.allFinite();
     turns = std::max(turns, double((aside_force - turned(force)).norm()) - 1e-5 * size);
   }
-  // Friction of a contact that has no history works against the slide.
+  // In a contact without history, friction opposes the sliding velocity.
   for (int i = 0; i < 100; ++i) {
     Vector fresh = Vector::Zero();
     motion.gap = T(-1e-5);

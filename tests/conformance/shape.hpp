@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the library takes for granted of a convex shape, whatever it is. One line for a shape:
-//
+// The requirements of the library on every convex shape. A shape is tested by one line:
 //     TEST_CASE("my shape") { conformance::check_shape(MyShape(..)); }
 #pragma once
 
@@ -37,13 +36,13 @@ moreau::Pose<S> random_pose(std::mt19937_64& random) {
   return {random_direction<S>(random), S::exp(turn)};
 }
 
-/// Differences that rounding may make, relative.
+/// Relative difference that rounding errors may cause.
 template <class ShapeT>
 constexpr double rounding() {
   return 256 * std::numeric_limits<typename ShapeT::Space::Scalar>::epsilon();
 }
 
-// Not templates: they take the compiler long.
+// These functions are not templates, because templates would increase the compile time.
 inline void expect_at_most(const char* what, double value, double limit) {
   INFO(std::string(what));
   CHECK(value <= limit);
@@ -59,12 +58,14 @@ inline void check_principal(const Eigen::Matrix3d& inertia, double rounding) {
   const Eigen::Vector3d principal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   expect_positive("least principal moment of inertia", principal[0]);
-  // The principal values are sums of two out of three second moments.
+  // Each principal moment of inertia is the sum of two of the three second moments. So the largest
+  // principal moment is at most the sum of the other two.
   expect_at_most("largest less the sum of the others", principal[2] - principal[1] - principal[0],
                  rounding * principal[2]);
 }
 
-/// Mass and inertia of a body that can exist, about the origin, proportional to the density.
+/// Checks that mass and inertia are possible for a real body, that the centre of mass is the
+/// origin, and that they are proportional to the density.
 template <class ShapeT>
 void check_mass(const ShapeT& shape, double size) {
   using T = typename ShapeT::Space::Scalar;
@@ -82,8 +83,9 @@ void check_mass(const ShapeT& shape, double size) {
   check_principal(mass.inertia.template cast<double>().eval(), close);
 }
 
-/// Farthest points, whatever the length of the direction.
-/// @returns points of the boundary
+/// Checks that support points are farthest in their direction, and do not depend on the length of
+/// the direction.
+/// @returns support points in many directions
 template <class ShapeT>
 std::vector<typename ShapeT::Space::Vector> check_support(const ShapeT& shape, double size,
                                                           std::mt19937_64& random) {
@@ -109,9 +111,10 @@ std::vector<typename ShapeT::Space::Vector> check_support(const ShapeT& shape, d
   return points;
 }
 
-/// Volume, centroid and second moments about the origin, by volume [m^2], of the body that the
-/// farthest points describe: cells of a grid that no plane of support cuts off. A fifth too large
-/// where there are flat faces.
+/// Estimates of the volume [m^D], the centroid [m] and the second moments divided by the volume
+/// [m^2], about the origin, of the body given by the support function. The grid cells on the inner
+/// side of all supporting planes in random directions are counted. For a body with flat faces the
+/// result is about a fifth too large, because there are only finitely many directions.
 template <class S>
 struct Described {
   double volume = 0;
@@ -153,8 +156,9 @@ Described<typename ShapeT::Space> described(const ShapeT& shape, std::mt19937_64
   return body;
 }
 
-/// Mass (to a quarter), centre, trace of the inertia (to a third) and in space the shares of its
-/// axes (to a tenth) are about those of the body that the farthest points describe.
+/// Checks that mass, centre of mass and inertia agree with the body given by the support function:
+/// the mass to a quarter, the trace of the inertia to about a third, and in space the ratios of the
+/// second moments to a tenth.
 template <class ShapeT>
 void check_mass_of_support(const ShapeT& shape, double size, std::mt19937_64& random) {
   using S = typename ShapeT::Space;
@@ -165,12 +169,13 @@ void check_mass_of_support(const ShapeT& shape, double size, std::mt19937_64& ra
                  std::abs(double(mass.mass) / body.volume - 0.9), 0.25);
   expect_at_most("centre of what the support describes from the origin", body.centre.norm(),
                  0.05 * size);
-  // The trace of the inertia: in space twice the mean square of the distance, in the plane once.
+  // In space the trace of the inertia is twice the mean square distance from the origin times the
+  // mass; in the plane it is once this product.
   const double trace = (S::angular_dim > 1 ? 2 : 1) * body.second.trace() * double(mass.mass);
   expect_at_most("trace of the inertia / that of the support, from 0.9",
                  std::abs(double(mass.inertia.trace()) / trace - 0.9), 0.35);
   if constexpr (S::angular_dim > 1) {
-    // I = trace(M) - M of the second moments M, so M = trace(I) / 2 - I.
+    // With the second moments M, the inertia is I = trace(M) - M. So M = trace(I) / 2 - I.
     const Eigen::Matrix3d inertia = mass.inertia.template cast<double>();
     const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
     expect_at_most("second moments over their trace, from those of the support",
@@ -178,7 +183,8 @@ void check_mass_of_support(const ShapeT& shape, double size, std::mt19937_64& ra
   }
 }
 
-/// Around the farthest points; it may be wider than they are, which costs pairs.
+/// Checks that the bounding box contains the shape. It may be larger than the shape, which only
+/// costs time.
 template <class ShapeT>
 void check_box(const ShapeT& shape, double size, std::mt19937_64& random) {
   using S = typename ShapeT::Space;
@@ -191,7 +197,7 @@ void check_box(const ShapeT& shape, double size, std::mt19937_64& random) {
   }
 }
 
-/// Members that not every shape has.
+/// Checks the member functions that are optional for shapes.
 template <class ShapeT>
 void check_members(const ShapeT& shape, const std::vector<typename ShapeT::Space::Vector>& points,
                    double size) {
@@ -223,7 +229,7 @@ void check_members(const ShapeT& shape, const std::vector<typename ShapeT::Space
   }
 }
 
-/// No wider than that, as the library's own boxes are.
+/// Checks that the bounding box is the smallest box, as for the library's own shapes.
 template <class ShapeT>
 void check_box_is_tight(const ShapeT& shape) {
   using S = typename ShapeT::Space;
@@ -237,7 +243,7 @@ void check_box_is_tight(const ShapeT& shape) {
   }
 }
 
-/// All of it, of whatever the shape has.
+/// Runs all checks that apply to the shape.
 template <moreau::ConvexShape ShapeT>
 void check_shape(const ShapeT& shape) {
   using S = typename ShapeT::Space;

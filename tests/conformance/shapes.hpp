@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every shape of the library, in one space; a line for each.
+// Tests every shape of the library in one space, with one line per shape.
 #pragma once
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every solver of contacts has to fulfil. A new one inherits the suite by one line:
+// The requirements on every contact solver. A new solver is tested by one line:
 //
 //   TEST_CASE("mine") { conformance::solver<moreau::Space<3>>(MySolver(options), 1e-9); }
 #pragma once
@@ -15,10 +15,14 @@
 
 namespace conformance {
 
-/// It meets its tolerance on random assemblies, under a law that offers no more than the concept
-/// too if it takes such; what it reports is what one measures; it leaves the velocities of its
-/// impulses; it goes on from a solution; nothing to solve is solved.
-/// @param tolerance that the solver was given, on the natural map
+/// Checks on random assemblies:
+///   - The solver reaches its tolerance, also under a law that has only the functions of the
+///     concept, if the solver takes such a law.
+///   - The residual that it reports equals the residual that is measured afterwards.
+///   - The velocities that the solver leaves in the operator are those that its impulses cause.
+///   - Started from a solution, it needs no more sweeps.
+///   - A problem without contacts is reported as converged.
+/// @param tolerance tolerance of the solver for the residual of the natural map
 template <class S, class V>
 requires moreau::ContactSolver<V, moreau::SignoriniCoulomb<typename S::Scalar>, S>
 void solver(const V& solver, double tolerance) {

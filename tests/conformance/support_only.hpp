@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any convex shape as a stranger's: known by its farthest points, box and mass alone.
+// Any convex shape, reduced to the functions that a user's shape must have: support, bounding box
+// and mass.
 #pragma once
 
 #include <utility>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What every valid combination of shape, law and integrator has to fulfil in a simulation. A new
-// policy inherits the suite by one line:
+// The requirements on every valid combination of shape, law and integrator in a simulation. A new
+// policy is tested by one line:
 //
 //   TEST_CASE("mine") { conformance::world(MyShape(...), MyLaw(...), size); }
 //
-// and with policies that are not the default
+// For policies that are not the default:
 //
 //   using Mine = conformance::With<MyIntegrator, MyBroadPhase, MySolver>;
 //   TEST_CASE("mine") { conformance::world<Mine>(MyShape(...), MyLaw(...), size); }
@@ -23,12 +23,12 @@
 
 namespace conformance {
 
-/// The library's choice for shape and law.
+/// The simulation with the default policies for shape and law.
 struct Defaults {
   template <class ShapeT, class Law>
   using Simulation = moreau::Simulation<ShapeT, Law>;
 };
-/// The same, but for these.
+/// The simulation with these policies in place of the defaults.
 template <class Integrator, class Broad = void, class Solver = void>
 struct With {
   template <class Given, class Default>
@@ -40,8 +40,9 @@ struct With {
                          Or<Solver, moreau::DefaultSolver<Law, S>>>;
 };
 
-/// Grains of about one size, each of the shapes in turn, hung on a lattice wider than they are,
-/// turned at random, of two materials in turn that have one law.
+/// Eight grains on a lattice whose spacing is larger than the grains. The shapes are used in turn.
+/// The orientations are random. The grains have two materials in turn, which have the same contact
+/// law.
 template <class Choice, class ShapeT, class Law>
 class Assembly {
  public:
@@ -52,7 +53,7 @@ class Assembly {
   static constexpr int up = S::dim - 1;
   static constexpr bool springs = moreau::RegularizedLaw<Law, S>;
 
-  /// @param size diameter of a ball around any of the shapes [m]
+  /// @param size diameter of a ball that contains any of the shapes [m]
   Assembly(const std::vector<ShapeT>& shapes, const Law& law, T size)
       : simulation(size, moreau::Materials<Law>(2, law)), size_(size), random_(11) {
     std::vector<moreau::ShapeId> ids;
@@ -75,7 +76,8 @@ class Assembly {
     }
     simulation.set_gravity(T(-10) * Vector::Unit(up));
   }
-  /// Random velocities up to `speed` [m/s] and spins to match.
+  /// Sets random velocities with components up to `speed` [m/s], and angular velocities up to speed
+  /// / size.
   void stir(T speed) {
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       Vector v;
@@ -108,8 +110,9 @@ class Assembly {
     }
     return sum;
   }
-  /// What the energy of free flight may wander by under Moreau–Jean: of second order in the turn
-  /// per step (the case asymmetric_top of the validation), nothing where all moments are equal. [J]
+  /// Bound of the change of energy in free flight under Moreau-Jean [J]: second order in the
+  /// rotation per step (case asymmetric_top of the validation), and zero if all principal moments
+  /// are equal.
   double energy_error(T step) const {
     double sum = 0;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
@@ -123,7 +126,7 @@ class Assembly {
     }
     return sum;
   }
-  /// No point of a grain is faster. [m/s]
+  /// Upper bound of the speed of all points of all grains [m/s].
   double fastest() const {
     double most = 0;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
@@ -147,16 +150,17 @@ class Assembly {
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
-/// Springs give way. Rigid grains do not, but for what a step may close of a gap that was beyond
-/// the alert distance, or that a law with restitution does not look ahead at. [m]
+/// Largest allowed overlap [m]. Springs are compressed. Rigid grains may overlap only by their
+/// motion in one step: through a gap that was larger than the alert distance, or, under a law with
+/// restitution, through any gap.
 template <class A>
 double deepest_allowed(const A& grains, typename A::T step, typename A::T size) {
   return A::springs ? 0.05 * double(size) : 2 * grains.fastest() * double(step);
 }
 
-/// A cloud in free flight collides with itself: momentum is kept and no energy comes in. (The
-/// correction of overlaps, off here, moves bodies without regard to their velocities and so does
-/// not keep the angular one.)
+/// Grains with random velocities collide without gravity. Checks that the momentum is conserved and
+/// that the energy does not increase. The overlap correction is switched off, because it moves
+/// bodies without regard to their velocities and so does not conserve the angular momentum.
 template <class Choice = Defaults, class ShapeT, class Law>
 void cloud(const std::vector<ShapeT>& shapes, const Law& law,
            typename moreau::SpaceOf<ShapeT>::Scalar size) {
@@ -189,18 +193,20 @@ void cloud(const std::vector<ShapeT>& shapes, const Law& law,
   }
   const auto after = grains.momentum();
   CHECK(points > 0);
-  CHECK(unsolved <= steps / 100);  // grains that lock for a moment
+  CHECK(unsolved <= steps / 100);  // grains may block each other for a short time
   CHECK(deepest < allowed);
   CHECK(std::isfinite(grains.kinetic_energy()));
-  // In float the steps' own roundings, in double what laws with small constants add.
+  // In float the rounding errors of the steps dominate, in double the errors of laws with small
+  // constants.
   const double lost = (sizeof(T) == 4 ? double(steps) : 1e5) * rounding * mass;
   CHECK(double((after.linear - before.linear).norm()) < lost);
   CHECK(double((after.angular - before.angular).norm()) < lost * double(size));
   CHECK(most - energy <= rise);
 }
 
-/// Momentum that a step adds against what the walls push: with the impulses of this step, of the
-/// step before, or a mean of both that is the integrator's and the same in every step.
+/// Compares the change of the grains' momentum in a step with the impulses of the walls. Depending
+/// on the integrator, these are the impulses of this step, of the previous step, or a fixed mean of
+/// both.
 template <class Vector>
 class MomentumBalance {
  public:
@@ -209,7 +215,7 @@ class MomentumBalance {
     changes_.push_back(push - last_);
     last_ = push;
   }
-  /// The share of this step's impulses that fits best.
+  /// The weight of this step's impulses in the mean for which the balance is best.
   double share() const {
     double with = 0, squares = 0;
     for (std::size_t k = 0; k < gains_.size(); ++k) {
@@ -218,7 +224,7 @@ class MomentumBalance {
     }
     return squares > 0 ? with / squares : 1;
   }
-  /// The largest difference in a step. [N s]
+  /// The largest error of the balance in a step [N s].
   double worst(double share) const {
     double most = 0;
     for (std::size_t k = 0; k < gains_.size(); ++k)
@@ -233,8 +239,8 @@ class MomentumBalance {
   Vector last_ = Vector::Zero();
 };
 
-/// Falling into a box: what the walls push and gravity pulls is what the momentum changes by, no
-/// energy comes in, nothing sinks into anything.
+/// Grains fall into a box. Checks that the momentum changes by the impulses of walls and gravity,
+/// that the energy does not increase, and that overlaps stay small.
 template <class Choice = Defaults, class ShapeT, class Law>
 void heap(const std::vector<ShapeT>& shapes, const Law& law,
           typename moreau::SpaceOf<ShapeT>::Scalar size) {
@@ -247,8 +253,9 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   auto& simulation = grains.simulation;
   const double energy = grains.kinetic_energy() + grains.potential_energy();
   const double drop = double(grains.mass()) * 10 * double(size);
-  // One point of contact where others have two: the grain rocks on it, and the end that comes down
-  // is seen when it is there, deeper by what it moves in a step.
+  // A shape with a support function only has one contact point where other shapes have two. It
+  // rocks on this point. The contact of the end that moves down is detected late, when the end has
+  // already moved into the other body by its motion in a step.
   constexpr bool rocks = moreau::SupportOnly<ShapeT>;
   const T step = A::springs ? T(1e-5) : rocks ? T(1e-4) : T(2e-4);
   double deepest = 0, most = energy, scale = 0;
@@ -274,16 +281,16 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   CHECK(share >= 0);
   CHECK(share <= 1);
   CHECK(points > 0);
-  // In float a hundredth of what gravity adds in a step.
+  // In float the tolerance is a hundredth of the momentum that gravity adds in a step.
   const double roundings = (sizeof(T) == 4 ? 100 : 1e4) * rounding;
   CHECK(balance.worst(share) < roundings * (scale + double(grains.mass())));
-  CHECK(unsolved <= steps / 100);  // grains that lock for a moment
+  CHECK(unsolved <= steps / 100);  // grains may block each other for a short time
   CHECK(deepest < (A::springs ? 0.05 : 0.01) * double(size));
   CHECK(most - energy <= (A::springs ? 0.02 : 1e-3) * drop);
 }
 
-/// All of it.
-/// @param size diameter of a ball around any of the shapes [m]
+/// Runs all checks.
+/// @param size diameter of a ball that contains any of the shapes [m]
 template <class Choice = Defaults, class ShapeT, class Law>
 void world(const std::vector<ShapeT>& shapes, const Law& law,
            typename moreau::SpaceOf<ShapeT>::Scalar size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Globals of a user's, with names that the library gives to its variables, too.
+// Global variables of a user that have the same names as variables inside the library.
 inline double size = 1, x = 0, y = 0, k = 0, mass = 1, gap = 0, normal = 0, offset = 0;
 
 #include <iostream>

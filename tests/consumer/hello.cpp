@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Needs the headers and Eigen, and little time.
+// A small program that needs only the headers and Eigen and runs in a short time.
 #include <iostream>
 #include <moreau/core/pose.hpp>
 #include <moreau/version.hpp>

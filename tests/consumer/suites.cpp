@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The suites of the installed library, each for one model of its concept.
+// The conformance suites of the installed library, each applied to one model of its concept.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/integrate/moreau_jean.hpp"

@@ -12,7 +12,7 @@ using moreau::BodyId;
 using moreau::MaterialId;
 using moreau::ShapeId;
 
-// The point of a strong id: none of these conversions exists.
+// The purpose of strongly typed ids: none of these conversions exists.
 static_assert(!std::is_convertible_v<BodyId, ShapeId>);
 static_assert(!std::is_constructible_v<BodyId, ShapeId>);
 static_assert(!std::is_convertible_v<std::size_t, BodyId>);

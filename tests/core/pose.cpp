@@ -29,7 +29,7 @@ TEST_CASE_TEMPLATE("a pose maps body to world and back", S, Space<2>, Space<3>, 
     const T tolerance = 64 * std::numeric_limits<T>::epsilon();
     CHECK((pose.to_body(pose(x)) - x).norm() <= tolerance);
     CHECK((pose(pose.to_body(x)) - x).norm() <= tolerance);
-    // A motion keeps distances, and the centre goes to the position.
+    // A rigid motion preserves distances and maps the origin to the position.
     CHECK(std::abs((pose(x) - pose(y)).norm() - (x - y).norm()) <= tolerance);
     CHECK(pose(Vector::Zero()) == pose.position);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One suite of laws for every space and scalar: what the mechanics relies on holds in each.
+// The algebraic identities on which the mechanics relies, for both spaces and both scalar types.
 #include "moreau/core/space.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Draw {
     while (v.norm() < T(0.1)) v = vector();
     return v.normalized();
   }
-  /// Symmetric, positive definite.
+  /// A random symmetric positive definite inertia.
   typename S::Inertia inertia() {
     const auto a = uniform<typename S::Inertia>();
     return a * a.transpose() + S::Inertia::Identity();
@@ -44,7 +44,8 @@ struct Draw {
 template <class S>
 constexpr typename S::Scalar epsilon = std::numeric_limits<typename S::Scalar>::epsilon();
 
-/// Of two vectors or matrices: one function for all expressions keeps the compile time down.
+/// The norm of the difference of two vectors or matrices. One function for all types of expressions
+/// keeps the compile time short.
 template <class Matrix>
 auto distance(const Matrix& a, const Matrix& b) {
   return (a - b).norm();
@@ -55,7 +56,7 @@ auto matrix_of(const typename S::Rotation& q) {
   return typename S::Matrix(q.toRotationMatrix());
 }
 
-/// Largest entry of R^T R - 1, or of det R - 1.
+/// The largest absolute entry of R^T R - 1 and of det R - 1.
 template <class Matrix>
 auto rotation_defect(const Matrix& r) {
   const auto defect = (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff();
@@ -84,7 +85,8 @@ TEST_CASE_TEMPLATE("lever, spin and moment say the same", S, MOREAU_SPACES) {
     const auto w = draw.angular();
     CHECK(distance<typename S::Vector>(S::lever(r) * w, S::spin(w, r)) <= tolerance);
     CHECK(distance<typename S::Angular>(S::lever(r).transpose() * f, S::moment(r, f)) <= tolerance);
-    // Power of a force through a rotation, written as force times velocity or torque times spin.
+    // The power of a force in a rotation, computed as force times velocity and as torque times
+    // spin.
     CHECK(std::abs(f.dot(S::spin(w, r)) - S::moment(r, f).dot(w)) <= tolerance);
     CHECK(std::abs(r.dot(S::spin(w, r))) <= tolerance);
     CHECK(S::moment(r, r).norm() <= tolerance);
@@ -94,7 +96,7 @@ TEST_CASE_TEMPLATE("lever, spin and moment say the same", S, MOREAU_SPACES) {
 TEST_CASE_TEMPLATE("positive rotations go from x to y", S, MOREAU_SPACES) {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
-  // The last angular component is the rotation about z, or the only one in the plane.
+  // The last angular component is the rotation about z. In the plane it is the only component.
   typename S::Angular w = S::Angular::Zero();
   w[S::angular_dim - 1] = T(2);
   CHECK(distance<Vector>(S::spin(w, Vector::UnitX()), T(2) * Vector::UnitY()) == T(0));
@@ -127,7 +129,7 @@ TEST_CASE_TEMPLATE("exp is a rotation at any angle, tiny or huge", S, MOREAU_SPA
     const auto q = S::exp(w);
     REQUIRE(S::is_finite(q));
     CHECK(rotation_defect(matrix_of<S>(q)) <= 8 * epsilon<S>);
-    // The inverse of a rotation is the rotation back.
+    // The inverse of a rotation is the rotation by the opposite angle.
     const typename S::Matrix there_and_back = matrix_of<S>(q * S::exp(-w));
     CHECK(distance<typename S::Matrix>(there_and_back, S::Matrix::Identity()) <= 16 * epsilon<S>);
   }
@@ -149,7 +151,7 @@ TEST_CASE_TEMPLATE("rotations about one axis add", S, MOREAU_SPACES) {
 TEST_CASE_TEMPLATE("exp agrees with Eigen's angle and axis", T, double, float) {
   using S = Space<3, T>;
   Draw<S> draw;
-  // 2e-2 is the full angle at which exp changes from the series to the quotient.
+  // At the angle 2e-2, exp switches from the series to the quotient.
   for (const T angle : {T(0), T(1e-20), T(1e-8), T(1e-3), T(0.0199), T(0.02), T(0.0201), T(1),
                         std::numbers::pi_v<T>, T(4), T(6.28), T(100)}) {
     CAPTURE(angle);
@@ -157,7 +159,7 @@ TEST_CASE_TEMPLATE("exp agrees with Eigen's angle and axis", T, double, float) {
     const typename S::Rotation expected(Eigen::AngleAxis<T>(angle, axis));
     const auto defect = (S::exp(angle * axis).coeffs() - expected.coeffs()).norm();
     CHECK(defect <= (4 + angle) * epsilon<S>);
-    // A small vector part keeps its relative digits.
+    // A small vector part has small relative errors.
     if (angle > 0 && angle < T(1))
       CHECK((S::exp(angle * axis).vec() - expected.vec()).norm() <= 4 * epsilon<S> * angle);
   }
@@ -185,10 +187,10 @@ TEST_CASE_TEMPLATE("adjoint turns angular quantities as the rotation turns lever
     const auto f = draw.vector();
     const auto ad = S::adjoint(q);
     CHECK(rotation_defect(ad) <= 8 * epsilon<S>);
-    // The torque of the turned force at the turned point is the turned torque ...
+    // The torque of a rotated force at a rotated point is the rotated torque.
     CHECK(distance<typename S::Angular>(S::moment(q * r, q * f), ad * S::moment(r, f)) <=
           16 * epsilon<S>);
-    // ... and lever(q r) Ad(q) = q lever(r).
+    // lever(q r) Ad(q) = q lever(r).
     CHECK(distance<typename S::Lever>(S::lever(q * r) * ad, matrix_of<S>(q) * S::lever(r)) <=
           16 * epsilon<S>);
     const auto p = draw.rotation();
@@ -202,8 +204,8 @@ TEST_CASE_TEMPLATE("gyroscopic term does no work and is w x I w", S, MOREAU_SPAC
     const auto inertia = draw.inertia();
     const auto w = draw.angular();
     CHECK(std::abs(S::gyroscopic(inertia, w).dot(w)) <= 32 * epsilon<S>);
-    // Torque-free: the angular momentum I w stays, so d(I w)/dt = 0 with the body turning at w.
-    // Along a principal axis there is no term at all.
+    // Without torque the angular momentum I w is constant: d(I w)/dt = 0 while the body rotates
+    // with w. Along a principal axis the gyroscopic term is zero.
     CHECK(S::gyroscopic(S::Inertia::Identity(), w).norm() <= 4 * epsilon<S>);
   }
 }
@@ -224,7 +226,7 @@ TEST_CASE_TEMPLATE("gyroscopic_jacobian is the derivative of I(q) w along a rota
     const typename S::Angular difference = (momentum(h * dw) - momentum(-h * dw)) / (2 * h);
     const typename S::Angular derivative = S::gyroscopic_jacobian(inertia, w) * dw;
     CHECK(distance(difference, derivative) <= 100 * h * h);
-    // Along w itself the derivative is the gyroscopic term: d(I w)/dt at fixed w.
+    // For a rotation along w, the derivative equals the gyroscopic term d(I w)/dt at fixed w.
     const typename S::Angular along_w = S::gyroscopic_jacobian(inertia, w) * w;
     CHECK(distance(along_w, S::gyroscopic(inertia, w)) <= 32 * epsilon<S>);
   }
@@ -243,8 +245,8 @@ TEST_CASE_TEMPLATE("contact_frame is orthonormal and right-handed", S, MOREAU_SP
   using Vector = typename S::Vector;
   Draw<S> draw;
   for (int i = 0; i < 1000; ++i) check_frame<S>(draw.unit());
-  // Axes of either sign, and normals that just miss them: the last one is where a frame built on
-  // one fixed direction breaks down.
+  // Axes of both signs, and normals close to axes. A frame constructed from one fixed direction
+  // fails close to that direction.
   for (int axis = 0; axis < S::dim; ++axis) {
     for (const T sign : {T(1), T(-1)}) {
       for (const T tilt : {T(0), std::numeric_limits<T>::min(), epsilon<S>, T(1e-5), T(1e-3)}) {

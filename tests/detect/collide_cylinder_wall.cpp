@@ -19,13 +19,13 @@ using moreau::Space;
 
 namespace {
 
-/// Perpendicular to x and to the last axis.
+/// The direction perpendicular to x and to the last axis.
 template <class S>
 typename S::Angular across() {
   return S::Angular::Unit(S::angular_dim / 2);
 }
 
-/// All points within a radius of a segment along x: a shape with a support function only.
+/// All points within a radius of a segment along x, as a shape with a support function only.
 template <class S>
 struct Stadium {
   using Space = S;
@@ -79,7 +79,7 @@ TEST_CASE_TEMPLATE("a ball's gap and normal, on the axis too", S, Space<2>, Spac
   REQUIRE(points.size() == 1);
   CHECK(points[0].gap == doctest::Approx(1 - 0.25 - outward.norm()));
   CHECK((points[0].normal - outward.normalized()).norm() < 1e-15);
-  // Midway between the surfaces.
+  // The contact point lies midway between the surfaces.
   const Vector expected =
       pose.position - outward + (outward.norm() + 0.25 + points[0].gap / 2) * outward.normalized();
   CHECK((points[0].position - expected).norm() < 1e-15);
@@ -125,7 +125,7 @@ TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its end
     CHECK(point.gap == doctest::Approx(1 - 0.1 - std::hypot(0.4, 0.5)));
   CHECK(both[0].position[0] * both[1].position[0] < 0);
   CHECK(both[0].feature < both[1].feature);
-  // An upright shape touches at one point.
+  // If the shape is upright, it touches at one point.
   pose.rotation = S::exp(std::numbers::pi / 2 * across<S>());
   pose.position[0] = 0.1;
   const auto one = points_of(Stadium<S>{0.3, 0.1}, pose, 1, 1);

@@ -10,7 +10,7 @@ using namespace moreau;
 
 namespace {
 
-/// Above an inclined wall far from the origin, at a given gap.
+/// A shape above an inclined wall far from the origin, at a given gap.
 template <class S, class ShapeT>
 void check_above_wall(const ShapeT& shape, std::mt19937_64& random) {
   using Vector = typename S::Vector;
@@ -40,7 +40,7 @@ void check_above_wall(const ShapeT& shape, std::mt19937_64& random) {
     for (const auto& point : manifold.points) {
       deepest = std::min(deepest, point.gap);
       CHECK(point.gap <= 0.05 + 1e-12);
-      // Midway between the plane and the surface.
+      // The contact point lies midway between the plane and the surface.
       CHECK(std::abs(up.dot(point.position - origin) - point.gap / 2) < 1e-12);
     }
     CHECK(std::abs(deepest - gap) < 1e-12);

@@ -27,7 +27,7 @@ struct Pair {
   double size;
 };
 
-/// A random pair moved along a random line to where it touches.
+/// A random pair of shapes, moved along a random line until the shapes touch.
 Pair touching_pair(const std::vector<Solid>& shapes, std::mt19937_64& random) {
   Pair pair;
   pair.a = &shapes[random() % shapes.size()];
@@ -92,8 +92,8 @@ void check_against_oracle(const Pair& pair, double margin) {
   for (const auto& point : manifold.points) {
     deepest = std::min(deepest, point.gap);
     CHECK(point.gap <= margin + tiny);
-    // Each witness point lies on the face that the gap was measured from, so never outside its
-    // shape.
+    // Each witness point lies on the face from which the gap was measured, so it never lies outside
+    // of its shape.
     const Vector half = point.gap / 2 * manifold.normal;
     CHECK(height_above(*pair.a, pair.pose_a, point.position - half) < 1e-7 * pair.size);
     CHECK(height_above(*pair.b, pair.pose_b, point.position + half) < 1e-7 * pair.size);
@@ -103,7 +103,8 @@ void check_against_oracle(const Pair& pair, double margin) {
                        [](const auto& p, const auto& q) { return p.feature < q.feature; }));
 }
 
-/// Checks that the answer stays the same if a and b are exchanged and both are moved by one motion.
+/// Checks that the result is the same if a and b are exchanged and if both shapes are moved by the
+/// same motion.
 void check_same(const Manifold<S>& one, const Manifold<S>& other, const Pose<S>& motion, bool swap,
                 double tiny) {
   const double sign = swap ? -1 : 1;
@@ -175,7 +176,8 @@ TEST_CASE("polyhedra: axes parallel, faces, edges and vertices exactly on each o
     for (const Solid& b : shapes)
       for (int k = 0; k < 40; ++k) {
         Pair pair{&a, &b, {}, {}, a.circumradius() + b.circumradius()};
-        // Multiples of a quarter: faces, edges and vertices coincide again and again.
+        // All coordinates are multiples of a quarter, so that faces, edges and vertices often
+        // coincide.
         for (auto& x : pair.pose_b.position) x = 0.25 * (static_cast<int>(random() % 17) - 8);
         check_against_oracle(pair, 1e-3);
       }
@@ -288,7 +290,8 @@ TEST_CASE("polyhedra: boxes apart by corner and by edge are named so") {
   const Eigen::Quaterniond on_corner =
       Eigen::Quaterniond::FromTwoVectors(Vector(1, 1, 1), Vector(0, -0.3, -1));
   const Vector corner = on_corner * Vector(0.5, 0.5, 0.5);
-  // A corner beside the upper edge of a box that stands on an edge, outside both of its faces.
+  // The corner lies beside the upper edge of a box that stands on an edge, outside both faces at
+  // the upper edge.
   const Vector edge(0.1, 0, std::sqrt(0.5));
   const Vector beside = 0.003 * Vector(0, 0.1, 1).normalized();
   REQUIRE(collide(Placed<Solid>(box, {Vector::Zero(), turn}),

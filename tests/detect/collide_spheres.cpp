@@ -20,7 +20,7 @@ double point_gap(const ShapeT& shape, const typename ShapeT::Vector& x) {
   const auto heights = ((shape.face_normals() * x).array() - shape.face_offsets().array()).eval();
   if (heights.maxCoeff() <= 0) return heights.maxCoeff();
   using S = typename ShapeT::Space;
-  // A tiny polytope around the point takes the place of the point.
+  // The point is replaced by a tiny polytope around it.
   double best = 1e9;
   const oracle::World<ShapeT> world(shape, Pose<S>{}, S::Vector::Zero());
   if constexpr (requires { shape.edges(); }) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The contact points of a pair can carry its load. A pressure along the normal on the contact
-// polygon amounts to a force at a centre of pressure within the polygon. Normal forces at points
-// amount to a force within the hull of the points. So the hull of all points has to hold the
-// polygon, and the triangle of the few points that reduce() keeps has to hold the previous centre
-// of pressure.
+// polygon is equivalent to a force at a centre of pressure inside the polygon. Normal forces at
+// points are equivalent to a force inside the convex hull of the points. So the hull of all contact
+// points must contain the contact polygon, and the triangle of the points kept by reduce() must
+// contain the centre of pressure of the previous step.
 #include <array>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ using Flat = Eigen::Vector2d;
 using Outline = std::vector<Flat>;
 using Solid = Polyhedron<double>;
 
-/// The corners of a face, world axes, in order.
+/// The corners of a face in order, world axes.
 std::vector<Vector> corners(const Solid& shape, Eigen::Index face, const Pose<S>& pose) {
   const Vector n = shape.face_normals().row(face).transpose();
   std::vector<Vector> found;
@@ -57,7 +57,7 @@ bool is_inside(const Outline& outline, const Flat& x) {
   }
   return true;
 }
-/// The corners of the intersection of two convex outlines, in no order.
+/// The corners of the intersection of two convex outlines, in any order.
 Outline shared(const Outline& a, const Outline& b) {
   Outline found;
   for (const Flat& x : a)
@@ -72,7 +72,7 @@ Outline shared(const Outline& a, const Outline& b) {
     }
   return found;
 }
-/// How far a reaches beyond the hull of b in the worst of many directions.
+/// The largest distance by which `a` extends beyond the hull of `b`, over many directions.
 double beyond(const Outline& a, const Outline& b) {
   double worst = -1e9;
   for (int k = 0; k < 360; ++k) {
@@ -85,11 +85,11 @@ double beyond(const Outline& a, const Outline& b) {
   return worst;
 }
 
-/// A random face of b on a random face of a, overlapping a little, shifted and turned at random.
+/// A random face of b on a random face of a, with a small overlap and a random shift and rotation.
 struct FaceToFace {
   Solid a, b;
   Pose<S> pose_a, pose_b;
-  Outline polygon;  ///< in the frame's tangents
+  Outline polygon;  ///< coordinates along the tangents of the contact frame
   S::Matrix frame;
 
   explicit FaceToFace(std::mt19937_64& random)
@@ -131,7 +131,8 @@ TEST_CASE("the hull of all points holds the polygon on which faces meet") {
     if (pair.polygon.size() < 3) continue;
     const Placed<Solid> a(pair.a, pair.pose_a), b(pair.b, pair.pose_b);
     REQUIRE(collide(a, b, 0.0, manifold));
-    if (manifold.contact_class != ContactClass::face_face) continue;  // a sliver at a corner
+    // A very small contact polygon at a corner is left out.
+    if (manifold.contact_class != ContactClass::face_face) continue;
     ++met;
     Outline points;
     for (const auto& point : manifold.points) points.push_back(pair.flat(point.position));
@@ -146,7 +147,8 @@ TEST_CASE("three points hold the centre of pressure of the step before") {
   std::mt19937_64 random(18);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < rounds(20000); ++i) {
-    // A convex polygon, nearly flat, some of whose corners come and go.
+    // The points form a convex polygon that is nearly plane. Some of its corners appear and
+    // disappear.
     Manifold<S> manifold;
     manifold.normal = Vector::UnitZ();
     manifold.contact_class = ContactClass::face_face;
@@ -174,7 +176,8 @@ TEST_CASE("three points hold the centre of pressure of the step before") {
     REQUIRE(manifold.points.size() == 3);
     Outline triangle;
     for (const auto& point : manifold.points) triangle.push_back(point.position.head<2>());
-    // A centre of pressure beyond a side by 2 % of the triangle's height counts as within.
+    // A centre of pressure counts as inside if it lies beyond a side by at most 2 % of the
+    // triangle's height.
     CHECK(beyond({pressure.head<2>()}, triangle) < 0.02 * 4);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edges and faces that are parallel exactly or nearly: the common normal and the nearest points of
-// lines are then lost in rounding, but the distance is not.
+// Edges and faces that are exactly or nearly parallel. The common normal of lines and their nearest
+// points are then dominated by rounding errors, but their distance is not.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace moreau;
 
 namespace {
 
-/// How far a point is above the surface, negative inside.
+/// The signed distance of a point from the surface of a shape, negative inside.
 template <class T>
 T above(const Placed<Polyhedron<T>>& shape, const typename Space<3, T>::Vector& x) {
   T height = -std::numeric_limits<T>::infinity();
@@ -115,8 +115,8 @@ TEST_CASE("all but parallel: the gap does not know how the pair is turned") {
       pose_a.rotation = samples::rotation(S{}, random);
       pose_b.rotation = pose_a.rotation * pose_b.rotation;
       pose_b.position = pose_a.rotation * pose_b.position;
-      // For angles between 1e-11 and 1e-8 rad the gap along an axis of two edges is accurate to
-      // 3e-11 of the size only.
+      // For angles between 1e-11 and 1e-8 rad, the gap along an axis of two edges is accurate only
+      // to 3e-11 of the size.
       const double known = turn < 2e-8 && turn > 5e-13 ? 6e-11 : 1e-12;
       CHECK(std::abs(distance(Placed(a, pose_a), Placed(b, pose_b)).gap - gap) < known);
     }

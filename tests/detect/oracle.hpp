@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference that the narrow phase is tested against: every axis and every pair of features, by
-// brute force.
+// The reference for the tests of the narrow phase: all axes and all pairs of features are compared,
+// by brute force.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace oracle {
 
-/// The truth about a pair. The normal is unique if every axis more than 0.01 degrees off separates
-/// less by more than 1e-9 of the size.
+/// The exact result for a pair. The normal is unique if the separation along every axis that
+/// differs from it by more than 0.01 degrees is smaller by more than 1e-9 of the size.
 template <class S>
 struct Truth {
   typename S::Scalar gap;
@@ -25,7 +25,7 @@ struct Truth {
   bool is_unique;
 };
 
-/// World coordinates of a shape relative to an origin, vertices and face normals.
+/// Vertices and face normals of a shape in world axes, relative to a given origin.
 template <class ShapeT>
 struct World {
   using S = typename ShapeT::Space;
@@ -50,7 +50,7 @@ typename W::S::Scalar separation(const W& a, const W& b, const typename W::Vecto
   return bottom - top;
 }
 
-/// The best axis so far, and the best among the axes in other directions.
+/// The best axis so far, and the best axis with a different direction.
 template <class S>
 class Best {
  public:
@@ -83,7 +83,8 @@ Vector nearest_on_segment(const Vector& p, const Vector& q, const Vector& x) {
   return p + t * along;
 }
 
-/// Difference of the nearest points of two segments, from the first to the second.
+/// The vector from the nearest point of the first segment to the nearest point of the second
+/// segment.
 template <class Vector>
 Vector segment_to_segment(const Vector& p, const Vector& p1, const Vector& q, const Vector& q1) {
   std::array<Vector, 4> ends = {
@@ -105,7 +106,7 @@ Vector segment_to_segment(const Vector& p, const Vector& p1, const Vector& q, co
   return best;
 }
 
-/// Difference from a face of a polyhedron to a point above it, if the point projects onto the face.
+/// The vector from a face of a polyhedron to a point above it, if the point projects onto the face.
 template <class T>
 bool face_to_point(const moreau::Polyhedron<T>& shape, const World<moreau::Polyhedron<T>>& world,
                    std::size_t f, const typename moreau::Space<3, T>::Vector& x,
@@ -172,7 +173,8 @@ Truth<moreau::Space<3, T>> signed_gap(const moreau::Polyhedron<T>& a,
   if (truth.gap <= T(0)) return truth;
   const Vector apart = nearest_difference(a, world_a, b, world_b);
   const T gap = apart.norm();
-  // A difference of a few roundings has no direction: the best axis is taken instead.
+  // A vector as short as a few rounding errors has no reliable direction. The best axis is used
+  // instead.
   if (gap < T(1e-10) * size) return {gap, truth.normal, false};
   return {gap, apart / gap, true};
 }

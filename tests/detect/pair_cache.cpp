@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pair cache changes no bit of any answer, however the pair moves and whatever the cache holds.
+// The pair cache changes no bit of any result, whatever the motion of the pair and the content of
+// the cache.
 #include <array>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -16,7 +17,7 @@ using namespace moreau;
 
 namespace {
 
-/// Two shapes with one cache for each query, which is kept through all motions.
+/// Two shapes, with one cache per query that is kept during all motions.
 template <class ShapeT>
 class Companions {
  public:
@@ -31,7 +32,7 @@ class Companions {
   }
 
   T size() const { return size_; }
-  /// Moves b to a random place and orientation near touching: a jump.
+  /// Moves b to a random position and orientation in which the shapes nearly touch.
   void touch_again(std::mt19937_64& random) {
     pose_b_.rotation = samples::rotation(S{}, random);
     const Vector line = samples::direction<S>(random);
@@ -42,7 +43,7 @@ class Companions {
       (overlap(a_, b_) ? inside : outside) = (inside + outside) / 2;
     }
   }
-  /// Moves both shapes by about the step times the size, and turns them by as many radians.
+  /// Moves both shapes by about step times their size and rotates them by about step [rad].
   void move(T step, std::mt19937_64& random) {
     for (Pose<S>* pose : {&pose_a_, &pose_b_}) {
       pose->position += step * size_ * samples::direction<S>(random);
@@ -55,7 +56,7 @@ class Companions {
   void set_caches(const std::array<PairCache<S>, 3>& caches) { caches_ = caches; }
   const std::array<PairCache<S>, 3>& caches() const { return caches_; }
 
-  /// Checks all three queries with the caches against those without.
+  /// Compares the results of all three queries with and without cache.
   void check(T margin) {
     Manifold<S> cold, cached;
     const bool touch = collide(a_, b_, margin, cold);
@@ -68,8 +69,8 @@ class Companions {
     CHECK(one.witness_b == other.witness_b);
     const bool together = overlap(a_, b_, caches_[2]);
     CHECK(overlap(a_, b_) == together);
-    // overlap() stops at the first axis that separates: a gap within rounding may be judged either
-    // way.
+    // overlap() stops at the first separating axis. If the gap is zero to within rounding, both
+    // results are allowed.
     const T rounding = size_ * DetectionTolerance<T>::rounding;
     if (std::abs(one.gap) > rounding) CHECK(together == (one.gap <= 0));
   }
@@ -120,7 +121,7 @@ TEST_CASE_TEMPLATE("a pair cache changes no bit, whatever the motion", ShapeT, P
     Companions<ShapeT> pair(shapes[random() % shapes.size()], shapes[random() % shapes.size()],
                             random);
     for (int k = 0; k < 60; ++k) {
-      // Small steps, now and then a large one or a jump.
+      // Small steps, with an occasional large step or jump.
       const double step = k % 10 == 9 ? std::pow(10., exponent(random)) : 1e-4;
       if (k % 20 == 19) pair.touch_again(random);
       pair.move(static_cast<T>(step), random);
@@ -162,7 +163,8 @@ TEST_CASE_TEMPLATE("aligned shapes: ties of features are not remembered wrongly"
       const Placed<ShapeT> first(a);
       Placed<ShapeT> second(b);
       for (int k = 0; k < rounds(300); ++k) {
-        // A grid of places where faces, edges and vertices coincide, with and without trembling.
+        // Positions on a grid where faces, edges and vertices coincide, with and without small
+        // perturbations.
         for (auto& x : pose.position) x = 0.125 * (static_cast<int>(random() % 17) - 8);
         if (k % 3 == 1) pose.position += 1e-13 * samples::direction<S>(random);
         typename S::Angular turn;

@@ -57,7 +57,8 @@ void check_polytope(std::mt19937_64& random) {
 
 template <class S>
 void check_scans() {
-  // Every count from one row to several registers, with the extreme in each place in turn.
+  // All numbers of rows from one row to several registers, with the extreme value in each row in
+  // turn.
   for (Eigen::Index count = 1; count < 20; ++count)
     for (Eigen::Index top = 0; top < count; ++top) {
       Eigen::Matrix<typename S::Scalar, Eigen::Dynamic, S::dim> matrix(count, S::dim);
@@ -71,7 +72,7 @@ void check_scans() {
       std::vector<std::uint32_t> above;
       rows.for_each_above(S::Vector::Ones(), 0.5, [&](std::uint32_t i) { above.push_back(i); });
       CHECK(above == std::vector<std::uint32_t>{static_cast<std::uint32_t>(top)});
-      // Among equals the first is reported.
+      // If several rows are equal, the first one is reported.
       matrix.row(count - 1).setConstant(1);
       rows.assign(matrix, S::Matrix::Identity());
       CHECK(rows.farthest(S::Vector::Ones()).index == top);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// overlap, distance and collide for every pair of elementary shapes.
+// The queries overlap, distance and collide for all pairs of elementary shapes.
 #include "detect/queries.hpp"
 
 using namespace queries;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// overlap, distance and collide of a pair of shapes, in either order, with and without a cache.
+// Tests the queries overlap, distance and collide for a pair of shapes, in both orders, with and
+// without a cache.
 //
-// The distance is checked by the support functions alone. The separation along its normal is a
-// lower bound of the gap. If the shapes are apart, the distance of the witness points is an upper
+// The distance is checked with the support functions only. The separation along its normal is a
+// lower bound of the gap. If the shapes are apart and the witness points lie in the shapes, the
+// distance of the witness points is an upper bound. If the shapes overlap, no other direction may
+// have a larger separation.
 // bound, if these lie in the shapes. If the shapes overlap, no other direction may separate better.
 #pragma once
 
@@ -21,10 +24,10 @@ namespace queries {
 
 using namespace moreau;
 
-/// 1e-12 of the smallest diameter in these tests.
+/// 1e-12 times the smallest diameter of the shapes in these tests [m].
 constexpr double tiny = 1.6e-12;
 
-/// A shape that hides all but its support function.
+/// A shape of which all functions but support, mass and bounding box are hidden.
 template <class ShapeT>
 struct Opaque {
   using Space = SpaceOf<ShapeT>;
@@ -36,7 +39,7 @@ struct Opaque {
   Aabb<Space> bounding_box(const Pose<Space>& pose) const { return inside.bounding_box(pose); }
   Vector support(const Vector& direction) const { return inside.support(direction); }
 };
-/// An ellipsoid, in the plane an ellipse.
+/// An ellipsoid, or in the plane an ellipse.
 template <class S>
 struct Ellipsoid {
   using Space = S;
@@ -53,7 +56,7 @@ struct Ellipsoid {
   }
 };
 
-/// A random shape of the kind.
+/// Draws a random shape of this type.
 template <class ShapeT>
 struct Draw {
   static ShapeT from(std::mt19937_64& random) { return samples::grain(SpaceOf<ShapeT>{}, random); }
@@ -108,13 +111,13 @@ inline constexpr bool is_curved = false;
 template <class S>
 inline constexpr bool is_curved<Ellipsoid<S>> = true;
 
-/// The accuracy of a gap. For a curved surface known by its support function alone, rounding of the
-/// support points limits it.
+/// Accuracy of a gap [m]. For a curved surface with a support function only, rounding errors of the
+/// support points limit it.
 template <class A, class B>
 constexpr double exactness = std::is_same_v<typename SpaceOf<A>::Scalar, float> ? 2e-3
                              : is_curved<A> || is_curved<B>                     ? 1e-8
                                                                                 : tiny;
-/// The accuracy of a normal [rad]: about the square root of that of the gap.
+/// Accuracy of a normal [rad]: about the square root of the accuracy of the gap.
 template <class A, class B>
 constexpr double turned = std::is_same_v<typename SpaceOf<A>::Scalar, float> ? 0.1 : 1.7e-4;
 
@@ -123,7 +126,7 @@ inline constexpr bool is_wall = false;
 template <class S>
 inline constexpr bool is_wall<HalfSpace<S>> = true;
 
-/// min over b of n . x - max over a of n . x
+/// The separation along n: min over b of n . x - max over a of n . x.
 template <class A, class B, class Vector>
 auto separation(const Placed<A>& a, const Placed<B>& b, const Vector& n) {
   const auto top = [](const auto& body, const Vector& direction) {
@@ -163,7 +166,8 @@ void check_queries(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::
   if (std::abs(found.gap) > 1e3 * close)
     CHECK((swapped.normal + found.normal).norm() < turned<A, B>);
 
-  // The same function answers, but pairs with a OneOf may get another copy of its code.
+  // The same function computes the result, but for pairs with a OneOf the compiler may make another
+  // copy of it, with other rounding errors.
   constexpr bool is_visited = is_one_of<A> || is_one_of<B>;
   const auto same = [](double x, double y) {
     return is_visited ? std::abs(x - y) <= 1e-2 * exactness<A, A> : x == y;

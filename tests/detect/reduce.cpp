@@ -67,7 +67,7 @@ TEST_CASE("reduce: the triangle of the step before stays while it is nearly as w
   const std::vector<KeptPoint> previous = {{key(0)}, {key(1)}, {key(4)}};
   Manifold<S> manifold = manifold_of(hexagon);
   reduce(manifold, 3, previous);
-  CHECK(kept(manifold) == std::vector<std::size_t>{1, 3, 5});  // too narrow
+  CHECK(kept(manifold) == std::vector<std::size_t>{1, 3, 5});  // the other triangles are too narrow
   const auto square =
       std::vector<std::array<double, 3>>{{0, 0, -1}, {1, 0, 0}, {1, 1.05, 0}, {0, 1, 0}};
   manifold = manifold_of(square);
@@ -78,10 +78,12 @@ TEST_CASE("reduce: the triangle of the step before stays while it is nearly as w
   CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 3});
   CHECK(first != kept(manifold));
   manifold = manifold_of(square);
-  reduce(manifold, 3, std::vector<KeptPoint>{{key(3)}, {key(1)}, {key(2)}});  // without the deepest
+  // The previous points do not include the deepest point.
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(3)}, {key(1)}, {key(2)}});
   CHECK(kept(manifold) == first);
   manifold = manifold_of(square);
-  reduce(manifold, 3, std::vector<KeptPoint>{{key(0)}, {key(1)}, {key(9)}});  // one is gone
+  // One previous point no longer exists.
+  reduce(manifold, 3, std::vector<KeptPoint>{{key(0)}, {key(1)}, {key(9)}});
   CHECK(kept(manifold) == first);
 }
 
@@ -119,14 +121,14 @@ TEST_CASE("reduce: points within the resolution are one, thin triangles two") {
 }
 
 TEST_CASE("reduce: a point that comes in keeps the side that the pressure was on") {
-  // A square. The load was on the side from point 0 to point 1; point 3 has just become the
+  // The points form a square. The load was on the side from point 0 to point 1. Now point 3 is the
   // deepest.
   const auto square =
       std::vector<std::array<double, 3>>{{0, 0, 0}, {1, 0, 0}, {1.5, 1, 0}, {0, 1, -1e-3}};
   Manifold<S> manifold = manifold_of(square);
   reduce(manifold, 3, std::vector<KeptPoint>{{key(0), 1}, {key(1), 1}, {key(2), 0}});
   CHECK(kept(manifold) == std::vector<std::size_t>{0, 1, 3});
-  // A point that is only a little deeper than the others changes nothing.
+  // A point that is only slightly deeper than the others does not change the choice.
   Reduction reduction;
   reduction.shallower = 1e-2;
   manifold = manifold_of(square);

@@ -5,7 +5,7 @@
 
 #include "moreau/detect/manifold.hpp"
 
-/// Whether two manifolds are equal to the bit.
+/// Whether two manifolds are equal bit by bit.
 template <class S>
 bool is_same(const moreau::Manifold<S>& one, const moreau::Manifold<S>& other) {
   if (one.gap != other.gap || one.normal != other.normal ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes and poses to try the narrow phase on.
+// Shapes and poses for the tests of the narrow phase.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,8 @@ Eigen::Rotation2D<T> rotation(moreau::Space<2, T>, std::mt19937_64& random) {
   return Eigen::Rotation2D<T>(static_cast<T>(angle(random)));
 }
 
-/// Hull of a jittered ellipsoid, 8 to about 37 vertices, size about 1.
+/// The convex hull of random points near an ellipsoid, with 8 to about 37 vertices and a size of
+/// about 1.
 template <class T>
 moreau::Polyhedron<T> grain(moreau::Space<3, T>, std::mt19937_64& random) {
   using S = moreau::Space<3, T>;
@@ -50,7 +51,7 @@ moreau::Polyhedron<T> grain(moreau::Space<3, T>, std::mt19937_64& random) {
   return moreau::Polyhedron<T>(std::span<const typename S::Vector>(points));
 }
 
-/// Irregular polygon of 5 to 7 sides or so, size about 1.
+/// An irregular polygon with about 5 to 7 sides and a size of about 1.
 template <class T>
 moreau::Polygon<T> grain(moreau::Space<2, T>, std::mt19937_64& random) {
   using S = moreau::Space<2, T>;
@@ -66,7 +67,7 @@ moreau::Polygon<T> grain(moreau::Space<2, T>, std::mt19937_64& random) {
   return moreau::Polygon<T>(std::span<const typename S::Vector>(points));
 }
 
-/// Box of the given sides.
+/// A box with the given side lengths.
 template <class T>
 moreau::Polyhedron<T> box(T x, T y, T z) {
   std::vector<typename moreau::Space<3, T>::Vector> corners;
@@ -90,7 +91,7 @@ moreau::Polyhedron<T> tetrahedron(T size) {
   return moreau::Polyhedron<T>(std::span<const Vector>(corners));
 }
 
-/// Upright prism on a regular polygon.
+/// An upright prism whose base is a regular polygon.
 template <class T>
 moreau::Polyhedron<T> prism(int sides, T radius, T height) {
   std::vector<typename moreau::Space<3, T>::Vector> corners;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by the fuzz targets: numbers from the input bytes, and the report of a finding.
+// Functions shared by the fuzz targets: numbers from the input bytes, and the report of a failure.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,15 @@
 #include <cstdlib>
 #include <cstring>
 
-/// Reports a finding: ends the program with a message unless the condition holds.
+/// Ends the program with a message unless the condition holds.
 inline void hold(bool condition, const char* what) {
   if (condition) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
   std::abort();
 }
 
-/// Takes numbers from the input bytes one after the other; zeros after the end of the input.
+/// Takes numbers from the input bytes one after the other. After the end of the input, all bytes
+/// are zero.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
@@ -32,12 +33,13 @@ class Bytes {
     left_ -= count;
     return value;
   }
-  /// An integer in [lowest, highest], a range of at most 256 values.
+  /// An integer in [lowest, highest]. The range has at most 256 values.
   int between(int lowest, int highest) {
     return lowest + raw<std::uint8_t>() % (highest - lowest + 1);
   }
-  /// A number on a grid of quarters, that number plus or minus a little, a number of three digits,
-  /// or (if wild) arbitrary bits, including infinities and denormals.
+  /// A number of one of four kinds: a multiple of a quarter; such a number plus or minus a small
+  /// number; a number with three digits; or, if wild, arbitrary bits, including infinities and
+  /// denormal numbers.
   double number(bool wild = false) {
     switch (between(0, wild ? 3 : 2)) {
       case 0:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Input: a well-formed HDF5 file with arbitrary numbers and arbitrary sizes in the place of
-// FCLIB's. Expected: a valid problem or an error. The target does not look for errors of the HDF5
-// library in malformed files.
+// Input: a well-formed HDF5 file in which FCLIB's numbers and sizes are arbitrary. Expected: a
+// valid problem or an error. The target does not search for errors of the HDF5 library in malformed
+// files.
 #include "moreau/io/fclib.hpp"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace moreau::detail;
 
-/// A number: mostly near zero, sometimes arbitrary.
+/// An integer: mostly close to zero, sometimes arbitrary.
 int take_integer(Bytes& bytes) {
   const int value = bytes.between(-3, 200);
   return value < 180 ? value % 12 : bytes.raw<int>();
@@ -59,7 +59,7 @@ void put_file(Bytes& bytes, const std::filesystem::path& path) {
   for (const char* name : {"q", "f", "w", "mu"}) put(bytes, vectors, name, take_numbers(bytes));
 }
 
-/// The same file is used for all inputs.
+/// The path of the file, which is the same for all inputs.
 const std::filesystem::path& path() {
   static const std::filesystem::path path = [] {
     std::string name = std::filesystem::temp_directory_path() / "moreau_fuzz_XXXXXX";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input: arbitrary points. Expected: a convex hull that contains them and whose numbers are finite,
-// or an error.
+// Input: arbitrary points. Expected: a convex hull that contains all points and has finite
+// properties, or an error.
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -46,8 +46,8 @@ void check_shape(const ShapeT& shape, const std::vector<typename ShapeT::Vector>
   hold((mass.inertia.diagonal().array() > 0).all(), "positive moments of inertia");
   hold(std::isfinite(shape.circumradius()) && shape.circumradius() > 0, "positive circumradius");
   hold(shape.inradius() <= shape.circumradius(), "inradius <= circumradius");
-  // The hull may have raised its tolerance by a factor of up to 64, and the tolerance bounds half of
-  // the deviation. The planes are then rounded to the scalar.
+  // The hull may have increased its tolerance by a factor of up to 64, and the deviation may be
+  // twice the tolerance. In addition the planes are rounded to the scalar type.
   const T close = T(2 * 64 + 2) * static_cast<T>(HullTolerance{}.flat) *
                   std::numeric_limits<T>::epsilon() * size;
   for (const auto& x : points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Input: two shapes at arbitrary poses. Expected: the narrow phase agrees with the exhaustive
+// Input: two shapes in arbitrary poses. Expected: the narrow phase agrees with the exhaustive
 // search, and the pair cache changes no bit.
 #include <algorithm>
 #include <limits>
@@ -90,7 +90,7 @@ typename S::Rotation take_rotation(Bytes& bytes) {
   return S::normalized(S::exp(turn));
 }
 
-/// Compares the three queries of a pair with each other and with the exact answer.
+/// Compares the results of the three queries of a pair with each other and with the exact result.
 template <class ShapeT>
 class Trial {
  public:

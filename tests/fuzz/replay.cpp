@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Replaces libFuzzer where it is not available: runs the target on every file that is an argument,
-// and on every file in the folders that are arguments.
+// Replaces libFuzzer where it is not available. The arguments are files and folders. The program
+// runs the target on every file and on every file in the folders.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -21,7 +21,7 @@ int run(const std::filesystem::path& path) {
     std::exit(1);
   }
   std::printf("%s\n", path.c_str());
-  std::fflush(stdout);  // the last line names what ended the program
+  std::fflush(stdout);  // so that the last line names the file that ended the program
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   return 1;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Input: arbitrary bytes, or the bytes of a snapshot with some of them changed and a correct
-// checksum. Expected: a simulation whose own snapshot can be read back, or an error. The simulation
-// makes no step: the format does not protect against carefully forged files.
+// Input: arbitrary bytes, or the bytes of a snapshot in which some bytes are changed and the
+// checksum is correct. Expected: a simulation whose own snapshot can be read again, or an error.
+// The simulation makes no step, because the format does not protect against carefully forged files.
 #include "moreau/io/snapshot.hpp"
 
 #include <random>
@@ -32,7 +32,9 @@ World small_world() {
   world.add_cylinder({0, 0, 0}, {0, 0, 1}, 5);
   world.set_periodic(2, 0, 10);
   world.set_gravity({0, -9.81, 0});
-  for (int k = 0; k < 3; ++k) world.step(1e-3);  // with contacts, impulses and remembered pairs
+  for (int k = 0; k < 3; ++k)
+    // After three steps the simulation has contacts, impulses and cached pairs.
+    world.step(1e-3);
   return world;
 }
 
@@ -46,7 +48,7 @@ void put_right(std::string& bytes) {
   put(bytes, end, crc64(std::string_view(bytes).substr(0, end)));
 }
 
-/// Changes, removes and repeats bytes.
+/// Changes, removes and repeats some of the bytes.
 std::string changed(std::string bytes, Bytes& how) {
   while (!how.is_empty() && !bytes.empty()) {
     const std::size_t place = how.raw<std::uint16_t>() % bytes.size();

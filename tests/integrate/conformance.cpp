@@ -15,7 +15,7 @@ TEST_CASE_TEMPLATE("integrators", S, Space<2>, Space<3>) {
 }
 
 TEST_CASE("Verlet errs with the square of the step") {
-  // An oscillator: the load is -k x.
+  // A harmonic oscillator: the load is -k x.
   double errors[2];
   for (int refine = 0; refine < 2; ++refine) {
     conformance::FreeBody<Space<2>> body(1, conformance::uneven_inertia<Space<2>>());

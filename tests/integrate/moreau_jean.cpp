@@ -47,7 +47,7 @@ TEST_CASE("rotation about the middle axis is unstable at the rate of Euler's equ
   const double i1 = 1, i2 = 2, i3 = 3, spin = 1;
   FreeBody<Space<3>> body(1, Eigen::Vector3d(i1, i2, i3).asDiagonal());
   const double rate = spin * std::sqrt((i2 - i1) * (i3 - i2) / (i1 * i3));
-  // The growing direction of the linearized equations, in body axes.
+  // The growing mode of the linearized equations of motion, in body axes.
   body.bodies.velocity[0].tail<3>() << 1e-6, spin,
       -1e-6 * std::sqrt(i1 * (i2 - i1) / (i3 * (i3 - i2)));
   const auto aside = [&] {

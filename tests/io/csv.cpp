@@ -228,7 +228,7 @@ TEST_CASE("a folder that may not be written to is named") {
 TEST_CASE("a run that is killed leaves all rows that it had written") {
   const TemporaryFolder folder("csv");
   const auto path = folder / "rows.csv";
-  // Shared with the process that writes.
+  // Memory shared with the process that writes the file.
   auto* told = static_cast<volatile int*>(
       mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   for (int k = 0; k < 10; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faults while a file is written: a full disk, a folder without write permission, a killed process.
+// Simulates faults while a file is written: a full disk, a folder without write permission, a
+// killed process.
 #pragma once
 
 #include <chrono>
@@ -13,7 +14,8 @@
 #include <unistd.h>
 #include <utility>
 
-/// While the object exists, files cannot grow beyond `bytes`, as on a full disk.
+/// While an object of this class exists, files cannot become larger than `bytes`, as on a full
+/// disk.
 class FullDisk {
  public:
   explicit FullDisk(std::uintmax_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -33,8 +35,8 @@ class FullDisk {
   void (*signal_)(int);
 };
 
-/// While the object exists, the folder can be read but not written. If the test runs as root, the
-/// object changes to the user nobody, because root can write everywhere.
+/// While an object of this class exists, the folder can be read but not written. If the test runs
+/// as root, the object changes the user to nobody, because root may write to any folder.
 class UnwritableFolder {
  public:
   explicit UnwritableFolder(std::filesystem::path path) : path_(std::move(path)), user_(geteuid()) {
@@ -55,7 +57,7 @@ class UnwritableFolder {
   bool changed_ = false;
 };
 
-/// Calls does() repeatedly in another process and kills that process after `time`.
+/// Calls does() repeatedly in another process, and kills this process after `time`.
 template <class F>
 void kill_while(std::chrono::microseconds time, F&& does) {
   const pid_t child = fork();

@@ -29,7 +29,7 @@ void check_equal(const FrictionProblem<S>& a, const FrictionProblem<S>& b) {
 
 using Numbers = std::vector<double>;
 
-/// A 2 x 2 matrix in any of the three storages.
+/// Writes a 2 x 2 matrix in any of the three storage formats.
 void write_matrix(hid_t parent, const std::string& name, int nz, const std::vector<int>& p,
                   const std::vector<int>& i, const Numbers& x, int columns = 2) {
   using namespace moreau::detail;
@@ -49,7 +49,7 @@ detail::Hdf5Handle new_file(const std::filesystem::path& path) {
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), &H5Fclose, "create"};
 }
 
-/// One contact in the plane.
+/// Writes a problem with one contact in the plane.
 void write_storage(const std::filesystem::path& path, int nz, const std::vector<int>& p,
                    const std::vector<int>& i, const Numbers& x, int dimension = 2,
                    int columns = 2) {
@@ -144,7 +144,8 @@ TEST_CASE("a global problem is condensed") {
     const auto global = detail::create_hdf5_group(file, "fclib_global");
     detail::write_hdf5(global, "spacedim", 2);
     write_matrix(global, "M", -1, {0, 1, 2}, {0, 1}, {2, 4});
-    write_matrix(global, "H", -2, {0, 1, 3}, {0, 0, 1}, {1, 2, 8});  // 1 0; 2 8
+    // The matrix with the rows (1, 0) and (2, 8).
+    write_matrix(global, "H", -2, {0, 1, 3}, {0, 0, 1}, {1, 2, 8});
     const auto vectors = detail::create_hdf5_group(global, "vectors");
     write_vector(vectors, "f", {4, -8});
     write_vector(vectors, "w", {0.5, 0.25});

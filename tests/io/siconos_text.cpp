@@ -123,8 +123,8 @@ TEST_CASE("a file cut before its last coefficient of friction is refused, never 
   for (const char* name : {"FrictionContact3D_1c.dat", "FrictionContactProblem00031.dat"}) {
     std::string text = read(folder + name);
     const auto is_space = [](char c) { return std::isspace(static_cast<unsigned char>(c)); };
-    // A flag that nothing depends on is last; the coefficient before it may be cut and still be
-    // one.
+    // The last word of the file is a flag that is ignored. The friction coefficient before it may
+    // be truncated and is then still a valid coefficient.
     while (is_space(text.back())) text.pop_back();
     while (!is_space(text.back())) text.pop_back();
     while (is_space(text.back())) text.pop_back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages for files that cannot be continued from. The other tests of snapshots are in
-// world/restart.cpp.
+// Error messages for files from which a run cannot be continued. The other tests of snapshots are
+// in world/restart.cpp.
 #include "moreau/io/snapshot.hpp"
 
 #include <cstring>
@@ -19,7 +19,7 @@ using namespace moreau;
 
 namespace {
 
-/// The message for a file.
+/// The error message for a file.
 std::string said(const std::function<void()>& reads) {
   try {
     reads();
@@ -31,7 +31,7 @@ std::string said(const std::function<void()>& reads) {
 std::string said_of_head(const std::string& bytes) {
   return said([&] { detail::checked_head(bytes, "it"); });
 }
-/// A head without objects, and the checksum.
+/// The bytes of a snapshot that has a head and a checksum but no objects.
 std::string smallest() {
   detail::SnapshotHead head;
   detail::ArchiveWriter archive;

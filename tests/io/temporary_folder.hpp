@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of tests.
+// Files and folders for tests.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-/// Creates an empty folder and removes it with the object.
+/// Creates an empty folder, and removes it in the destructor.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)

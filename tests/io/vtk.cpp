@@ -24,7 +24,7 @@ using namespace moreau;
 using namespace vtk_samples;
 using On = VtkPolyData::On;
 
-/// Reads the files of VtkPolyData. It understands only as much XML as they contain.
+/// Reads the files of VtkPolyData. It understands only the subset of XML that these files use.
 class Vtp {
  public:
   explicit Vtp(const std::filesystem::path& path) : text_(read(path)) {
@@ -40,7 +40,7 @@ class Vtp {
   std::size_t count(const std::string& what) const {
     return std::stoul(attribute(text_.find("<Piece"), "NumberOf" + what));
   }
-  /// The array with a name in a section, e.g. "CellData".
+  /// The array with the given name in a section, for example in "CellData".
   template <class T>
   std::vector<T> array(const std::string& section, const std::string& name) const {
     const auto begin = text_.find("<" + section + ">");
@@ -101,8 +101,8 @@ TEST_CASE("polyhedra are written as their faces with the grain's values on each"
         doctest::Approx(2 * shape.circumradius()).epsilon(1e-6));
   CHECK(file.array<float>("CellData", "speed")[7] == doctest::Approx(std::sqrt(3.0)));
 
-  // The written surface encloses the volume of each grain: this checks points, faces and their
-  // orientation.
+  // The volume enclosed by the written surface equals the volume of each grain. This checks points,
+  // faces and the orientation of the faces.
   for (int grain = 0; grain < 2; ++grain) {
     double volume = 0;
     for (int f = 4 * grain; f < 4 * grain + 4; ++f) {
@@ -174,8 +174,8 @@ TEST_CASE_TEMPLATE("every shape is drawn by its surface", S, Space<2>, Space<3>)
   const auto x = [&](std::int32_t point, int axis) {
     return double(points[std::size_t(3 * point + axis)]);
   };
-  // The volume that the faces enclose, as a sum of fans of triangles relative to an arbitrary line
-  // or point.
+  // The enclosed volume is computed as a sum over fans of triangles, relative to an arbitrary point
+  // (in the plane, line).
   double enclosed[4] = {};
   std::size_t first = 0;
   for (std::size_t f = 0; f < ends.size(); ++f) {
@@ -195,7 +195,8 @@ TEST_CASE_TEMPLATE("every shape is drawn by its surface", S, Space<2>, Space<3>)
     first = std::size_t(ends[f]);
   }
   for (int k = 0; k < 4; ++k) {
-    CHECK(enclosed[k] < shapes[k].volume() * (1 + 1e-5));  // inscribed
+    // The enclosed volume is smaller than the exact volume, because the surface is inscribed.
+    CHECK(enclosed[k] < shapes[k].volume() * (1 + 1e-5));
     CHECK(enclosed[k] == doctest::Approx(shapes[k].volume()).epsilon(k == 2 ? 1e-5 : 0.03));
   }
   CHECK_THROWS_AS(VtkWriter<S>({-1}), std::invalid_argument);
@@ -306,7 +307,7 @@ TEST_CASE_TEMPLATE("what has no place is refused and no file written", S, Space<
       segment<S>(Vector::Zero(), Vector::Constant(nan), 1)};
   CHECK_THROWS_AS(writer.write_contacts(path, contacts), std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(path));
-  write(core, {});  // the next one is not hurt
+  write(core, {});  // an error does not affect the next file
   CHECK(Vtp(path).template array<std::int32_t>("CellData", "id").back() == 2);
 }
 
@@ -355,7 +356,7 @@ TEST_CASE("full disks, closed folders and a kill leave whole files") {
   }
   CHECK(read(path) == two);
   CHECK(read(series_path) == first);
-  series.add(2.5, "field.vtp");  // of those that failed there is no trace
+  series.add(2.5, "field.vtp");  // files that could not be added are not in the list
   CHECK(read(series_path).find("x.vtp") == std::string::npos);
   CHECK(read(series_path).size() > first.size());
   for (int k = 0; k < 10; ++k) {

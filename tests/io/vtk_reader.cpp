@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the files with VTK's own reader, if VTK's Python module is installed; otherwise the test
-// counts as skipped.
+// Reads the files with VTK's own reader if VTK's Python module is installed. Otherwise the test is
+// reported as skipped.
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Data that the tests of files for ParaView write.
+// Data for the tests of ParaView files.
 #pragma once
 
 #include <span>

@@ -50,7 +50,8 @@ TEST_CASE_TEMPLATE("regularized laws", S, Space<2>, Space<3>) {
 TEST_CASE("the restitution of springs is what was asked for") {
   using S = Space<3>;
   for (const double e : {0.3, 0.6, 0.9}) {
-    // Linear: exact but for the end, where the dashpot would pull and the contact lets go.
+    // For a linear spring and dashpot the restitution is exact, except at the end of the impact,
+    // where the dashpot would attract and the force is set to zero.
     const LinearSpringDashpot<> linear(1e6, 0, 0, e);
     CHECK(conformance::rebound<S>(linear, 0.1, 1e-7) == doctest::Approx(e).epsilon(0.12));
     CHECK(conformance::rebound<S>(linear, 0.1, 1e-7) >= e);

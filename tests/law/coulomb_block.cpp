@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
+<<<<<<< HEAD
 // One contact with any block: the law holds, and symmetric blocks give what the law itself gives.
 #include "moreau/law/detail/coulomb_block.hpp"
+=======
+// One contact with any block, including asymmetric ones: the solution satisfies the law, and for
+// symmetric blocks it equals the solution of SignoriniCoulomb.
+#include "moreau/law/coulomb_block.hpp"
+>>>>>>> prose
 
 #include <doctest/doctest.h>
 #include <random>
@@ -18,7 +24,8 @@ struct Case {
   double friction;
 };
 
-/// Positive definite symmetric part, condition numbers up to about 1e4, and a skew part.
+/// A random block whose symmetric part is positive definite, with a condition number of at most
+/// about 1e4, plus a skew part.
 template <class S>
 Case<S> random_case(std::mt19937_64& random, double skew) {
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lanes come to a solution of the law from any start within a few visits.
+// The lanes of solve_lanes converge to a solution of the law from any initial value in a few
+// visits.
 
 #include "moreau/law/detail/coulomb_lanes.hpp"
 
@@ -17,7 +18,7 @@ using namespace moreau;
 
 namespace {
 
-/// As many local problems as there are lanes, some open, some without friction.
+/// As many local problems as there are lanes. Some have an open contact, some have no friction.
 template <class S>
 struct Lanes {
   using T = typename S::Scalar;
@@ -51,7 +52,7 @@ struct Lanes {
   typename Block::Vector visit(bool polish) {
     return detail::CoulombLanes<S>::solve(block, velocity, friction, alpha, polish);
   }
-  /// Natural map of a lane, relative to |r| + |b| (W has trace 1).
+  /// The residual of the natural map in a lane, relative to |r| + |b|, where W has trace 1.
   double error(const typename Block::Vector& r, std::size_t l) const {
     typename S::Vector own;
     for (std::size_t d = 0; d < S::dim; ++d) own[Eigen::Index(d)] = r[d][l];

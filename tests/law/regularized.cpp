@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One impact under the laws of springs and dashpots, integrated finely.
+// One impact under spring-dashpot laws, integrated with small steps.
 #include "moreau/law/regularized.hpp"
 
 #include <cmath>
@@ -14,8 +14,9 @@ using S = moreau::Space<2>;
 using Springs = moreau::LinearSpringDashpot<double>;
 using Hertz = moreau::HertzMindlin<double>;
 
-/// A point of mass 1 hits a wall at 1 m/s, and slides along it at `slip`.
-/// @returns velocity at the end, normal first [m/s]
+/// A point mass of 1 kg hits a wall with a normal speed of 1 m/s and a tangential velocity `slip`
+/// [m/s].
+/// @returns velocity at the end of the impact, normal component first [m/s]
 template <class Law>
 S::Vector impact(const Law& law, double slip) {
   S::Vector x(0, 0), v(-1, slip), memory = S::Vector::Zero();

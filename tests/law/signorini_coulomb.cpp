@@ -22,7 +22,7 @@ static_assert(moreau::SetValuedLaw<SignoriniCoulomb<float>, Space<3, float>>);
 
 namespace {
 
-/// A random block of condition up to about 1e4 and a velocity.
+/// A random block with a condition number of at most about 1e4, and a random velocity.
 template <class S>
 struct LocalProblem {
   LocalBlock<S> block;
@@ -113,11 +113,12 @@ TEST_CASE_TEMPLATE("projection on the cone is the nearest point", S, Space<2>, S
     for (auto& v : y) v = normal(random);
     const typename S::Vector p = law.project(x);
     CHECK(p.tail(S::dim - 1).norm() <= 0.4 * p[0] + 1e-14);
-    // Moreau: x - p is normal to the cone at p.
+    // Moreau's theorem: x - p lies in the normal cone at p.
     CHECK(std::abs((x - p).dot(p)) < 1e-14);
     CHECK((x - p).dot(law.project(y)) < 1e-14);
   }
-  // Without friction the cone is a ray, and what is opposite to it, exactly, is nearest to its end.
+  // Without friction the cone is a ray. The projection of a point exactly opposite to the ray is
+  // the end of the ray.
   const SignoriniCoulomb<double> smooth(0);
   const typename S::Vector unit = S::Vector::UnitX();
   CHECK(smooth.project(typename S::Vector(-unit)).isZero(0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures that read the contacts: overlap, coordination, stress, force chains, fabric,
-// distribution of forces.
+// Measures that are computed from contacts: overlap, coordination, stress, force chains, fabric,
+// force distribution.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -20,14 +20,14 @@ namespace {
 
 using namespace moreau;
 
-/// Bodies as points; contacts midway between them.
+/// Bodies without shape at given positions, and contacts between them.
 template <class S>
 struct Assembly {
   std::vector<typename S::Vector> position;
   std::vector<bool> grain;
   Contacts<S> contacts;
 
-  /// A contact between two bodies at a point, with the impulse that b receives in world axes.
+  /// Adds a contact point between two bodies, with the impulse on b in world axes.
   void add(std::uint32_t a, std::uint32_t b, const typename S::Vector& point,
            const typename S::Vector& normal, const typename S::Vector& impulse, double gap = 0) {
     const typename S::Matrix frame = S::contact_frame(normal);
@@ -93,7 +93,8 @@ TEST_CASE("coordination counts neighbours that push, and rattlers fall away in t
   using S = Space<2>;
   using V = S::Vector;
   Assembly<S> all;
-  // A triangle 0 1 2 with every side, 3 hanging on 0, 4 hanging on 3, 5 alone, 6 a wall below.
+  // Grains 0, 1, 2 touch each other. Grain 3 touches 0 only, grain 4 touches 3 only, and grain 5
+  // carries no force. Body 6 is a wall, which 0 and 1 touch.
   all.position.assign(7, V::Zero());
   all.grain = {true, true, true, true, true, true, false};
   const auto push = [&](std::uint32_t a, std::uint32_t b, double impulse) {
@@ -103,7 +104,7 @@ TEST_CASE("coordination counts neighbours that push, and rattlers fall away in t
   push(0, 1, 2);  // a second point of the same pair
   push(0, 2, 1);
   push(0, 3, 1);
-  push(0, 5, 0);  // no force: no contact
+  push(0, 5, 0);  // no impulse, so it does not count
   push(0, 6, 1);
   push(1, 2, 1);
   push(1, 6, 1);
@@ -117,12 +118,12 @@ TEST_CASE("coordination counts neighbours that push, and rattlers fall away in t
   CHECK(every.neighbours == doctest::Approx((2 * 5 + 2) / 6.0));
   CHECK(every.points_per_grain == doctest::Approx((2 * 6 + 2) / 6.0));
 
-  const Coordination core = all.coordination(2);  // 4 goes, then 3
+  const Coordination core = all.coordination(2);  // rattlers: 5 and 4, then 3
   CHECK(core.grains == 3);
   CHECK(core.rattlers == 3);
   CHECK(core.pairs == 5);
   CHECK(core.neighbours == doctest::Approx((2 * 3 + 2) / 3.0));
-  CHECK(all.coordination(3).grains == 0);  // 2 has two: then nothing holds
+  CHECK(all.coordination(3).grains == 0);  // 2 has two neighbours and is removed; then all others
   CHECK(all.coordination(3).neighbours == 0);
 
   CHECK_THROWS_AS(
@@ -140,19 +141,20 @@ TEST_CASE_TEMPLATE("stress of a column under a weight is the weight over the sec
   column.position = {V::Zero(), up, 2 * up, -0.5 * up};
   column.grain = {true, true, true, false};
   column.add(0, 1, 0.5 * up, up, load * step * up);
-  column.add(0, 3, -0.5 * up, -up, -load * step * up);  // the wall is body b
+  column.add(0, 3, -0.5 * up, -up, -load * step * up);  // here the wall is body b
   column.add(1, 2, 1.5 * up, up, load * step * up);
   Aabb<S> box{V::Constant(-2), V::Constant(2)};
-  box.lower[S::dim - 1] = -0.5;  // from the wall to the top of grain 1: branches 0.5 + 1 + 1
+  // Height 2.5: the box contains the contacts with branches 0.5, 1 and 1.
+  box.lower[S::dim - 1] = -0.5;
   box.upper[S::dim - 1] = 2;
   const auto sigma =
       contact_stress(column.contacts, step, box, column.position_of(), column.is_grain());
   typename S::Matrix truth = S::Matrix::Zero();
   truth(S::dim - 1, S::dim - 1) = load * 2.5 / volume(box);
   CHECK((sigma - truth).norm() < 1e-12 * load);
-  CHECK(truth(S::dim - 1, S::dim - 1) > 0);  // compression
+  CHECK(truth(S::dim - 1, S::dim - 1) > 0);  // positive for compression
 
-  // Only the contact in the lower half; the other way round (a, b) makes no difference.
+  // Only the two lower contacts are in the box. Exchanging a and b makes no difference.
   box.upper[S::dim - 1] = 1;
   std::swap(column.contacts.points[1].a, column.contacts.points[1].b);
   std::swap(column.contacts.points[1].lever_a, column.contacts.points[1].lever_b);
@@ -163,8 +165,8 @@ TEST_CASE_TEMPLATE("stress of a column under a weight is the weight over the sec
 }
 
 TEST_CASE("stress of a balanced cell is that of the loads on its boundary") {
-  // A grain in balance under four forces that also balance in torque: V sigma = sum x f over the
-  // forces that push it from outside, with minus for compression positive.
+  // A grain in equilibrium of forces and torques under four forces. V sigma = sum x f over the
+  // forces from outside, with a minus sign because compression is positive.
   using S = Space<2>;
   using V = S::Vector;
   Assembly<S> cell;
@@ -220,7 +222,7 @@ TEST_CASE("the points of a pair carry one force") {
   all.grain = {true, true, false};
   all.add(0, 1, V(1, 0, 1), V::UnitZ(), V(0, 1, 3));
   all.add(0, 1, V(-1, 0, 1), V::UnitZ(), V(4, -1, 1));
-  all.add(0, 1, V(0, 1, 1), V::UnitZ(), V::Zero());  // touches without force
+  all.add(0, 1, V(0, 1, 1), V::UnitZ(), V::Zero());  // a point without force
   all.add(0, 2, V(0, 0, -1), -V::UnitZ(), V(0, 0, -4));
   all.add(1, 2, V(0, 0, 1), -V::UnitZ(), V(0, 0, 0));
   const auto pairs = all.pairs(0.5);
@@ -230,7 +232,8 @@ TEST_CASE("the points of a pair carry one force") {
   CHECK((pairs[0].force - V(8, 0, 8)).norm() < 1e-14);
   CHECK(pairs[0].normal_force == doctest::Approx(8));
   CHECK(pairs[0].friction_force == doctest::Approx(8));
-  CHECK((pairs[0].lever_a - V(0.5, 0, 1)).norm() < 1e-15);  // a quarter of the way at -1
+  // The centre of pressure: one of four units of normal force acts at x = -1, three at x = 1.
+  CHECK((pairs[0].lever_a - V(0.5, 0, 1)).norm() < 1e-15);
   CHECK((pairs[0].lever_b - V(0.5, 0, -1)).norm() < 1e-15);
   CHECK(pairs[1].b == 2);
   CHECK(pairs[1].normal_force == doctest::Approx(8));
@@ -241,7 +244,7 @@ TEST_CASE_TEMPLATE("the fabric of a lattice is isotropic, that of chains their d
                    Space<2>, Space<3>) {
   using V = typename S::Vector;
   using M = typename S::Matrix;
-  // One pair of grains for every normal that is given.
+  // Makes one pair of grains for each given normal.
   const auto with = [](const std::vector<V>& normals) {
     Assembly<S> all;
     for (const V& n : normals) {
@@ -250,12 +253,13 @@ TEST_CASE_TEMPLATE("the fabric of a lattice is isotropic, that of chains their d
       all.position.push_back(n);
       all.grain.insert(all.grain.end(), {true, true});
       all.add(a, a + 1, n / 2, n, n);
-      all.add(a, a + 1, n / 2, n, 3 * n);  // a second point changes nothing
+      all.add(a, a + 1, n / 2, n, 3 * n);  // a second point must not change the fabric
     }
     all.position.push_back(V::Zero());
     all.grain.push_back(false);
     const auto wall = static_cast<std::uint32_t>(all.position.size() - 1);
-    all.add(0, wall, V::Zero(), V::UnitX(), V::UnitX());  // nor does a wall
+    // A contact with a wall must not change the fabric.
+    all.add(0, wall, V::Zero(), V::UnitX(), V::UnitX());
     return all;
   };
   const Aabb<S> box{V::Constant(-1), V::Constant(1)};
@@ -266,7 +270,7 @@ TEST_CASE_TEMPLATE("the fabric of a lattice is isotropic, that of chains their d
   CHECK((lattice.tensor - M::Identity() / S::dim).norm() < 1e-15);
   CHECK(lattice.anisotropy().norm() < 1e-14);
 
-  // Three along x for one along the last axis.
+  // Three normals along x and one along the last axis.
   const auto chains =
       with({V::UnitX(), -V::UnitX(), V::UnitX(), V::Unit(S::dim - 1)}).fabric_in(box);
   M expected = M::Zero();
@@ -277,7 +281,7 @@ TEST_CASE_TEMPLATE("the fabric of a lattice is isotropic, that of chains their d
         doctest::Approx(S::dim * (S::dim + 2) / 2.0 * (0.75 - 1.0 / S::dim)));
   CHECK(std::abs(chains.anisotropy().trace()) < 1e-14);
 
-  // Pairs whose centre of pressure lies outside are not counted.
+  // Pairs whose centre of pressure lies outside of the control volume are not counted.
   Aabb<S> above = box;
   above.lower[0] = 0.25;
   CHECK(with(axes).fabric_in(above).pairs == 1);
@@ -288,7 +292,7 @@ TEST_CASE_TEMPLATE("the fabric of a lattice is isotropic, that of chains their d
 }
 
 TEST_CASE("the anisotropy of a density of normals is read off its fabric") {
-  // E(theta) = (1 + a cos 2(theta - c)) / 2 pi, by the quantiles of equal shares.
+  // Normals with the density E(theta) = (1 + a cos 2(theta - c)) / 2 pi, one at each quantile.
   using S = Space<2>;
   const double pi = std::acos(-1.0), a = 0.6, c = 0.4;
   const int count = 20000;
@@ -309,7 +313,7 @@ TEST_CASE("the anisotropy of a density of normals is read off its fabric") {
 }
 
 TEST_CASE("the distribution of forces is a density of their ratio to the mean") {
-  const std::vector<double> forces = {1, 1, 3, 3, 3, 7, 10, 4};  // mean 4
+  const std::vector<double> forces = {1, 1, 3, 3, 3, 7, 10, 4};  // the mean is 4
   const auto of = [&](std::size_t k) { return forces[k]; };
   const auto found = force_distribution<double>(forces.size(), of, 4, 2.0);
   CHECK(found.count == 8);
@@ -322,7 +326,7 @@ TEST_CASE("the distribution of forces is a density of their ratio to the mean") 
   for (const double p : found.density) all += p * found.width;
   CHECK(all == 1);
 
-  // Exponentially distributed forces, by their quantiles: P = exp(-f/<f>).
+  // Exponentially distributed forces, P = exp(-f/<f>), one at each quantile.
   const std::size_t many = 100000;
   const auto quantile = [&](std::size_t k) { return -3 * std::log((double(k) + 0.5) / many); };
   const auto decay = force_distribution<double>(many, quantile, 20, 5.0);
@@ -355,7 +359,7 @@ TEST_CASE("classes of contacts share the coordination and the force") {
   for (int point = 0; point < 3; ++point) push(0, 1, 1, ContactClass::face_face);
   push(0, 2, 2, ContactClass::vertex_face);
   push(0, 3, 4, ContactClass::vertex_face);
-  push(1, 2, 0, ContactClass::edge_edge);  // carries nothing
+  push(1, 2, 0, ContactClass::edge_edge);  // carries no force
   push(2, 3, 1, ContactClass::edge_face);
   const auto found = contact_classes<S>(all.pairs(), 3, all.is_grain());
   CHECK(found[ContactClass::face_face].pairs == 1);
@@ -374,7 +378,8 @@ TEST_CASE("classes of contacts share the coordination and the force") {
 
 TEST_CASE_TEMPLATE("stress of a lattice under pressure is the pressure on every axis", S, Space<2>,
                    Space<3>) {
-  // Grains one apart in a unit lattice; each bond carries the pressure over its unit section.
+  // A periodic cell of size 1 with one grain, which touches its neighbouring images. Each contact
+  // carries the pressure times a cross-section of 1.
   using V = typename S::Vector;
   const double pressure = 5, step = 1e-2;
   Assembly<S> lattice;
@@ -383,7 +388,8 @@ TEST_CASE_TEMPLATE("stress of a lattice under pressure is the pressure on every 
   PeriodicCell<S> cell;
   for (int k = 0; k < S::dim; ++k) {
     cell.set(k, 0, 1);
-    lattice.position.push_back(lattice.position[0] + V::Unit(k));  // the image next to it
+    // The neighbouring image along axis k.
+    lattice.position.push_back(lattice.position[0] + V::Unit(k));
     lattice.grain.push_back(true);
     lattice.add(0, std::uint32_t(k + 1), lattice.position[0] + V::Unit(k) / 2, V::Unit(k),
                 pressure * step * V::Unit(k));

@@ -23,7 +23,8 @@ TEST_CASE_TEMPLATE("energy and momentum of bodies are those of the particles the
   for (auto& body : bodies) {
     body.position = fill(typename S::Vector());
     body.velocity = fill(typename S::Twist());
-    // Pairs of particles on opposite sides of the centre, so that it is the centre of mass.
+    // The particles form pairs at opposite sides of a point, so that this point is the centre of
+    // mass.
     for (int i = 0; i < 8; ++i) {
       const double mass = 0.1 + normal(random) * normal(random);
       const typename S::Vector arm = fill(typename S::Vector());

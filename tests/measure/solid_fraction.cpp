@@ -40,7 +40,7 @@ Pose<S> random_pose(std::mt19937_64& random, typename S::Scalar spread) {
   return {random_vector<S>(random, spread), S::exp(turn)};
 }
 
-/// Hull of points near an ellipsoid, circumradius about one.
+/// The convex hull of random points near an ellipsoid, with a circumradius of about one.
 template <class Shape>
 Shape random_polytope(std::mt19937_64& random, int points) {
   using S = SpaceOf<Shape>;
@@ -87,7 +87,8 @@ Aabb<Space<3, T>> box_of(T x0, T y0, T z0, T x1, T y1, T z1) {
   return {V3<T>(x0, y0, z0), V3<T>(x1, y1, z1)};
 }
 
-/// Independent of the clipping: all corners of the intersection by brute force, then their hull.
+/// The volume of the intersection, computed without clipping: the hull of all corners of the
+/// intersection, which are found by brute force.
 double hull_of_intersection(const Polyhedron<double>& shape, const Pose<Space<3>>& pose,
                             const Aabb<Space<3>>& box) {
   std::vector<std::pair<V3<double>, double>> planes;
@@ -226,7 +227,7 @@ TEST_CASE_TEMPLATE("cubes have closed forms", T, double) {
 
   SUBCASE("turned by 45 degrees about z, a prism with a square section of diagonal 2 sqrt 2") {
     pose.rotation = typename S::Rotation(Eigen::AngleAxis<T>(pi / 4, V3<T>::UnitZ()));
-    const T h = T(0.3);  // distance of the cutting plane from the edge that sticks out
+    const T h = T(0.3);  // distance of the cutting plane from the outermost edge
     const T edge = std::numbers::sqrt2_v<T>;
     CHECK(std::abs(clipped_volume(cube, pose, box_of<T>(edge - h, -9, -9, 9, 9, 9), workspace) -
                    h * h * 2) < tol);
@@ -234,7 +235,8 @@ TEST_CASE_TEMPLATE("cubes have closed forms", T, double) {
   }
   SUBCASE("standing on a corner") {
     pose.rotation.setFromTwoVectors(V3<T>::Ones(), V3<T>::UnitZ());
-    const T corner = std::sqrt(T(3)), h = T(0.5);  // a tetrahedron of height h: sqrt(3)/2 h^3
+    // The box cuts off a tetrahedron of height h and volume sqrt(3)/2 h^3.
+    const T corner = std::sqrt(T(3)), h = T(0.5);
     CHECK(std::abs(clipped_volume(cube, pose, box_of<T>(-9, -9, corner - h, 9, 9, 9), workspace) -
                    std::sqrt(T(3)) / 2 * h * h * h) < tol);
     CHECK(std::abs(clipped_volume(cube, pose, box_of<T>(-9, -9, -9, 9, 9, 0), workspace) - 4) <
@@ -282,7 +284,8 @@ TEST_CASE_TEMPLATE("planes through faces, edges and vertices are no special case
     CHECK(std::abs(clipped_volume(octahedron, pose, box_of<T>(0, 0, 0, 1, 1, 1), workspace) -
                    whole / 8) < tol);
     pose.rotation = typename S::Rotation(
-        Eigen::AngleAxis<T>(std::numbers::pi_v<T> / 4, V3<T>::UnitZ()));  // cuts through edges
+        // With this rotation the planes of the box cut edges.
+        Eigen::AngleAxis<T>(std::numbers::pi_v<T> / 4, V3<T>::UnitZ()));
     CHECK(std::abs(clipped_volume(octahedron, pose, box_of<T>(0, 0, -1, 1, 1, 1), workspace) -
                    whole / 4) < tol);
   }
@@ -311,7 +314,7 @@ TEST_CASE_TEMPLATE("balls and disks have closed forms", T, double) {
   CHECK(clipped_volume(ball, pose, box_of<T>(0, 0, 0, 1, 1, 1), workspace) == 1);
   CHECK(std::abs(clipped_volume(ball, pose, box_of<T>(0, 0, 0, 9, 9, 9), workspace) - 4 * pi / 3) <
         10 * tol);
-  const T h = T(0.7);  // cap of height h
+  const T h = T(0.7);  // height of the spherical cap
   CHECK(std::abs(clipped_volume(ball, pose, box_of<T>(-9, -9, 2 - h, 9, 9, 9), workspace) -
                  pi * h * h * (6 - h) / 3) < 10 * tol);
 
@@ -330,7 +333,8 @@ TEST_CASE("the ball in a corner agrees with an integral over disks") {
     const Ball<double> ball(1);
     const Pose<Space<3>> pose;
     const auto box = random_box<Space<3>>(random, 1.2);
-    // Midpoint rule over slices z = sin(s): smooth where the disk closes.
+    // Midpoint rule over slices at z = sin(s), so that the integrand is smooth where the slice
+    // vanishes.
     const double from = std::asin(std::clamp(box.lower.z(), -1.0, 1.0));
     const double to = std::asin(std::clamp(box.upper.z(), -1.0, 1.0));
     constexpr int slices = 2000;

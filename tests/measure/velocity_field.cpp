@@ -11,7 +11,7 @@ namespace {
 
 using namespace moreau;
 
-/// Grains spread over a box, with the velocity that `flow` (section) gives.
+/// Grains distributed over a box, with the velocity flow(x, z) in the section.
 template <class S, class Flow>
 VelocityField<S> sampled(const Flow& flow) {
   using V = typename S::Vector;
@@ -20,7 +20,7 @@ VelocityField<S> sampled(const Flow& flow) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0.5, 3.5);
   for (int i = 0; i < 30000; ++i) {
-    V x, v = V::Constant(100);  // the axis across the section must not count
+    V x, v = V::Constant(100);  // the velocity perpendicular to the section must have no influence
     for (auto& component : x) component = uniform(random);
     const Eigen::Vector2d u = flow(x[0] - 2, x[S::dim - 1] - 2);
     v[0] = u.x();
@@ -34,9 +34,11 @@ VelocityField<S> sampled(const Flow& flow) {
 
 TEST_CASE_TEMPLATE("a rigid rotation is a perfect roll with its own angular velocity", S, Space<2>,
                    Space<3>) {
-  for (const double spin : {2.0, -0.5}) {  // x right, last axis up: counter-clockwise is positive
+  // With x to the right and the last axis upwards, counter-clockwise is positive.
+  for (const double spin : {2.0, -0.5}) {
     const auto field = sampled<S>([&](double x, double z) {
-      return Eigen::Vector2d(7 - spin * z, -3 + spin * x);  // and a drift, which is no roll
+      // The field also has a translation, which must have no influence.
+      return Eigen::Vector2d(7 - spin * z, -3 + spin * x);
     });
     const auto roll = field.roll();
     CHECK(roll.angular_velocity == doctest::Approx(spin).epsilon(0.03));
@@ -48,7 +50,7 @@ TEST_CASE_TEMPLATE("a rigid rotation is a perfect roll with its own angular velo
 
 TEST_CASE("a convection roll that dies out at the walls has the sign of its middle") {
   const auto field = sampled<Space<3>>([](double x, double z) {
-    const double pi = std::acos(-1.0);  // stream function cos cos: clockwise
+    const double pi = std::acos(-1.0);  // stream function cos cos, clockwise
     return Eigen::Vector2d(std::cos(pi * x / 2) * std::sin(pi * z / 2),
                            -std::sin(pi * x / 2) * std::cos(pi * z / 2));
   });
@@ -70,7 +72,7 @@ TEST_CASE("cells hold means, outsiders are left out") {
   VelocityField<Space<3>> field({V(0, 0, 0), V(4, 1, 2)}, 4, 2);
   field.add(V(2.5, 0.5, 1.5), V(1, 9, 2));
   field.add(V(2.9, 0.1, 1.1), V(3, 9, 4));
-  field.add(V(2.5, 1.5, 1.5), V(50, 50, 50));  // beside the box
+  field.add(V(2.5, 1.5, 1.5), V(50, 50, 50));  // a grain outside of the box
   const auto cell = field.sample(2, 1);
   CHECK(cell.position == Eigen::Vector2d(2.5, 1.5));
   CHECK(cell.velocity == Eigen::Vector2d(2, 3));
@@ -90,7 +92,7 @@ TEST_CASE_TEMPLATE("a grid holds the weighted means of its cells, along every ax
   for (int k = 0; k < S::dim; ++k) cells[k] = std::size_t(k) + 2;
   const Aabb<S> box{V::Zero(), V::Constant(6)};
   GridField<S> field(box, cells);
-  // The displacement of a homogeneous strain, sampled at the centres of the cells.
+  // The displacement of a homogeneous strain, with one grain at the centre of each cell.
   typename S::Matrix gradient = S::Matrix::Identity();
   gradient(0, S::dim - 1) = 0.5;
   for (std::size_t k = 0; k < field.size(); ++k) {
@@ -108,13 +110,13 @@ TEST_CASE_TEMPLATE("a grid holds the weighted means of its cells, along every ax
     CHECK((sample.value - gradient * sample.position - 2 * V::UnitX() / 3).norm() < 1e-14);
   }
   CHECK(field.sample(0).position == V(box.upper.cwiseQuotient(2 * V::LinSpaced(2, S::dim + 1))));
-  CHECK(field.sample(1).position[0] == 4.5);  // the first axis runs fastest
+  CHECK(field.sample(1).position[0] == 4.5);  // consecutive indices run along the first axis
   field.clear();
-  field.add(V::Constant(6), V::Ones());  // the upper bounds lie outside
+  field.add(V::Constant(6), V::Ones());  // the upper bounds do not belong to the box
   for (std::size_t k = 0; k < field.size(); ++k) CHECK(field.sample(k).grains == 0);
   PeriodicCell<S> cell;
   for (int k = 0; k < S::dim; ++k) cell.set(k, 0, 6);
-  field.add(V::Constant(6.5), V::Ones(), 1, cell);  // the image at 0.5
+  field.add(V::Constant(6.5), V::Ones(), 1, cell);  // counted at its image at 0.5
   CHECK(field.sample(0).value == V(V::Ones()));
   CHECK_THROWS_AS(field.add(V::Zero(), V::Zero(), 0), std::invalid_argument);
   CHECK_THROWS_AS(field.sample(field.size()), std::invalid_argument);

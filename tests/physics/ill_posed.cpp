@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Problems without a solution, problems with many solutions, and arguments that are not valid. They
-// end in a report or an exception, and no position is lost.
+// Problems without a solution, problems with many solutions, and invalid arguments. They must end
+// in a report or an exception, and no position may become infinite or NaN.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -63,9 +63,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A box between two driven walls that approach each other: no velocity of the box satisfies both
 /// contacts.
 struct Squeeze {
-  int claimed = 0;  ///< steps reported as converged
+  int claimed = 0;  ///< number of steps that were reported as converged
   int insane = 0;
-  double velocity = infinity;  ///< least remaining approach velocity [m/s]
+  double velocity = infinity;  ///< smallest remaining approach velocity of all steps [m/s]
 };
 template <class ShapeT>
 Squeeze squeeze(double friction, double speed) {
@@ -81,7 +81,7 @@ Squeeze squeeze(double friction, double speed) {
     scene.simulation.set_velocity(wall, -side * speed * Vector::UnitX());
   }
   Squeeze result;
-  // The walls touch each other after half a second.
+  // The walls would touch each other after half a second.
   for (int k = 0; k < rounds(400); ++k) {
     const moreau::StepReport report = scene.simulation.step(h);
     result.insane += !is_sane(report) || !scene.is_finite();
@@ -96,9 +96,9 @@ TEST_CASE_TEMPLATE("a grain between walls driven together: all numbers stay fini
   for (const double friction : {0.0, 0.5}) CHECK(squeeze<ShapeT>(friction, 0.1).insane == 0);
 }
 
-// May fail: the acceleration lets the impulses grow until the velocities are lost in their
-// rounding. The first step is reported as not converged; steps that start from its velocities are
-// not.
+// The test may fail: the acceleration of the solver lets the impulses grow until the velocities are
+// smaller than their rounding errors. The first step is reported as not converged, but steps that
+// start from its velocities are reported as converged.
 TEST_CASE_TEMPLATE("a grain between walls driven together: the report says that nothing solves it" *
                        doctest::may_fail(),
                    ShapeT, Polyhedron<>, Polygon<>) {
@@ -106,13 +106,14 @@ TEST_CASE_TEMPLATE("a grain between walls driven together: the report says that 
     const Squeeze result = squeeze<ShapeT>(friction, 0.1);
     CAPTURE(friction);
     CHECK(result.claimed == 0);
-    // Each wall moves with v, so one of them approaches the grain with v or more.
+    // Each wall moves with the speed v = 0.1. So, at any velocity of the grain, one wall approaches
+    // it with at least v. The test requires half of this.
     CHECK(result.velocity >= 0.05);
   }
 }
 
-// The walls form an angle of 30 degrees. The friction angle, 45 degrees, is more than half of that,
-// so the wedge carries any load and any self-stress: the problem has many solutions.
+// The walls form an angle of 30 degrees. The friction angle, 45 degrees, is more than half of this
+// angle. So the wedge can carry any load and any self-stress: the problem has many solutions.
 TEST_CASE_TEMPLATE("a heavy grain in a self-locking wedge stays", ShapeT, Polyhedron<>, Polygon<>) {
   using Box = Scene<ShapeT>;
   using Vector = typename Box::Vector;
@@ -145,7 +146,8 @@ TEST_CASE_TEMPLATE("a heavy grain in a self-locking wedge stays", ShapeT, Polyhe
   const double moved = (scene.simulation.bodies().pose[grain.index()].position - start).norm();
   CHECK(insane == 0);
   CHECK(unsolved == 0);
-  // Residual x g h x |r| / (m g h); a push of the walls of ten weights is enough.
+  // A velocity error of residual x g h x |r| / (m g h) acts in each step. The factor |r| / (m g h)
+  // is taken as 10: the walls may press with ten times the weight.
   CHECK(moved <= 10 * 9.81 * h * allowed);
 }
 
@@ -196,7 +198,7 @@ TEST_CASE_TEMPLATE("what no body can be is refused where it is said", ShapeT, Po
     stretched.rotation.coeffs() *= 2;
     refuses("rotation", [&] { simulation.set_pose(grain, stretched); });
   }
-  // Nothing of what was rejected was stored.
+  // Nothing of the rejected arguments was stored.
   CHECK(is_sane(simulation.step(1e-3)));
   CHECK(scene.is_finite());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structures of dry blocks on a floor. They are drawn in the vertical plane and extruded in space.
+// Structures of dry blocks on a floor. They are defined in the vertical plane and extruded in
+// space.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace masonry {
 
 using Law = moreau::SignoriniCoulomb<double>;
-using Point = std::array<double, 2>;  ///< across, up [m]
+using Point = std::array<double, 2>;  ///< horizontal and vertical coordinate [m]
 
 constexpr double gravity = 9.81, density = 1000, tolerance = 1e-8;
 
@@ -26,7 +27,7 @@ inline moreau::ColouredOptions tight(int max_sweeps = 10000) {
   return options;
 }
 
-/// @tparam Solver of the contact problem
+/// @tparam Solver solver of the contact problem
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 struct Structure {
   using S = moreau::SpaceOf<ShapeT>;
@@ -34,26 +35,27 @@ struct Structure {
   static constexpr int up = S::dim - 1;
 
   moreau::Simulation<ShapeT, Law, moreau::MoreauJean, moreau::SweepAndPrune<S>, Solver> simulation;
-  double depth;            ///< of the prisms [m]
-  double joint = 1e9;      ///< least width of a joint [m]
-  double diameter = 0;     ///< of the structure [m]
-  std::size_t joints = 1;  ///< least number of joints that every block can reach the floor by
+  double depth;            ///< extent of the blocks perpendicular to the plane [m]
+  double joint = 1e9;      ///< smallest width of a joint [m]
+  double diameter = 0;     ///< diameter of the structure [m]
+  std::size_t joints = 1;  ///< each block is connected to the floor through at most this many
+                           ///< joints
 
-  /// @param size of a block [m]
-  /// @param prism_depth out of the plane [m]
-  /// @param tilt of the floor under gravity [rad]
+  /// @param size        size of a block [m]
+  /// @param prism_depth extent of the blocks perpendicular to the plane [m]
+  /// @param tilt        angle of the floor to the horizontal [rad]
   Structure(double size, double friction, double prism_depth, double tilt = 0)
       : simulation(size, moreau::Materials<Law>(1, Law(friction)), Solver(tight())),
         depth(prism_depth) {
-    // Three of the four points of a rectangle leave the load on the edge of their triangle: the
-    // block would rock.
+    // With three of the four contact points of a rectangle, the centre of pressure would lie on a
+    // side of their triangle, and the block would rock.
     simulation.set_contact_points(moreau::ContactPoints::all);
     simulation.add_wall(Vector::Unit(up), Vector::Zero());
     simulation.set_gravity(gravity *
                            (std::sin(tilt) * Vector::UnitX() - std::cos(tilt) * Vector::Unit(up)));
   }
 
-  /// Adds a block by its corners in the plane, in any order.
+  /// Adds a block with the given corners in the plane, in any order.
   void add(const std::vector<Point>& corners) {
     std::vector<Vector> vertices;
     for (const auto& [across, height] : corners)
@@ -76,7 +78,7 @@ struct Structure {
          {left + width, bottom + height}});
   }
 
-  /// Every vertex of every block, world axes [m].
+  /// The positions of all vertices of all blocks, world axes [m].
   std::vector<Vector> vertices() const {
     std::vector<Vector> all;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
@@ -91,8 +93,8 @@ struct Structure {
     for (const double weight : simulation.bodies().weight) sum += weight;
     return sum;
   }
-  /// The velocity that the residual of the last step is relative to: |r| times the mean of diag W
-  /// [m/s].
+  /// The velocity to which the residual of the last step is relative: |r| times the mean of the
+  /// diagonal of W [m/s].
   double impulse_velocity() const {
     const auto& bodies = simulation.bodies();
     const auto& contacts = simulation.contacts();
@@ -111,8 +113,8 @@ struct Structure {
   }
 };
 
-/// Boxes on top of each other on a floor that is tilted by 0.01. The resultant force leaves the
-/// base when the tilt is 1/count.
+/// A column of boxes on a floor that is tilted by 0.01 rad. The resultant force leaves the base if
+/// the tilt exceeds 1/count.
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 Structure<ShapeT, Solver> column(int count) {
   Structure<ShapeT, Solver> structure(0.1, 0.5, 0.1, std::min(0.01, 0.4 / count));
@@ -123,9 +125,8 @@ Structure<ShapeT, Solver> column(int count) {
   return structure;
 }
 
-/// Courses of bricks; every second course is shifted by half a brick and closed by two half bricks.
-/// Joints are dry on all sides. The floor is tilted along the wall, by less than the friction
-/// angle.
+/// Courses of bricks. Every second course is shifted by half a brick and completed by two half
+/// bricks. All joints are dry. The floor is tilted along the wall by less than the friction angle.
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 Structure<ShapeT, Solver> wall(int courses, int bricks) {
   constexpr double length = 0.2, height = 0.06;
@@ -144,27 +145,31 @@ Structure<ShapeT, Solver> wall(int courses, int bricks) {
   return structure;
 }
 
-/// tan of the angle of a card to the vertical: half of its horizontal extent over its height.
+/// Tangent of the angle between a card and the vertical.
 constexpr double card_lean = 0.36;
 
-/// The friction that the lower storey of a card house needs, in the limit of thin cards. A leaning
-/// card of weight W carries the load Q at its top, at the horizontal distance a and the height b
-/// from its base. By symmetry the top transmits only a horizontal thrust T. The moment about the
-/// base gives T b = W a/2 + Q a, and the base carries W + Q. So mu >= T/(W + Q) = (a/b)(W/2 + Q)/(W
-/// + Q). The lower storey carries one level card and one pair of cards, 3 W on four cards: Q = 3/4
-/// W and mu >= 5/7 a/b. The upper storey, with Q = 0, needs 1/2 a/b.
+/// The friction coefficient that the lower storey of a card house needs, in the limit of thin
+/// cards.
+///
+/// A leaning card of weight W carries the load Q at its top. The top is at the horizontal distance
+/// a and at the height b from the base of the card. By symmetry the top transmits only a horizontal
+/// thrust T. The moment about the base gives T b = W a/2 + Q a. The base carries W + Q. So mu >=
+/// T/(W + Q) = (a/b)(W/2 + Q)/(W + Q). The four cards of the lower storey carry one level card and
+/// one pair of cards, together 3 W. So Q = 3/4 W and mu >= 5/7 a/b. The upper storey, with Q = 0,
+/// needs mu >= 1/2 a/b.
 constexpr double card_friction = 5.0 / 7 * card_lean;
 
 /// Adds a leaning card. It is cut horizontally at its base and its top, and vertically at the
 /// ridge.
-/// @param side -1 left, 1 right of the ridge
+/// @param side -1 to the left of the ridge, 1 to the right
 template <class ShapeT>
 void add_card(Structure<ShapeT>& house, double ridge, double foot, double rise, double thickness,
               double side) {
-  // From the vertical cut down the lower face, along the base, up the upper face, along the top.
-  const double wide = thickness * std::hypot(1.0, card_lean);  // measured level
+  // The corners in order: along the lower face, the base, the upper face, the top and the vertical
+  // cut.
+  const double wide = thickness * std::hypot(1.0, card_lean);  // horizontal width of the card
   const double run = card_lean * rise;
-  const double cut = wide / 2;  // level width of the top
+  const double cut = wide / 2;  // horizontal width of the top
   const double plumb = (wide - cut) / card_lean;
   house.add({{ridge, foot + rise},
              {ridge + side * cut, foot + rise},
@@ -173,14 +178,17 @@ void add_card(Structure<ShapeT>& house, double ridge, double foot, double rise, 
              {ridge, foot + rise - plumb}});
 }
 
-/// Two storeys: two pairs of cards, a level card across their ridges, and a pair on it.
+/// A card house of two storeys: two pairs of cards, a level card across their ridges, and a pair of
+/// cards on it.
 template <class ShapeT>
 Structure<ShapeT> card_house(double friction) {
   constexpr double rise = 1, thickness = 0.04;
   Structure<ShapeT> house(thickness, friction, 0.6);
   const double wide = thickness * std::hypot(1.0, card_lean);
-  const double foot = card_lean * rise + wide / 2;  // outermost, from the ridge
-  const double ridge = card_lean * rise;  // an upper foot, half of it, stands above a lower ridge
+  // Horizontal distance of the outer edge of the base from the ridge.
+  const double foot = card_lean * rise + wide / 2;
+  // Horizontal distance of an upper base from the upper ridge. A lower ridge lies below it.
+  const double ridge = card_lean * rise;
   for (const double side : {-1.0, 1.0}) {
     for (const double lean : {-1.0, 1.0})
       add_card(house, side * (foot + 0.02), 0, rise, thickness, lean);
@@ -193,9 +201,9 @@ Structure<ShapeT> card_house(double friction) {
   return house;
 }
 
-/// A semicircular arch of equal voussoirs with mean radius 1 on the floor.
-/// @param thickness relative to the mean radius; the least that stands is 0.1075 (M. Milankovitch,
-///                  1907)
+/// A semicircular arch of equal voussoirs on the floor, with the mean radius 1.
+/// @param thickness relative to the mean radius; an arch stands if it is at least 0.1075 (M.
+///                  Milankovitch, 1907)
 template <class ShapeT>
 Structure<ShapeT> arch(int voussoirs, double thickness) {
   Structure<ShapeT> structure(thickness, 0.7, 0.3);
@@ -204,7 +212,7 @@ Structure<ShapeT> arch(int voussoirs, double thickness) {
     for (int end = 0; end < 2; ++end)
       for (const double radius : {1 - thickness / 2, 1 + thickness / 2}) {
         const double angle = std::numbers::pi * (k + end) / voussoirs;
-        // sin(pi) is not zero in floating point.
+        // sin(pi) is not exactly zero in floating point.
         const double height = k + end == voussoirs ? 0 : std::sin(angle);
         corners.push_back({-radius * std::cos(angle), radius * height});
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A packing at rest, and the criterion for rest.
+// The test that a packing at rest remains at rest.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,11 @@ namespace packing {
 
 using Law = moreau::SignoriniCoulomb<double>;
 
-/// 60 grains fall into a box and settle; then overlap and kinetic energy are recorded. The second
-/// half of the time must not be worse than the first half, as far as it exceeds what a packing at
-/// rest may show: overlaps up to the slop of the correction, and velocities of the size of the
-/// residual, which is relative to about g h times the number of grains that a contact carries.
+/// 60 grains fall into a box and come to rest. After that, overlap and kinetic energy are recorded.
+/// Their largest values in the second half of the recorded time must not exceed those in the first
+/// half, unless they are below what a packing at rest may have. This is an overlap equal to the
+/// slop of the overlap correction, and a velocity caused by the residual: the residual times g h
+/// times the number of grains that a contact carries.
 template <class ShapeT>
 void check_rests(double duration) {
   constexpr double h = 1e-3, size = 0.02, gravity = 9.81;
@@ -40,7 +41,8 @@ void check_rests(double duration) {
   const double slop = moreau::OverlapCorrectionOptions{}.slop * size;
   const double velocity = options.tolerance * gravity * h * double(count);
   CHECK(capped == 0);
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * 0.1;  // of a place [m]
+  // Rounding error of a position [m].
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * 0.1;
   CHECK(overlap[1] <= std::max(overlap[0], slop) + rounding);
   CHECK(energy[1] <= std::max(energy[0], mass * velocity * velocity / 2));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A packing at rest stays at rest. Twenty seconds of it are in long/rest.cpp.
+// A packing at rest remains at rest. The same test over twenty seconds is in long/rest.cpp.
 #include "physics/packing.hpp"
 #include "sanitized.hpp"
 
@@ -11,10 +11,11 @@ TEST_CASE_TEMPLATE("a packing of 60 grains at rest: overlap and motion do not gr
   packing::check_rests<ShapeT>(2.0 / sanitizer_share);
 }
 
-// A box that is put on the floor moves only by the residual, about 1e-8 times 2 g h: 1e-9 m in 0.7
-// s with the largest step. If the box is dropped, the gap closes to first order in the step, and
-// the correction reduces overlaps beyond its slop, to 0.8^k after k steps. The overlap at rest
-// therefore lies in [0, slop] for any step.
+// A box that is placed on the floor moves only because of the residual: at most about 1e-8 times 2
+// g h per step, which is 1e-9 m in 0.7 s with the largest step. If the box is dropped, the gap
+// closes with an error of first order in the step. The overlap correction reduces overlaps beyond
+// its slop by a factor of 0.8 in each step. So, for any step, the overlap at rest lies in [0,
+// slop].
 TEST_CASE_TEMPLATE("the gap of a box at rest does not follow the step", ShapeT, Polyhedron<>,
                    Polygon<>) {
   using S = moreau::SpaceOf<ShapeT>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The criterion for a structure that stands.
+// The criterion that a structure stands.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,17 @@
 
 namespace masonry {
 
-/// Runs a structure. Every step must converge to the tolerance, and every motion must be within the
-/// residual:
+/// Simulates a structure. Every step must converge to the tolerance, and the motion must not exceed
+/// the motion that the residual can cause. The bound of this motion is derived as follows.
 ///
-/// In the natural map a contact strictly inside its cone does not change its velocity. The sticking
-/// points therefore slip by |u| <= e := residual x impulse velocity (about g h for one block; a
-/// joint that carries n blocks has n times that), together in the 2-norm. Joints of width w then
-/// rotate by at most 2 u/w. A block that is connected to the floor by n joints in a structure of
-/// diameter D moves by sum u (1 + 2 D/w) <= e sqrt(n) (1 + 2 D/w). Velocities do not accumulate
-/// over steps. The displacement is therefore the sum of h times that bound, and the kinetic energy
-/// is below m/2 of its square. In addition, positions move by the overlap correction, by as much as
+/// In the natural map, a contact strictly inside its friction cone does not change its velocity. So
+/// the slip velocities u of the sticking points satisfy |u| <= e (2-norm over all points), with e =
+/// residual x impulse velocity. (The impulse velocity is about g h for one block; at a joint that
+/// carries n blocks it is n times that.) Joints of width w rotate by at most 2 u/w. A block that is
+/// connected to the floor by n joints, in a structure of diameter D, moves with at most sum u (1 +
+/// 2 D/w) <= e sqrt(n) (1 + 2 D/w). Velocities do not accumulate over steps. So the displacement is
+/// at most the sum of h times this velocity, and the kinetic energy is at most m/2 times its
+/// square. In addition, the overlap correction displaces blocks by the amount that it reports.
 /// it reports.
 template <class ShapeT, class Solver>
 void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle, int count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structures that stand according to statics. The sizes that take minutes are in
+// Structures that stand according to statics. Larger structures, which take minutes, are in
 // long/structures.cpp.
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"

@@ -16,7 +16,7 @@ using moreau::ballast_shapes;
 using moreau::Polygon;
 using moreau::Polyhedron;
 
-/// A shape of a user's own.
+/// A shape defined by a user.
 struct Pebble {
   int number = 0;
 };
@@ -46,7 +46,7 @@ TEST_CASE_TEMPLATE("polyhedra: 8 to 37 vertices, 12 to 70 triangles, circumradiu
     REQUIRE(shape.face_count() == 2 * shape.vertex_count() - 4);
     REQUIRE(shape.circumradius() == doctest::Approx(1).epsilon(1e-6));
     REQUIRE(shape.inradius() > 0.349);
-    // The ellipsoid of the same inertia has the semi-axes a_i^2 = 5 (tr I / 2 - I_i) / m.
+    // The ellipsoid with the same inertia has the semi-axes a_i^2 = 5 (tr I / 2 - I_i) / m.
     const Eigen::Matrix3d inertia = shape.mass_properties(1).inertia.template cast<double>();
     const Eigen::Vector3d moments =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();

@@ -37,7 +37,7 @@ TEST_CASE_TEMPLATE("deposited spheres lie in the box, overlap nowhere and rest o
       CHECK(x[k] >= radii[i] - rounding);
       CHECK(x[k] <= length - radii[i] + rounding);
     }
-    T nearest = x[up] - radii[i];  // to the floor
+    T nearest = x[up] - radii[i];  // gap to the floor
     for (std::size_t j = 0; j < i; ++j)
       nearest = std::min(nearest, (poses[j].position - x).norm() - radii[i] - radii[j]);
     CHECK(nearest >= -rounding);
@@ -84,6 +84,6 @@ TEST_CASE_TEMPLATE(
     sum += q;
   }
   sum = sum / T(count) - (S::dim == 3 ? T(1) / 27 : T(0)) * S::Matrix::Identity();
-  // Entries have variance 1/dim: four standard errors.
+  // Each entry has the variance 1/dim; the limit is four standard errors.
   CHECK(sum.cwiseAbs().maxCoeff() < 4 / std::sqrt(T(S::dim) * T(count)));
 }

@@ -28,8 +28,8 @@ auto hull_of(const std::vector<Vector>& points) {
   return moreau::convex_hull(std::span<const Vector>(points));
 }
 
-/// True if x, in the plane of the others and given without one coordinate, is on the segment of two
-/// or in the triangle of three of them.
+/// Whether a point x lies inside a segment between two other points or inside a triangle of three
+/// other points. All points lie in one plane and are given by two of their coordinates.
 bool is_inside_others(const Eigen::Vector2d& x, const std::vector<Eigen::Vector2d>& others) {
   for (const auto& a : others) {
     for (const auto& b : others) {
@@ -44,7 +44,8 @@ bool is_inside_others(const Eigen::Vector2d& x, const std::vector<Eigen::Vector2
   return false;
 }
 
-/// Sorted vertices of each face, by trying the planes of all triples; distinct exact points.
+/// The sorted vertices of each face, found by trying the planes of all triples of points. The
+/// points must be distinct, and orientation signs are exact.
 std::set<Face> brute_force_faces(const std::vector<Eigen::Vector3d>& x) {
   std::set<Face> faces;
   const auto n = static_cast<std::uint32_t>(x.size());
@@ -52,7 +53,7 @@ std::set<Face> brute_force_faces(const std::vector<Eigen::Vector3d>& x) {
     for (std::uint32_t j = i + 1; j < n; ++j) {
       for (std::uint32_t k = j + 1; k < n; ++k) {
         const Eigen::Vector3d normal = (x[j] - x[i]).cross(x[k] - x[i]);
-        if (normal.isZero(0)) continue;  // collinear: exact for small integers
+        if (normal.isZero(0)) continue;  // collinear; exact for small integers
         Face on;
         bool above = false, below = false;
         for (std::uint32_t l = 0; l < n; ++l) {
@@ -94,7 +95,8 @@ std::set<std::uint32_t> vertices_of(const std::vector<Face>& faces) {
   return vertices;
 }
 
-/// Closed, all points on or below each face's plane, faces planar, within the tolerance.
+/// Checks that the faces form a closed surface, that they are planar, and that all points lie on or
+/// below the plane of each face, within the tolerance.
 template <class T>
 void check_encloses(const std::vector<Face>& faces, const std::vector<V3<T>>& points,
                     double tolerance) {
@@ -139,7 +141,7 @@ std::vector<V3<T>> moved(const std::vector<Eigen::Vector3d>& points, const Eigen
   return result;
 }
 
-/// Lattice of n + 1 points a side on the surface and inside of the unit cube.
+/// The points of a lattice in the unit cube, with n + 1 points along each axis.
 std::vector<Eigen::Vector3d> cube_lattice(int n) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i <= n; ++i) {
@@ -156,7 +158,7 @@ TEST_CASE("hull in space equals brute force, degenerate integer points") {
     CAPTURE(trial);
     const auto points = distinct_integer_points(6 + trial % 13, 1 + trial % 4, random);
     const auto truth = brute_force_faces(points);
-    if (truth.size() < 4) continue;  // all in one plane: the same face from both sides
+    if (truth.size() < 4) continue;  // all points in one plane, found as a face from both sides
     const auto faces = hull_of(points);
     REQUIRE(sorted_faces(faces) == truth);
     check_encloses(faces, points, 1e-13);
@@ -199,7 +201,7 @@ TEST_CASE("the order of the points does not change the hull") {
   std::uniform_real_distribution<double> noise(-1, 1);
   for (int trial = 0; trial < 40; ++trial) {
     auto points = cube_lattice(3);
-    // From exact through the size of the tolerance to clearly bent.
+    // The perturbation is zero, of the size of the tolerance, or much larger.
     const double size = trial == 0 ? 0 : std::pow(10.0, -18 + trial % 8);
     for (auto& x : points) {
       for (double& c : x) c += size * noise(random);
@@ -224,7 +226,7 @@ TEST_CASE("noise around the tolerance always leaves a closed convex surface") {
   for (int trial = 0; trial < 75; ++trial) {
     CAPTURE(trial);
     auto points = trial % 3 ? cube_lattice(4) : std::vector<Eigen::Vector3d>{};
-    for (int k = 0; k < 24 && trial % 3 == 0; ++k) {  // a prism with fine sides
+    for (int k = 0; k < 24 && trial % 3 == 0; ++k) {  // a prism with many narrow sides
       const double angle = 2 * std::numbers::pi * k / 24;
       for (const double z : {-1.0, -0.2, 0.7, 1.0}) {
         points.emplace_back(std::cos(angle), std::sin(angle), z);
@@ -237,7 +239,8 @@ TEST_CASE("noise around the tolerance always leaves a closed convex surface") {
       for (double& c : x) c += size * noise(random);
     }
     const auto faces = hull_of(points);
-    // The tolerance may have been raised 64 times, and bounds half of the deviation.
+    // The tolerance may have been increased by a factor of 64, and the deviation may be twice the
+    // tolerance.
     check_encloses(faces, points, 128 * 32 * std::numeric_limits<double>::epsilon() * 1.8);
     if (size < 2e-15) REQUIRE(faces.size() == (trial % 3 ? 6 : 26));
   }
@@ -262,7 +265,7 @@ TEST_CASE_TEMPLATE("subdivided, needle-like and plate-like boxes have six faces"
 }
 
 TEST_CASE("a box cut very unevenly has six faces") {
-  // Cuts from 1e-9 to 0.5 of the side: slivers of any shape between them.
+  // The cuts are at 1e-9 to 0.5 of the side, so that slivers of many proportions lie between them.
   std::vector<double> cuts{0, 1e-9, 1e-6, 1e-3, 0.5, 1};
   std::vector<Eigen::Vector3d> points;
   for (const double x : cuts) {
@@ -431,7 +434,7 @@ TEST_CASE("bad input in space is named") {
   CHECK(message() == "convex_hull: thickness of vertices = 0 m must not vanish: they coincide");
   points.assign(5, {0, 0, 0});
   CHECK(message() == "convex_hull: thickness of vertices = 0 m must not vanish: they coincide");
-  // A thin plate is not an error.
+  // A thin plate is valid input.
   points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1e-9}};
   CHECK(hull_of(points).size() == 4);
 }

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-/// What the std::invalid_argument says that the call throws.
+/// The message of the std::invalid_argument that the call throws.
 template <class Call>
 std::string message_of(Call&& call) {
   try {

@@ -15,7 +15,8 @@ int sign(double x) {
   return (x > 0) - (x < 0);
 }
 
-/// A point of a coarse grid, moved by at most one unit: many triples are nearly or just collinear.
+/// A random point of a coarse grid, moved by at most one unit, so that many triples are nearly or
+/// exactly collinear.
 template <int Dim>
 Eigen::Matrix<std::int64_t, Dim, 1> random_grid_point(std::int64_t spacing,
                                                       std::mt19937_64& random) {
@@ -28,7 +29,8 @@ Eigen::Matrix<std::int64_t, Dim, 1> random_grid_point(std::int64_t spacing,
   return x;
 }
 
-// The spacings are the largest for which 64 bits hold the determinant; 53 do not.
+// The spacings are the largest for which 64-bit integers represent the determinant exactly. The 53
+// bits of a double do not suffice.
 
 TEST_CASE("orientation in the plane: the sign is that of integer arithmetic") {
   std::mt19937_64 random(1);

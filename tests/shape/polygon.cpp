@@ -88,7 +88,8 @@ TEST_CASE_TEMPLATE("a rectangle and a triangle in closed form", T, double, float
   CHECK(box.area() == doctest::Approx(6));
   CHECK(box.mass_properties(1).inertia(0, 0) == doctest::Approx(6.0 * (9 + 4) / 12));
   CHECK((box.centroid_of_input() - V2<T>(2.5, 2)).norm() < tolerance<T>);
-  // About its centre, the second moment is that of three points of mass m / 12 at the vertices.
+  // The second moment of a triangle about its centre is that of three point masses m / 12 at its
+  // vertices.
   const auto triangle = hull<T>({{0, 0}, {3, 1}, {1, 2}});
   CHECK(triangle.area() == doctest::Approx(2.5));
   CHECK(triangle.mass_properties(1).inertia(0, 0) ==

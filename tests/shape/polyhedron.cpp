@@ -74,7 +74,7 @@ double distance(const Eigen::Matrix<T, 3, 3>& a, const Eigen::Matrix<T, 3, 3>& b
   return static_cast<double>((a - b).norm() / b.norm());
 }
 
-/// Everything that the incidences promise.
+/// Checks all relations between vertices, edges and faces.
 template <class T>
 void check_incidences(const Polyhedron<T>& p) {
   REQUIRE(p.vertex_count() + p.face_count() == p.edge_count() + 2);
@@ -106,7 +106,8 @@ void check_incidences(const Polyhedron<T>& p) {
   }
 }
 
-/// Faces planar, outward, and supporting; the origin is the centre of mass.
+/// Checks that the faces are planar, have outward normals and are supporting planes, and that the
+/// origin is the centre of mass.
 template <class T>
 void check_geometry(const Polyhedron<T>& p) {
   const double close = tolerance<T> * static_cast<double>(p.circumradius());
@@ -171,7 +172,8 @@ TEST_CASE_TEMPLATE("any tetrahedron: volume, centre, and second moment in closed
     CHECK(p.face_count() == 4);
     CHECK(p.volume() == doctest::Approx(volume).epsilon(10 * tolerance<T>));
     CHECK((p.centroid_of_input().template cast<double>() - center).norm() < 10 * tolerance<T>);
-    // About its centre, the second moment is that of four points of mass m / 20 at the vertices.
+    // The second moment of a tetrahedron about its centre is that of four point masses m / 20 at
+    // its vertices.
     const Eigen::Matrix<double, 3, 4> y = x.colwise() - center;
     const Eigen::Matrix3d second = volume / 20 * y * y.transpose();
     const Eigen::Matrix3d inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
@@ -187,7 +189,7 @@ TEST_CASE("octahedron and regular prisms in closed form") {
   }
   const auto eight = hull(octahedron);
   CHECK(eight.volume() == doctest::Approx(4.0 / 3).epsilon(1e-14));
-  // m a^2 / 10 with the side a = sqrt(2).
+  // An octahedron with the edge length a = sqrt(2) has the moment of inertia m a^2 / 10.
   CHECK(distance<double>(eight.mass_properties(3).inertia, 4 * 0.2 * Eigen::Matrix3d::Identity()) <
         1e-14);
 
@@ -219,7 +221,8 @@ TEST_CASE_TEMPLATE("random hulls: geometry, incidences, mass by summation over p
     check_incidences(p);
     check_geometry(p);
   }
-  // Cut by a plane through the origin: both halves together have the volume of the whole.
+  // A plane through the origin divides the polyhedron: both parts together have the volume of the
+  // whole.
   auto points = random_points<T>(60, random);
   const auto whole = hull(points);
   std::vector<V3<T>> halves[2];
@@ -367,7 +370,7 @@ TEST_CASE("from_faces refuses coplanar neighbours, dents, two bodies, straight c
         "Polyhedron::from_faces: height of vertices[1] above faces[0] = 0 m must be negative: "
         "convex, coplanar neighbours joined");
 
-  // A pyramid pushed into the top.
+  // The top has the form of a pyramid that is pushed into the box.
   auto dented = vertices;
   dented.emplace_back(0, 0, 0.2);
   FaceLists dent = box_faces;

@@ -16,13 +16,13 @@ namespace {
 using namespace moreau;
 constexpr double pi = std::numbers::pi;
 
-/// int A(x) x^power dx of a rounded box, from the areas of its sections across the x axis.
+/// The integral of A(x) x^power dx for a rounded box, where A(x) is the area of the section at x.
 double from_sections(const Eigen::Vector3d& half, double r, int power) {
   const auto section = [&](double rho) {
     return 4 * half.y() * half.z() + 4 * (half.y() + half.z()) * rho + pi * rho * rho;
   };
   double sum = 2 * section(r) * std::pow(half.x(), power + 1) / (power + 1);
-  const int n = 2000;  // Simpson's rule in the angle where x = half + r sin(angle)
+  const int n = 2000;  // Simpson's rule in the angle, with x = half + r sin(angle)
   for (int i = 0; i <= n; ++i) {
     const double angle = pi / 2 * i / n, weight = i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2;
     const double x = half.x() + r * std::sin(angle), rho = r * std::cos(angle);
@@ -63,7 +63,8 @@ TEST_CASE("a rounded box, turned, in closed form") {
 
 TEST_CASE_TEMPLATE("a rounded rectangle in closed form", T, double, float) {
   const Rounded rounded(samples::box(T(2), T(1)), T(0.5));
-  // Two rectangles, 2 x 1 and two of 2 x 0.5 and 0.5 x 1, and a disk in four quarters.
+  // The shape consists of a rectangle 2 x 1, two rectangles 2 x 0.5, two rectangles 0.5 x 1, and
+  // four quarters of a disk.
   const double quarter = 4 * 0.5 / (3 * pi), disk = pi * 0.25;
   const double inertia = 2 * (4 + 1) / 12. + 2 * (4 + 0.25) / 12 + 2 * 0.75 * 0.75 +
                          1 * (0.25 + 1) / 12 + 1 * 1.25 * 1.25 +
@@ -84,7 +85,7 @@ TEST_CASE_TEMPLATE("with a radius that vanishes a rounded grain is its core", S,
 }
 
 TEST_CASE("the frame is at the centre of mass of the sum") {
-  // A long triangle: the ball adds more mass where the corners are blunt.
+  // The core is a long triangle. Rounding adds more mass at its blunt end.
   using Vector = Space<2>::Vector;
   const Polygon<double> core(std::vector<Vector>{{0, -1}, {4, 0}, {0, 1}});
   const Rounded rounded(core, 1.0);

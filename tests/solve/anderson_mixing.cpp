@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mixing finds fixed points that repel, and forgets when it is told to.
+// Anderson mixing finds repelling fixed points. It forgets earlier iterates when it is started
+// again.
 
 #include "moreau/solve/detail/anderson_mixing.hpp"
 
@@ -16,7 +17,8 @@ TEST_CASE_TEMPLATE("a linear map of n numbers is solved in n + 1 steps, stable o
   using Vector = typename AndersonMixing<T>::Vector;
   using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
   constexpr int n = 6;
-  // Rotations by some angles, growing and shrinking: eigenvalues of modulus 1.2, 1.02 and 0.9.
+  // The matrix consists of three rotations, scaled by 1.2, 1.02 and 0.9, the moduli of its
+  // eigenvalues.
   Matrix a = Matrix::Zero(n, n);
   const T moduli[] = {T(1.2), T(1.02), T(0.9)};
   for (int k = 0; k < 3; ++k) {
@@ -36,7 +38,8 @@ TEST_CASE_TEMPLATE("a linear map of n numbers is solved in n + 1 steps, stable o
       mixing.mix(g);
       x = g;
     }
-    // Not to rounding: the weights are regularized by 1e-10 of their scale, which leaves its root.
+    // The result is not exact to rounding: the weights are regularized by 1e-10 of their scale,
+    // which causes a relative error of about the square root of 1e-10.
     CHECK((x - fixed).norm() < (sizeof(T) == 8 ? T(1e-5) : T(1e-2)) * fixed.norm());
   }
 }

@@ -18,7 +18,7 @@ namespace solve_test {
 
 using namespace moreau;
 
-/// A law that offers no more than the concept asks for.
+/// A contact law that has only the functions that the concept requires.
 template <class T>
 struct PlainCoulomb {
   SignoriniCoulomb<T> law;
@@ -41,9 +41,9 @@ struct PlainCoulomb {
   }
 };
 
-/// Chains of bodies that push on one another and on a floor that does not move, with
-/// frames and levers as a random packing has them; the first body touches more partners than there
-/// are colours.
+/// Chains of bodies that press on each other and on a fixed floor. Frames and levers are random, as
+/// in a random packing. The first body touches more bodies than there are colours in the coloured
+/// solver.
 template <class S>
 struct Assembly {
   using T = typename S::Scalar;
@@ -57,7 +57,7 @@ struct Assembly {
   std::vector<MobilityRoot<S>> roots;
   std::vector<typename S::Twist> free;
 
-  /// @param hub      mobility of the first body, relative to the others
+  /// @param hub      mobility of the first body, relative to the mobility of the other bodies
   /// @param on_floor whether the first body touches the floor
   explicit Assembly(std::uint64_t seed, bool friction = true, T hub = T(0.1),
                     bool on_floor = true) {
@@ -97,7 +97,7 @@ struct Assembly {
     op.assemble(contacts, roots, free);
   }
 
-  /// A copy as a solver gets it.
+  /// A copy of the problem in the form that solvers take.
   ContactProblem<BodyDelassus<S>, Law> problem() const { return {op, laws, law_of}; }
 
   template <class Solver, class L>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Problems given by W alone: what is claimed is measured again.
+// Problems given by the matrix W only. The results that the solver reports are checked
+// independently.
 #include "moreau/solve/proximal_solver.hpp"
 
 #include <doctest/doctest.h>
@@ -15,8 +16,9 @@ using namespace moreau;
 
 namespace {
 
-/// Contacts between random pairs of a few bodies, several times more than W has rank; `skew` makes
-/// W = J M^-1 J^T asymmetric as codes do that compute its two factors apart.
+/// Contacts between random pairs of a few bodies. The number of contacts is several times the rank
+/// of W. If `skew` is not zero, W = J M^-1 J^T is not exactly symmetric, as in codes that compute
+/// its two factors separately.
 template <class S>
 FrictionProblem<S> random_problem(std::uint64_t seed, int contacts, int bodies, double skew) {
   std::mt19937_64 random(seed);
@@ -91,7 +93,7 @@ TEST_CASE("no contacts, no mobility, no solution: a report and no numbers that a
   CHECK_FALSE(stuck.converged);
   CHECK(std::isfinite(stuck.residual));
   CHECK(r.allFinite());
-  // Two contacts that close on one body which cannot yield to both.
+  // Two contacts of one body that both approach. No velocity of the body satisfies both.
   problem.delassus.resize(6, 6);
   problem.free_velocity.setZero(6);
   problem.free_velocity[0] = problem.free_velocity[3] = -1;

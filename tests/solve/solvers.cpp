@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both solvers on random assemblies: the suite for all, and what these two have to fulfil besides.
+// Both sweep solvers on random assemblies: the conformance suite and the additional requirements on
+// these two solvers.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -29,14 +30,16 @@ TEST_CASE_TEMPLATE("a body of many partners may be heavier than they are or as l
     std::vector<typename S::Vector> impulses;
     const SolveReport report =
         problem.solve(ColouredGaussSeidel(fast<S>(1e-8)), problem.laws, impulses);
-    // In the plane the one in the middle repels every sweep: whether it is found turns on rounding.
+    // In the plane, a mobility of 0.1 is a critical case: the sweeps are repelled from the
+    // solution, and rounding decides whether it is found.
     const double tolerance = S::dim == 2 && mobility == 0.1 ? 1e-4 : 1e-8;
     CHECK(report.converged == (report.residual <= 1e-8));
     CHECK(problem.measure(impulses).residual <= tolerance);
   }
 }
 
-// Many of these problems no sweeps solve: the reference leaves up to 2e-3 after 20,000 of them.
+// Many of these problems are not solved by any number of sweeps: the residual of the reference is
+// up to 2e-3 after 20,000 sweeps.
 TEST_CASE_TEMPLATE("a heavy body that no floor holds shares the lanes of its partners", S, Space<2>,
                    Space<3>) {
   GaussSeidelOptions options;
@@ -162,11 +165,12 @@ TEST_CASE_TEMPLATE("a warm start that is not finite counts as zero", S, Space<2>
   }
 }
 
-// The change per sweep falls below the tolerance long before the load has come down the column.
+// The change per sweep falls below the tolerance long before the load has been transmitted to the
+// bottom of the column.
 TEST_CASE_TEMPLATE("sweeps go on while approach is left over", SolverT, NonlinearGaussSeidel,
                    ColouredGaussSeidel) {
   using S = Space<2>;
-  constexpr std::uint32_t height = 100;  // body 0 is the floor
+  constexpr std::uint32_t height = 100;  // number of bodies in the column; body 0 is the floor
   std::vector<Contact<S>> contacts;
   std::vector<MobilityRoot<S>> roots(height + 1);
   std::vector<S::Twist> free(height + 1, S::Twist(0, -1, 0));

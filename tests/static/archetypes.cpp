@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simulation asks of its policies what their concepts say and no more: it compiles with
+// A simulation requires of its policies only what their concepts require: it compiles with
 // archetypes.
 #include "static/archetypes.hpp"
 

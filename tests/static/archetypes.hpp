@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Policies that offer what their concept asks for and nothing else. Their functions are declared
-// only: what is compiled with them is never run.
+// Archetypes: policies that have exactly the functions that their concept requires. The functions
+// are only declared, because code compiled with archetypes is never run.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace archetypes {
 
-/// Offers what a Shape is asked for and nothing else.
+/// Has exactly the functions that the concept Shape requires.
 template <class S>
 struct Minimal {
   using Space = S;
@@ -30,7 +30,7 @@ struct MinimalConvex : Minimal<S> {
   typename S::Vector support(const typename S::Vector& direction) const;
 };
 
-/// A law for space alone.
+/// A contact law for three-dimensional space only.
 struct MinimalLaw {
   using S = moreau::Space<3>;
   double velocity_offset(double gap, double before, double step) const;

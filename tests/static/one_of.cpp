@@ -15,7 +15,7 @@ static_assert(moreau::ConvexShape<Mixed> && !moreau::Polytope<Mixed>);
 static_assert(std::convertible_to<moreau::Ball<double>, Mixed>);
 static_assert(!std::convertible_to<moreau::Ball<float>, Mixed>);
 
-/// Has mass and a box, but is not convex.
+/// A shape with a mass and a bounding box that is not convex.
 struct Minimal {
   using Space = moreau::Space<3>;
   moreau::MassProperties<Space> mass_properties(double density) const;

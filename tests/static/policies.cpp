@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Laws and integrators: what the library ships, and the least a user's own has to offer.
+// Contact laws and integrators: those of the library, and archetypes of those that a user may
+// write.
 #include <span>
 
 #include "moreau/integrate/concepts.hpp"
@@ -62,13 +63,13 @@ static_assert(moreau::ContactSolver<moreau::ColouredGaussSeidel, moreau::Cohesiv
 static_assert(!moreau::ContactSolver<moreau::ColouredGaussSeidel, Rolling, Space<2>>);
 static_assert(!moreau::ContactSolver<moreau::NoSolver, moreau::Cohesive<>, Space<3>>);
 
-// Adhesion keeps what the law below knows.
+// A cohesive law has the concepts of the law on which it is based.
 static_assert(moreau::StatefulLaw<moreau::Cohesive<>, Space<3>>);
 static_assert(!moreau::StatefulLaw<moreau::Cohesive<moreau::Frictionless<>>, Space<3>>);
 static_assert(moreau::RollingLaw<moreau::Cohesive<Rolling>, Space<3>>);
 static_assert(moreau::AttractiveLaw<moreau::Cohesive<archetypes::MinimalLaw>, Space<3>>);
 
-// A law for space alone is one for space alone.
+// A law for three-dimensional space satisfies the concept in this space only.
 static_assert(SetValuedLaw<archetypes::MinimalLaw, Space<3>>);
 static_assert(!SetValuedLaw<archetypes::MinimalLaw, Space<2>>);
 

@@ -21,7 +21,7 @@ static_assert(!Polytope<moreau::Disk<double>> && !Polytope<moreau::Ball<double>>
 static_assert(Polytope<moreau::Polygon<double>> && Polytope<moreau::Polygon<float>>);
 static_assert(Polytope<moreau::Polyhedron<double>> && Polytope<moreau::Polyhedron<float>>);
 
-// A wall has no mass and no box.
+// A wall has no mass and no bounding box, so it is not a Shape.
 static_assert(!Shape<moreau::HalfSpace<moreau::Space<2>>>);
 static_assert(!Shape<moreau::HalfSpace<moreau::Space<3>>>);
 static_assert(!Shape<int>);
@@ -33,21 +33,22 @@ static_assert(ConvexShape<archetypes::MinimalConvex<moreau::Space<2>>>);
 static_assert(ConvexShape<archetypes::MinimalConvex<moreau::Space<3>>>);
 static_assert(!Polytope<archetypes::MinimalConvex<moreau::Space<3>>>);
 
-/// Hands out an Eigen expression, which would refer to what is gone by the time it is read.
+/// Returns an Eigen expression, which refers to an object that may no longer exist when it is
+/// evaluated.
 template <class S>
 struct LeaksExpression : archetypes::Minimal<S> {
   auto support(const typename S::Vector& direction) const { return 2 * direction; }
 };
 static_assert(!ConvexShape<LeaksExpression<moreau::Space<3>>>);
 
-/// Changes as it answers.
+/// A support function that changes the shape.
 template <class S>
 struct SupportNotConst : archetypes::Minimal<S> {
   typename S::Vector support(const typename S::Vector& direction);
 };
 static_assert(!ConvexShape<SupportNotConst<moreau::Space<3>>>);
 
-/// In the plane with a box in space.
+/// A shape in the plane with a bounding box in space.
 struct MixedSpaces {
   using Space = moreau::Space<2>;
   moreau::MassProperties<moreau::Space<2>> mass_properties(double density) const;
@@ -55,7 +56,7 @@ struct MixedSpaces {
 };
 static_assert(!Shape<MixedSpaces>);
 
-// The space of a shape follows from it.
+// The space of a shape is a member type of the shape.
 static_assert(std::same_as<moreau::SpaceOf<moreau::Disk<float>>, moreau::Space<2, float>>);
 static_assert(std::same_as<moreau::SpaceOf<moreau::Polyhedron<double>>, moreau::Space<3>>);
 

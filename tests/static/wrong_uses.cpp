@@ -31,7 +31,8 @@ using World = moreau::Simulation<moreau::Polyhedron<double>, Law>;
 using Plane = moreau::Simulation<moreau::Polygon<double>, Law>;
 using Drive = moreau::ForceDrive<World::Vector, double (*)(double)>;
 
-// The parameters are template parameters of a lambda, so that an error is only a value.
+// The variables are template parameters of a lambda, so that an invalid use gives false and not a
+// compile error.
 #define COMPILES(...)                                                                          \
   []<class W = World, class P = Plane, class S = moreau::Space<3>, class R = moreau::Space<2>, \
      class T = double>() {                                                                     \
@@ -45,7 +46,7 @@ using Drive = moreau::ForceDrive<World::Vector, double (*)(double)>;
 #define REFUSED(number, ...) static_assert(!COMPILES(__VA_ARGS__), #number)
 #define TAKEN(...) static_assert(COMPILES(__VA_ARGS__))
 
-// The number of components, in a simulation.
+// Number of components, in a simulation.
 TAKEN(world.add_wall({0, 0, 1}, {0, 0, 0}));
 REFUSED(1, world.add_wall({0, 0, 1}, {0, 0}));
 REFUSED(2, world.add_wall({0, 1}, {0, 0, 0}));
@@ -67,7 +68,7 @@ TAKEN(world.add_cylinder({0, 0, 0}, {0, 1, 0}, 0.5));
 REFUSED(14, world.add_cylinder({0, 0, 0}, {0, 1}, 0.5));
 REFUSED(15, world.cell().wrap({0, 0}));
 
-// The number of components, elsewhere.
+// Number of components, in other classes.
 TAKEN(moreau::Pose<S>{{0, 0, 0}, rotation}, moreau::Pose<R>{{0, 0}}, moreau::Pose<S>{vector});
 REFUSED(16, moreau::Pose<S>{{0, 0}, rotation});
 REFUSED(17, moreau::Pose<S>{{0, 0}});
@@ -94,13 +95,13 @@ REFUSED(28, typename moreau::Disk<S>);
 REFUSED(29, typename moreau::Capsule<S>);
 REFUSED(30, typename moreau::Pose<T>);
 
-// Scalars that differ.
+// Different scalar types.
 REFUSED(31, world.set_velocity(body, vector.template cast<float>()));
 REFUSED(32, moreau::Pose<S>{vector.template cast<float>(), rotation});
 TAKEN(W(0.01, moreau::Materials<Law>(1)));
 REFUSED(33, W(0.01, std::declval<const moreau::Materials<moreau::SignoriniCoulomb<float>>&>()));
 
-// Things that are taken for one another.
+// Objects of a wrong type.
 TAKEN(world.add_grain(shape, pose, 2700));
 REFUSED(34, world.add_grain(body, pose, 2700));
 REFUSED(35, world.add_grain(shape, moreau::Pose<R>(), 2700));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the study fits, on data whose answer is known.
+// The fits of the study, applied to data with known results.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
@@ -23,7 +23,7 @@ namespace {
 
 const std::vector<double> frequencies{1, 2, 3.5, 5, 7, 8.5, 10, 12, 15, 20, 35, 60};
 
-/// y = law(x), times a factor of about 1 +- noise.
+/// Samples of y = law(x), multiplied by a random factor of about 1 +- noise.
 std::vector<Point> sampled(const auto& law, double noise = 0) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -64,7 +64,8 @@ TEST_CASE("points without a logarithm are left out, too few give no law") {
 }
 
 TEST_CASE("the standard error of a slope is that of the textbook") {
-  // y = 1, 3, 2, 5 at x = 0..3: slope 1.1, residuals -0.1, 0.8, -1.3, 0.6 of variance 2.7 / 2.
+  // y = 1, 3, 2, 5 at x = 0, 1, 2, 3 has the slope 1.1. The residuals are -0.1, 0.8, -1.3, 0.6,
+  // with the variance 2.7 / 2.
   const Line line = fit_line({{0, 1}, {1, 3}, {2, 2}, {3, 5}});
   CHECK(line.slope == doctest::Approx(1.1));
   CHECK(line.intercept == doctest::Approx(1.1));
@@ -132,7 +133,8 @@ TEST_CASE("the closed form is what integrating the wall gives") {
 
 TEST_CASE("speed of the way back") {
   const Push p = push(0.05);
-  // By small steps, from where the force falls to the thrust.
+  // Integrates the motion with small steps, from the time at which the force falls below the
+  // thrust.
   const double omega = 2 * std::numbers::pi * p.frequency, mass = p.moving_mass(0.5), h = 1e-7;
   double t = -std::acos(1 - 2 * p.thrust / p.fmax) / omega, x = 0, v = 0, at_start = 0;
   const double inward = 2 * sine_displacement(p, 0.5);
@@ -146,7 +148,8 @@ TEST_CASE("speed of the way back") {
   CHECK(thrust_of_displacement(p, sine_displacement(p, 0.5), 0.5) ==
         doctest::Approx(p.thrust).epsilon(1e-9));
 
-  // At the parabola the displacement goes as 1/nu^2 and the speed as 1/nu.
+  // In the limit in which the force is a parabola, the displacement is proportional to 1/nu^2 and
+  // the speed to 1/nu.
   Push slow = push(0.001), fast = slow;
   fast.frequency *= 4;
   CHECK(returning_speed(slow, 0, 1) / returning_speed(fast, 0, 1) == doctest::Approx(4));
@@ -191,7 +194,7 @@ TEST_CASE(
   CHECK(time_before_minimum(0.5, 0, 1, 5) == doctest::Approx(0.05));
   CHECK(time_before_minimum(1e-6, 0, 1, 5) == doctest::Approx(1e-3 / (5 * std::acos(-1.0))));
   CHECK(time_before_minimum(0.5, 0.6, 1, 5) == 0);
-  // Drifts by 0.2 until t = 1, moves out by 1 until 2, falls back to -1 until 3.
+  // The wall drifts by 0.2 until t = 1, moves out by 1 until t = 2, and returns to -1 until t = 3.
   std::vector<double> t, x, v, f_g;
   for (int k = 0; k <= 300; ++k) {
     t.push_back(0.01 * k);
@@ -206,7 +209,8 @@ TEST_CASE(
 }
 
 TEST_CASE("thrust and carried grains are found in the force of a wall that carries some") {
-  // M x'' = F - f with M = m_w + carried; the wall itself feels f_g = F - carried x''.
+  // The equation of motion is M x'' = F - f with M = m_w + carried. The force on the wall itself is
+  // f_g = F - carried x''.
   const double wall = 14, carried = 9, thrust = 80, h = 2e-4, omega = 2 * std::numbers::pi * 5;
   const auto force = [&](double time) { return 3000 * (1 - std::cos(omega * time)); };
   std::vector<double> t, x, v, f_g;
@@ -220,7 +224,7 @@ TEST_CASE("thrust and carried grains are found in the force of a wall that carri
   CHECK(phase.carried.thrust == doctest::Approx(thrust).epsilon(1e-9));
   CHECK(phase.carried.mass == doctest::Approx(carried).epsilon(1e-9));
   CHECK(phase.carried.explained == doctest::Approx(1).epsilon(1e-9));
-  // And they say how far it went.
+  // The displacement of the wall follows from the fitted values.
   const Push p{thrust, 0, 6000, 5, 28, wall};
   CHECK(sine_displacement(p, carried / 28) == doctest::Approx(phase.dx).epsilon(0.02));
   CHECK(std::isnan(ratcheting::carried_grains(t, v, f_g, 4, 5).mass));
@@ -229,7 +233,8 @@ TEST_CASE("thrust and carried grains are found in the force of a wall that carri
 TEST_CASE("rates of the first second: one window for all frequencies") {
   Result r{};
   CHECK(std::isnan(r.early_rate(&Jam::rho_inner)));
-  // 1 Hz: the first period, late as it is; 5 Hz in five seconds: until the jam before 1 s.
+  // At 1 Hz the first period is used, although it ends after t = 1 s. At 5 Hz, in a run of five
+  // seconds, the periods until the last jam before 1 s are used.
   r.jams = {{0.75, 0, 0.50, 0.60}, {1.75, 0, 0.52, 0.63}, {2.75, 0, 0.53, 0.64}};
   CHECK(r.early_rate(&Jam::rho_inner) == doctest::Approx(0.04));
   CHECK(r.early_rate(&Jam::rho_box) == doctest::Approx(0.05));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number of threads changes nothing but the time.
+// The number of threads has no influence on the results.
 #include "moreau/solve/thread_team.hpp"
 
 #include <atomic>

@@ -11,7 +11,7 @@
 
 namespace validation {
 
-/// Runs a case and checks every comparison that is not a known miss.
+/// Runs a case and checks every comparison that is not listed as a known deviation.
 inline void check(const Case& one, Effort effort) {
   CHECK_NOTHROW(answer_of(one.name));
   Record record;
@@ -25,13 +25,13 @@ inline void check(const Case& one, Effort effort) {
   }
 }
 
-/// Runs the cases of a group, except those that take minutes.
+/// Runs the cases of a group, except the cases that take minutes.
 inline void check_quick(const std::vector<Case>& group) {
   for (const Case& one : group)
     if (!one.takes_long) check(one, Effort::quick);
 }
 
-/// Runs one case of a group at full size.
+/// Runs one case of a group with its full size.
 inline void check_full(const std::vector<Case>& group, const std::string& name) {
   int found = 0;
   for (const Case& one : group) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes that several tests share, written once for every shape.
+// Small scenes that several tests use, written once for all shapes.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,16 @@ using moreau::Pose;
 template <class ShapeT>
 using LawOf = moreau::SignoriniCoulomb<typename moreau::SpaceOf<ShapeT>::Scalar>;
 
-/// A simulation whose step is compiled once for each shape, in tests/worlds, and not again in every
-/// test that takes one.
+/// A simulation whose step is compiled once for each shape, in tests/worlds, and not in every test
+/// that uses it.
 template <class ShapeT>
 struct World : moreau::Simulation<ShapeT, LawOf<ShapeT>> {
   using moreau::Simulation<ShapeT, LawOf<ShapeT>>::Simulation;
   moreau::StepReport step(typename moreau::SpaceOf<ShapeT>::Scalar step);
 };
 
-/// Ballast of circumradius 1 cm falling into an open box 8 cm wide, gravity along the last axis.
+/// Ballast grains with a circumradius of 1 cm that fall into an open box with a width of 8 cm.
+/// Gravity acts along the last axis.
 template <class ShapeT>
 struct BoxOfGrains {
   using S = moreau::SpaceOf<ShapeT>;
@@ -51,7 +52,7 @@ struct BoxOfGrains {
   }
 };
 
-/// A cuboid (rectangle) with these half extents.
+/// A cuboid (in the plane a rectangle) with the given half lengths.
 template <class ShapeT>
 ShapeT cuboid(const typename moreau::SpaceOf<ShapeT>::Vector& half) {
   using S = moreau::SpaceOf<ShapeT>;

@@ -12,7 +12,7 @@ using scenes::BoxOfGrains;
 
 namespace {
 
-/// The impulses of the step, those of the problem's contacts.
+/// The impulses of the last step at the contacts of the gathered problem.
 template <class World, class Gathered>
 Eigen::VectorXd impulses_of(const World& world, const Gathered& gathered) {
   constexpr int rows = decltype(gathered.problem)::Space::dim;
@@ -31,12 +31,12 @@ TEST_CASE_TEMPLATE("a step's problem is solved by the step's impulses, and by an
   for (int k = 0; k < 400; ++k) simulation.step(5e-4);
   REQUIRE(simulation.contacts().size() > 0);
 
-  const auto gathered = gather_problem(simulation);  // matrices, and which contact is which
+  const auto gathered = gather_problem(simulation);  // the matrices, and the index of each contact
   Eigen::VectorXd impulses;
   const ProblemReport report = ProximalSolver().solve(gathered.problem, impulses);
 
   CHECK(report.converged);
   CHECK(natural_map_residual(gathered.problem, impulses_of(simulation, gathered)) < 1e-3);
-  // Which impulses solve it is not unique where contacts are many: the velocities are.
+  // If there are many contacts, the impulses of a solution are not unique, but the velocities are.
   CHECK(natural_map_residual(gathered.problem, impulses) < 1e-10);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Some of the combinations that long/matrix_*.cpp have all of. Rolling resistance and adhesion are
-// among the quick cases of the validation.
+// A selection of the combinations of policies. All combinations are tested in long/matrix_*.cpp.
+// Rolling resistance and adhesion are tested by the quick cases of the validation.
 #include "moreau/detect/broad/all_pairs.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"

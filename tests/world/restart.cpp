@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A run that is stopped and taken up again has the same bits as one that was not, and a file that
-// is not whole is refused.
+// A run that is stopped and continued has the same bits as an uninterrupted run, and an incomplete
+// file is rejected.
 #include <doctest/doctest.h>
 #include <random>
 
@@ -17,7 +17,7 @@ using scenes::World;
 
 namespace {
 
-/// Steps with the right wall under a harmonic force.
+/// Makes steps with a harmonic force on the right wall.
 template <class ShapeT>
 StepReport shake(World<ShapeT>& world, int steps) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
@@ -36,7 +36,7 @@ BoxOfGrains<ShapeT> shaken_box(int steps) {
   shake(box.simulation, steps);
   return box;
 }
-/// What a user has of his own: members in the open, and members that are named.
+/// Objects of a user: an aggregate with public members, and a class that lists its members.
 struct Note {
   std::vector<double> numbers;
   std::string text;
@@ -53,14 +53,14 @@ class Tally {
   int count_ = 0;
 };
 
-/// Of the same type; all else is different.
+/// A simulation of the same type whose content is different.
 template <class ShapeT>
 World<ShapeT> other_world() {
   using Law = scenes::LawOf<ShapeT>;
   return World<ShapeT>(0.1, Materials<Law>(3, Law(0.1)));
 }
 
-/// A few disks that have touched.
+/// A simulation of a few disks that have touched each other.
 const World<Disk<>>& disks() {
   static const BoxOfGrains<Disk<>> box = shaken_box<Disk<>>(200);
   return box.simulation;
@@ -76,7 +76,7 @@ std::string refusal(const std::string& bytes) {
   }
   return "";
 }
-/// The bytes with others in one place, and the checksum that fits.
+/// The bytes with different bytes at one position and a correct checksum.
 template <class Number>
 std::string with(std::string bytes, std::size_t place, Number number) {
   std::memcpy(&bytes[place], &number, sizeof number);

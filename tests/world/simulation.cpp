@@ -107,7 +107,7 @@ TEST_CASE("the order in which walls and grains are added does not matter to the 
 
 namespace {
 
-/// Takes fast contacts for more than it can say.
+/// A law that returns NaN for fast contacts.
 struct NoNumber {
   double velocity_offset(double gap, double, double step) const { return gap / step; }
   template <class S>

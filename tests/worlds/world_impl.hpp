@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What takes long to compile of world/assemblies.hpp; included by one source file per shape.
+// The part of world/assemblies.hpp that takes long to compile. It is included by one source file
+// per shape.
 #pragma once
 
 #include <random>

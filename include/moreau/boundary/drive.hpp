@@ -111,7 +111,7 @@ class Drive {
 }  // namespace detail
 
 /// A force f(t) [N] on a body along a fixed direction. The body is a grain, or a wall to which
-/// set_wall_mass has given a mass. The force replaces that of set_force().
+/// set_wall_mass has given a mass. The force replaces the force that set_force() has set.
 template <class VectorT, class F>
 class ForceDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
@@ -140,7 +140,7 @@ class ForceDrive : public detail::Drive<VectorT, F> {
 };
 
 /// A velocity f(t) [m/s] along a fixed direction of a body without mass, such as a wall. The
-/// velocity replaces that of set_velocity().
+/// velocity replaces the velocity that set_velocity() has set.
 template <class VectorT, class F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;

@@ -27,7 +27,7 @@ struct Aabb {
   Aabb(const VectorArgument<S>& least, const VectorArgument<S>& largest)
       : lower(least), upper(largest) {}
 
-  /// Whether the two boxes have a common point. Boxes that only touch have one.
+  /// Whether the two boxes have a common point. Boxes that only touch have a common point.
   bool overlaps(const Aabb& other) const {
     return (lower.array() <= other.upper.array()).all() &&
            (other.lower.array() <= upper.array()).all();

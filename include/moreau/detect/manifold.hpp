@@ -37,7 +37,7 @@ constexpr const char* name(ContactClass c) {
 /// Identifies a contact point of a pair from step to step by the two features that make the point,
 /// for example a vertex of a and a face of b.
 struct FeatureKey {
-  /// The kind of a's feature, then that of b's feature.
+  /// The kind of a's feature, followed by the kind of b's feature.
   enum class Kind : std::uint8_t {
     vertex_face = 0,    ///< a vertex of a, a face of b
     face_vertex = 1,    ///< a face of a, a vertex of b

@@ -223,13 +223,13 @@ void keep_points(Manifold<S>& manifold, std::span<std::size_t> chosen) {
 ///   3 points: the deepest point and the two that form with it the triangle with the smallest gap
 ///     at the centre of pressure of the previous step, or the largest triangle if there is no
 ///     previous load. If the triangle counts as two points (Reduction), two points are kept.
-/// The result depends only on the arguments. The contact class remains that of the full contact.
+/// The result depends only on the arguments. The contact class does not change.
 /// @param manifold   in: all points, sorted by feature; out: the points kept, in the same order
 /// @param max_points 1, 2 or 3
-/// @param previous   the points kept in the previous step. If these are three, they are kept if one
-///                   of them is among the deepest and if all three carried an impulse or their
-///                   triangle has at least the fraction reduction.keep of the best triangle's area.
-///                   Pass an empty span for a choice without memory
+/// @param previous   the points kept in the previous step. Three points are kept again if two
+///                   conditions hold. One of them is among the deepest points. All three carried an
+///                   impulse, or the area of their triangle is at least reduction.keep times that
+///                   of the best triangle. With an empty span the choice has no memory
 /// @param reduction  parameters of the choice
 template <class S>
 void reduce(Manifold<S>& manifold, std::size_t max_points, std::span<const KeptPoint> previous = {},

@@ -14,8 +14,8 @@ template <std::floating_point T>
 struct DetectionTolerance {
   /// Largest difference of two computed separations that are equal in exact arithmetic [-].
   static constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
-  /// If a point is deeper inside a tetrahedron than this, and the tetrahedron is thicker than this,
-  /// the side of each face on which the point lies is certain despite rounding [-].
+  /// The result that a point lies inside a tetrahedron is certain, despite rounding errors, if both
+  /// the depth of the point below each face and the thickness of the tetrahedron exceed this [-].
   static constexpr T certain = std::same_as<T, float> ? T(1.4e-3) : T(6e-8);
   /// Two corners of a contact polygon closer together than this count as one corner, and a corner
   /// this close to an edge lies on the edge [-]. So the features of shapes stacked flush do not
@@ -31,8 +31,8 @@ struct DetectionTolerance {
   /// the support function is known. The surface counts as flat if its support point then moves by
   /// more than ten times this angle times the size of the shape's bounding box.
   static constexpr T tilt = T(1e-3);
-  /// If two computed separations differ by more than this, the larger one is proved to be larger
-  /// [-].
+  /// If two computed separations differ by more than this [-], rounding errors cannot have changed
+  /// their order.
   static constexpr T doubt = T(16) * rounding;
 };
 

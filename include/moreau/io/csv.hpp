@@ -18,34 +18,37 @@
 
 namespace moreau {
 
-/// Name of a column and unit of its numbers: the header of {"x", "m"} is "x [m]", of "x" it is "x".
+/// The name of a column and the unit of its numbers. The header of {"x", "m"} is "x [m]", the
+/// header of "x" is "x".
 struct CsvColumn {
   std::string_view name;  ///< not empty
-  std::string_view unit;  ///< empty: no unit in the header
+  std::string_view unit;  ///< if empty, no unit is written
 
   /// Not explicit, so that a string converts to a column without unit.
   constexpr CsvColumn(const char* name_in, const char* unit_in = "")
       : name(name_in), unit(unit_in) {}
 };
 
-/// Writes one row at a time. Each number has the fewest digits that read back to the same bits; NaN
-/// and infinity are written as nan and inf. The file receives only whole lines, so it is a valid
-/// table after an interrupted run. A row allocates no memory, unless it is longer than all rows
-/// before it.
+/// Writes a table row by row. Each number has the smallest number of digits from which the same
+/// bits are read back. NaN and infinity are written as nan and inf. The file receives only whole
+/// lines, so it is a valid table even if the program is interrupted. Writing a row allocates memory
+/// only if the row is longer than all earlier rows.
 class CsvWriter {
  public:
   /// Creates the file and writes the header line, or continues an existing table.
   /// @param columns     names and units, e.g. {{"t", "s"}, {"x", "m"}, "contacts"}: the header is
   ///                    "t [s],x [m],contacts"
   /// @param flush_every number of rows per write to the file, > 0; 1 writes every row immediately
-  /// @param keep        if > 0, continues an existing table: keeps this many bytes of it, as size()
-  ///                    returned them, removes the rest and appends
+  /// @param keep        if > 0, an existing table is continued: its first `keep` bytes stay, the
+  ///                    rest is removed, and new rows are appended. Pass a value that size()
+  ///                    returned
   /// @throws std::system_error naming the path if the file cannot be created or written, or has
-  ///         fewer bytes than `keep`
+  ///                           fewer than `keep` bytes
   /// @throws std::invalid_argument if there are no columns; if a name is empty; if a name or unit
-  ///         contains a comma, a quote, a bracket or a line break; if flush_every = 0; if the
-  ///         existing table has another header or no line that ends at `keep` (the table is then
-  ///         unchanged)
+  ///                               contains a comma, a quote, a bracket or a line break; if
+  ///                               flush_every is 0; if the existing table has a different header,
+  ///                               or no line of it ends at `keep` bytes (the table is then
+  ///                               unchanged)
   CsvWriter(const std::filesystem::path& path, std::initializer_list<CsvColumn> columns,
             std::size_t flush_every = 1, std::uintmax_t keep = 0)
       : columns_(columns.size()),
@@ -56,10 +59,11 @@ class CsvWriter {
     lines_ = header(columns) + '\n';
     flush();
   }
-  /// Transfers the file to the new object.
+  /// Moves the open file to the new object.
   CsvWriter(CsvWriter&&) = default;
   CsvWriter& operator=(CsvWriter&&) = delete;
-  /// Writes the remaining rows. It ignores errors: call close() before to receive them.
+  /// Writes the remaining rows and ignores errors. Call close() first if you need to know of
+  /// errors.
   ~CsvWriter() {
     try {
       close();
@@ -85,7 +89,7 @@ class CsvWriter {
     if (++rows_ % flush_every_ == 0) flush();
   }
 
-  /// Passes all rows so far to the operating system.
+  /// Passes all rows added so far to the operating system.
   /// @throws std::system_error naming the path if the file cannot be written
   void flush() {
     if (lines_.empty()) return;
@@ -94,7 +98,8 @@ class CsvWriter {
     lines_.clear();
   }
   /// Calls flush() and waits until all rows are on the disk. Call it before you write a snapshot
-  /// that contains size(): the table is then at least that long, even after a power failure.
+  /// that contains size(). Then, even after a power failure, the table has at least the size in the
+  /// snapshot.
   /// @throws std::system_error naming the path if the file cannot be written
   void sync() {
     flush();

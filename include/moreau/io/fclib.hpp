@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes contact problems in the HDF5 form of FCLIB, the Frictional Contact Library
-// (V. Acary et al., "FCLIB: a collection of discrete 3D Frictional Contact problems", INRIA RT-444,
-// 2014). A local problem (read and written) consists of
+// Reads and writes contact problems in the HDF5 format of FCLIB, the Frictional Contact Library (V.
+// Acary et al., "FCLIB: a collection of discrete 3D Frictional Contact problems", INRIA RT-444,
+// 2014). A local problem can be read and written. It consists of the groups and data sets
 //
 //     /fclib_local/spacedim, W/{nzmax, m, n, nz, p, i, x}, vectors/{q, mu}
 //     /solution/{u, r}
 //
-// where q is the free velocity b. A global problem (read only) is /fclib_global with the matrices M
-// and H in place of W and with vectors/{f, w, mu}. FCLIB's H is the transposed contact Jacobian J.
+// where q is the free velocity, which is called b elsewhere in this library. A global problem can
+// only be read. It is the group /fclib_global, with the matrices M and H in place of W and with
+// vectors/{f, w, mu}. The matrix H of FCLIB is the transposed contact Jacobian J.
 //
-// Optional: needs the C library of HDF5. Link hdf5. No other header includes this one.
+// This header is optional: it needs the C library of HDF5. Link hdf5. No other header includes it.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -32,11 +33,11 @@ namespace moreau {
 
 namespace detail {
 
-/// Owns an open object of the HDF5 library and closes it.
+/// Owns an open object of the HDF5 library and closes it in the destructor.
 class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);
-  /// @param what the action, for the message
+  /// @param what the action that opened the object, for the error message
   /// @throws std::runtime_error if the id is negative, that is, if the call failed
   Hdf5Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
     if (id < 0) throw std::runtime_error("HDF5: cannot " + what);
@@ -51,7 +52,8 @@ class Hdf5Handle {
   Close close_;
 };
 
-/// Turns off the error messages that HDF5 prints. Errors are reported by exceptions instead.
+/// While an object of this class exists, HDF5 prints no error messages. Errors are reported by
+/// exceptions instead.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -80,8 +82,8 @@ std::vector<Number> read_hdf5(hid_t group, const std::string& name) {
   const Hdf5Handle space(H5Dget_space(set), &H5Sclose, "read the size of " + name);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count < 0) throw std::runtime_error("HDF5: cannot read the size of " + name);
-  // A damaged file may state a huge count. Deflate compresses by at most 1032, and a number has at
-  // least one byte before compression.
+  // A damaged file may state a huge count. Deflate compresses at most by a factor of 1032, and a
+  // number has at least one byte before compression.
   if (static_cast<hsize_t>(count) / 1100 > H5Dget_storage_size(set))
     throw std::runtime_error("HDF5: " + name + " claims " + std::to_string(count) +
                              " numbers, more than the file can hold");
@@ -123,12 +125,13 @@ inline Hdf5Handle create_hdf5_group(hid_t parent, const std::string& name) {
           "create the group " + name};
 }
 
-/// Reads a matrix in the storage of CSparse: compressed rows for nz = -2, compressed columns for
-/// nz = -1, nz triplets for nz >= 0. For triplets p holds the columns and i the rows, as in CSparse
-/// and in existing files; FCLIB's fclib.h documents them the other way round.
-/// @param group  contains the subgroup `name` with the matrix
-/// @param rows_wanted,columns_wanted required size; a file with another size is rejected, so that a
-///        damaged file cannot request a huge allocation
+/// Reads a matrix in the storage of CSparse: compressed rows for nz = -2, compressed columns for nz
+/// = -1, nz triplets for nz >= 0. For triplets, p contains the column indices and i the row
+/// indices, as in CSparse and in existing files; FCLIB's fclib.h documents p and i the other way
+/// round.
+/// @param group  group that contains the matrix as the subgroup `name`
+/// @param rows_wanted,columns_wanted required size. A file with a different size is rejected, so
+///                                   that a damaged file cannot cause a huge allocation
 inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::size_t rows_wanted,
                                    std::size_t columns_wanted) {
   constexpr const char* self = "read_fclib";
@@ -169,9 +172,9 @@ inline RowSparse read_fclib_matrix(hid_t group, const std::string& name, std::si
   return checked_matrix(rows, columns, entries, self, name);
 }
 
-/// Eliminates v from the global problem M v = J^T r + f, u = J v + w:
-/// W = J M^-1 J^T, b = J M^-1 f + w.
-/// @param h J^T, as files store it
+/// Reduces the global problem M v = J^T r + f, u = J v + w to a local problem by eliminating v: W =
+/// J M^-1 J^T, b = J M^-1 f + w.
+/// @param h J^T, as it is stored in files
 inline void condense(const RowSparse& mass, const RowSparse& h, const std::vector<double>& f,
                      const std::vector<double>& w, RawFrictionProblem& raw) {
   constexpr const char* self = "read_fclib";
@@ -230,7 +233,8 @@ inline AnyFrictionProblem read_fclib_problem(const std::filesystem::path& path) 
   return checked_problem(raw, self);
 }
 
-/// Builds the bytes of a file in memory. HDF5 itself would leave a part of a file on a full disk.
+/// Builds the bytes of a file in memory. If HDF5 wrote the file itself, a full disk would leave an
+/// incomplete file.
 template <class S>
 std::string fclib_image(const FrictionProblem<S>& problem, const Eigen::VectorXd& impulses) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose, "build the file in memory");
@@ -258,7 +262,7 @@ std::string fclib_image(const FrictionProblem<S>& problem, const Eigen::VectorXd
   return bytes;
 }
 
-/// Calls f() and adds the path to the message of an exception.
+/// Calls f(). If it throws an exception, adds the path to the exception's message.
 template <class F>
 auto naming(const std::filesystem::path& path, F&& f) {
   const QuietHdf5 quiet;
@@ -273,27 +277,29 @@ auto naming(const std::filesystem::path& path, F&& f) {
 
 }  // namespace detail
 
-/// Whether a file is an HDF5 file; false if it cannot be read.
+/// Whether a file is an HDF5 file; also false if the file cannot be read.
 inline bool is_hdf5(const std::filesystem::path& path) {
   const detail::QuietHdf5 quiet;
   return H5Fis_hdf5(path.c_str()) > 0;
 }
 
 /// Reads the contact problem of an FCLIB file, in the units of the file. A global problem is
-/// reduced to its local form: W = J M^-1 J^T, b = J M^-1 f + w.
-/// @throws std::runtime_error naming the path if the file cannot be opened or a part is missing
+/// reduced to a local problem: W = J M^-1 J^T, b = J M^-1 f + w.
+/// @throws std::runtime_error naming the path if the file cannot be opened or a data set is missing
 /// @throws std::invalid_argument naming the path and the reason if the problem is not valid, or if
-///         it has bilateral constraints or rolling friction, which this library does not solve
+///                               it has bilateral constraints or rolling friction, which this
+///                               library does not solve
 inline AnyFrictionProblem read_fclib(const std::filesystem::path& path) {
   return detail::naming(path, [&] { return detail::read_fclib_problem(path); });
 }
 
 /// Writes a contact problem to an FCLIB file, with W in compressed rows. An existing file is
 /// replaced as a whole (write_atomically()).
-/// @param impulses r, D per contact, in the units of the problem [N s]; the file then has a group
-///                 `solution` with r and u = W r + b. Empty: no such group
+/// @param impulses r, D components per contact, in the units of the problem [N s]. The file then
+///                 has a group `solution` with r and u = W r + b. If empty, the file has no such
+///                 group
 /// @throws std::system_error naming the path if the file cannot be written
-/// @throws std::invalid_argument if the problem is not valid or the impulses have another size
+/// @throws std::invalid_argument if the problem is not valid or the number of impulses is wrong
 template <class S>
 void write_fclib(const std::filesystem::path& path, const FrictionProblem<S>& problem,
                  const Eigen::VectorXd& impulses = {}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shared by the readers of contact problems: the dimension of a problem is known only after its
-// file was read.
+// Functions shared by the readers of contact problems. The dimension of a problem is known only
+// after its file has been read.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -25,14 +25,15 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The content of a file before its dimension is known.
+/// The content of a file, before its dimension is checked.
 struct RawFrictionProblem {
   int rows_per_contact = 0;
   RowSparse delassus;
   std::vector<double> free_velocity, friction;
 };
 
-/// @throws std::invalid_argument for an entry outside the matrix
+/// Builds a matrix from its entries.
+/// @throws std::invalid_argument if an entry lies outside of the matrix
 inline RowSparse checked_matrix(int rows, int columns, const Triplets& entries,
                                 std::string_view function, const std::string& name) {
   for (const auto& entry : entries) {

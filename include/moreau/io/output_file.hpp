@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a file; every error names the file and the reason.
+// Writes a file. Every error names the file and the reason.
 #pragma once
 
 #include <cerrno>
@@ -17,13 +17,13 @@
 
 namespace moreau {
 
-/// An unbuffered file: write() passes its bytes to the operating system before it returns. Every
-/// failure throws std::system_error naming the path and the reason.
+/// A file without a buffer: write() passes its bytes to the operating system before it returns.
+/// Every failure throws std::system_error, naming the path and the reason.
 class OutputFile {
  public:
-  /// Creates the file or empties it; its folder must exist.
-  /// @param keep if > 0, continues an existing file: keeps this many bytes, removes the rest and
-  ///             appends; a file with fewer bytes is an error
+  /// Creates the file, or empties an existing file. The folder must exist.
+  /// @param keep if > 0, an existing file is continued: its first `keep` bytes stay, the rest is
+  ///             removed, and new bytes are appended. It is an error if the file has fewer bytes
   /// @throws std::system_error if the file cannot be opened, created or continued
   explicit OutputFile(const std::filesystem::path& path, std::uintmax_t keep = 0)
       : path_(path), written_(keep) {
@@ -46,7 +46,8 @@ class OutputFile {
 
   const std::filesystem::path& path() const { return path_; }  ///< path of the file
 
-  /// Appends the bytes. If the disk has no room for all of them, a regular file receives none.
+  /// Appends the bytes. If the disk has not enough space for all of them, none is added to a
+  /// regular file.
   /// @throws std::system_error if the bytes cannot be written, or after close()
   void write(std::string_view bytes) {
     errno = 0;
@@ -69,7 +70,7 @@ class OutputFile {
 #endif
   }
   /// Closes the file and checks that all bytes were written. Do not call write() afterwards.
-  /// @throws std::system_error if they were not
+  /// @throws std::system_error if not all bytes were written
   void close() {
     if (!file_) return;
     errno = 0;
@@ -81,7 +82,7 @@ class OutputFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  /// Removes the part that a failed write() has written.
+  /// Removes the part of its bytes that a failed write() has added to the file.
   void take_back() {
 #if __has_include(<unistd.h>)
     if (file_ && ::ftruncate(::fileno(file_.get()), static_cast<off_t>(written_)) == 0)
@@ -95,7 +96,7 @@ class OutputFile {
   }
 
   std::filesystem::path path_;
-  std::uintmax_t written_;  // [bytes], including `keep`
+  std::uintmax_t written_;  // size of the file [bytes], including `keep`
   std::unique_ptr<std::FILE, Close> file_;
 };
 
@@ -111,7 +112,8 @@ inline void sync_folder([[maybe_unused]] const std::filesystem::path& folder) {
 #endif
 }
 
-/// The path after all symbolic links are followed; it need not exist.
+/// The path that results from following all symbolic links. There need not be a file with this
+/// path.
 inline std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code none;
   for (int k = 0; k < 40 && std::filesystem::is_symlink(path, none); ++k)
@@ -121,14 +123,15 @@ inline std::filesystem::path behind_links(std::filesystem::path path) {
 
 }  // namespace detail
 
-/// Replaces a file as a whole. A reader finds the old file or the new file and never a part, also
-/// after the program was killed or the power failed. The function writes a temporary file in the
-/// same folder, with the suffix ".part", and renames it. If the path is a symbolic link, it
-/// replaces the target of the link. If the path is a device or a pipe, it writes to it directly.
+/// Replaces a file as a whole. A reader finds either the old or the new file, never a part of it,
+/// even after the program was killed or the power failed. The function writes a temporary file with
+/// the suffix ".part" in the same folder and renames it. If the path is a symbolic link, the target
+/// of the link is replaced. If the path is a device or a pipe, the bytes are written to it
+/// directly.
 /// @throws std::system_error naming the path and the reason; the old file is then unchanged
 inline void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code ignored;
-  // Test the path itself: the link target of a pipe's descriptor is not a file name.
+  // Test the path itself, because the link target of a pipe's descriptor is not a file name.
   if (std::filesystem::is_other(std::filesystem::status(path, ignored))) {
     OutputFile file(path);
     file.write(bytes);

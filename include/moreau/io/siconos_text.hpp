@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads contact problems in the text form of Siconos/Numerics (github.com/siconos/siconos):
-// dimension, number of contacts, W in one of three storages, q (the free velocity b), mu; the
-// normal component comes first in every contact.
+// Reads contact problems in the text format of Siconos/Numerics (github.com/siconos/siconos). A
+// file contains the dimension, the number of contacts, W in one of three storage formats, q (the
+// free velocity b), and mu. In each contact the normal component comes first.
 #pragma once
 
 #include <algorithm>
@@ -57,8 +57,8 @@ class TextScanner {
     if (next != expected)
       throw_invalid(function_, "word", shown(next), "must be '" + std::string(expected) + "'");
   }
-  /// Checks that the rest of the text can hold `count` numbers, so that a wrong size in a file
-  /// cannot request a huge allocation.
+  /// Checks that the rest of the text is long enough for `count` numbers, so that a wrong size in a
+  /// file cannot cause a huge allocation.
   void require_room(std::size_t count, std::string_view name) const {
     require(2 * count <= text_.size() - at_ + 1, function_, name, count,
             "must not exceed the numbers in the file");
@@ -67,8 +67,8 @@ class TextScanner {
   std::string_view function() const { return function_; }
 
  private:
-  /// A word in a form that can be printed: at most 32 characters, each printable. The file may be
-  /// binary.
+  /// The word in a form that can be printed: at most 32 characters, with ? in place of characters
+  /// that are not printable. This is needed because the file may be binary.
   static std::string shown(std::string_view word) {
     constexpr std::size_t most = 32;
     std::string text(word.substr(0, most));
@@ -117,7 +117,7 @@ struct TextMatrix {
   Triplets entries;
 };
 
-/// Storage 0: rows, columns, then all values column by column.
+/// Storage format 0: the numbers of rows and columns, then all values column by column.
 inline void scan_dense(TextScanner& scan, TextMatrix& raw) {
   const int rows = scan.integer("rows"), columns = scan.integer("columns");
   require(rows == raw.rows && columns == raw.columns, scan.function(), "size of dense W", rows,
@@ -130,7 +130,7 @@ inline void scan_dense(TextScanner& scan, TextMatrix& raw) {
     }
 }
 
-/// First row or column of each block, from the cumulative sizes in the file.
+/// The first row or column of each block, computed from the cumulative block sizes in the file.
 inline std::vector<int> scan_block_starts(TextScanner& scan, int blocks, int total) {
   std::vector<int> starts = scan_integers(scan, blocks, "block size");
   starts.insert(starts.begin(), 0);
@@ -142,7 +142,8 @@ inline std::vector<int> scan_block_starts(TextScanner& scan, int blocks, int tot
   return starts;
 }
 
-/// Storage 1: compressed rows of blocks. Each block has its number and its values column by column.
+/// Storage format 1: compressed rows of blocks. Each block has its number, then its values column
+/// by column.
 inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   const int blocks = scan.integer("number of blocks");
   const int block_rows = scan.integer("block rows"), block_columns = scan.integer("block columns");
@@ -171,7 +172,8 @@ inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   }
 }
 
-/// Storage 2: the output of CSparse: triplets, or lists by columns (by rows if `origin` is 3).
+/// Storage format 2: the output of CSparse. It contains triplets, or lists by columns (by rows if
+/// `origin` is 3).
 inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
   constexpr int compressed_rows = 3, half_of_symmetric = 4;
   const int origin = scan.integer("origin of sparse W");
@@ -218,10 +220,10 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
 
 }  // namespace detail
 
-/// Reads a contact problem from a text, in the units of the text. Text after mu is ignored: many
-/// files have a flag there. A text that is truncated within its last number is accepted, because
-/// some files have no line end.
-/// @throws std::invalid_argument naming what is wrong if the text is no valid problem
+/// Reads a contact problem from a text, in the units of the text. Text after mu is ignored, because
+/// many files have a flag there. A text that is truncated inside its last number is accepted,
+/// because some files have no line break at the end.
+/// @throws std::invalid_argument naming the first error if the text is not a valid problem
 inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   constexpr std::string_view self = "parse_siconos_text";
   constexpr int dense = 0, sparse_blocks = 1, sparse = 2;
@@ -255,7 +257,7 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
 
 /// Reads a contact problem from a file; see parse_siconos_text().
 /// @throws std::system_error naming the path if the file cannot be read or is empty
-/// @throws std::invalid_argument naming the path and what is wrong if it is no valid problem
+/// @throws std::invalid_argument naming the path and the first error if it is not a valid problem
 inline AnyFrictionProblem read_siconos_text(const std::filesystem::path& path) {
   const std::string text = detail::read_file(path, "read_siconos_text");
   if (text.empty())

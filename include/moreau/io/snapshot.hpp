@@ -8,17 +8,17 @@
 //   if (resume) read_snapshot("run.snapshot", world, steps, random);
 //   else        build(world);
 //
-// The file contains everything that the next step depends on: bodies, shapes as they were built,
-// materials, walls, periodic cell, options of the solver, contacts with their impulses and the
-// memories of the laws, the list of pairs with their caches. It does not contain functions of the
-// user, such as those of drives, which take their time from the simulation, or the number of
-// threads, which changes no bit.
+// The file contains all data that the next step depends on: bodies, shapes as they were built,
+// materials, walls, the periodic cell, the options of the solver, contacts with their impulses and
+// the history variables of the contact laws, and the list of pairs with their caches. It does not
+// contain functions of the user, such as the functions of drives, which get their time from the
+// simulation. It does not contain the number of threads, on which the results do not depend.
 //
 //   "\x89MOREAU\n" | byte order | format | size of the file | outline of the objects
-//   | version of moreau | types | objects | CRC-64 of all before
+//   | version of moreau | types | objects | CRC-64 of all preceding bytes
 //
-// The checksum detects damage, not forgery: do not read snapshots of people whose programs you
-// would not run.
+// The checksum detects damage, but not manipulation. Read snapshots only from people whose programs
+// you would run.
 #pragma once
 
 #include <algorithm>
@@ -56,7 +56,7 @@ struct SnapshotHead {
 
   std::array<char, 8> magic{'\x89', 'M', 'O', 'R', 'E', 'A', 'U', '\n'};
   std::uint32_t order = this_order, format = this_format;
-  std::uint64_t size = 0;  ///< of the file, checksum included [bytes]
+  std::uint64_t size = 0;  ///< size of the file, including the checksum [bytes]
   std::uint64_t outline = 0;
 };
 static_assert(sizeof(SnapshotHead) == 32);
@@ -73,7 +73,8 @@ struct OptionsOf<Solver> {
   using type = typename Solver::Options;
 };
 
-/// The types of a snapshot. The broad phase and the threads of the solver are not among them.
+/// The types of a snapshot. The broad phase and the threads of the solver are not part of a
+/// snapshot.
 template <class World, class... More>
 struct SnapshotTypes;
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
@@ -95,7 +96,7 @@ std::uint64_t outline_of(Objects&... objects) {
   return outline.checksum();
 }
 
-/// A, B<C, D>, .. of std::tuple<A, B<C, D>, ..>
+/// The parts A, B<C, D>, ... of the text std::tuple<A, B<C, D>, ...>.
 inline std::vector<std::string_view> parts_of(std::string_view tuple) {
   const std::size_t first = tuple.find('<') + 1, last = tuple.rfind('>');
   if (first == 0 || last == tuple.npos || last < first) return {};
@@ -116,7 +117,7 @@ inline std::vector<std::string_view> parts_of(std::string_view tuple) {
   return parts;
 }
 
-/// Describes the first difference of two lists of types.
+/// Describes the first difference between two lists of types.
 inline std::string difference(std::string_view found, std::string_view wanted) {
   constexpr std::array<std::string_view, 4> of_world{"shape", "law", "integrator",
                                                      "solver's options"};
@@ -134,7 +135,7 @@ inline std::string difference(std::string_view found, std::string_view wanted) {
          std::to_string(want.size() - of_world.size()) + ", that go with the simulation";
 }
 
-/// @throws std::runtime_error unless these are the bytes of a complete snapshot of this format
+/// @throws std::runtime_error unless the bytes are a complete snapshot of the present format
 inline SnapshotHead checked_head(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& why) { throw std::runtime_error(name + why); };
   if (bytes.empty()) refuse(" is empty");
@@ -167,7 +168,7 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
   const SnapshotHead head = checked_head(bytes, name);
   bytes.remove_suffix(sizeof(std::uint64_t));
   ArchiveReader archive(bytes.substr(sizeof head));
-  // On copies, so that an error changes nothing.
+  // The objects are read into copies, so that an error leaves the originals unchanged.
   World loaded = world;
   std::tuple<More...> loaded_more(more...);
   try {
@@ -192,14 +193,15 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
 
 }  // namespace detail
 
-/// The state of a simulation as bytes: the same bytes if and only if the state has the same bits.
-/// @param more other objects of the run: numbers, strings, vectors, generators of random numbers,
-///             classes with serialized_members(), see core/serialize.hpp
+/// The state of a simulation as bytes. Two states give the same bytes if and only if they have the
+/// same bits.
+/// @param more other objects of the run: numbers, strings, vectors, random number generators,
+///             classes with serialized_members(); see core/serialize.hpp
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
                      const More&... more) {
   using World = Simulation<ShapeT, Law, Integrator, Broad, Solver>;
-  // An archive takes references to objects that are not const; this one only reads them.
+  // An archive takes references that are not const. This archive only reads the objects.
   auto& open = const_cast<World&>(world);
   detail::SnapshotHead head;
   head.outline = detail::outline_of(open, const_cast<More&>(more)...);
@@ -219,11 +221,12 @@ std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& w
 
 /// Restores the state of a simulation, and of other objects of the run, from the bytes of
 /// snapshot(). It replaces everything in the simulation except the threads of its solver.
-/// @param bytes that snapshot() returned
-/// @param world of the same type as in snapshot(); it need not have bodies
-/// @param more  of the same types and in the same order as in snapshot()
-/// @throws std::runtime_error with the reason if the bytes are no snapshot, truncated, corrupted,
-///         of another format or of other types; nothing is changed then
+/// @param bytes the result of snapshot()
+/// @param world a simulation of the same type as in snapshot(); it may be empty
+/// @param more  objects of the same types and in the same order as in snapshot()
+/// @throws std::runtime_error with the reason if the bytes are not a snapshot, are truncated or
+///                            corrupted, or have a different format or different types; no object
+///                            is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void restore_snapshot(std::string_view bytes,
                       Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
@@ -231,8 +234,8 @@ void restore_snapshot(std::string_view bytes,
 }
 
 /// Writes a snapshot. An existing file is replaced as a whole: a reader finds the old file or the
-/// new one, even if the run is killed while it writes.
-/// @param more other objects of the run, see snapshot()
+/// new file, even if the program is killed while it writes.
+/// @param more other objects of the run; see snapshot()
 /// @throws std::system_error naming the path if the file cannot be written; an existing file is
 ///         then unchanged
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
@@ -242,10 +245,11 @@ void write_snapshot(const std::filesystem::path& path,
   write_atomically(path, snapshot(world, more...));
 }
 
-/// Restores a simulation of the same type from a file of write_snapshot(), see restore_snapshot().
+/// Restores a simulation of the same type from a file written by write_snapshot(); see
+/// restore_snapshot().
 /// @throws std::system_error naming the path and the reason if the file cannot be read
-/// @throws std::runtime_error naming the path and the reason if restore_snapshot() would throw;
-///         nothing is changed then
+/// @throws std::runtime_error naming the path and the reason if restore_snapshot() would throw; no
+///                            object is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void read_snapshot(const std::filesystem::path& path,
                    Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {

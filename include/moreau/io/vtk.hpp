@@ -2,10 +2,10 @@
 // Writes files for ParaView: grains with their surfaces, contacts as lines, fields, boxes.
 //
 // In ParaView:
-//  - Grains are faces, with their arrays on the cells.
-//  - If all grains are spheres, they are points, with their arrays on the points; the file is a
-//    hundred times smaller. Use the filter Glyph or the representation Point Gaussian, scaled by
-//    `size`. VtkOptions::spheres_as_points = false writes faces instead.
+//  - Grains are faces. Their arrays belong to the cells.
+//  - If all grains are spheres, they are points, and their arrays belong to the points. The file is
+//    then about a hundred times smaller. Use the filter Glyph or the representation Point Gaussian,
+//    scaled by `size`. With VtkOptions::spheres_as_points = false, spheres are written as faces.
 //  - Contacts are lines. Use the filter Tube and vary its radius by `normal_force`.
 //  - Fields are points. Use the filter Glyph.
 #pragma once
@@ -35,13 +35,14 @@ namespace moreau {
 
 /// How grains are drawn.
 struct VtkOptions {
-  int fineness =
-      2;  ///< of curved surfaces, 0 to 6, as in SurfaceMesher; 2: 320 triangles per sphere
-  bool spheres_as_points = true;  ///< if all grains are spheres
+  /// Fineness of curved surfaces, 0 to 6 (SurfaceMesher). With 2, a sphere has 320 triangles.
+  int fineness = 2;
+  bool spheres_as_points = true;  ///< whether spheres are written as points if all grains are
+                                  ///< spheres
 };
 
-/// Writes .vtp files, each whole or not at all. Reuses its buffers from file to file. Coordinates
-/// are in world axes [m] in single precision; in the plane z = 0.
+/// Writes .vtp files. Each file is written as a whole or not at all. The object uses its buffers
+/// again for each file. Coordinates are in world axes [m] in single precision; in the plane z = 0.
 template <class S>
 class VtkWriter {
  public:
@@ -54,8 +55,8 @@ class VtkWriter {
   /// Writes the grains with the arrays `id` (the index k), `size` (circumdiameter [m]), `velocity`
   /// of the centre of mass [m/s], `speed` [m/s] and `spin` (magnitude of the angular velocity
   /// [rad/s]).
-  /// @param shape_of,pose_of,velocity_of k -> shape, pose [m], twist (v, w) [m/s, rad/s] of grain
-  ///                                     k, world axes
+  /// @param shape_of,pose_of,velocity_of functions: k -> shape, pose [m] and twist (v, w) [m/s,
+  ///                                     rad/s] of grain k, world axes
   /// @throws std::invalid_argument if a pose is not finite
   /// @throws std::system_error naming the path if the file cannot be written
   template <class ShapeOf, class PoseOf, class VelocityOf>
@@ -98,10 +99,10 @@ class VtkWriter {
     data_.write(path);
   }
 
-  /// Writes contacts as lines between the centres of their bodies with the arrays `normal_force`
+  /// Writes contacts as lines between the centres of their bodies. The arrays are `normal_force`
   /// and `friction_force` [N], `gap` [m], `class` (value of the ContactClass) and `point`, the
   /// position of the contact point [m].
-  /// @param contacts from force_chains() or contact_segments()
+  /// @param contacts result of force_chains() or contact_segments()
   /// @throws std::invalid_argument if an end of a segment is not finite
   /// @throws std::system_error naming the path if the file cannot be written
   void write_contacts(const std::filesystem::path& path,
@@ -181,7 +182,7 @@ class VtkWriter {
     first_.clear();
     second_.clear();
   }
-  /// Whether a point is finite in single precision, as files store it.
+  /// Whether a point is finite in single precision, in which files store it.
   static bool is_drawable(const Vector& x) { return x.template cast<float>().allFinite(); }
   void append_point(const Vector& position) {
     cell_.assign(1, data_.add_point(position));
@@ -200,8 +201,8 @@ class VtkWriter {
       data_.add_cell(VtkPolyData::Cells::polygons, cell_);
     }
   }
-  /// Distance of the farthest point from the origin [m]: the circumradius, or from the mesh for a
-  /// shape without circumradius().
+  /// The distance of the farthest point of a shape from its origin [m]: the circumradius, or, for a
+  /// shape without circumradius(), the largest distance of a point of the mesh.
   template <class Shape>
   typename S::Scalar reach(const Shape& shape) const {
     if constexpr (HasCircumradius<Shape>) {
@@ -226,7 +227,7 @@ class VtkWriter {
   SurfaceMesh<S> mesh_;
   VtkPolyData data_;
   std::vector<std::int32_t> cell_, numbers_;
-  std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays
+  std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays of one file
 };
 
 }  // namespace moreau

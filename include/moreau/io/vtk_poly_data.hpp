@@ -28,7 +28,7 @@
 
 namespace moreau {
 
-/// Types of the numbers in an array.
+/// The types that the numbers of an array can have.
 template <class T>
 concept VtkNumber = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, std::int32_t> || std::same_as<T, std::uint32_t>;
@@ -59,7 +59,7 @@ class VtkPolyData {
  public:
   /// Kinds of cells, in the order of a file.
   enum class Cells : std::uint8_t { vertices, lines, polygons };
-  /// What an array belongs to.
+  /// Whether the values of an array belong to points or to cells.
   enum class On : std::uint8_t { points, cells };
 
   /// Removes all data and keeps the memory.
@@ -72,7 +72,7 @@ class VtkPolyData {
 
   /// Adds a point.
   /// @param x world axes [m]; a plane vector gets z = 0
-  /// @returns its index
+  /// @returns the index of the point
   template <class Vector>
   std::int32_t add_point(const Vector& x) {
     for (int k = 0; k < 3; ++k) points_.push_back(k < x.size() ? static_cast<float>(x[k]) : 0.0f);

@@ -12,9 +12,8 @@ namespace moreau {
 
 /// The solid fraction in a control volume [-]: the volume of the grains inside the control volume
 /// divided by the volume of the control volume. Where two grains overlap, the overlap counts twice.
-/// @param control_volume  world axes [m]. It should lie inside the container, which
-///                        require_inside() checks. Otherwise the volume outside of the container
-///                        counts as void
+/// @param control_volume  world axes [m]. If it reaches beyond the container, the volume outside of
+///                        the container counts as void; require_inside() checks that it does not
 /// @param grain_count     number of grains
 /// @param shape_of        function: k -> shape of grain k
 /// @param pose_of         function: k -> pose of grain k, world axes [m]

@@ -165,7 +165,7 @@ struct Ballast<Polygon<T>> {
 /// Balls and disks, for comparison with angular grains. All grains are equal.
 template <class S>
 struct Ballast<BallIn<S>> {
-  /// The ball with the radius 1.
+  /// The ball of radius 1.
   static BallIn<S> draw(std::mt19937_64&) { return BallIn<S>(1); }
 };
 

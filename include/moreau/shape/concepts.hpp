@@ -55,8 +55,8 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.face_offsets();
 };
 
-// Optional member functions. A shape composed of other shapes has one of them if all its parts have
-// it.
+// Optional member functions. A shape composed of other shapes has such a function if all its parts
+// have it.
 
 /// A shape with volume() [m^D].
 template <class T>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grains in a cylinder (in the plane: a circle).
+// Grains in a cylinder, or in the plane in a circle.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
@@ -18,13 +18,13 @@ namespace {
 using Law = moreau::SignoriniCoulomb<double>;
 constexpr double gravity = 9.81;
 
-/// Perpendicular to x and to the last axis.
+/// The direction perpendicular to x and to the last axis.
 template <class S>
 typename S::Angular across() {
   return S::Angular::Unit(S::angular_dim / 2);
 }
 
-/// One grain in a cylinder about the origin, its axis horizontal.
+/// One grain in a cylinder about the origin. The axis of the cylinder is horizontal.
 template <class ShapeT>
 struct InCylinder {
   using S = moreau::SpaceOf<ShapeT>;
@@ -60,7 +60,7 @@ TEST_CASE_TEMPLATE("a ball (disk) without slip swings at sqrt(5 g / 7 (R - r)), 
   constexpr bool solid = Scene::S::angular_dim == 3;
   const double R = 0.5, r = 0.05, angle = 0.05;
   const double rate = std::sqrt((solid ? 5.0 / 7 : 2.0 / 3) * gravity / (R - r));
-  // Of a pendulum to second order in its amplitude.
+  // Period of a pendulum, to second order in its amplitude.
   const double period = 2 * std::numbers::pi / rate * (1 + angle * angle / 16);
   for (const double h : {2e-3, 5e-4}) {
     const Vector start =
@@ -99,7 +99,7 @@ TEST_CASE_TEMPLATE("a ball rolls on the spot in a spinning cylinder", ShapeT, mo
   CHECK((scene.simulation.contact_impulse(scene.drum) +
          scene.mass() * gravity * h * Vector::Unit(Scene::up))
             .norm() < 1e-9 * scene.mass());
-  // Without its spin it is carried up the wall that comes towards it.
+  // Without this initial spin, friction moves the grain in the direction of the wall's motion.
   Scene dragged(ShapeT(r), bottom, R, 0.5);
   dragged.simulation.set_spin(dragged.drum, rate * across<S>());
   for (int k = 0; k < 50; ++k) dragged.simulation.step(h);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the energy goes under other laws, schemes and walls than those of the quick tests.
+// The energy balance under other laws, integrators and walls than in the quick tests.
 #include "moreau/measure/energy_balance.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ using S = Space<2>;
 using DiskT = BallIn<S>;
 using Vector = S::Vector;
 
-/// Disks of two sizes thrown into a box.
+/// Disks of two sizes with initial velocities in a box.
 template <class World>
 EnergyBalance<S> thrown(World& world, double h) {
   const ShapeId shapes[] = {world.add_shape(DiskT(0.01)), world.add_shape(DiskT(0.008))};

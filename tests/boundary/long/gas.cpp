@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A gas that is periodic along all axes.
+// A gas in a cell that is periodic along all axes.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <random>

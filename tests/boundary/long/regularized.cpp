@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same boundaries under laws that give forces.
+// Boundaries under regularized contact laws, which give forces.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
@@ -20,8 +20,8 @@ using Law = moreau::LinearSpringDashpot<double>;
 template <class S>
 using Springs = moreau::Simulation<BallIn<S>, Law>;
 
-/// Balls of radius 1 cm on a grid of 22 mm, in layers along the last axis, in a cell that is
-/// periodic along the others.
+/// Balls of radius 1 cm on a lattice of spacing 22 mm, in layers along the last axis. The cell is
+/// periodic along the other axes.
 template <class S>
 Springs<S> periodic_layers(int per_side, int layers, const Law& law) {
   Springs<S> world(0.02, moreau::Materials<Law>(1, law));
@@ -64,7 +64,7 @@ TEST_CASE_TEMPLATE("a servo wall brings a periodic packing to its pressure", S, 
     if (k >= steps - 200) worst = std::max(worst, std::abs(now / pressure - 1));
   }
   CHECK(worst < 0.01);
-  // No side wall takes anything.
+  // There are no side walls, so the floor carries the whole load.
   CHECK(moreau::wall_pressure(world, BodyId(lid.index() - 1), h, area) ==
         doctest::Approx(pressure).epsilon(0.01));
   Vector momentum = Vector::Zero();
@@ -97,7 +97,7 @@ TEST_CASE_TEMPLATE("springs across the boundary keep momentum and energy", S, Sp
   }
   CHECK(momentum_after == doctest::Approx(momentum).epsilon(1e-10));
   CHECK(energy_after == doctest::Approx(energy).epsilon(0.02));
-  CHECK(farthest < 0.4);  // they cannot pass each other
+  CHECK(farthest < 0.4);  // the balls cannot pass each other
 }
 
 TEST_CASE_TEMPLATE("a soft ball swings in a cylinder", S, Space<2>, Space<3>) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A second unit with the same headers: what they define must be one in the program.
+// A second translation unit with the same headers. It tests that no definition in them is
+// duplicated.
 #include <moreau/measure/pair_forces.hpp>
 #include <moreau/moreau.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every pair of kinds of shapes, in every order, each drawn as one of several kinds.
+// All pairs of types of shapes, in both orders. The shape types are chosen at run time (OneOf).
 #include "detect/queries.hpp"
 
 using namespace queries;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of kinds of shapes in single precision.
+// Pairs of different types of shapes in single precision.
 #include "detect/queries.hpp"
 
 using namespace queries;

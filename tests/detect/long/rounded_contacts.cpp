@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contact points of capsules, rounded shapes and shapes known by their support functions, in cases
-// that can be worked out by hand.
+// Contact points of capsules, rounded shapes and shapes with a support function only, in cases that
+// can be computed by hand.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
@@ -57,7 +57,8 @@ TEST_CASE("a rod lying on a wall, on a face, along a rod: two points") {
   CHECK(on_wall.contact_class == ContactClass::edge_face);
   CHECK(on_wall.normal == V3(0, 0, -1));
 
-  // Across the rim of a box of half sides (0.5, 1, 0.5), overlapping a little.
+  // The rod lies across the rim of a box with the half sides (0.5, 1, 0.5) and overlaps it a
+  // little.
   const auto on_box = contact(rod, at(V3(0.3, 0, 0.69)), samples::box(1., 2., 1.), at(V3(0, 0, 0)));
   check_points(on_box, {V3(-0.5, 0, 0.495), V3(0.5, 0, 0.495)}, -0.01);
   CHECK(on_box.contact_class == ContactClass::edge_face);
@@ -90,7 +91,8 @@ TEST_CASE("crossing rods touch in one point, however deep") {
     CHECK((found.points[0].position - V3(0.1, 0, height / 2)).norm() < 1e-12);
     CHECK(found.contact_class == ContactClass::edge_edge);
   }
-  // In the plane crossing segments overlap; the axis is the shorter way to separate them.
+  // In the plane, segments that cross overlap. The axis is the direction of the shorter
+  // displacement that separates them.
   const CapsuleIn<S2> flat(1, 0.2);
   const auto found = contact(flat, at(V2(0, 0)), flat, at(V2(0.2, 0.7), pi / 2));
   CHECK(found.gap == doctest::Approx(-0.3 - 0.4));
@@ -128,12 +130,13 @@ TEST_CASE("rounded boxes keep the points, keys and class of their cores") {
     CHECK(found.points[i].gap == doctest::Approx(cores.points[i].gap - 0.2));
     CHECK((found.points[i].position - cores.points[i].position).norm() < 1e-12);
   }
-  // Against its own core the surface is nearer to the core.
+  // If only one of the shapes is rounded, the contact points are shifted towards the shape that is
+  // not rounded, by half of the radius.
   const auto mixed = contact(rounded, below, box, at(V3(0, 0, 1.1)), 0.01);
   for (const auto& point : mixed.points) CHECK(point.position.z() == doctest::Approx(0.6));
 }
 
-/// max |x_i| <= 1 by its support alone.
+/// The cube max |x_i| <= 1, with a support function only.
 struct Cube {
   using Space = S3;
   using Vector = V3;
@@ -175,7 +178,7 @@ TEST_CASE("rigid motion of a pair moves its contact along") {
     const auto found = contact(grain, at(V3(0, 0, 0)), rod, pose, 2);
     const auto again = contact(grain, motion, rod, moved, 2);
     CHECK(std::abs(found.gap - again.gap) < 1e-11);
-    if (found.gap < -0.5) continue;  // the cores overlap: two axes may be as good
+    if (found.gap < -0.5) continue;  // the cores overlap, so two axes may be equally good
     CHECK((motion.rotation * found.normal - again.normal).norm() < 1e-6);
   }
 }

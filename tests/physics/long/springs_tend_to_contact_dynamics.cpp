@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Kolmogorov distance: the largest distance between two cumulative distributions.
+/// The Kolmogorov distance: the largest difference of two cumulative distributions.
 double distance(const moreau::ForceDistribution<double>& a,
                 const moreau::ForceDistribution<double>& b) {
   double sum = 0, most = 0;
@@ -22,10 +22,10 @@ double distance(const moreau::ForceDistribution<double>& a,
 
 }  // namespace
 
-// With growing stiffness the packing on springs tends to the packing of contact dynamics: the wall,
-// the solid fraction away from the walls and the distribution of forces, in the mean over several
-// packings. A single packing may settle beside the rigid one: rigid grains with friction have many
-// packings.
+// With increasing stiffness, a packing of grains on springs tends to the packing of contact
+// dynamics. The position of the wall, the solid fraction away from the walls and the force
+// distribution are compared, as means over several packings. A single packing may end in another
+// state than the rigid packing, because rigid grains with friction have many states of equilibrium.
 TEST_CASE("springs tend to contact dynamics as they stiffen") {
   constexpr int samples = 4;
   std::vector<double> wall, solid, forces;
@@ -50,8 +50,8 @@ TEST_CASE("springs tend to contact dynamics as they stiffen") {
     solid.push_back(s);
     forces.push_back(f);
   }
-  // Each decade brings the packings nearer, until the remaining difference is that of another
-  // packing.
+  // Each factor of ten in the stiffness reduces the differences, until they are those between two
+  // states of equilibrium.
   for (std::size_t k = 1; k < 3; ++k) {
     CHECK(wall[k] < 0.5 * wall[k - 1]);
     CHECK(solid[k] < 0.5 * solid[k - 1]);

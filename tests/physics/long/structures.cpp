@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The structures of ../structures.cpp, larger and for ten seconds.
+// The structures of ../structures.cpp, but larger and for ten seconds.
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
@@ -14,14 +14,16 @@ constexpr double step = 5e-3;
 constexpr int settle = 20, ten_seconds = 2000;
 }  // namespace
 
-// Sweeps converge slowly for the bending of a slender column: 10000 sweeps leave 1e-6.
+// For the bending of a slender column, sweeps converge slowly: after 10000 sweeps the residual is
+// 1e-6.
 TEST_CASE_TEMPLATE("a column of 40 boxes stands for ten seconds", ShapeT, Polyhedron<>, Polygon<>) {
   auto structure = masonry::column<ShapeT, moreau::ProximalFallback<>>(40);
   masonry::check_stands(structure, step, settle, ten_seconds);
 }
 
 TEST_CASE_TEMPLATE("a wall of 500 bricks stands for ten seconds", ShapeT, Polyhedron<>, Polygon<>) {
-  auto structure = masonry::wall<ShapeT>(20, 25);  // ten courses of them have two halves for one
+  // Every second of the 20 courses has two half bricks in place of one brick.
+  auto structure = masonry::wall<ShapeT>(20, 25);
   structure.simulation.set_solver(moreau::ColouredGaussSeidel(masonry::tight(200000)));
   masonry::check_stands(structure, step, settle, ten_seconds);
 }

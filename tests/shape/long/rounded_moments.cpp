@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The moments of rounded grains, by counting points.
+// The moments of rounded grains, compared with sums over many points.
 #include "moreau/shape/rounded_moments.hpp"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 using namespace moreau;
 constexpr double pi = std::numbers::pi;
 
-/// The moments of the points at most r from a polytope, by counting.
+/// The moments of all points at most r from a polytope, computed by counting grid points.
 template <class Core>
 Moments<SpaceOf<Core>> counted(const Core& core, double r, int samples, std::mt19937_64& random) {
   using S = SpaceOf<Core>;
@@ -69,7 +69,7 @@ TEST_CASE("the cones of a polyhedron's vertices by counting directions") {
     cones[edge.vertex[0]].add_edge(along, n, m);
     cones[edge.vertex[1]].add_edge(-along, n, m);
   }
-  // Points of a spiral from pole to pole, all with the same share of the sphere.
+  // Points on a spiral from pole to pole, each with the same share of the sphere's surface.
   const int count = rounds(400000);
   std::vector<Moments<S>> counted(core.vertex_count());
   for (int i = 0; i < count; ++i) {

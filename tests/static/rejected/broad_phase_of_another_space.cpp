@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes of the plane for balls of space.
+// A broad phase for the plane in a simulation of balls in space.
 // expect: Broad is no BroadPhase in the space of the shape
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A regularized law under an integrator of impulses.
+// A regularized law with an integrator of impulses.
 // expect: a regularized law gives forces, which an integrator of impulses such as MoreauJean
 // and no other error
 #include "moreau/law/linear_spring_dashpot.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A body's index handed in where a shape's is asked for.
+// The id of a body is passed where the id of a shape is required.
 // expect: (could not convert|no known conversion)
 #include "moreau/core/ids.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A set-valued law under an integrator of forces.
+// A set-valued law with an integrator of forces.
 // expect: a set-valued law gives impulses, which an integrator of forces such as VelocityVerlet
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"

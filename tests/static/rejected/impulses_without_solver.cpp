@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A set-valued law with nothing that solves it.
+// A set-valued law without a contact solver.
 // expect: Solver cannot take this set-valued law
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"

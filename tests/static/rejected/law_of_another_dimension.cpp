@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A law for the plane in a simulation in space names the call that does not fit.
+// A law for the plane in a simulation in space. The message names the call that is not valid.
 // expect: law.solve\(block, vector, vector\)
 #include "moreau/law/concepts.hpp"
 

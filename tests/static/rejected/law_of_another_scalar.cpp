@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A law that counts in float for grains in double.
+// A law in single precision for grains in double precision.
 // expect: Law offers neither velocity_offset, solve and natural_map
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"

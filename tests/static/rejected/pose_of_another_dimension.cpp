@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A position in the plane for a pose in space.
+// A position with two components for a pose in space.
 // expect: (use of|call to) deleted (function|constructor).*Components
 // and no other error
 #include "moreau/core/pose.hpp"

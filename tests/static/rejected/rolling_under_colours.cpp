@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A solver of points under a law with couples.
+// A law with couples and a solver that can treat only point contacts.
 // expect: Solver cannot take this set-valued law
 // and no other error
 #include "moreau/law/rolling_resistance.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A space where a shape takes a scalar.
+// A space is given as template argument where a shape requires a scalar type.
 // expect: (constraint failure for.*floating_point|constraints not satisfied for alias template 'Ball')
 #include "moreau/shape/ball.hpp"
 

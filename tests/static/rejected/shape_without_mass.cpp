@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simulation of a shape without mass properties names the expression that is missing.
+// A simulation of a shape without mass properties. The message names the missing expression.
 // expect: shape.mass_properties\(density\)
 #include "moreau/shape/ball.hpp"
 

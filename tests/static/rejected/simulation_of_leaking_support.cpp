@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same mistake where it first shows: in a simulation.
+// The mistake of support_leaks_expression.cpp, in a simulation.
 // expect: shape.support\(direction\)
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"

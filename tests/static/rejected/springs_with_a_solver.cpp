@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Forces leave nothing to solve.
+// A regularized law, for which there is nothing to solve, with a contact solver.
 // expect: a regularized law leaves nothing to solve
 // and no other error
 #include "moreau/law/linear_spring_dashpot.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A support function with the return type auto hands out an Eigen expression of its argument.
+// A support function with the return type auto returns an Eigen expression that refers to its
+// argument.
 // expect: shape.support\(direction\)
 #include "moreau/shape/ball.hpp"
 

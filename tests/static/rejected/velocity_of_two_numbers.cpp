@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two numbers for a velocity in space.
+// A velocity with two components in a simulation in space.
 // expect: (use of|call to) deleted (function|constructor).*Components
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A million steps of a packing at rest: it neither creeps nor gains energy, and takes no more
-// memory than after the first thousands.
+// A million steps of a packing at rest. The packing must not drift or gain energy, and must not use
+// more memory than after the first ten thousand steps.
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ TEST_CASE_TEMPLATE("a million steps at rest", ShapeT, Polyhedron<>, Polygon<>, D
   scenes::BoxOfGrains<ShapeT> box(12);
   auto& world = box.simulation;
   for (int k = 0; k < 10000; ++k) world.step(5e-4);
-  // A grain's weight over its size.
+  // Unit of energy: the weight of a grain times its size.
   const double unit =
       world.bodies().weight[box.grains[0].index()] * world.gravity().norm() * world.grain_size();
   const double start = potential(world);

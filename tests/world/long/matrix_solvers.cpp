@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The solvers that the other units of the matrix leave out.
+// The solvers that the other files of the matrix do not test.
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/solve/proximal_fallback.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assemblies of several kinds of shapes.
+// Assemblies with several types of shapes.
 #include <doctest/doctest.h>
 #include <random>
 
@@ -22,7 +22,7 @@ using Grain = OneOf<BallIn<S>, CapsuleIn<S>, Rounded<Rock>>;
 using Law = SignoriniCoulomb<double>;
 using World = Simulation<Grain, Law>;
 
-/// Grains of a size of about 2 cm, one kind after the other, over the floor of a box.
+/// Grains of about 2 cm above the floor of a box. The types of shapes alternate.
 World box_of_grains(int count) {
   std::mt19937_64 random(41);
   World world(0.02, Materials<Law>(1, Law(0.4)));

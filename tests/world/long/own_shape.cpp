@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shape that offers mass, box and support and nothing else, through all of a simulation.
+// A whole simulation with a shape that has only a mass, a bounding box and a support function.
 #include <cmath>
 #include <doctest/doctest.h>
 
@@ -16,14 +16,14 @@ using namespace moreau;
 using S = Space<3>;
 using V = S::Vector;
 
-/// sum |x_i / a_i|^p <= 1. Moments: Dirichlet's integral.
+/// The superellipsoid sum |x_i / a_i|^p <= 1. Its moments follow from Dirichlet's integral.
 struct Superellipsoid {
   using Space = S;
   using Vector = V;
   Vector axes;
   double p;
 
-  /// int x_i^power over the body.
+  /// The integral of x_i^power over the body.
   double moment(int i, int power) const {
     double product = 8 / (p * p * p);
     for (int k = 0; k < 3; ++k)

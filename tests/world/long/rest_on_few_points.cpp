@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// With at most three points per pair a grain that stands on more rests, too: it neither rocks about
-// the sides of its triangle nor creeps.
+// A grain that stands on more than three points also rests if each pair keeps at most three contact
+// points: it neither rocks about the sides of its triangle nor drifts.
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>

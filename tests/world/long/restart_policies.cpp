@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Restarts with every kind of memory that a law, a shape or a boundary has.
+// Restarts with every kind of stored state that a law, a shape or a boundary has.
 #include <doctest/doctest.h>
 
 #include "moreau/detect/broad/cell_grid.hpp"
@@ -45,7 +45,7 @@ Mixed grain(int k) {
   }
 }
 
-/// Grains that fall on a moving floor, or into a drum, periodic along x if asked for.
+/// Grains that fall onto a moving floor or into a cylinder; optionally periodic along x.
 template <class World>
 void build(World& world, bool periodic) {
   using ShapeT = std::remove_cvref_t<decltype(world.shape_of_grain(0))>;
@@ -120,7 +120,8 @@ TEST_CASE("cohesion and rolling resistance") {
 TEST_CASE("the number of threads is not in a snapshot") {
   using Law = SignoriniCoulomb<>;
   const Materials<Law> laws(2, Law(0.4));
-  // Other broad phases and solvers than these may be compiled elsewhere, with other flags.
+  // Other broad phases and solvers than the defaults may be compiled in a different translation
+  // unit with different flags.
   using World = Simulation<Disk<>, Law, MoreauJean, CellGrid<Plane>, ParallelGaussSeidel>;
   World alone(0.01, laws, ParallelGaussSeidel({}, 1)), team(0.01, laws, ParallelGaussSeidel({}, 2));
   build(alone, false);

@@ -146,7 +146,7 @@ struct PairGjk {
   const T margin;      ///< the iteration stops if the gap exceeds this [m]
   Simplex<T> simplex;  ///< the current simplex, which contains the nearest point found so far
   Vector direction = Vector::Zero();  ///< the last search direction, of any length, world axes
-  Proximity proximity = Proximity::undecided;  ///< what is known of the distance of the shapes
+  Proximity proximity = Proximity::undecided;  ///< result of the iteration so far
   bool is_beyond() const { return proximity == Proximity::beyond; }
 
   /// Runs some more iterations, unless it is already known how near the shapes are.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Serialization of objects to bytes and back. transfer(archive, object) visits the numbers of an
-// object in order. An archive writes them, reads them, or notes their types. One function for all
-// three: reading cannot disagree with writing.
+// Serialization of objects to bytes and back. transfer(archive, object) visits all numbers of an
+// object in a fixed order. There are three archives: one writes the numbers, one reads them, and
+// one records only their types. All three use the same function transfer(), so that reading cannot
+// disagree with writing.
 //
-// Numbers have the byte order of the machine. core/serialize.hpp describes how a class takes part.
+// Numbers are stored in the byte order of the machine. core/serialize.hpp describes how a class
+// supports serialization.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +34,8 @@
 
 namespace moreau::detail {
 
-/// Converts to any member of an aggregate; only for use in unevaluated expressions.
+/// An object that converts to any member of an aggregate. It is used only in unevaluated
+/// expressions, to count members.
 struct AnyMember {
   template <class Member>
   operator Member() const;  // NOLINT(google-explicit-constructor): it stands for an initializer
@@ -43,7 +46,7 @@ constexpr bool takes_members(std::index_sequence<Member...>) {
     X{(static_cast<void>(Member), AnyMember{})...};
   };
 }
-/// Number of members of an aggregate, if it is not above Most.
+/// The number of members of an aggregate with at most Most members.
 template <class X, std::size_t Most = 8>
 constexpr std::size_t member_count() {
   if constexpr (Most == 0)
@@ -53,7 +56,7 @@ constexpr std::size_t member_count() {
   else
     return member_count<X, Most - 1>();
 }
-/// References to the members of an aggregate.
+/// References to all members of an aggregate.
 template <class X>
 auto members(X& x) {
   constexpr std::size_t count = std::is_aggregate_v<X> ? member_count<X>() : 0;
@@ -92,7 +95,7 @@ template <class X>
 concept Number = std::is_arithmetic_v<X> || std::is_enum_v<X>;
 template <class X>
 concept EigenArray = std::derived_from<X, Eigen::PlainObjectBase<X>>;
-/// A generator of random numbers, whose state the standard library writes as text.
+/// A random number generator, whose state the standard library writes as text.
 template <class X>
 concept RandomEngine = std::uniform_random_bit_generator<X> && requires(X x, std::stringstream s) {
   s << x;
@@ -143,7 +146,7 @@ void transfer(Archive& archive, X& x) {
   }
 }
 
-/// Appends objects to its bytes. Does not change the objects.
+/// An archive that appends the numbers of objects to `bytes`. It does not change the objects.
 class ArchiveWriter {
  public:
   std::string bytes;
@@ -174,8 +177,8 @@ class ArchiveWriter {
   void done(auto&) {}
 };
 
-/// Reads the bytes of an ArchiveWriter. Throws std::runtime_error if they cannot be those of the
-/// object. Its memory is limited to some times the number of bytes.
+/// An archive that reads the bytes of an ArchiveWriter. It throws std::runtime_error if the bytes
+/// cannot represent the object. It allocates at most a few times the number of bytes.
 class ArchiveReader {
  public:
   explicit ArchiveReader(std::string_view bytes) : left_(bytes) {}
@@ -246,7 +249,8 @@ class ArchiveReader {
   static X blank() {
     return SerializationAccess::blank<X>();
   }
-  /// The size of a list, whose items have at least one byte each.
+  /// Reads the size of a list. Because each item has at least one byte, a size larger than the rest
+  /// of the bytes is an error.
   std::size_t count() {
     std::uint64_t count = 0;
     number(count);
@@ -257,8 +261,8 @@ class ArchiveReader {
   std::string_view left_;
 };
 
-/// Notes the types of the numbers of an object. Objects of one type have the same outline, unless
-/// the members of the type have changed between two versions of the program.
+/// An archive that records the types of all numbers of an object. Two objects of the same type have
+/// the same outline, unless the members of the type differ between two versions of the program.
 class ArchiveOutline {
  public:
   std::uint64_t checksum() const { return crc64(kinds_); }

@@ -11,7 +11,7 @@ namespace moreau {
 namespace detail {
 
 constexpr std::array<std::uint64_t, 256> make_crc64_table() {
-  constexpr std::uint64_t polynomial = 0xc96c5795d7870f42;  // ECMA-182, lowest bit first
+  constexpr std::uint64_t polynomial = 0xc96c5795d7870f42;  // ECMA-182, bits in reversed order
   std::array<std::uint64_t, 256> table{};
   for (std::uint64_t byte = 0; byte < 256; ++byte) {
     std::uint64_t rest = byte;
@@ -24,10 +24,10 @@ inline constexpr std::array<std::uint64_t, 256> crc64_table = make_crc64_table()
 
 }  // namespace detail
 
-/// CRC-64/XZ of bytes; the checksum of "123456789" is 0x995dc9bbdf1939fa. It detects every error
-/// that is confined to 64 consecutive bits.
-/// @param before checksum of the preceding bytes, to continue it; 0 at the beginning
-/// @returns checksum of the preceding bytes together with `bytes`
+/// The CRC-64/XZ checksum of bytes. The checksum of "123456789" is 0x995dc9bbdf1939fa. It detects
+/// every error that is confined to 64 consecutive bits.
+/// @param before checksum of the preceding bytes if `bytes` continues them; 0 at the beginning
+/// @returns checksum of the preceding bytes followed by `bytes`
 constexpr std::uint64_t crc64(std::string_view bytes, std::uint64_t before = 0) {
   std::uint64_t rest = ~before;
   for (const char byte : bytes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a file; the error names the file and the reason.
+// Reads a file. If this fails, the error names the file and the reason.
 #pragma once
 
 #include <cerrno>
@@ -15,7 +15,7 @@ namespace moreau {
 namespace detail {
 
 /// Reads all bytes of a file.
-/// @param function name of the public function, for the message
+/// @param function name of the public function, for the error message
 /// @throws std::system_error naming function, path and reason if the file cannot be read
 inline std::string read_file(const std::filesystem::path& path, std::string_view function) {
   const auto fail = [&] {
@@ -31,7 +31,7 @@ inline std::string read_file(const std::filesystem::path& path, std::string_view
   if (!file) fail();
   std::string bytes;
   char some[1 << 14];
-  // fopen() succeeds on a folder, fread() fails.
+  // fopen() succeeds on a folder; fread() then fails.
   while (const std::size_t count = std::fread(some, 1, sizeof some, file.get()))
     bytes.append(some, count);
   if (std::ferror(file.get()) != 0) fail();
