@@ -66,16 +66,11 @@ struct LocalProblem {
 /// such as a compliant law, does not obey Signorini's condition: `other`.
 enum class Normal { signorini, other };
 
-<<<<<<< HEAD
-/// A contact may close its gap within a step and no more, or cannot act before it has. An overlap at
-/// rest is not pushed out, unless the overlap is the compression of a spring. A contact that closes
-/// at a speed separates at a share of it.
-=======
 /// Checks the offset of the normal velocity. A positive gap may close within the step but not more
 /// than close, or the offset is infinite, so that the contact cannot act before the gap has closed.
 /// If the contact overlaps at rest or is opening, the offset is zero. If it is closing, the offset
 /// is between zero and minus the approach velocity (restitution).
->>>>>>> prose
+/// The offset of a compliant law is gap / step for an overlap, too.
 template <class S, class Law>
 void check_offset(const Law& law) {
   using T = typename S::Scalar;

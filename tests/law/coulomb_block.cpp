@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
-<<<<<<< HEAD
-// One contact with any block: the law holds, and symmetric blocks give what the law itself gives.
-#include "moreau/law/detail/coulomb_block.hpp"
-=======
 // One contact with any block, including asymmetric ones: the solution satisfies the law, and for
 // symmetric blocks it equals the solution of SignoriniCoulomb.
-#include "moreau/law/coulomb_block.hpp"
->>>>>>> prose
+#include "moreau/law/detail/coulomb_block.hpp"
 
 #include <doctest/doctest.h>
 #include <random>

@@ -21,7 +21,15 @@ namespace moreau {
 /// @param inertia  symmetric and positive definite [kg m^2]
 template <class S>
 typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
-  return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
+  using Inertia = typename S::Inertia;
+  const Eigen::SelfAdjointEigenSolver<Inertia> solver(inertia);
+  const Inertia& axes = solver.eigenvectors();
+  Inertia scaled;
+  for (int k = 0; k < S::angular_dim; ++k) {
+    const auto root = std::sqrt(1 / solver.eigenvalues()[k]);
+    for (int i = 0; i < S::angular_dim; ++i) scaled(i, k) = axes(i, k) * root;
+  }
+  return scaled * axes.transpose();
 }
 
 /// All bodies of a simulation. Element i of each array belongs to the body whose BodyId::index() is

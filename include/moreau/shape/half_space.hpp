@@ -3,6 +3,7 @@
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -18,7 +19,7 @@ class HalfSpace {
 
   /// @param normal outward normal of the solid, body coordinates, of any length but zero
   explicit HalfSpace(const VectorArgument<S>& normal) : normal_(normal.stableNormalized()) {
-    require(normal.allFinite(), "HalfSpace", "normal", normal, "must be finite");
+    require(all_finite(normal), "HalfSpace", "normal", normal, "must be finite");
     require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");
   }
 

@@ -15,6 +15,7 @@
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
 #include "moreau/shape/detail/face_topology.hpp"
+#include "moreau/shape/detail/long_vector.hpp"
 #include "moreau/shape/detail/polytope_base.hpp"
 
 namespace moreau {
@@ -147,15 +148,18 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
 
   /// Computes in long double, because the area of a sliver is a small difference of large products.
   void set_planes() {
-    using Wide = Eigen::Matrix<long double, 3, 1>;
+    using detail::LongVector;
     face_normals_.resize(static_cast<Eigen::Index>(face_count()), 3);
     face_offsets_.resize(face_normals_.rows());
     for (std::size_t f = 0; f < face_count(); ++f) {
       const auto row = static_cast<Eigen::Index>(f);
-      const auto plane = face_plane<long double>(face(f).size(), [&](std::size_t k) -> Wide {
-        return vertex(face(f)[k]).template cast<long double>();
+      const auto plane = face_plane<LongVector>(face(f).size(), [&](std::size_t k) {
+        const Vector v = vertex(face(f)[k]);
+        return LongVector{v[0], v[1], v[2]};
       });
-      face_normals_.row(row) = plane.normal.template cast<T>().transpose();
+      face_normals_(row, 0) = static_cast<T>(plane.normal.x);
+      face_normals_(row, 1) = static_cast<T>(plane.normal.y);
+      face_normals_(row, 2) = static_cast<T>(plane.normal.z);
       face_offsets_[row] = static_cast<T>(plane.normal.dot(plane.center));
     }
     this->summarize_faces();

@@ -10,15 +10,9 @@
 // C.
 //
 //   1. The point s n lies in the facet of C with the normal n, at a distance of at least r from the
-<<<<<<< HEAD
-//      rim of the facet. That is so if the projection of one feature onto the other lies that far
-//      inside. The disk of radius r about s n then lies in C. So for every m at an angle theta from
-//      n
-=======
 //      rim of the facet. This is the case if the projection of one feature onto the other lies that
 //      far inside. The disk of radius r about s n then lies in C. So for every m at an angle theta
 //      from n
->>>>>>> prose
 //          F(m) <= s cos theta - r sin theta.
 //      With tau = tan(theta / 2), the right side is less than s by at least
 //      2 tau (r - d tau) / (1 + tau^2).
@@ -27,11 +21,7 @@
 //      h = c . n and t^2 = |c|^2 - h^2. So for every m at an angle theta from n
 //          F(m) <= h cos theta + t sin theta - rho.
 //      The right side is less than -d where (h + rho - d) tau^2 - 2 t tau - (h + d - rho) >= 0.
-<<<<<<< HEAD
-//      The inequality is true for all tau beyond the larger root,
-=======
 //      Every tau beyond the larger root of this polynomial satisfies the inequality. The root is
->>>>>>> prose
 //          tau_0 = (t + sqrt(|c|^2 - (rho - d)^2)) / (h + rho - d).
 //
 // So if r >= d tau_0, the first bound excludes all m up to tau_0 and the second bound excludes all

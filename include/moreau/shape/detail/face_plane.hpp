@@ -9,9 +9,10 @@
 namespace moreau {
 
 /// The plane of a face of a polyhedron, in the coordinates of the polyhedron's vertices.
-template <class T>
+/// @tparam Vector a vector of Eigen, or detail::LongVector
+template <class Vector>
 struct FacePlane {
-  using Vector = Eigen::Matrix<T, 3, 1>;
+  using T = typename Vector::Scalar;
 
   Vector center = Vector::Zero();  ///< mean of the vertices [m]
   Vector axis = Vector::Zero();    ///< unit, from the center to the farthest vertex: the long
@@ -25,10 +26,10 @@ struct FacePlane {
 /// sliver would tilt the plane most. So the normal is made orthogonal to the long axis.
 /// @param count number of vertices, >= 3; not checked
 /// @param at    function: k -> vertex k [m], for k < count; counter-clockwise seen from outside
-template <class T, class At>
-FacePlane<T> face_plane(std::size_t count, const At& at) {
-  using Vector = Eigen::Matrix<T, 3, 1>;
-  FacePlane<T> plane;
+template <class Vector, class At>
+FacePlane<Vector> face_plane(std::size_t count, const At& at) {
+  using T = typename Vector::Scalar;
+  FacePlane<Vector> plane;
   for (std::size_t k = 0; k < count; ++k) plane.center += at(k);
   plane.center /= static_cast<T>(count);
   Vector area = Vector::Zero(), longest = Vector::Zero();

@@ -87,8 +87,12 @@ struct HullInput {
   /// 2^-253. So products of three differences do not underflow, and the signs of determinants are
   /// exact.
   Point in_units(const Point& x) const {
-    const Point y = x / unit;
-    return (y.array().abs() < std::ldexp(1.0, -200)).select(0.0, y);
+    Point scaled;
+    for (int k = 0; k < Dim; ++k) {
+      const double coordinate = x[k] / unit;
+      scaled[k] = std::abs(coordinate) < std::ldexp(1.0, -200) ? 0.0 : coordinate;
+    }
+    return scaled;
   }
   bool has_neighbour(const Point& x) const {
     for (auto y = points.rbegin(); y != points.rend() && x[0] - (*y)[0] <= flat; ++y) {

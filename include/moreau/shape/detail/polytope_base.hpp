@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <tuple>
@@ -81,8 +82,11 @@ class PolytopeBase {
   void move_origin(const Moments<S>& rough, const Vector& origin_in_input) {
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = origin_in_input + center;
-    vertices_.rowwise() -= center.transpose();
-    circumradius_ = vertices_.rowwise().norm().maxCoeff();
+    circumradius_ = 0;
+    for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
+      for (int k = 0; k < S::dim; ++k) vertices_(i, k) -= center[k];
+      circumradius_ = std::max(circumradius_, row_distance<S>(vertices_, i, Vector::Zero()));
+    }
   }
   /// Sets the moments.
   /// @param function  name of the calling function, for error messages

@@ -14,6 +14,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
 
@@ -52,6 +53,18 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   return box;
 }
 
+/// Distance of a row from a point, both in the same axes and unit.
+template <class S>
+typename S::Scalar row_distance(const VertexMatrix<S>& rows, Eigen::Index i,
+                                const typename S::Vector& point) {
+  typename S::Scalar sum = 0;
+  for (int k = S::dim - 1; k >= 0; --k) {
+    const typename S::Scalar along = rows(i, k) - point[k];
+    sum = along * along + sum;
+  }
+  return std::sqrt(sum);
+}
+
 /// The smallest distance between two of the rows, in their unit; infinite if there is only one row.
 /// The rows are sorted along x, so that few pairs have to be compared.
 template <class S>
@@ -65,7 +78,7 @@ typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       if (!(rows(order[j], 0) - rows(order[i], 0) < least)) break;
-      least = std::min(least, (rows.row(order[j]) - rows.row(order[i])).norm());
+      least = std::min(least, row_distance<S>(rows, order[j], rows.row(order[i])));
     }
   return least;
 }
@@ -76,7 +89,7 @@ namespace detail {
 template <class Vector>
 void require_finite(std::span<const Vector> vertices, std::string_view function) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i].allFinite()) continue;
+    if (all_finite(vertices[i])) continue;
     throw_invalid(function, "vertices[" + std::to_string(i) + "]", vertices[i], "must be finite");
   }
 }
