@@ -6,7 +6,6 @@
 // lower bound of the gap. If the shapes are apart and the witness points lie in the shapes, the
 // distance of the witness points is an upper bound. If the shapes overlap, no other direction may
 // have a larger separation.
-// bound, if these lie in the shapes. If the shapes overlap, no other direction may separate better.
 #pragma once
 
 #include <cmath>

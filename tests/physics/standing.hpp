@@ -24,7 +24,6 @@ namespace masonry {
 /// 2 D/w) <= e sqrt(n) (1 + 2 D/w). Velocities do not accumulate over steps. So the displacement is
 /// at most the sum of h times this velocity, and the kinetic energy is at most m/2 times its
 /// square. In addition, the overlap correction displaces blocks by the amount that it reports.
-/// it reports.
 template <class ShapeT, class Solver>
 void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle, int count) {
   const double lever =

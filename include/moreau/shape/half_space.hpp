@@ -18,6 +18,7 @@ class HalfSpace {
   using Vector = typename S::Vector;
 
   /// @param normal outward normal of the solid, body coordinates, of any length but zero
+  /// @throws std::invalid_argument if the normal is not finite or its length is zero
   explicit HalfSpace(const VectorArgument<S>& normal) : normal_(normal.stableNormalized()) {
     require(all_finite(normal), "HalfSpace", "normal", normal, "must be finite");
     require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A support function with the return type auto returns an Eigen expression that refers to its
-// argument.
+// A support function with the return type auto: it returns an Eigen expression of its argument.
 // expect: shape.support\(direction\)
 #include "moreau/shape/ball.hpp"
 

@@ -20,8 +20,8 @@ inline constexpr int register_bytes = 32;
 #else
 inline constexpr int register_bytes = 16;
 #endif
-/// Width in bytes of the widest registers of the target. Wider vector types are not used, because the
-/// way in which functions pass them depends on the target for which the functions were compiled.
+/// Width in bytes of the widest registers of the target. Wider vector types are not used, because
+/// the way in which functions pass them depends on the target for which they were compiled.
 #if defined(__AVX512F__)
 inline constexpr int widest_bytes = 64;
 #else

@@ -6,7 +6,8 @@
 // It equals the gap in two cases:
 //   - The shapes overlap, because every edge of B - A, the set of all differences b - a, is
 //     parallel to an edge of A or B.
-//   - The deepest vertex projects onto the edge.
+//   - The vertex of one polygon that is deepest below the best edge of the other polygon projects
+//     onto this edge.
 // Otherwise the shapes are apart, and two vertices may be nearest to each other. All vertices and
 // edges are then compared.
 //

@@ -6,9 +6,9 @@
 // face normals of A, the reversed face normals of B, and common normals of an edge of A and an edge
 // of B.
 //   Overlapping shapes: the origin lies in C. The gap is minus the distance of the origin from the
-//     nearest face of C, which is the largest s over the face normals of C.
-//   Shapes that are apart: the largest s over the face normals of C is a lower bound of the gap. It
-//     equals the gap if the nearest points of the planes or lines of the two features lie within
+//     nearest face of C. This is the largest s(n) over the face normals n of C.
+//   Shapes that are apart: the largest s(n) over the face normals of C is a lower bound of the gap.
+//     It equals the gap if the nearest points of the planes or lines of the two features lie within
 //     the features, because the features are then at that distance from each other.
 //
 // Let f be the face of A with the largest s(n_f), and let a vertex q of B be at least -s(n_f) deep

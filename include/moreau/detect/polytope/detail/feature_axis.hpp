@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The axis that a given pair of features makes. There are four cases:
-//   a face of a and a vertex of b  |  a vertex of a and a face of b  |  two edges
-//   a vertex and a vertex or an edge.
+//   1. a face of a and a vertex of b
+//   2. a vertex of a and a face of b
+//   3. two edges
+//   4. a vertex, and a vertex or an edge of the other shape
 // The search (find_axis.hpp) and the proof of remembered features (prove_axis.hpp) both call these
 // functions. The functions are not inlined, so that both callers get the same bits.
 #pragma once

@@ -2,10 +2,11 @@
 // The nearest features of two polyhedra that are apart, found by comparing all features that can be
 // nearest. It is needed for pairs with edges or faces so parallel that GJK ends on rounding errors.
 //
-// Let n be a unit vector along which the shapes are separated by s, and let d be the distance of
-// some point of a from some point of b. The distance of the nearest points is at most d. So, along
-// n, each nearest point lies at most d - s below the highest point of its shape. Features without a
-// vertex in this range are left out. All distances compared are distances between points of the two
+// Let n be a unit vector from a to b along which the shapes are separated by s, and let d be the
+// distance of some point of a from some point of b. The distance of the nearest points is at most
+// d. So the nearest point of a lies at most d - s below the highest point of a along n, and the
+// nearest point of b at most d - s below the highest point of b along -n. Features without a vertex
+// in this range are left out. All distances compared are distances between points of the two
 // shapes, so that no distance is smaller than the gap.
 #pragma once
 
