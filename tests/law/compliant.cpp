@@ -68,6 +68,17 @@ struct Column {
 
 }  // namespace
 
+TEST_CASE("compliant: a simulation as the guide makes it") {
+  using Shape = Ball<double>;
+  using Law = Compliant<SignoriniCoulomb<double>>;
+  const Law law(SignoriniCoulomb<double>(0.4), 1e8);  // friction [-], stiffness k [N/m]
+  ColouredOptions options;
+  options.tolerance = 1e-5;
+  options.cold_sweeps = 2000;  // a second attempt, from zero impulses, where the first is capped
+  Simulation<Shape, Law> simulation(0.02, Materials<Law>(1, law), ColouredGaussSeidel(options));
+  CHECK(simulation.materials().laws()[0].stiffness() == 1e8);
+}
+
 TEST_CASE("compliant: stiffness must be positive") {
   CHECK_THROWS_AS(Spring(Coulomb(0.4), 0), std::invalid_argument);
   CHECK_THROWS_AS(Spring(Coulomb(0.4), -1), std::invalid_argument);
