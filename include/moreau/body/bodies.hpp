@@ -21,7 +21,15 @@ namespace moreau {
 /// axes.
 template <class S>
 typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
-  return Eigen::SelfAdjointEigenSolver<typename S::Inertia>(inertia).operatorInverseSqrt();
+  using Inertia = typename S::Inertia;
+  const Eigen::SelfAdjointEigenSolver<Inertia> solver(inertia);
+  const Inertia& axes = solver.eigenvectors();
+  Inertia scaled;
+  for (int k = 0; k < S::angular_dim; ++k) {
+    const auto root = std::sqrt(1 / solver.eigenvalues()[k]);
+    for (int i = 0; i < S::angular_dim; ++i) scaled(i, k) = axes(i, k) * root;
+  }
+  return scaled * axes.transpose();
 }
 
 /// All bodies of a simulation; entry i of every array is of body i, BodyId::index(). Indices are

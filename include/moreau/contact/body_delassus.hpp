@@ -21,6 +21,7 @@
 #include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/local_block.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 
 namespace moreau {
@@ -109,8 +110,9 @@ class BodyDelassus {
   /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
   static Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
                                   const typename S::Twist& b) {
-    return contact.frame.transpose() *
-           (point_velocity(b, contact.lever_b) - point_velocity(a, contact.lever_a));
+    Vector difference = point_velocity(b, contact.lever_b);
+    difference -= point_velocity(a, contact.lever_a);
+    return contact.frame.transpose() * difference;
   }
 
  private:
@@ -122,15 +124,17 @@ class BodyDelassus {
   };
 
   static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
-    return linear<S>(twist) + S::spin(angular<S>(twist), lever);
+    Vector velocity = S::spin(angular<S>(twist), lever);
+    for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
+    return velocity;
   }
   static PaddedRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
                                 const MobilityRoot<S>& root) {
     PaddedRows rows = PaddedRows::Zero();
     for (int k = 0; k < S::dim; ++k) {
       const Vector axis = frame.col(k);
-      const Vector push = root.linear * axis;
-      const typename S::Angular turn = root.angular * S::moment(lever, axis);
+      const Vector push = product(root.linear, axis);
+      const typename S::Angular turn = product(root.angular, S::moment(lever, axis));
       auto row = rows.col(k);
       linear<S>(row) = push;
       angular<S>(row) = turn;

@@ -2,6 +2,7 @@
 // Axis-aligned bounding box in world axes.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <tuple>
 
@@ -28,8 +29,10 @@ struct Aabb {
 
   /// Whether the two boxes share a point; a shared point of the boundary counts.
   bool overlaps(const Aabb& other) const {
-    return (lower.array() <= other.upper.array()).all() &&
-           (other.lower.array() <= upper.array()).all();
+    bool overlap = true;
+    for (int k = 0; k < S::dim; ++k)
+      overlap = overlap && lower[k] <= other.upper[k] && other.lower[k] <= upper[k];
+    return overlap;
   }
   /// Whether every point of `other` lies in this box.
   bool contains(const Aabb& other) const {
@@ -42,8 +45,10 @@ struct Aabb {
   }
   /// Grows to hold the point [m].
   void merge(const VectorArgument<S>& x) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
+    for (int k = 0; k < S::dim; ++k) {
+      lower[k] = std::min(lower[k], x[k]);
+      upper[k] = std::max(upper[k], x[k]);
+    }
   }
   /// The box with every face moved outwards by the margin [m]; inwards if the margin is negative.
   Aabb inflated(Scalar margin) const {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "moreau/core/components.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -29,7 +30,7 @@ struct Pose {
   /// Body coordinates [m] of a point given in world coordinates [m].
   Vector to_body(const VectorArgument<S>& x) const { return rotation.inverse() * (x - position); }
   /// Whether all its numbers are finite.
-  bool is_finite() const { return position.allFinite() && S::is_finite(rotation); }
+  bool is_finite() const { return all_finite(position) && S::is_finite(rotation); }
 
   auto serialized_members() { return std::tie(position, rotation); }  ///< see core/serialize.hpp
 };

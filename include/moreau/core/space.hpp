@@ -19,6 +19,7 @@
 #include <concepts>
 
 #include "moreau/core/components.hpp"
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
 
@@ -119,16 +120,14 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
     // sin(x)/x by its series where the quotient would lose digits; the next term is x^4/120.
     const T sinc = half < T(1e-2) ? T(1) - half * half / T(6) * (T(1) - half * half / T(20))
                                   : std::sin(half) / half;
-    Rotation q;
-    q.w() = std::cos(half);
-    q.vec() = (sinc / T(2)) * w;
-    return q;
+    const T scale = sinc / T(2);
+    return Rotation(std::cos(half), scale * w[0], scale * w[1], scale * w[2]);
   }
   /// q without the rounding errors of many small rotations: of unit length.
   static Rotation normalized(const Rotation& q) { return q.normalized(); }
   static Rotation identity() { return Rotation::Identity(); }  ///< no rotation
   /// Whether all its numbers are finite.
-  static bool is_finite(const Rotation& q) { return q.coeffs().allFinite(); }
+  static bool is_finite(const Rotation& q) { return all_finite(q.coeffs()); }
   /// Whether q is a rotation: a quaternion of unit length.
   static bool is_rotation(const Rotation& q) { return std::abs(q.squaredNorm() - T(1)) < T(1e-5); }
   /// A x A, takes angular quantities from body to world axes.

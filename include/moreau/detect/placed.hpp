@@ -7,6 +7,7 @@
 // detail::Placement holds what is kept of each kind of shape; its functions are those of Placed.
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -75,8 +76,9 @@ class Placement<ShapeT> {
     normals_.assign(shape.face_normals(), rotation);
     const Eigen::Index count = shape.face_offsets().size();
     offsets_.resize(normals_.padded_size());
-    offsets_.head(count) = shape.face_offsets().array();
-    offsets_.tail(offsets_.size() - count).setConstant(offsets_[0]);
+    const Scalar* offsets = shape.face_offsets().data();
+    std::fill(std::copy(offsets, offsets + count, offsets_.data()),
+              offsets_.data() + offsets_.size(), offsets[0]);
   }
 
   /// Moves the centre, world axes [m]; the orientation stays. Costs nothing, unlike update().

@@ -20,6 +20,7 @@
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/integrate/spin.hpp"
 
@@ -48,7 +49,8 @@ class MoreauJean {
                              typename S::Scalar step) const {
     const auto h = step * static_cast<typename S::Scalar>(1 - theta_);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      momentum[i] = bodies.inertia(i, bodies.pose[i].rotation) * angular<S>(bodies.velocity[i]);
+      momentum[i] =
+          product(bodies.inertia(i, bodies.pose[i].rotation), angular<S>(bodies.velocity[i]));
       detail::move(bodies.pose[i], bodies.velocity[i], h);
     }
   }

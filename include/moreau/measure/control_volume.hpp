@@ -8,6 +8,7 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
 
@@ -27,7 +28,7 @@ std::string describe(const Aabb<S>& box) {
 /// Whether the box has finite corners and a positive volume.
 template <class S>
 bool is_control_volume(const Aabb<S>& box) {
-  return box.lower.allFinite() && box.upper.allFinite() &&
+  return all_finite(box.lower) && all_finite(box.upper) &&
          (box.lower.array() < box.upper.array()).all();
 }
 

@@ -15,6 +15,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {
@@ -66,8 +67,8 @@ class GridField {
   void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";
-    require(position.allFinite(), self, "position", position, "must be finite");
-    require(value.allFinite(), self, "value", value, "must be finite");
+    require(all_finite(position), self, "position", position, "must be finite");
+    require(all_finite(value), self, "value", value, "must be finite");
     require(std::isfinite(weight) && weight > 0, self, "weight", weight, "must be finite and > 0");
     const Vector image = periodic.image_from(box_.lower, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/measure/control_volume.hpp"
 
 namespace moreau {
@@ -68,8 +69,8 @@ class VelocityField {
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
-    require(position.allFinite(), self, "position", position, "must be finite");
-    require(velocity.allFinite(), self, "velocity", velocity, "must be finite");
+    require(all_finite(position), self, "position", position, "must be finite");
+    require(all_finite(velocity), self, "velocity", velocity, "must be finite");
     const Vector image = periodic.image_from(box_.lower, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;

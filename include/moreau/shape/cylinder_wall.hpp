@@ -6,6 +6,7 @@
 #include "moreau/core/components.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -27,8 +28,8 @@ class CylinderWall {
   ///         finite or not positive
   CylinderWall(const AngularArgument<S>& axis, Scalar radius)
       : axis_(axis.stableNormalized()), radius_(radius) {
-    require(axis.allFinite(), "CylinderWall", "axis", axis, "must be finite");
-    require(axis != Angular::Zero(), "CylinderWall", "axis", axis, "must not be zero");
+    require(all_finite(axis), "CylinderWall", "axis", axis, "must be finite");
+    require(!axis.isZero(0), "CylinderWall", "axis", axis, "must not be zero");
     require(std::isfinite(radius) && radius > 0, "CylinderWall", "radius", radius,
             "must be finite and > 0");
   }

@@ -177,7 +177,7 @@ inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::
                                   double tolerance, double rounding) {
   return std::all_of(faces.begin(), faces.end(), [&](const auto& face) {
     const auto plane =
-        face_plane<double>(face.size(), [&](std::size_t k) { return points[face[k]]; });
+        face_plane<Eigen::Vector3d>(face.size(), [&](std::size_t k) { return points[face[k]]; });
     const Eigen::Vector3d across = plane.normal.cross(plane.axis);
     const auto height = [&](const Eigen::Vector3d& x) {
       return plane.normal.dot(x - plane.center);

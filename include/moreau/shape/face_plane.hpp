@@ -9,9 +9,10 @@
 namespace moreau {
 
 /// The plane of a face of a polyhedron, in the coordinates of its vertices.
-template <class T>
+/// @tparam Vector Eigen's, or detail::LongVector
+template <class Vector>
 struct FacePlane {
-  using Vector = Eigen::Matrix<T, 3, 1>;
+  using T = typename Vector::Scalar;
 
   Vector center = Vector::Zero();  ///< the mean of the vertices [m]
   Vector axis = Vector::Zero();    ///< unit, from there to the farthest vertex: its long direction
@@ -25,10 +26,10 @@ struct FacePlane {
 /// normal is therefore made orthogonal to the long axis.
 /// @param count number of vertices, >= 3; not checked
 /// @param at    k -> vertex k [m], k < count
-template <class T, class At>
-FacePlane<T> face_plane(std::size_t count, const At& at) {
-  using Vector = Eigen::Matrix<T, 3, 1>;
-  FacePlane<T> plane;
+template <class Vector, class At>
+FacePlane<Vector> face_plane(std::size_t count, const At& at) {
+  using T = typename Vector::Scalar;
+  FacePlane<Vector> plane;
   for (std::size_t k = 0; k < count; ++k) plane.center += at(k);
   plane.center /= static_cast<T>(count);
   Vector area = Vector::Zero(), longest = Vector::Zero();

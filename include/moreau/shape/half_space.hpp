@@ -3,6 +3,7 @@
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -20,8 +21,8 @@ class HalfSpace {
   /// @param normal points out of the solid, body coordinates; of any length but zero
   /// @throws std::invalid_argument if the normal is not finite or its length is zero
   explicit HalfSpace(const VectorArgument<S>& normal) : normal_(normal.stableNormalized()) {
-    require(normal.allFinite(), "HalfSpace", "normal", normal, "must be finite");
-    require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");
+    require(all_finite(normal), "HalfSpace", "normal", normal, "must be finite");
+    require(!normal.isZero(0), "HalfSpace", "normal", normal, "must not be zero");
   }
 
   /// Unit, points out of the solid, body coordinates.

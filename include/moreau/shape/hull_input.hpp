@@ -43,9 +43,8 @@ struct HullInput {
             "must be at least " + std::to_string(Dim + 1));
     require_finite(given, function);
     double size = 0;
-    for (const Vector& x : given) {
-      size = std::max(size, x.template cast<double>().cwiseAbs().maxCoeff());
-    }
+    for (const Vector& x : given)
+      for (int k = 0; k < Dim; ++k) size = std::max(size, std::abs(double(x[k])));
     unit = size > 0 ? std::ldexp(1.0, std::ilogb(size)) : 1.0;
     rounding = std::numeric_limits<typename Vector::Scalar>::epsilon() * size / unit;
     flat = HullTolerance{}.flat * rounding;
@@ -70,7 +69,8 @@ struct HullInput {
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       const Point &x = scaled[a], &y = scaled[b];
-      if (x != y) return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+      for (int k = 0; k < Dim; ++k)
+        if (x[k] != y[k]) return x[k] < y[k];
       return a < b;
     });
     for (const std::uint32_t i : order) {
@@ -82,8 +82,12 @@ struct HullInput {
   /// Coordinates below 2^-200 become zero. All coordinates are then multiples of 2^-253, so
   /// products of three differences do not underflow, and their signs are exact.
   Point in_units(const Point& x) const {
-    const Point y = x / unit;
-    return (y.array().abs() < std::ldexp(1.0, -200)).select(0.0, y);
+    Point scaled;
+    for (int k = 0; k < Dim; ++k) {
+      const double coordinate = x[k] / unit;
+      scaled[k] = std::abs(coordinate) < std::ldexp(1.0, -200) ? 0.0 : coordinate;
+    }
+    return scaled;
   }
   bool has_neighbour(const Point& x) const {
     for (auto y = points.rbegin(); y != points.rend() && x[0] - (*y)[0] <= flat; ++y) {

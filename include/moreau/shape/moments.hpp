@@ -13,6 +13,7 @@
 
 #include <cmath>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -33,10 +34,16 @@ struct Moments {
   /// left-handed.
   void add_simplex(const Matrix& v) {
     const Scalar part = v.determinant() / factorial(S::dim);
-    const Vector s = v.rowwise().sum();
+    const Matrix products = v * v.transpose();
+    Vector s = v.col(S::dim - 1);
+    for (int k = S::dim - 2; k >= 0; --k)
+      for (int i = 0; i < S::dim; ++i) s[i] = v(i, k) + s[i];
     volume += part;
-    first += part / Scalar(S::dim + 1) * s;
-    second += part / Scalar((S::dim + 1) * (S::dim + 2)) * (v * v.transpose() + s * s.transpose());
+    for (int i = 0; i < S::dim; ++i) {
+      first[i] += part / Scalar(S::dim + 1) * s[i];
+      for (int j = 0; j < S::dim; ++j)
+        second(i, j) += part / Scalar((S::dim + 1) * (S::dim + 2)) * (products(i, j) + s[i] * s[j]);
+    }
   }
 
   /// Adds another body.
@@ -56,8 +63,9 @@ struct Moments {
   /// or far too small.
   bool are_regular() const {
     const typename S::Inertia about_origin = inertia();
-    return std::isfinite(volume) && volume > 0 && about_origin.allFinite() &&
-           (about_origin.diagonal().array() > 0).all();
+    bool regular = std::isfinite(volume) && volume > 0 && all_finite(about_origin);
+    for (int k = 0; k < S::angular_dim; ++k) regular = regular && about_origin(k, k) > 0;
+    return regular;
   }
 
   /// n!
@@ -73,12 +81,25 @@ struct Moments {
   typename S::Inertia inertia() const {
     typename S::Inertia sum = S::Inertia::Zero();
     for (int i = 0; i < S::dim; ++i) {
+      const typename S::Lever left = S::lever(unit(i));
       for (int j = 0; j < S::dim; ++j) {
-        sum += second(i, j) *
-               (S::lever(Vector::Unit(i)).transpose() * S::lever(Vector::Unit(j))).eval();
+        const typename S::Lever right = S::lever(unit(j));
+        for (int k = 0; k < S::angular_dim; ++k)
+          for (int l = 0; l < S::angular_dim; ++l) {
+            Scalar entry = 0;
+            for (int d = 0; d < S::dim; ++d) entry += left(d, k) * right(d, l);
+            sum(k, l) += second(i, j) * entry;
+          }
       }
     }
     return sum;
+  }
+
+ private:
+  static Vector unit(int axis) {
+    Vector e = Vector::Zero();
+    e[axis] = 1;
+    return e;
   }
 };
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "moreau/shape/convex_hull.hpp"
+#include "moreau/shape/detail/long_vector.hpp"
 #include "moreau/shape/face_plane.hpp"
 #include "moreau/shape/face_topology.hpp"
 #include "moreau/shape/polytope_base.hpp"
@@ -102,7 +103,7 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   }
 
   Vector vertex(std::size_t i) const {
-    return vertices_.row(static_cast<Eigen::Index>(i)).transpose();
+    return row_of<Space>(vertices_, static_cast<Eigen::Index>(i));
   }
 
   /// The vertices that faces name, in their order; the faces then name those.
@@ -134,7 +135,9 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
       const auto loop = face(f);
       for (std::size_t k = 2; k < loop.size(); ++k) {
         typename Space::Matrix corners;
-        corners << vertex(loop[0]), vertex(loop[k - 1]), vertex(loop[k]);
+        corners.col(0) = vertex(loop[0]);
+        corners.col(1) = vertex(loop[k - 1]);
+        corners.col(2) = vertex(loop[k]);
         sum.add_simplex(corners);
       }
     }
@@ -143,15 +146,18 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
 
   /// In long double, because the area of a sliver is a small difference.
   void set_planes() {
-    using Wide = Eigen::Matrix<long double, 3, 1>;
+    using detail::LongVector;
     face_normals_.resize(static_cast<Eigen::Index>(face_count()), 3);
     face_offsets_.resize(face_normals_.rows());
     for (std::size_t f = 0; f < face_count(); ++f) {
       const auto row = static_cast<Eigen::Index>(f);
-      const auto plane = face_plane<long double>(face(f).size(), [&](std::size_t k) -> Wide {
-        return vertex(face(f)[k]).template cast<long double>();
+      const auto plane = face_plane<LongVector>(face(f).size(), [&](std::size_t k) {
+        const Vector v = vertex(face(f)[k]);
+        return LongVector{v[0], v[1], v[2]};
       });
-      face_normals_.row(row) = plane.normal.template cast<T>().transpose();
+      face_normals_(row, 0) = static_cast<T>(plane.normal.x);
+      face_normals_(row, 1) = static_cast<T>(plane.normal.y);
+      face_normals_(row, 2) = static_cast<T>(plane.normal.z);
       face_offsets_[row] = static_cast<T>(plane.normal.dot(plane.center));
     }
     this->summarize_faces();
@@ -219,7 +225,8 @@ void Polyhedron<T>::build(std::span<const Vector> vertices,
   topology_ = FaceTopology(vertices.size(), faces, function);
   vertices_.resize(static_cast<Eigen::Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices_.row(static_cast<Eigen::Index>(i)) = (vertices[i] - vertices[0]).transpose();
+    for (int k = 0; k < 3; ++k)
+      vertices_(static_cast<Eigen::Index>(i), k) = vertices[i][k] - vertices[0][k];
   }
   const Moments<Space> rough = sum_moments();
   require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");

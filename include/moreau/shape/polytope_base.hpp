@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <tuple>
@@ -46,14 +47,16 @@ class PolytopeBase {
   }
   /// A vertex that lies farthest in the direction (any length but zero), body coordinates [m].
   Vector support(const VectorArgument<S>& direction) const {
-    return vertices_.row(static_cast<Eigen::Index>(support_vertex(direction))).transpose();
+    return row_of<S>(vertices_, static_cast<Eigen::Index>(support_vertex(direction)));
   }
 
   /// @param density [kg/m^D], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero
   MassProperties<S> mass_properties(Scalar density) const {
     detail::require_positive(density, Names::mass_properties, "density");
-    return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
+    typename S::Inertia inertia = moments_.inertia();
+    inertia *= density;
+    return {density * moments_.volume, Vector::Zero(), inertia};
   }
   /// The tight box around the shape at the pose, world axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const { return box_around<S>(vertices_, pose); }
@@ -71,8 +74,13 @@ class PolytopeBase {
   void move_origin(const Moments<S>& rough, const Vector& origin_in_input) {
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = origin_in_input + center;
-    vertices_.rowwise() -= center.transpose();
-    circumradius_ = vertices_.rowwise().norm().maxCoeff();
+    // Eigen's square root of several floats at once rounds differently from that of one.
+    Eigen::Array<Scalar, Eigen::Dynamic, 1> squares(vertices_.rows());
+    for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
+      for (int k = 0; k < S::dim; ++k) vertices_(i, k) -= center[k];
+      squares[i] = squared_distance<S>(vertices_, i, Vector::Zero());
+    }
+    circumradius_ = squares.sqrt().maxCoeff();
   }
   /// Takes the moments.
   /// @throws std::invalid_argument in the name of the function if the second moment is not regular

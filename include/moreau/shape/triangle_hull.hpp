@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -75,7 +76,7 @@ class TriangleHull {
       }
     }
     slots.erase(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(rim_.size()));
-    std::sort(slots.rbegin(), slots.rend());
+    std::sort(slots.begin(), slots.end(), std::greater<>());
     for (const std::uint32_t hole : slots) move_last_to(hole);
   }
 

@@ -14,6 +14,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
 
@@ -51,6 +52,26 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   return box;
 }
 
+/// A row as a vector.
+template <class S>
+typename S::Vector row_of(const VertexMatrix<S>& rows, Eigen::Index i) {
+  typename S::Vector row;
+  for (int k = 0; k < S::dim; ++k) row[k] = rows(i, k);
+  return row;
+}
+
+/// Squared distance of a row from a point, both in the same axes and unit.
+template <class S>
+typename S::Scalar squared_distance(const VertexMatrix<S>& rows, Eigen::Index i,
+                                    const typename S::Vector& point) {
+  typename S::Scalar sum = 0;
+  for (int k = S::dim - 1; k >= 0; --k) {
+    const typename S::Scalar along = rows(i, k) - point[k];
+    sum = along * along + sum;
+  }
+  return sum;
+}
+
 /// The least distance between two of the rows, in their unit; infinite if there is only one. Sorted
 /// along x, few of them have to be compared.
 template <class S>
@@ -61,11 +82,13 @@ typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
   T least = std::numeric_limits<T>::infinity();
-  for (std::size_t i = 0; i < order.size(); ++i)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const typename S::Vector here = row_of<S>(rows, order[i]);
     for (std::size_t j = i + 1; j < order.size(); ++j) {
-      if (!(rows(order[j], 0) - rows(order[i], 0) < least)) break;
-      least = std::min(least, (rows.row(order[j]) - rows.row(order[i])).norm());
+      if (!(rows(order[j], 0) - here[0] < least)) break;
+      least = std::min(least, std::sqrt(squared_distance<S>(rows, order[j], here)));
     }
+  }
   return least;
 }
 
@@ -75,7 +98,7 @@ namespace detail {
 template <class Vector>
 void require_finite(std::span<const Vector> vertices, std::string_view function) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i].allFinite()) continue;
+    if (all_finite(vertices[i])) continue;
     throw_invalid(function, "vertices[" + std::to_string(i) + "]", vertices[i], "must be finite");
   }
 }

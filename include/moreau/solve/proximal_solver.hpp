@@ -18,6 +18,7 @@
 #include <limits>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/solve/block_system.hpp"
 #include "moreau/solve/coulomb_newton.hpp"
 #include "moreau/solve/friction_problem.hpp"
@@ -193,7 +194,7 @@ ProblemReport ProximalSolver::solve(const FrictionProblem<S>& problem,
   if (impulses.size() == 0) impulses.setZero(rows);
   require(impulses.size() == rows, self, "impulses.size()", impulses.size(),
           "must be D times the contacts");
-  require(impulses.allFinite(), self, "impulses", impulses.norm(), "must be finite");
+  require(all_finite(impulses), self, "impulses", impulses.norm(), "must be finite");
   const double scale = delassus_scale(problem);
   Run<S> run(problem, options_, scale * impulses);
   run.start();

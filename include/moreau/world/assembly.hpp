@@ -14,6 +14,7 @@
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
@@ -66,8 +67,8 @@ class Assembly {
     require(std::isfinite(density) && density > 0, function, "density", density,
             "must be finite and > 0");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
-    require(std::isfinite(mass.mass) && mass.mass > 0 && mass.inertia.allFinite() &&
-                inverse_root<S>(mass.inertia).allFinite(),
+    require(std::isfinite(mass.mass) && mass.mass > 0 && all_finite(mass.inertia) &&
+                all_finite(inverse_root<S>(mass.inertia)),
             function, "mass", mass.mass, "must be finite and > 0, as must be the inertia");
     require(mass.center.norm() <= Scalar(1e-3) * grain_size, function, "center of mass",
             mass.center, "must be the origin of the shape's frame");
@@ -84,7 +85,7 @@ class Assembly {
   const ShapeT& shape_of_grain(std::size_t k) const { return shape(grains_[k].shape); }
 
   static void require_pose(const Pose<S>& pose, const char* function) {
-    require(pose.position.allFinite(), function, "pose.position", pose.position, "must be finite");
+    require(all_finite(pose.position), function, "pose.position", pose.position, "must be finite");
     require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",
             "(no rotation)", "must be finite and of unit length");
   }
@@ -103,7 +104,7 @@ class Assembly {
   /// @throws std::runtime_error for a velocity or a pose that is not finite
   void require_finite(const char* function) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!bodies_.velocity[i].allFinite())
+      if (!all_finite(bodies_.velocity[i]))
         throw_not_finite(function, "velocity of body", i, bodies_.velocity[i]);
       if (!bodies_.pose[i].is_finite())
         throw_not_finite(function, "position of body", i, bodies_.pose[i].position);

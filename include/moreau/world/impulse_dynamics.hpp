@@ -25,6 +25,7 @@
 #include "moreau/body/bodies.hpp"
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
@@ -201,9 +202,9 @@ class ImpulseDynamics {
     for (std::size_t i = 0; i < roots_.size(); ++i) {
       const auto y = problem_.delassus.scaled_velocity(i);
       after_[i] = free_[i];
-      linear<S>(after_[i]) += roots_[i].linear * linear<S>(y);
-      angular<S>(after_[i]) += roots_[i].angular * angular<S>(y);
-      if (!after_[i].allFinite())
+      linear<S>(after_[i]) += product(roots_[i].linear, linear<S>(y));
+      angular<S>(after_[i]) += product(roots_[i].angular, angular<S>(y));
+      if (!all_finite(after_[i]))
         throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
     }
   }
@@ -219,14 +220,16 @@ class ImpulseDynamics {
       const std::uint32_t a = contact.a, b = contact.b;
       const Vector& impulse = contacts.impulses[c];
       if (impulse.isZero(0)) continue;
-      const Vector mean =
-          (before_[c] + BodyDelassus<S>::relative_velocity(contact, after_[a], after_[b])) / 2;
+      Vector mean = BodyDelassus<S>::relative_velocity(contact, after_[a], after_[b]);
+      for (int k = 0; k < S::dim; ++k) mean[k] = (before_[c][k] + mean[k]) / 2;
       const double friction =
           -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
       report.friction += friction;
       report.dissipation += friction - double(impulse[0] * mean[0]);
       if (contacts.couples.empty()) continue;
-      const Twist turn = (bodies.velocity[b] - bodies.velocity[a] + after_[b] - after_[a]) / 2;
+      Twist turn;
+      for (int k = 0; k < S::dofs; ++k)
+        turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after_[b][k] - after_[a][k]) / 2;
       const double rolling =
           -double((S::angular_frame(contact.frame) * contacts.couples[c]).dot(angular<S>(turn)));
       report.rolling += rolling;

@@ -19,6 +19,7 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 
 namespace moreau {
@@ -73,8 +74,8 @@ class OverlapCorrection {
     if (report.corrected == 0) return report;
     sweep(op, contacts, roots.size(), slop);
     for (std::size_t i = 0; i < roots.size(); ++i) {
-      linear<S>(shifts_[i]) = roots[i].linear * linear<S>(scaled_[i]);
-      angular<S>(shifts_[i]) = roots[i].angular * angular<S>(scaled_[i]);
+      linear<S>(shifts_[i]) = product(roots[i].linear, linear<S>(scaled_[i]));
+      angular<S>(shifts_[i]) = product(roots[i].angular, angular<S>(scaled_[i]));
     }
     for (std::size_t c = 0; c < contacts.size(); ++c)
       contacts[c].gap += closing(op, c, contacts[c]);

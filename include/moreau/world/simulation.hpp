@@ -19,6 +19,7 @@
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/reduce.hpp"
@@ -123,7 +124,7 @@ class Simulation {
                   MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_wall";
     require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
-    require(point.allFinite(), self, "point", point, "must be finite");
+    require(all_finite(point), self, "point", point, "must be finite");
     cell().require_along(normal, self);
     const typename S::Rotation rotation(S::contact_frame(normal));
     const Pose<S> pose{point, S::normalized(rotation)};
@@ -147,7 +148,7 @@ class Simulation {
   BodyId add_cylinder(const VectorArgument<S>& point, const AngularArgument<S>& axis, Scalar radius,
                       MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_cylinder";
-    require(point.allFinite(), self, "point", point, "must be finite");
+    require(all_finite(point), self, "point", point, "must be finite");
     require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
     require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
     cell().require_around(axis, self);
@@ -195,7 +196,7 @@ class Simulation {
   ///         finite
   void set_force(BodyId body, const VectorArgument<S>& force) {
     assembly_.require_body(body, "Simulation::set_force");
-    require(force.allFinite(), "Simulation::set_force", "force", force, "must be finite");
+    require(all_finite(force), "Simulation::set_force", "force", force, "must be finite");
     linear<S>(assembly_.bodies().force[body.index()]) = force;
   }
   /// Sets the velocity of the centre, world axes [m/s]. A body without mass, such as a wall, keeps
@@ -204,7 +205,7 @@ class Simulation {
   ///         not finite
   void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
     assembly_.require_body(body, "Simulation::set_velocity");
-    require(velocity.allFinite(), "Simulation::set_velocity", "velocity", velocity,
+    require(all_finite(velocity), "Simulation::set_velocity", "velocity", velocity,
             "must be finite");
     linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
   }
@@ -214,7 +215,7 @@ class Simulation {
   ///         finite
   void set_spin(BodyId body, const AngularArgument<S>& spin) {
     assembly_.require_body(body, "Simulation::set_spin");
-    require(spin.allFinite(), "Simulation::set_spin", "spin", spin, "must be finite");
+    require(all_finite(spin), "Simulation::set_spin", "spin", spin, "must be finite");
     angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
   }
   /// Sets the pose of a body, world axes [m]; its velocity does not change.
@@ -229,7 +230,7 @@ class Simulation {
   /// Sets the acceleration of gravity on grains, world axes [m/s^2]; zero at first.
   /// @throws std::invalid_argument for a vector that is not finite
   void set_gravity(const VectorArgument<S>& gravity) {
-    require(gravity.allFinite(), "Simulation::set_gravity", "gravity", gravity, "must be finite");
+    require(all_finite(gravity), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
   }
   /// Sets the solver from the next step on.

@@ -46,13 +46,19 @@ class SweepAndPrune {
     Vector mean = Vector::Zero(), square = Vector::Zero();
     const Vector origin = boxes[0].lower;
     for (const Aabb<S>& box : boxes) {
-      const Vector center = (box.lower - origin + box.upper - origin) / 2;
-      mean += center;
-      square += center.cwiseAbs2();
+      for (int k = 0; k < S::dim; ++k) {
+        const Scalar center = (box.lower[k] - origin[k] + box.upper[k] - origin[k]) / 2;
+        mean[k] += center;
+        square[k] += center * center;
+      }
     }
     const auto count = static_cast<Scalar>(boxes.size());
     Eigen::Index axis = 0;
-    (square / count - (mean / count).cwiseAbs2()).maxCoeff(&axis);
+    Vector variance;
+    for (int k = 0; k < S::dim; ++k) {
+      variance[k] = square[k] / count - mean[k] / count * (mean[k] / count);
+      if (variance[k] > variance[axis]) axis = k;
+    }
     return axis;
   }
 

@@ -32,7 +32,7 @@ class Placement<CylinderWall<S>> {
   /// Places the wall at a pose, world axes [m].
   void update(const CylinderWall<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
-    axis_ = S::adjoint(pose.rotation) * shape.axis();
+    axis_ = product(S::adjoint(pose.rotation), shape.axis());
     radius_ = shape.radius();
   }
   const Vector& center() const { return center_; }  ///< a point of the axis, world axes [m]

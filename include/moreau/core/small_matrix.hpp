@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Functions of small matrices that the compiler instantiates once. Eigen has each of them, but with
+// new types for every combination of operands, which make up most of the time to compile a
+// simulation. The results are the same to the last bit.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <type_traits>
+
+namespace moreau {
+
+namespace detail {
+
+template <class T>
+bool are_finite(const T* entries, Eigen::Index count) {
+  bool finite = true;
+  for (Eigen::Index i = 0; i < count; ++i) finite = finite && std::isfinite(entries[i]);
+  return finite;
+}
+
+}  // namespace detail
+
+/// Whether all entries of a matrix or vector are finite.
+template <class Matrix>
+bool all_finite(const Eigen::PlainObjectBase<Matrix>& m) {
+  return detail::are_finite(m.data(), m.size());
+}
+
+/// A matrix times a vector, which is evaluated first.
+/// @param m N x N
+/// @param x N, or an expression with N entries
+template <class T, int N>
+Eigen::Matrix<T, N, 1> product(const Eigen::Matrix<T, N, N>& m,
+                               const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
+  return m * x;
+}
+
+}  // namespace moreau
