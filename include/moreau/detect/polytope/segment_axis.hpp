@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/tolerance.hpp"
 
@@ -40,8 +41,11 @@ struct SegmentPair {
   Vector apart(T s, T t) const { return offset + t * half_b - s * half_a; }
   /// The parameter of the projection of b's point t on the line of a, and of a's point s on that of
   /// b.
-  T project_on_a(T t) const { return half_a.dot(offset + t * half_b) / half_a.squaredNorm(); }
-  T project_on_b(T s) const { return half_b.dot(s * half_a - offset) / half_b.squaredNorm(); }
+  T project_on_a(T t) const { return half_a.dot(along(offset, t, half_b)) / half_a.squaredNorm(); }
+  T project_on_b(T s) const {
+    const Vector apart = s * half_a - offset;
+    return half_b.dot(apart) / half_b.squaredNorm();
+  }
 };
 
 /// The axis of the signed gap, and the points of the segments that are nearest or deepest along it.
