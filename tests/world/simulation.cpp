@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "check_rest.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
@@ -44,14 +45,8 @@ TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", Sh
 }
 
 TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", ShapeT, Polyhedron<>,
-                   Polygon<>, moreau::Ball<>, moreau::Disk<>, Polyhedron<float>, Polygon<float>) {
-  BoxOfGrains<ShapeT> scene(27);
-  double overlap = 0;
-  for (int k = 0; k < rounds(1500); ++k)
-    overlap = std::max(overlap, scene.simulation.step(5e-4f).max_overlap);
-  CHECK(overlap < 1e-2 * 0.02);
-  for (const BodyId grain : scene.grains)
-    CHECK(scene.simulation.bodies().pose[grain.index()].position.minCoeff() > 0);
+                   Polygon<>, moreau::Ball<>, moreau::Disk<>) {
+  scenes::check_rest<ShapeT>();
 }
 
 TEST_CASE_TEMPLATE("the same scene gives the same bits", ShapeT, Polyhedron<>, Polygon<>) {
