@@ -22,13 +22,13 @@ void catch_interrupts() {
   std::signal(SIGTERM, [](int) { stop = 1; });
 }
 
-std::map<std::string, Runner::Function>& Runner::all() {
-  static std::map<std::string, Function> runners;
+std::map<Runner::Name, Runner::Function>& Runner::all() {
+  static std::map<Name, Function> runners;
   return runners;
 }
 
 int Runner::run(const Parameters& p) {
-  const auto found = all().find(p.shape);
+  const auto found = all().find({p.shape, p.method});
   if (found != all().end()) return found->second(p);
   throw std::invalid_argument("--shape: this program was built without " + p.shape +
                               "; add it to RATCHETING_SHAPES");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The run from end to end, with grains of one shape. CMake compiles this file once for each of
-// RATCHETING_SHAPES, with the shape's name as RATCHETING_SHAPE.
+// The run from end to end, with grains of one shape by one method. CMake compiles this file once for
+// each of RATCHETING_SHAPES, which it defines as RATCHETING_SHAPE, and each class of methods.hpp, which
+// it defines as RATCHETING_METHOD.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -253,13 +254,8 @@ int run_method(const Parameters& asked) {
   return done < total ? 130 : 0;
 }
 
-template <class ShapeT>
-int run(const Parameters& p) {
-  return p.method == "springs" ? run_method<ShapeT, SpringDynamics>(p)
-                               : run_method<ShapeT, ContactDynamics>(p);
-}
-
-const Runner runner(RATCHETING_TEXT(RATCHETING_SHAPE), run<shapes::RATCHETING_SHAPE>);
+const Runner runner(RATCHETING_TEXT(RATCHETING_SHAPE), RATCHETING_METHOD::name,
+                    run_method<shapes::RATCHETING_SHAPE, RATCHETING_METHOD>);
 
 }  // namespace
 
