@@ -100,9 +100,9 @@ void check_encloses(const std::vector<Face>& faces, const std::vector<V3<T>>& po
                     double tolerance) {
   REQUIRE(moreau::detail::is_closed_surface(faces));
   for (const Face& face : faces) {
-    const auto plane = moreau::face_plane<Eigen::Matrix<long double, 3, 1>>(face.size(), [&](std::size_t k) {
-      return points[face[k]].template cast<long double>().eval();
-    });
+    const auto plane = moreau::face_plane<Eigen::Matrix<long double, 3, 1>>(
+        face.size(),
+        [&](std::size_t k) { return points[face[k]].template cast<long double>().eval(); });
     const auto height = [&](const V3<T>& x) {
       return plane.normal.dot(x.template cast<long double>() - plane.center);
     };
