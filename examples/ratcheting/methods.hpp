@@ -58,6 +58,7 @@ class StudySolver : public moreau::ParallelGaussSeidel {
 };
 
 struct ContactDynamics {
+  static constexpr const char* name = "contact-dynamics";  ///< of --method
   static constexpr bool solves = true;
   using Law = moreau::SignoriniCoulomb<double>;
   using Integrator = moreau::MoreauJean;
@@ -80,6 +81,7 @@ struct CompliantDynamics {
 };
 
 struct SpringDynamics {
+  static constexpr const char* name = "springs";  ///< of --method
   static constexpr bool solves = false;
   using Law = moreau::LinearSpringDashpot<double>;
   using Integrator = moreau::VelocityVerlet;

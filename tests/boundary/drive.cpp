@@ -149,8 +149,8 @@ TEST_CASE("bad drives and servos are named") {
   CHECK_THROWS_AS(PressureServo(scene.wall, 1, 1, -1, area), std::invalid_argument);
   const PressureServo servo(scene.wall, 1, 1, 1, area);
   CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),
-                       "PressureServo::apply: wall = 0 must have no mass, or its velocity is not "
-                       "kept",
+                       "PressureServo::apply: wall = 0 must have no mass: contacts change the "
+                       "velocity of a wall with a mass",
                        std::invalid_argument);
   length = 0;
   CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),

@@ -104,7 +104,10 @@ class BodyDelassus {
   /// separates.
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
-    return row.free + row.jb.transpose() * scaled_[row.b] - row.ja.transpose() * scaled_[row.a];
+    Vector change = row.jb.transpose() * scaled_[row.b];
+    const Vector opposite = row.ja.transpose() * scaled_[row.a];
+    for (int k = 0; k < S::dim; ++k) change[k] = row.free[k] + change[k] - opposite[k];
+    return change;
   }
   /// The normal component of velocity(c) alone [m/s].
   Scalar normal_velocity(std::size_t c) const {
@@ -131,7 +134,7 @@ class BodyDelassus {
                                   const typename S::Twist& b) {
     Vector difference = point_velocity(b, contact.lever_b);
     difference -= point_velocity(a, contact.lever_a);
-    return contact.frame.transpose() * difference;
+    return transposed_product(contact.frame, difference);
   }
 
  private:

@@ -36,5 +36,20 @@ Eigen::Matrix<T, N, 1> product(const Eigen::Matrix<T, N, N>& m,
                                const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
   return m * x;
 }
+/// The same of the transposed matrix.
+template <class T, int N>
+Eigen::Matrix<T, N, 1> transposed_product(const Eigen::Matrix<T, N, N>& m,
+                                          const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
+  return m.transpose() * x;
+}
+
+/// x + t d, for instance the point at t of a line.
+template <class T, int N>
+Eigen::Matrix<T, N, 1> along(const Eigen::Matrix<T, N, 1>& x, std::type_identity_t<T> t,
+                             const std::type_identity_t<Eigen::Matrix<T, N, 1>>& d) {
+  Eigen::Matrix<T, N, 1> sum;
+  for (int k = 0; k < N; ++k) sum[k] = x[k] + t * d[k];
+  return sum;
+}
 
 }  // namespace moreau

@@ -75,7 +75,7 @@ class MoreauJean {
       if (!bodies.rotates(i)) continue;
       momentum[i] += step * angular<S>(bodies.force[i]);
       const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
-      angular<S>(free[i]) = inverse * momentum[i];
+      angular<S>(free[i]) = product(inverse, momentum[i]);
     }
   }
 
@@ -92,7 +92,7 @@ class MoreauJean {
       if (bodies.rotates(i)) {
         const typename S::Angular spin = angular<S>(after[i]);
         angular<S>(bodies.velocity[i]) = detail::spin_after<S>(
-            bodies, i, bodies.inertia(i, bodies.pose[i].rotation) * spin, spin, h);
+            bodies, i, product(bodies.inertia(i, bodies.pose[i].rotation), spin), spin, h);
       }
       detail::move(bodies.pose[i], bodies.velocity[i], h);
     }

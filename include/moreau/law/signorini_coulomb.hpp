@@ -213,7 +213,7 @@ class SignoriniCoulomb {
     const T normal = (x[0] + friction_ * length) / (T(1) + friction_ * friction_);
     Vector p;
     p[0] = normal;
-    p.template tail<tangents>() = x.template tail<tangents>() * (friction_ * normal / length);
+    for (int k = 1; k <= tangents; ++k) p[k] = x[k] * (friction_ * normal / length);
     return p;
   }
 

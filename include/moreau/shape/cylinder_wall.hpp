@@ -31,7 +31,7 @@ class CylinderWall {
   CylinderWall(const AngularArgument<S>& axis, Scalar radius)
       : axis_(axis.stableNormalized()), radius_(radius) {
     require(all_finite(axis), "CylinderWall", "axis", axis, "must be finite");
-    require(axis != Angular::Zero(), "CylinderWall", "axis", axis, "must not be zero");
+    require(!axis.isZero(0), "CylinderWall", "axis", axis, "must not be zero");
     require(std::isfinite(radius) && radius > 0, "CylinderWall", "radius", radius,
             "must be finite and > 0");
   }

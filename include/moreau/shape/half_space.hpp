@@ -21,7 +21,7 @@ class HalfSpace {
   /// @throws std::invalid_argument if the normal is not finite or its length is zero
   explicit HalfSpace(const VectorArgument<S>& normal) : normal_(normal.stableNormalized()) {
     require(all_finite(normal), "HalfSpace", "normal", normal, "must be finite");
-    require(normal != Vector::Zero(), "HalfSpace", "normal", normal, "must not be zero");
+    require(!normal.isZero(0), "HalfSpace", "normal", normal, "must not be zero");
   }
 
   /// Outward normal of the solid, unit, body coordinates.

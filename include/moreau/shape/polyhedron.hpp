@@ -106,7 +106,7 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   }
 
   Vector vertex(std::size_t i) const {
-    return vertices_.row(static_cast<Eigen::Index>(i)).transpose();
+    return row_of<Space>(vertices_, static_cast<Eigen::Index>(i));
   }
 
   /// Returns the vertices that occur in a face, in their order, and replaces the indices in the
@@ -139,7 +139,9 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
       const auto loop = face(f);
       for (std::size_t k = 2; k < loop.size(); ++k) {
         typename Space::Matrix corners;
-        corners << vertex(loop[0]), vertex(loop[k - 1]), vertex(loop[k]);
+        corners.col(0) = vertex(loop[0]);
+        corners.col(1) = vertex(loop[k - 1]);
+        corners.col(2) = vertex(loop[k]);
         sum.add_simplex(corners);
       }
     }
@@ -228,7 +230,8 @@ void Polyhedron<T>::build(std::span<const Vector> vertices,
   topology_ = FaceTopology(vertices.size(), faces, function);
   vertices_.resize(static_cast<Eigen::Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices_.row(static_cast<Eigen::Index>(i)) = (vertices[i] - vertices[0]).transpose();
+    for (int k = 0; k < 3; ++k)
+      vertices_(static_cast<Eigen::Index>(i), k) = vertices[i][k] - vertices[0][k];
   }
   const Moments<Space> rough = sum_moments();
   require(std::isfinite(rough.volume), function, "volume", rough.volume, "m^3 must be finite");

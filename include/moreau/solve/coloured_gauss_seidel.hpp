@@ -64,7 +64,7 @@ class TeamGaussSeidel {
   template <class Operator, class Law>
   requires PointLaw<Law, typename Operator::Space>
   struct Workspace {
-    detail::ColouredSweeps<Operator, Law> sweeps;
+    detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
     std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
   };
 

@@ -9,6 +9,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/detail/merge_join.hpp"
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
 
@@ -24,7 +25,7 @@ std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
                   std::vector<typename S::Vector>& out) {
   out.assign(now.size(), S::Vector::Zero());
   return merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
-    out[i] = now.points[i].frame.transpose() * (before.points[j].frame * old[j]);
+    out[i] = transposed_product(now.points[i].frame, product(before.points[j].frame, old[j]));
   });
 }
 

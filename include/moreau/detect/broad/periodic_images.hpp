@@ -66,11 +66,13 @@ class PeriodicImages {
     cells_.clear();
     hull_ = Aabb<S>{};
     for (std::uint32_t k = 0; k < boxes.size(); ++k) {
-      const Vector offset = (boxes[k].lower + boxes[k].upper) / 2 - cell.lower();
-      Vector away = Vector::Zero();
-      for (int axis = 0; axis < S::dim; ++axis)
-        if (cell.is_periodic(axis)) away[axis] = std::floor(offset[axis] / cell.length()[axis]);
-      add(cell, boxes[k], k, -away);
+      Vector home;
+      for (int axis = 0; axis < S::dim; ++axis) {
+        const auto center = (boxes[k].lower[axis] + boxes[k].upper[axis]) / 2;
+        const auto cells = std::floor((center - cell.lower()[axis]) / cell.length()[axis]);
+        home[axis] = -(cell.is_periodic(axis) ? cells : 0);
+      }
+      add(cell, boxes[k], k, home);
       hull_.merge(boxes_.back().lower);
       hull_.merge(boxes_.back().upper);
     }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/tolerance.hpp"
 
@@ -41,8 +42,11 @@ struct SegmentPair {
   Vector apart(T s, T t) const { return offset + t * half_b - s * half_a; }
   /// project_on_a: the parameter s of the projection of b's point t onto the line of a.
   /// project_on_b: the parameter t of the projection of a's point s onto the line of b.
-  T project_on_a(T t) const { return half_a.dot(offset + t * half_b) / half_a.squaredNorm(); }
-  T project_on_b(T s) const { return half_b.dot(s * half_a - offset) / half_b.squaredNorm(); }
+  T project_on_a(T t) const { return half_a.dot(along(offset, t, half_b)) / half_a.squaredNorm(); }
+  T project_on_b(T s) const {
+    const Vector apart = s * half_a - offset;
+    return half_b.dot(apart) / half_b.squaredNorm();
+  }
 };
 
 /// The axis along which two segments have their signed gap, and the nearest or deepest points.

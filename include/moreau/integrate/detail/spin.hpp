@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "moreau/body/bodies.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 
 namespace moreau::detail {
@@ -16,7 +17,7 @@ namespace moreau::detail {
 /// Moves a body at constant velocity: x becomes x + h v, and q becomes exp(h w) q.
 template <class S>
 void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
-  pose.position += h * linear<S>(velocity);
+  pose.position = along(pose.position, h, linear<S>(velocity));
   pose.rotation = S::normalized(S::exp(h * angular<S>(velocity)) * pose.rotation);
 }
 
@@ -34,11 +35,14 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
   typename S::Angular w = start;
   for (int iteration = 0; iteration < 20; ++iteration) {
     const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
-    const typename S::Angular error = inertia * w - momentum;
+    typename S::Angular error = product(inertia, w);
+    error -= momentum;
     if (error.norm() <= 2 * std::numeric_limits<Scalar>::epsilon() * momentum.norm()) break;
-    const typename S::Inertia jacobian = inertia + h * S::gyroscopic_jacobian(inertia, w);
+    typename S::Inertia jacobian = S::gyroscopic_jacobian(inertia, w);
+    for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)
+      jacobian.data()[k] = inertia.data()[k] + h * jacobian.data()[k];
     const typename S::Inertia inverse = jacobian.inverse();
-    w -= inverse * error;
+    w -= product(inverse, error);
   }
   return w;
 }

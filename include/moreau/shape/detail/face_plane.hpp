@@ -12,7 +12,7 @@ namespace moreau {
 /// @tparam Vector a vector of Eigen, or detail::LongVector
 template <class Vector>
 struct FacePlane {
-  using T = typename Vector::Scalar;
+  using T = typename Vector::Scalar;  ///< scalar of the vectors
 
   Vector center = Vector::Zero();  ///< mean of the vertices [m]
   Vector axis = Vector::Zero();    ///< unit, from the center to the farthest vertex: the long

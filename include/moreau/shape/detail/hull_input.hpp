@@ -46,9 +46,8 @@ struct HullInput {
             "must be at least " + std::to_string(Dim + 1));
     require_finite(given, function);
     double size = 0;
-    for (const Vector& x : given) {
-      size = std::max(size, x.template cast<double>().cwiseAbs().maxCoeff());
-    }
+    for (const Vector& x : given)
+      for (int k = 0; k < Dim; ++k) size = std::max(size, std::abs(double(x[k])));
     unit = size > 0 ? std::ldexp(1.0, std::ilogb(size)) : 1.0;
     rounding = std::numeric_limits<typename Vector::Scalar>::epsilon() * size / unit;
     flat = HullTolerance{}.flat * rounding;
@@ -74,7 +73,8 @@ struct HullInput {
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       const Point &x = scaled[a], &y = scaled[b];
-      if (x != y) return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+      for (int k = 0; k < Dim; ++k)
+        if (x[k] != y[k]) return x[k] < y[k];
       return a < b;
     });
     for (const std::uint32_t i : order) {

@@ -55,7 +55,7 @@ class PolytopeBase {
   /// A vertex farthest in the direction, body coordinates [m].
   /// @param direction  body coordinates, of any length but zero
   Vector support(const VectorArgument<S>& direction) const {
-    return vertices_.row(static_cast<Eigen::Index>(support_vertex(direction))).transpose();
+    return row_of<S>(vertices_, static_cast<Eigen::Index>(support_vertex(direction)));
   }
 
   /// Mass, centre of mass and inertia at a uniform density.
@@ -63,7 +63,9 @@ class PolytopeBase {
   /// @throws std::invalid_argument unless the density is finite and greater than zero
   MassProperties<S> mass_properties(Scalar density) const {
     detail::require_positive(density, Names::mass_properties, "density");
-    return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
+    typename S::Inertia inertia = moments_.inertia();
+    inertia *= density;
+    return {density * moments_.volume, Vector::Zero(), inertia};
   }
   /// The smallest axis-aligned box around the shape at a pose, world axes [m].
   Aabb<S> bounding_box(const Pose<S>& pose) const { return box_around<S>(vertices_, pose); }
@@ -82,11 +84,13 @@ class PolytopeBase {
   void move_origin(const Moments<S>& rough, const Vector& origin_in_input) {
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = origin_in_input + center;
-    circumradius_ = 0;
+    // Eigen's square root of several floats at once rounds differently from that of one.
+    Eigen::Array<Scalar, Eigen::Dynamic, 1> squares(vertices_.rows());
     for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
       for (int k = 0; k < S::dim; ++k) vertices_(i, k) -= center[k];
-      circumradius_ = std::max(circumradius_, row_distance<S>(vertices_, i, Vector::Zero()));
+      squares[i] = squared_distance<S>(vertices_, i, Vector::Zero());
     }
+    circumradius_ = squares.sqrt().maxCoeff();
   }
   /// Sets the moments.
   /// @param function  name of the calling function, for error messages

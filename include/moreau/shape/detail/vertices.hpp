@@ -53,16 +53,24 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   return box;
 }
 
-/// Distance of a row from a point, both in the same axes and unit.
+/// A row as a vector.
 template <class S>
-typename S::Scalar row_distance(const VertexMatrix<S>& rows, Eigen::Index i,
-                                const typename S::Vector& point) {
+typename S::Vector row_of(const VertexMatrix<S>& rows, Eigen::Index i) {
+  typename S::Vector row;
+  for (int k = 0; k < S::dim; ++k) row[k] = rows(i, k);
+  return row;
+}
+
+/// Squared distance of a row from a point, both in the same axes and unit.
+template <class S>
+typename S::Scalar squared_distance(const VertexMatrix<S>& rows, Eigen::Index i,
+                                    const typename S::Vector& point) {
   typename S::Scalar sum = 0;
   for (int k = S::dim - 1; k >= 0; --k) {
     const typename S::Scalar along = rows(i, k) - point[k];
     sum = along * along + sum;
   }
-  return std::sqrt(sum);
+  return sum;
 }
 
 /// The smallest distance between two of the rows, in their unit; infinite if there is only one row.
@@ -75,11 +83,13 @@ typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
   T least = std::numeric_limits<T>::infinity();
-  for (std::size_t i = 0; i < order.size(); ++i)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const typename S::Vector here = row_of<S>(rows, order[i]);
     for (std::size_t j = i + 1; j < order.size(); ++j) {
-      if (!(rows(order[j], 0) - rows(order[i], 0) < least)) break;
-      least = std::min(least, row_distance<S>(rows, order[j], rows.row(order[i])));
+      if (!(rows(order[j], 0) - here[0] < least)) break;
+      least = std::min(least, std::sqrt(squared_distance<S>(rows, order[j], here)));
     }
+  }
   return least;
 }
 

@@ -18,6 +18,7 @@
 #include <array>
 #include <limits>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/polytope/detail/face_search.hpp"
 
 namespace moreau::detail {
@@ -70,8 +71,8 @@ T height_at_nearest(const EdgeView<T>& a, const EdgeView<T>& b,
                     const typename Space<3, T>::Vector& apart,
                     const typename Space<3, T>::Vector& normal) {
   const auto [t, u] = nearest_parameters(a, b, apart, normal);
-  return normal.dot(apart + std::clamp(u, T(0), T(1)) * b.direction -
-                    std::clamp(t, T(0), T(1)) * a.direction);
+  const auto on_b = along(apart, std::clamp(u, T(0), T(1)), b.direction);
+  return normal.dot(along(on_b, -std::clamp(t, T(0), T(1)), a.direction));
 }
 
 }  // namespace moreau::detail

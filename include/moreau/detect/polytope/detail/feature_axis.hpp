@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/polytope/axis.hpp"
 #include "moreau/detect/polytope/polytope_pair.hpp"
 
@@ -147,7 +148,7 @@ typename Space<3, T>::Vector point_along(const Placed<Polyhedron<T>>& shape, std
   using Vector = typename Space<3, T>::Vector;
   const auto& ends = shape.shape().edges()[edge].vertex;
   const Vector from = shape.vertices()[ends[0]];
-  return from + fraction * (shape.vertices()[ends[1]] - from);
+  return moreau::along(from, fraction, shape.vertices()[ends[1]] - from);
 }
 
 /// The positions of a vertex of polygon a and a vertex of polygon b, relative to the centre of a,

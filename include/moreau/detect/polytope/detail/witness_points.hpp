@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/polytope/detail/feature_axis.hpp"
 #include "moreau/detect/polytope/projection.hpp"
@@ -28,13 +29,14 @@ WitnessPoints<Space<3, T>> witness_of_edges(const PolytopePair<Polyhedron<T>>& p
   const Vector across = v.cross(axis.normal);
   const T slope = u.dot(across);
   T t = slope == T(0) ? T(0.5) : std::clamp((q - p).dot(across) / slope, T(0), T(1));
-  const T beside = (p + t * u - q).dot(v) / v.squaredNorm();
+  const Vector from_q = along(p, t, u) - q;
+  const T beside = from_q.dot(v) / v.squaredNorm();
   if (!(beside >= T(0) && beside <= T(1))) {
     const Vector end = beside > T(0) ? Vector(q + v) : q;
     t = std::clamp((end - p).dot(u) / u.squaredNorm(), T(0), T(1));
   }
-  const Vector on_a = p + t * u;
-  return {on_a, on_a + axis.gap * axis.normal,
+  const Vector on_a = along(p, t, u);
+  return {on_a, along(on_a, axis.gap, axis.normal),
           FeatureKey(FeatureKey::Kind::edge_edge, axis.a, axis.b)};
 }
 
@@ -86,7 +88,7 @@ template <std::floating_point T>
 ManifoldPoint<Space<3, T>> witness_point(const PolytopePair<Polyhedron<T>>& pair,
                                          const FoundAxis<Space<3, T>>& found) {
   const auto witness = witness_of(pair, found);
-  return {pair.a.center() + T(0.5) * (witness.on_a + witness.on_b), found.axis.gap,
+  return {along(pair.a.center(), T(0.5), witness.on_a + witness.on_b), found.axis.gap,
           witness.feature};
 }
 template <std::floating_point T>

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The same experiment in the plane and in space, with angular and with round grains: the collapse of
+// a column. Grains fill a box of length L0 up to the height H = a L0. Then the right wall is taken
+// away, and the grains flow out over the floor until they come to rest. In space the box is
+// periodic along its depth, so that the flow is plane in the mean.
+//
+// Prints the run-out (L - L0) / L0 over the aspect ratio a, with its standard error over three
+// samples, and writes plane_and_space.csv. plane_and_space.gp plots it.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <moreau/moreau.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "moreau/io/csv.hpp"
+#include "moreau/sample/ballast.hpp"
+#include "moreau/sample/random_deposition.hpp"
+#include "moreau/sample/size_distribution.hpp"
+
+using Law = moreau::SignoriniCoulomb<double>;
+
+constexpr double size = 0.01, depth = 0.05;  // of the smallest grain, of the box in space [m]
+constexpr double gravity = 9.81, h = 5e-4;   // [m/s^2], [s]
+constexpr double friction = 0.4;             // of grains with grains and with the floor [-]
+
+/// One column.
+template <class Shape>
+class Column {
+ public:
+  using S = moreau::SpaceOf<Shape>;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+
+  /// @param aspect H / L0 of the column, about
+  Column(std::size_t count, double aspect, std::uint64_t seed)
+      : simulation_(size, moreau::Materials<Law>(1, Law(friction)), {}, tolerances()) {
+    std::mt19937_64 random(seed);
+    const moreau::SizeDistribution diameters({{size, 0.5}, {1.5 * size, 0.5}});
+    std::vector<Shape> shapes;
+    std::vector<double> radii;
+    double volume = 0;
+    for (const double diameter : diameters.sample(count, random)) {
+      shapes.push_back(moreau::Ballast<Shape>::draw(random).scaled(diameter / 2));
+      radii.push_back(diameter / 2);
+      volume += shapes.back().volume();
+    }
+    // Solid fractions of about 0.8 in the plane and 0.55 in space.
+    const double section = up == 1 ? volume / 0.8 : volume / 0.55 / depth;
+    length_ = std::sqrt(section / aspect);
+    fill(shapes, radii, random);
+    simulation_.add_wall(Vector::Unit(up), Vector::Zero());
+    simulation_.add_wall(Vector::UnitX(), Vector::Zero());
+    gate_ = simulation_.add_wall(-Vector::UnitX(), length_ * Vector::UnitX());
+    for (int axis = 1; axis < up; ++axis) simulation_.set_periodic(axis, 0, depth);
+    simulation_.set_gravity(-gravity * Vector::Unit(up));
+  }
+
+  /// Fills the box, takes the wall away and waits for rest.
+  /// @returns the run-out (L - L0) / L0, where L is the length that contains 98 % of the grains [-]
+  double collapse() {
+    settle(1.5);
+    moreau::Pose<S> pose = simulation_.bodies().pose[gate_.index()];
+    pose.position += 1000 * Vector::UnitX();
+    simulation_.set_pose(gate_, pose);
+    settle(2.5);
+    std::vector<double> x;
+    for (std::size_t k = 0; k < simulation_.grain_count(); ++k)
+      x.push_back(simulation_.bodies().pose[simulation_.grain(k).index()].position[0]);
+    const auto front = x.begin() + std::ptrdiff_t(0.98 * double(x.size()));
+    std::nth_element(x.begin(), front, x.end());
+    return (*front - length_) / length_;
+  }
+  std::size_t steps() const { return steps_; }
+  std::size_t unsolved() const { return unsolved_; }  ///< steps that the solver did not solve
+  double duration() const { return duration_; }       ///< of the collapse [s]
+
+ private:
+  /// A larger margin than the default, for grains that fall at 2 m/s.
+  static moreau::Tolerances tolerances() {
+    moreau::Tolerances tolerances;
+    tolerances.margin = 0.1;
+    return tolerances;
+  }
+  /// Adds the grains. Their floor is a square in space, so several depositions stand side by side
+  /// along the box.
+  void fill(const std::vector<Shape>& shapes, const std::vector<double>& radii,
+            std::mt19937_64& random) {
+    const double widest = up == 1 ? length_ : depth;
+    const auto towers = static_cast<std::size_t>(std::ceil(length_ / widest));
+    const double width = std::min(widest, length_ / double(towers));
+    for (std::size_t tower = 0; tower < towers; ++tower) {
+      std::vector<double> own;
+      for (std::size_t k = tower; k < radii.size(); k += towers) own.push_back(radii[k]);
+      auto poses = moreau::random_deposition<S>(own, width, random);
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        poses[k].position[0] += length_ / double(towers) * double(tower);
+        simulation_.add_grain(simulation_.add_shape(shapes[tower + k * towers]), poses[k], 2500);
+      }
+    }
+  }
+  /// Steps until the fastest grain moves by less than a hundredth of its size in 0.05 s.
+  /// @param longest time [s]
+  void settle(double longest) {
+    const double start = simulation_.time();
+    double fastest = 1;
+    while (simulation_.time() - start < longest &&
+           (fastest > 0.2 * size || simulation_.time() - start < 0.2)) {
+      const moreau::StepReport report = simulation_.step(h);
+      ++steps_;
+      unsolved_ += !report.solve.converged;
+      fastest = 0;
+      for (std::size_t k = 0; k < simulation_.grain_count(); ++k) {
+        const auto& velocity = simulation_.bodies().velocity[simulation_.grain(k).index()];
+        fastest = std::max(fastest, moreau::linear<S>(velocity).norm());
+      }
+    }
+    duration_ = simulation_.time() - start;
+  }
+
+  moreau::Simulation<Shape, Law> simulation_;
+  moreau::BodyId gate_;
+  double length_ = 0, duration_ = 0;
+  std::size_t steps_ = 0, unsolved_ = 0;
+};
+
+/// Three samples for each aspect ratio.
+template <class Shape>
+void run(const std::string& name, std::size_t count, moreau::CsvWriter& file) {
+  constexpr int samples = 3;
+  for (const double aspect : {0.5, 1.0, 2.0, 4.0}) {
+    double sum = 0, square = 0, duration = 0;
+    std::size_t steps = 0, unsolved = 0;
+    for (int sample = 1; sample <= samples; ++sample) {
+      Column<Shape> column(count, aspect, std::uint64_t(sample));
+      const double run_out = column.collapse();
+      sum += run_out;
+      square += run_out * run_out;
+      duration += column.duration() / samples;
+      steps += column.steps();
+      unsolved += column.unsolved();
+    }
+    const double mean = sum / samples;
+    const double variance = std::max(0.0, (square - samples * mean * mean) / (samples - 1));
+    const double error = std::sqrt(variance / samples);
+    std::cout << name << ", a = " << aspect << ": run-out " << mean << " +- " << error
+              << ", at rest after " << duration << " s; " << unsolved << " of " << steps
+              << " steps not solved\n";
+    file.row(double(moreau::SpaceOf<Shape>::dim), aspect, mean, error, duration);
+  }
+}
+
+int main() {
+  moreau::CsvWriter file("plane_and_space.csv",
+                         {"dimension", "aspect", "run_out", "standard_error", "duration"});
+  run<moreau::Polygon<double>>("polygons", 400, file);
+  run<moreau::Disk<double>>("disks", 400, file);
+  run<moreau::Polyhedron<double>>("polyhedra", 800, file);
+  run<moreau::Ball<double>>("balls", 800, file);
+}
