@@ -148,7 +148,7 @@ void run(const std::string& name, std::size_t count, moreau::CsvWriter& file) {
     const double error = std::sqrt(variance / samples);
     std::cout << name << ", a = " << aspect << ": run-out " << mean << " +- " << error
               << ", at rest after " << duration << " s; " << unsolved << " of " << steps
-              << " steps not solved\n";
+              << " steps not solved" << std::endl;
     file.row(double(moreau::SpaceOf<Shape>::dim), aspect, mean, error, duration);
   }
 }

@@ -4,12 +4,14 @@
 # For each shape and sample, one run with compliant contacts ends at a jammed state under the largest
 # force. From this checkpoint four periods are simulated with other stiffnesses, tolerances, steps and
 # frequencies. The rigid contacts of the default have a checkpoint of their own. A simulation that is
-# done is not repeated, so the script can be stopped at any time.
+# done is not repeated, so the script can be stopped at any time. Plots the position of the wall over a
+# period.
 #
 #   stiffness.sh PROGRAM FOLDER [SHAPE...]
 #   stiffness.sh build/study/examples/ratcheting stiffness polygon disk
 set -euo pipefail
 program=$(realpath "$1") && folder=$2 && shift 2
+plots=$(cd "$(dirname "$0")/plots" && pwd)
 [ $# -gt 0 ] || set -- polygon disk sphere polyhedron
 mkdir -p "$folder" && cd "$folder"
 
@@ -45,6 +47,9 @@ for seed in ${SEEDS:-1 2 3}; do
       from=(--from "$start-rigid/checkpoint.snapshot")
       run "$name-rigid" "${common[@]}" "${rigid[@]}" "${from[@]}"
       run "$name-rigid-tight" "${common[@]}" "${rigid[@]}" "${from[@]}" "${tight[@]}"
+      if command -v gnuplot >/dev/null; then
+        gnuplot -e "name='$name'; period=1.0/$frequency; fmax=6000" "$plots/stiffness.gp"
+      fi
     done
   done
 done
