@@ -139,7 +139,8 @@ class Packing {
   BodyId lid_;
 };
 
-/// Mean and largest number of sweeps over 40 steps in which the force on the lid falls by 20 %.
+/// Prints the mean and the largest number of sweeps over 40 steps, in which the force on the lid falls
+/// by 0.5 % per step.
 template <class P>
 void print_sweeps(const P& packing, std::size_t count) {
   for (const double tolerance : {1e-4, 1e-6, 1e-8}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures of whole simulations: across a periodic boundary, and during a run.
+// Instruments (stress, energy balance, ..) of whole simulations: with contacts across a periodic
+// boundary, and while the simulation runs.
 #include <cmath>
 #include <doctest/doctest.h>
 #include <string>

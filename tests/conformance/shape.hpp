@@ -229,7 +229,8 @@ void check_members(const ShapeT& shape, const std::vector<typename ShapeT::Space
   }
 }
 
-/// Checks that the bounding box is the smallest box, as for the library's own shapes.
+/// Checks that bounding_box() returns the smallest box. All shapes of the library do; a shape of a
+/// user may return a larger box, and then does not take this check.
 template <class ShapeT>
 void check_box_is_tight(const ShapeT& shape) {
   using S = typename ShapeT::Space;

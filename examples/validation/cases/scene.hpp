@@ -102,21 +102,21 @@ ShapeT regular(double radius) {
     return cuboid<ShapeT>(SpaceOf<ShapeT>::Vector::Constant(radius));
 }
 
-/// Suffix of the name of a case, such as ", polygon".
+/// The name of a case with the shape appended, such as "silo, polygon".
 template <class ShapeT>
 std::string with_shape(const std::string& name) {
   constexpr bool plane = SpaceOf<ShapeT>::dim == 2;
   return name + (is_round<ShapeT> ? (plane ? ", disk" : ", sphere")
                                   : (plane ? ", polygon" : ", polyhedron"));
 }
-/// Suffix of the name of a case, such as ", linear springs".
+/// The name of a case with the regularized law appended, such as "silo, linear springs".
 template <class Law>
 std::string with_law(const std::string& name) {
   if constexpr (requires(const Law& law) { law.stiffness(); }) return name + ", linear springs";
   if constexpr (requires(const Law& law) { law.young(); }) return name + ", Hertz-Mindlin";
   return name;
 }
-/// Suffix of the name of a case: ", theta = 1", or nothing for 1/2.
+/// The name of a case, with ", theta = 1" appended if theta is 1.
 inline std::string with_theta(double theta, const std::string& name) {
   return theta == 1 ? name + ", theta = 1" : name;
 }

@@ -6,7 +6,8 @@
 //  - If all grains are spheres, they are points, and their arrays belong to the points. The file is
 //    then about a hundred times smaller. Use the filter Glyph or the representation Point Gaussian,
 //    scaled by `size`. With VtkOptions::spheres_as_points = false, spheres are written as faces.
-//  - Contacts are lines. Use the filter Tube and vary its radius by `normal_force`.
+//  - A contact is a line between the two centres, or from a centre to a wall. Use the filter Tube
+//    and vary its radius by `normal_force`.
 //  - Fields are points. Use the filter Glyph.
 #pragma once
 

@@ -18,7 +18,8 @@
 //   - MoreauJean(theta > 1/2): in addition the numerical damping of the scheme, first order in the
 //     step.
 //   - A regularized contact law: the error of the assumption that forces are constant during a
-//     step. `impacts` and `friction` then include the energy stored in the springs.
+//     step. `impacts` then includes the energy that the normal springs store, and `friction` that
+//     of the tangential springs.
 #pragma once
 
 #include <cmath>

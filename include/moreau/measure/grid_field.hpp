@@ -41,9 +41,8 @@ class GridField {
 
   /// @param control_volume world axes [m]
   /// @param cells          number of cells along each axis, > 0
-  /// @throws std::invalid_argument if there are no cells along an axis, or if the control volume is
-  ///                               empty,
-  ///         inverted or not finite
+  /// @throws std::invalid_argument if there are no cells along an axis, or more cells than memory
+  ///         can hold, or if the control volume is empty, inverted or not finite
   GridField(const Aabb<S>& control_volume, const Components<S::dim, std::size_t>& cells)
       : box_(control_volume), cells_(cells) {
     require_control_volume(control_volume, "GridField");

@@ -113,14 +113,16 @@ class ContactDetector {
   /// Sets which points of a contact between faces are used, from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
-  /// Finds the pairs of grains whose boxes are within the margin, sorted. It keeps the list as long
-  /// as no box has moved by the skin. Call place() before.
+  /// Makes the list of the pairs of grains whose boxes are closer than margin + 2 skin along every
+  /// axis, sorted by the numbers of the bodies. It keeps the list of an earlier call as long as no
+  /// box has moved by the skin since. Call place() before.
   void find_pairs(const DetectionLengths<Scalar>& lengths);
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, feature), with zero
   /// impulse and law 0. Call find_pairs() before.
   /// @param poses     one per body, the same as for place()
-  /// @param previous  contacts of the step before: their points are preferred
+  /// @param previous  contacts of the step before: where a contact between faces has more
+  ///                  points than are kept, those of the step before are chosen first
   /// @param out       replaced
   void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
               const Contacts<S>& previous, Contacts<S>& out);

@@ -66,8 +66,8 @@ struct Wide {
       return Wide<T, 32>::any(halves[0] | halves[1]);
 #if defined(__AVX__)
     } else if constexpr (Bytes == 32) {
-      // A comparison sets all bits of a lane or none, so it suffices to look at the sign bits of
-      // its 32-bit halves.
+      // A comparison sets all bits of a lane or none. So it suffices to look at the sign bit of
+      // every 32 bits: of each float, of both halves of each double.
       typedef float Floats __attribute__((vector_size(32)));
       return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)) != 0;
 #endif

@@ -27,8 +27,9 @@
 // So if r >= d tau_0, the first bound excludes all m up to tau_0 and the second bound excludes all
 // m beyond tau_0: no axis separates the shapes by more than n does. In words: if the overlap is
 // shallow and the projection lies well inside the features, this overlap is the global one. If the
-// shapes are apart (d = 0), any projection inside the features suffices, because the distance of
-// convex shapes is a convex problem.
+// shapes are apart (d = 0), it suffices that the projection of one feature onto the other lies
+// inside, at any distance from the rim: the distance of convex shapes is a convex problem, whose
+// local minimum is the global one.
 //
 // The result must also be equal to the result of the full search. If several axes have the same
 // separation to within rounding, the full search returns the first of them. So the proof must

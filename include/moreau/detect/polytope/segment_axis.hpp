@@ -77,7 +77,8 @@ void take_inner(const SegmentPair<Space<3, T>>& pair, const Take& take) {
 template <std::floating_point T, class Take>
 void take_inner(const SegmentPair<Space<2, T>>&, const Take&) {}
 
-/// The nearest points of two segments. The normal of the result is not set.
+/// The nearest points of two segments. This function does not set the normal of
+/// the result; its caller does.
 template <class S>
 SegmentAxis<S> nearest_points(const SegmentPair<S>& pair) {
   using T = typename S::Scalar;

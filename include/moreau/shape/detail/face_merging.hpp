@@ -200,8 +200,8 @@ inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::
 /// merged, and slivers with meaningless normals remain. The function then tries larger tolerances,
 /// up to 64 times as large. If none succeeds, the triangles are returned.
 /// @param tolerance vertices closer to a plane than this lie on it, in the unit of the points
-/// @param rounding  largest later displacement of the points, in their unit, much smaller than the
-///                  tolerance
+/// @param rounding  largest displacement of the points by the rounding of the caller, after this
+///                  function, in the unit of the points; much smaller than the tolerance
 inline FaceList merged_faces(std::span<const HullTriangle> triangles,
                              std::span<const Eigen::Vector3d> points, double tolerance,
                              double rounding) {

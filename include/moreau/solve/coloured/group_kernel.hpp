@@ -13,8 +13,12 @@
 
 namespace moreau::detail {
 
-/// Groups of contacts with their impulses, the scaled velocities of their bodies, and the visit of
-/// a group: the local solution of its contacts.
+/// What the sweeps do with a group: the contact points of one pair of bodies per lane of a SIMD
+/// register. The pairs of a group share no body that can move, except a hub (contact_groups.hpp).
+/// visit() takes the points of a pair one after another. It computes the relative velocity of b with
+/// respect to a without the impulse of the point itself, in the contact frame [m/s], asks the law for
+/// the new impulse [N s], and adds its change to the scaled velocities of both bodies. The scaled
+/// velocity of a body is M^1/2 v, so rows_a and rows_b are rows of J M^-1/2.
 template <class Operator, class Law>
 class GroupKernel {
  public:
