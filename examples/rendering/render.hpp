@@ -47,9 +47,9 @@ inline Color speed_color(double share) {
 /// Size and point of view of a picture.
 struct Picture {
   int width = 1200, height = 1000;  ///< [pixels]
-  double azimuth = 32;              ///< of the eye; at 0 it looks along +y, at 90 along -x [degrees]
-  double elevation = 22;            ///< of the eye above the middle of the box [degrees]
-  bool walls = true;                ///< whether the box and its moving wall are drawn
+  double azimuth = 32;    ///< of the eye; at 0 it looks along +y, at 90 along -x [degrees]
+  double elevation = 22;  ///< of the eye above the middle of the box [degrees]
+  bool walls = true;      ///< whether the box and its moving wall are drawn
 };
 
 namespace detail {
