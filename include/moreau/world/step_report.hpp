@@ -22,7 +22,9 @@ struct StepReport {
   double max_overlap = 0;   ///< deepest point as detected, >= 0 [m]
   double mean_overlap = 0;  ///< mean depth of the points with gap < 0, >= 0 [m]
   /// Energy that the contact impulses and couples took from the bodies [J], without elastic_work;
-  /// < 0 if they gave energy, as the springs of a regularized law do.
+  /// < 0 if they gave energy, as the springs of a regularized law do. With compliant contacts the
+  /// value of a single step can be negative by h/2 F . (change of velocity) for each force F; these
+  /// terms cancel over a load cycle.
   double dissipation = 0;
   double friction = 0;  ///< part of it: by tangential impulses [J]
   double rolling = 0;   ///< part of it: by couples of rolling and twisting [J]
