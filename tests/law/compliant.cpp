@@ -9,10 +9,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "moreau/contact/detail/warm_start.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/frictionless.hpp"
+#include "moreau/measure/energy_balance.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
 #include "moreau/world/simulation.hpp"
 
 using namespace moreau;
@@ -181,6 +184,60 @@ TEST_CASE_TEMPLATE("compliant: an impact keeps the restitution up to eps", S, Sp
     const double after = world.bodies().velocity[ball.index()][S::dim - 1] / speed;
     CHECK(std::abs(after - restitution) <= 3 * eps);
   }
+}
+
+TEST_CASE("compliant: a loaded cube on a floor comes to rest") {
+  constexpr double half = 0.01, stiffness = 1e7, force = 500, mass = 2700 * 8 * half * half * half;
+  std::vector<Eigen::Vector3d> corners;
+  for (const double x : {-half, half})
+    for (const double y : {-half, half})
+      for (const double z : {-half, half}) corners.emplace_back(x, y, z);
+  Simulation<Polyhedron<double>, Spring> world(
+      2 * half, Materials<Spring>(1, Spring(Coulomb(0.4), stiffness)), tight());
+  Pose<Space<3>> pose;
+  pose.position = {0, 0, half};
+  const BodyId cube = world.add_grain(world.add_shape(Polyhedron<double>(corners)), pose, 2700);
+  world.add_wall({0., 0., 1.}, {0., 0., 0.});
+  world.set_gravity({0., 0., -gravity});
+  world.set_force(cube, {0., 0., -force});
+  EnergyBalance<Space<3>> energy(world);
+  StepReport report;
+  for (int k = 0; k < 2000; ++k) {
+    report = world.step(step);
+    energy.add(world, report, step);
+  }
+  const double load = force + mass * gravity, sunk = load / stiffness;
+  CHECK(half - world.bodies().pose[cube.index()].position[2] ==
+        doctest::Approx(sunk).epsilon(1e-6));
+  CHECK(report.elastic_energy == doctest::Approx(load * sunk / 2).epsilon(1e-6));
+  CHECK(energy.kinetic() < 1e-12);
+  const EnergyTerms& terms = energy.terms();
+  CHECK(std::abs(terms.impacts + terms.friction) <= load * sunk);
+  CHECK(terms.elastic == doctest::Approx(load * sunk / 2).epsilon(1e-6));
+}
+
+TEST_CASE_TEMPLATE("compliant: a normal force that turns makes no tangential force", S, Space<2>,
+                   Space<3>) {
+  Contacts<S> before, now;
+  const auto add = [](Contacts<S>& contacts, double angle) {
+    Contact<S> contact{};
+    const typename S::Vector normal =
+        std::cos(angle) * S::Vector::UnitX() + std::sin(angle) * S::Vector::UnitY();
+    contact.frame = S::contact_frame(normal);
+    contacts.points.push_back(contact);
+    contacts.keys.push_back({0, 1, FeatureKey()});
+    contacts.classes.push_back({});
+  };
+  add(before, 0);
+  add(now, 0.1);
+  before.impulses = {typename S::Vector(S::Vector::Unit(0) * 3 + S::Vector::Unit(1))};
+  CHECK(remember_springs(before, now) == 1);
+  CHECK(now.impulses[0][0] == 3);
+  const typename S::Vector tangential =
+      now.points[0].frame * now.impulses[0] - 3 * now.points[0].frame.col(0);
+  const typename S::Vector expected = before.points[0].frame.col(1);
+  CHECK((tangential - expected).norm() <= 0.1);
+  CHECK(std::abs(tangential.dot(now.points[0].frame.col(0))) < 1e-15);
 }
 
 TEST_CASE("compliant: no friction means no tangential spring") {

@@ -22,7 +22,7 @@
 //     slip = u_t + C_t (f_t - f_t of the step before) / h.
 //
 // Divided by h, with c = C / h^2 [1/kg], s = (h / h of the step before) times the impulse of the step
-// before, turned into the frame of this one:
+// before, of which the tangential part is turned into the frame of this one:
 //
 //     normal      0 <= u_n + g / h + c_n r_n   _|_   r_n >= 0,
 //     tangential  u_t + c_t (r_t - s_t) = -lambda r_t / |r_t|  or  0,      |r_t| <= mu r_n:
@@ -58,7 +58,9 @@ namespace moreau {
 
 /// A set-valued law with elastic springs in series; the head of this file has its equations. The
 /// stiffness is that of a pair of bodies: if the pair has n contact points, each has 1/n of it, so
-/// that the stiffness of a contact between faces does not depend on the number of its points.
+/// that the stiffness of a contact between faces does not depend on the number of its points. Open
+/// points within the detection margin count in part, from 0 at the margin to 1 where they touch.
+/// All points of a contact between faces are used, unless Simulation::set_contact_points() says few.
 /// Model of CompliantLaw.
 /// @tparam Law    the set-valued law: SignoriniCoulomb, Frictionless, Cohesive, RollingResistance
 /// @tparam Scalar its scalar

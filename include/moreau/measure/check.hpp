@@ -19,7 +19,8 @@ namespace moreau {
 /// @param simulation after step()
 /// @param report     what step() returned
 /// @returns one sentence with numbers for each of the following faults; empty if there are none:
-///          - surfaces moved by more than the detection margin in the step: contacts can be missed
+///          - the surfaces of a contact that was found approached by more than the detection margin
+///            in the step: others may have been missed
 ///          - the smallest grain is ten times smaller or larger than the grain size, to which all
 ///            tolerances are relative (for shapes that have a circumradius())
 ///          - an overlap beyond 1 % of the grain size: grains were added inside one another, the
@@ -35,7 +36,7 @@ std::vector<std::string> check(const Simulation& simulation, const StepReport& r
   };
   const double size = double(simulation.grain_size());
   if (report.approach > 1)
-    say("step too long: in one step surfaces in contact moved by ", report.approach,
+    say("step too long: in one step the surfaces of a contact approach by ", report.approach,
         " times the detection margin; contacts can be missed. Use a step ", report.approach,
         " times shorter, or a larger margin");
   using Shape = std::decay_t<decltype(simulation.shape_of_grain(0))>;

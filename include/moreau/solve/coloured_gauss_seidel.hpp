@@ -47,8 +47,8 @@ struct ColouredOptions {
   /// its own.
   int max_sweeps = 2000;
   /// Cap of a second attempt, from zero impulses, where the first attempt has reached its cap: a
-  /// warm start can lie far from every solution. The better of both results is kept. 0: no second
-  /// attempt.
+  /// warm start can lie far from every solution. The result with the smaller residual is kept. 0: no
+  /// second attempt; without acceleration there is none.
   int cold_sweeps = 0;
   int check_interval = 20;  ///< sweeps from one stopping test to the next, >= 1
   bool accelerate = true;   ///< false: plain sweeps

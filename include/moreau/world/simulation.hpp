@@ -74,7 +74,7 @@ class Simulation {
   /// @param materials  the law for every pair of materials
   /// @param solver     of the contact problem, with its options
   /// @param tolerances of detection, relative to the grain size [-]
-  /// @param correction how overlaps are corrected
+  /// @param correction how overlaps are corrected; not enabled under a compliant law
   /// @param integrator with its options
   /// @throws std::invalid_argument for a size that is not finite or not positive, or for
   ///         tolerances or options of the correction out of range
@@ -194,8 +194,7 @@ class Simulation {
   }
   /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
   /// and acts until it is set again. It does not move a body without mass, such as a wall.
-  /// @throws std::invalid_argument for a body that is not of this simulation or a force that is not
-  ///         finite
+  /// @throws std::invalid_argument for a body of another simulation or a force that is not finite
   void set_force(BodyId body, const VectorArgument<S>& force) {
     assembly_.require_body(body, "Simulation::set_force");
     require(all_finite(force), "Simulation::set_force", "force", force, "must be finite");
@@ -242,7 +241,7 @@ class Simulation {
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
     dynamics_.set_correction(options);
   }
-  /// Sets which points of a contact between faces are used, from the next step on; few at first.
+  /// Sets which points of a contact between faces are used; at first few, all if it is compliant.
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
   /// Sets the laws from the next step on; the number of materials must not change.
   /// @throws std::invalid_argument for another number of materials
@@ -316,6 +315,7 @@ class Simulation {
     require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
             "must be finite and > 0");
     tolerances.check("Simulation");
+    if constexpr (CompliantLaw<Law, S>) detector_.keep_points(ContactPoints::all);
   }
 
   friend struct SerializationAccess;

@@ -16,8 +16,8 @@ struct StepReport {
   std::size_t pairs = 0;            ///< pairs with at least one contact point
   std::size_t points = 0;           ///< contact points
   std::size_t warm_started = 0;     ///< points that were in contact in the step before
-  /// Largest normal velocity of a contact before the step x step / detection margin [-]. Above 1, a
-  /// contact can come into reach and overlap within one step. 0 under a regularized law.
+  /// Largest approach velocity of the contacts that were found, before the step, x step / detection
+  /// margin [-]. Above 1, surfaces can come within the margin and overlap in one step. 0 under a regularized law.
   double approach = 0;
   double max_overlap = 0;   ///< deepest point as detected, >= 0 [m]
   double mean_overlap = 0;  ///< mean depth of the points with gap < 0, >= 0 [m]

@@ -37,10 +37,38 @@ std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
   return carry(before, now, before.impulses, now.impulses);
 }
 
+/// The impulse of a contact of the step before as the memory of its springs in this step. The normal
+/// impulse stays the normal impulse; only the tangential impulse is turned, through world axes.
+/// Turning the whole vector would change a part of the normal impulse into a tangential impulse
+/// wherever the normal turns.
+template <class S>
+typename S::Vector turned_memory(const Contact<S>& before, const Contact<S>& now,
+                                 typename S::Vector impulse) {
+  const auto normal = impulse[0];
+  impulse[0] = 0;
+  typename S::Vector turned =
+      transposed_product(now.frame, typename S::Vector(product(before.frame, impulse)));
+  turned[0] = normal;
+  return turned;
+}
+
+/// Makes the impulses of the step before [N s] the memory of the springs in this step; contacts
+/// without a predecessor get zero.
+/// @param before,now each sorted by its keys
+/// @returns how many contacts have a predecessor
+template <class S>
+std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now) {
+  now.impulses.assign(now.size(), S::Vector::Zero());
+  return merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
+    now.impulses[i] = turned_memory(before.points[j], now.points[i], before.impulses[j]);
+  });
+}
+
 /// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of
 /// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
 /// contact.
-/// @param before,now each sorted by its keys; the impulses of `now` are those of warm_start()
+/// @param before,now each sorted by its keys; the impulses of `now` are those of
+///                   remember_springs()
 /// @returns how many contacts handed their impulse over
 template <class S>
 std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now) {
@@ -63,8 +91,7 @@ std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now) {
     for (auto it = first; it != last; ++it)
       if (distance(it) < distance(nearest)) nearest = it;
     const auto i = std::size_t(nearest - now.keys.begin());
-    now.impulses[i] +=
-        now.points[i].frame.transpose() * (before.points[j].frame * before.impulses[j]);
+    now.impulses[i] += turned_memory(before.points[j], now.points[i], before.impulses[j]);
     ++count;
   }
   return count;

@@ -31,18 +31,23 @@ class ContactSprings {
   using Operator = OperatorOf<Law, S>;
   using Row = typename Operator::Vector;
 
-  /// c = C / h^2 of every contact [1/kg]; the points of a pair share its stiffness.
+  /// c = C / h^2 of every contact [1/kg]. The points of a pair share its stiffness: C is that of the
+  /// pair times the number of its points. A point that is open by the gap g counts as 1 - g / margin,
+  /// so that the stiffness does not jump when a point comes within the margin.
   std::span<const Row> compliances(const StepContext<S, Law>& context) {
     const Contacts<S>& contacts = context.contacts;
     compliance_.resize(contacts.size());
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
       const Contact<S>& point = contacts.points[first];
-      last = first;
-      while (last < contacts.size() && contacts.points[last].a == point.a &&
-             contacts.points[last].b == point.b)
-        ++last;
+      Scalar count = 0;
+      for (last = first; last < contacts.size(); ++last) {
+        const Contact<S>& other = contacts.points[last];
+        if (other.a != point.a || other.b != point.b) break;
+        const Scalar open = std::max(Scalar(0), other.gap) / context.margin;
+        count += std::max(Scalar(0), 1 - open);
+      }
       const Law& law = context.materials.laws()[point.law];
-      const Scalar share = Scalar(last - first) / (context.step * context.step);
+      const Scalar share = std::max(Scalar(1), count) / (context.step * context.step);
       Row row = Row::Constant(share * law.tangential_compliance());
       row[0] = share * law.normal_compliance();
       std::fill(compliance_.begin() + std::ptrdiff_t(first),
@@ -51,15 +56,18 @@ class ContactSprings {
     return compliance_;
   }
 
-  /// Makes the impulses of the step before those of the same forces over this step, and adds the
-  /// velocity by which the springs relax, -c s, to b.
+  /// Makes the impulses of the step before those of the same forces over this step.
   /// @param impulses in: of the step before; out: s [N s]
-  void remember(const StepContext<S, Law>& context, std::span<Row> impulses, Operator& op) {
+  void scale(const StepContext<S, Law>& context, std::span<Row> impulses) {
     const Scalar ratio = last_step_ > 0 ? context.step / last_step_ : Scalar(1);
     last_step_ = context.step;
+    for (Row& impulse : impulses) impulse *= ratio;
+  }
+  /// Adds the velocity by which the springs relax, -c s, to b.
+  /// @param impulses s, attraction included [N s]
+  void relax(const StepContext<S, Law>& context, std::span<const Row> impulses, Operator& op) {
     relaxation_.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
-      impulses[c] *= ratio;
       relaxation_[c] = -compliance_[c].cwiseProduct(impulses[c]);
       const Contact<S>& point = context.contacts.points[c];
       if (!context.materials.laws()[point.law].keeps_normal_impulse()) relaxation_[c][0] = 0;

@@ -15,6 +15,20 @@
 
 namespace moreau::detail {
 
+/// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of
+/// the springs of compliant contacts.
+/// @returns how many contacts have a predecessor
+template <class Law, class S>
+std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts) {
+  if constexpr (CompliantLaw<Law, S>) {
+    const std::size_t found = remember_springs(previous, contacts);
+    hand_over(previous, contacts);
+    return found;
+  } else {
+    return warm_start(previous, contacts);
+  }
+}
+
 /// The unknowns of a law that acts at points: the impulses of the contacts themselves.
 template <class S, class Law>
 class PointUnknowns {
@@ -23,9 +37,7 @@ class PointUnknowns {
 
   static const BodyDelassus<S>& points(const Operator& op) { return op; }
   std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts) {
-    const std::size_t found = warm_start(previous, contacts);
-    if constexpr (CompliantLaw<Law, S>) hand_over(previous, contacts);
-    return found;
+    return detail::start<Law>(previous, contacts);
   }
   static std::span<typename S::Vector> impulses(Contacts<S>& contacts) { return contacts.impulses; }
   static void finish(const Operator&, Contacts<S>&) {}
@@ -39,8 +51,7 @@ class RollingUnknowns {
 
   static const BodyDelassus<S>& points(const Operator& op) { return op.points(); }
   std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts) {
-    const std::size_t found = warm_start(previous, contacts);
-    if constexpr (CompliantLaw<Law, S>) hand_over(previous, contacts);
+    const std::size_t found = detail::start<Law>(previous, contacts);
     carry_couples(previous, contacts, previous.couples, contacts.couples);
     unknowns_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {

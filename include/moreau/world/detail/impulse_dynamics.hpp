@@ -110,8 +110,9 @@ class ImpulseDynamics {
   static constexpr bool compliant = CompliantLaw<Law, S>;
 
   static const OverlapCorrectionOptions& checked(const OverlapCorrectionOptions& correction) {
-    require(!compliant || !correction.enabled, "OverlapCorrection", "enabled", correction.enabled,
-            "must be false under a compliant law, whose springs need their overlap");
+    require(!compliant || !correction.enabled, "Simulation", "correction.enabled",
+            correction.enabled,
+            "must be false under a compliant law: its overlaps are the compression of springs");
     return correction;
   }
 
@@ -155,9 +156,10 @@ class ImpulseDynamics {
   std::size_t warm_start(const Context& context) {
     const std::size_t found =
         unknowns_.start(problem_.delassus, context.previous, context.contacts);
+    if constexpr (compliant) springs_.scale(context, unknowns_.impulses(context.contacts));
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, 1);
     if constexpr (compliant)
-      springs_.remember(context, unknowns_.impulses(context.contacts), problem_.delassus);
+      springs_.relax(context, unknowns_.impulses(context.contacts), problem_.delassus);
     return found;
   }
   /// From the impulse on b to the push against the attraction (sign 1), or back (-1).
@@ -206,7 +208,7 @@ class ImpulseDynamics {
   }
 
   /// Fills the relative velocities before the step and adds the offsets of the laws to b.
-  /// @returns the largest |normal velocity before the step| [m/s]
+  /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
     Scalar fastest = 0;
@@ -216,7 +218,7 @@ class ImpulseDynamics {
       const Contact<S>& contact = context.contacts.points[c];
       before_[c] = BodyDelassus<S>::relative_velocity(contact, bodies.velocity[contact.a],
                                                       bodies.velocity[contact.b]);
-      fastest = std::max(fastest, std::abs(before_[c][0]));
+      fastest = std::max(fastest, -before_[c][0]);
       const Scalar offset = context.materials.laws()[contact.law].velocity_offset(
           contact.gap, before_[c][0], context.step);
       if (!std::isfinite(offset)) impulses[c].setZero();
