@@ -23,9 +23,11 @@
 
 using Law = moreau::SignoriniCoulomb<double>;
 
+namespace setup {
 constexpr double size = 0.01, depth = 0.05;  // of the smallest grain, of the box in space [m]
 constexpr double gravity = 9.81, h = 5e-4;   // [m/s^2], [s]
 constexpr double friction = 0.4;             // of grains with grains and with the floor [-]
+}  // namespace setup
 
 /// One column.
 template <class Shape>
@@ -37,9 +39,10 @@ class Column {
 
   /// @param aspect H / L0 of the column, about
   Column(std::size_t count, double aspect, std::uint64_t seed)
-      : simulation_(size, moreau::Materials<Law>(1, Law(friction)), {}, tolerances()) {
+      : simulation_(setup::size, moreau::Materials<Law>(1, Law(setup::friction)), {},
+                    tolerances()) {
     std::mt19937_64 random(seed);
-    const moreau::SizeDistribution diameters({{size, 0.5}, {1.5 * size, 0.5}});
+    const moreau::SizeDistribution diameters({{setup::size, 0.5}, {1.5 * setup::size, 0.5}});
     std::vector<Shape> shapes;
     std::vector<double> radii;
     double volume = 0;
@@ -49,14 +52,14 @@ class Column {
       volume += shapes.back().volume();
     }
     // Solid fractions of about 0.8 in the plane and 0.55 in space.
-    const double section = up == 1 ? volume / 0.8 : volume / 0.55 / depth;
+    const double section = up == 1 ? volume / 0.8 : volume / 0.55 / setup::depth;
     length_ = std::sqrt(section / aspect);
     fill(shapes, radii, random);
     simulation_.add_wall(Vector::Unit(up), Vector::Zero());
     simulation_.add_wall(Vector::UnitX(), Vector::Zero());
     gate_ = simulation_.add_wall(-Vector::UnitX(), length_ * Vector::UnitX());
-    for (int axis = 1; axis < up; ++axis) simulation_.set_periodic(axis, 0, depth);
-    simulation_.set_gravity(-gravity * Vector::Unit(up));
+    for (int axis = 1; axis < up; ++axis) simulation_.set_periodic(axis, 0, setup::depth);
+    simulation_.set_gravity(-setup::gravity * Vector::Unit(up));
   }
 
   /// Fills the box, takes the wall away and waits for rest.
@@ -89,7 +92,7 @@ class Column {
   /// along the box.
   void fill(const std::vector<Shape>& shapes, const std::vector<double>& radii,
             std::mt19937_64& random) {
-    const double widest = up == 1 ? length_ : depth;
+    const double widest = up == 1 ? length_ : setup::depth;
     const auto towers = static_cast<std::size_t>(std::ceil(length_ / widest));
     const double width = std::min(widest, length_ / double(towers));
     for (std::size_t tower = 0; tower < towers; ++tower) {
@@ -108,8 +111,8 @@ class Column {
     const double start = simulation_.time();
     double fastest = 1;
     while (simulation_.time() - start < longest &&
-           (fastest > 0.2 * size || simulation_.time() - start < 0.2)) {
-      const moreau::StepReport report = simulation_.step(h);
+           (fastest > 0.2 * setup::size || simulation_.time() - start < 0.2)) {
+      const moreau::StepReport report = simulation_.step(setup::h);
       ++steps_;
       unsolved_ += !report.solve.converged;
       fastest = 0;
