@@ -40,7 +40,7 @@ template <class ShapeT, class Law>
 void block_on_incline(Record& record, double mu, const Law& law, double theta = 0.5) {
   using S = SpaceOf<ShapeT>;
   const double around = resolved<S>(1e-4, 1e5);
-  double worst = 0, spin = 0, creep = 0;
+  double worst = 0, spin = 0, slip = 0;
   int unsolved = 0;
   Curve curve;
   std::vector<double> tilts;
@@ -52,7 +52,7 @@ void block_on_incline(Record& record, double mu, const Law& law, double theta = 
     worst = std::max(worst, std::abs(found.acceleration - exact));
     spin = std::max(spin, found.spin);
     unsolved += found.unsolved;
-    if (exact == 0) creep = std::max(creep, std::abs(found.velocity));
+    if (exact == 0) slip = std::max(slip, std::abs(found.velocity));
     curve.rows.push_back({tilt, found.acceleration, exact});
   }
   std::sort(curve.rows.begin(), curve.rows.end());
@@ -65,7 +65,7 @@ void block_on_incline(Record& record, double mu, const Law& law, double theta = 
   });
   record.compare(name + ": slides from tan(tilt)", S{}, mu, found, 1e-6);
   record.vanishes(name + ": error of the acceleration [m/s^2]", S{}, worst, 1e-9);
-  record.vanishes(name + ": velocity where it sticks [m/s]", S{}, creep, 1e-9);
+  record.vanishes(name + ": velocity where it sticks [m/s]", S{}, slip, 1e-9);
   record.vanishes(name + ": spin [rad/s]", S{}, spin, 1e-9);
   if (is_rigid<ShapeT, Law>) record.vanishes(name + ": steps not solved", S{}, unsolved, 0);
 }

@@ -3,12 +3,14 @@
 //
 // The contact problem of rigid grains in a jammed packing has no unique impulses: W is singular, and
 // the number of sweeps that a tolerance takes grows as 1 / tolerance. Real contacts are elastic. With
-// one normal and one tangential spring per contact, of stiffness k_n and k_t [N/m], the problem is
-// well posed: its condition number is bounded by the number of contacts of a body over
+// one normal and one tangential spring per contact point, of stiffness k_n and k_t [N/m], the matrix
+// of the problem is well conditioned: its condition number is bounded by the number of contacts of a
+// body over
 //
 //     eps = C_n / (h^2 W_nn),        C_n = 1 / k_n,    h the time step,
 //
-// whatever the number of grains.
+// whatever the number of grains. Without friction the impulses are then unique; with friction they
+// need not be, because Coulomb's law is not associated (tests/solve/compliant.cpp has examples).
 //
 // Derivation. Let f = r / h be the mean force of the step. The normal spring is compressed by C_n f_n;
 // the surfaces touch when the gap g of the rigid shapes equals minus that compression. With the gap

@@ -50,9 +50,8 @@ std::vector<std::string> check(const Simulation& simulation, const StepReport& r
   }
   if (report.max_overlap > 0.01 * size)
     say("overlap of ", report.max_overlap, " m, ", report.max_overlap / size,
-        " of the grain size; a shorter step, stiffer contacts, or grains that do not overlap at "
-        "the "
-        "start");
+        " of the grain size. Use a shorter step or stiffer contacts, or add grains that do not "
+        "overlap");
   if (report.solve.capped)
     say("the solver stopped after ", report.solve.sweeps, " sweeps at a residual of ",
         report.solve.residual, ", above its tolerance");

@@ -13,6 +13,20 @@
 
 namespace moreau {
 
+namespace detail {
+
+/// The mean of the diagonal of W, which makes velocities of impulses in residuals [1/kg]; 1 if it is
+/// not positive.
+template <class Operator>
+double mean_diagonal(const Operator& op) {
+  constexpr int rows = Operator::Vector::RowsAtCompileTime;
+  double trace = 0;
+  for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
+  return trace > 0 ? trace / (double(op.size()) * rows) : 1;
+}
+
+}  // namespace detail
+
 /// How far impulses and velocities are from solving the contact problem: the natural-map residual
 /// and the separate violations of the laws, in one pass over all contacts.
 /// @param problem  its operator carries the velocities of the impulses
@@ -25,14 +39,11 @@ void measure_residual(const ContactProblem<Operator, Law>& problem,
                       std::span<const typename Operator::Vector> impulses, SolveReport& report) {
   using Vector = typename Operator::Vector;
   const Operator& op = problem.delassus;
-  double trace = 0, map = 0, norm = 0, approach = 0, closing = 0;
+  double map = 0, norm = 0, approach = 0, closing = 0;
   report.worst_velocity = report.worst_cone = report.worst_complementarity = 0;
   report.wrong_sign_dissipation = 0;
-  for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
-  constexpr int rows = Vector::RowsAtCompileTime;
   const Vector still = Vector::Zero();
-  const double entries = double(op.size()) * rows;
-  const double scale = trace > 0 ? trace / entries : 1;
+  const double scale = detail::mean_diagonal(op);
   for (std::size_t c = 0; c < op.size(); ++c) {
     const Vector& r = impulses[c];
     const double free = std::min(0.0, double(op.free_velocity(c)[0]));

@@ -13,28 +13,12 @@
 
 namespace moreau {
 
-/// Carries vectors in contact frames over to the contacts of the same keys: through world axes into
-/// the new frame. Contacts without a predecessor get zero.
-/// @param before,now each sorted by its keys
-/// @param old        in: one per contact of `before`
-/// @param out        one per contact of `now`
-/// @returns how many contacts have a predecessor
+/// A vector in the frame of a contact of the step before, in the frame of the contact in this step:
+/// through world axes.
 template <class S>
-std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
-                  const std::vector<typename S::Vector>& old,
-                  std::vector<typename S::Vector>& out) {
-  out.assign(now.size(), S::Vector::Zero());
-  return merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
-    out[i] = transposed_product(now.points[i].frame, product(before.points[j].frame, old[j]));
-  });
-}
-
-/// Makes the impulses of the step before [N s] the first guess of this step.
-/// @param before,now each sorted by its keys
-/// @returns how many contacts have a predecessor
-template <class S>
-std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
-  return carry(before, now, before.impulses, now.impulses);
+typename S::Vector turned(const Contact<S>& before, const Contact<S>& now,
+                          const typename S::Vector& vector) {
+  return transposed_product(now.frame, product(before.frame, vector));
 }
 
 /// The impulse of a contact of the step before as the memory of its springs in this step. The normal
@@ -43,25 +27,45 @@ std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
 /// wherever the normal turns.
 template <class S>
 typename S::Vector turned_memory(const Contact<S>& before, const Contact<S>& now,
-                                 typename S::Vector impulse) {
-  const auto normal = impulse[0];
-  impulse[0] = 0;
-  typename S::Vector turned =
-      transposed_product(now.frame, typename S::Vector(product(before.frame, impulse)));
-  turned[0] = normal;
-  return turned;
+                                 const typename S::Vector& impulse) {
+  typename S::Vector tangential = impulse;
+  tangential[0] = 0;
+  typename S::Vector memory = turned(before, now, tangential);
+  memory[0] = impulse[0];
+  return memory;
 }
 
-/// Makes the impulses of the step before [N s] the memory of the springs in this step; contacts
-/// without a predecessor get zero.
+/// Carries vectors in contact frames over to the contacts of the same keys. Contacts without a
+/// predecessor get zero.
+/// @param before,now each sorted by its keys
+/// @param old        one per contact of `before`
+/// @param out        out: one per contact of `now`
+/// @param turn       turned() or turned_memory()
+/// @returns how many contacts have a predecessor
+template <class S, class Turn>
+std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
+                  const std::vector<typename S::Vector>& old, std::vector<typename S::Vector>& out,
+                  const Turn& turn) {
+  out.assign(now.size(), S::Vector::Zero());
+  return merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
+    out[i] = turn(before.points[j], now.points[i], old[j]);
+  });
+}
+
+/// Makes the impulses of the step before [N s] the first guess of this step.
+/// @param before,now each sorted by its keys
+/// @returns how many contacts have a predecessor
+template <class S>
+std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
+  return carry(before, now, before.impulses, now.impulses, turned<S>);
+}
+
+/// Makes the impulses of the step before [N s] the memory of the springs in this step.
 /// @param before,now each sorted by its keys
 /// @returns how many contacts have a predecessor
 template <class S>
 std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now) {
-  now.impulses.assign(now.size(), S::Vector::Zero());
-  return merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
-    now.impulses[i] = turned_memory(before.points[j], now.points[i], before.impulses[j]);
-  });
+  return carry(before, now, before.impulses, now.impulses, turned_memory<S>);
 }
 
 /// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of
@@ -72,16 +76,14 @@ std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now) {
 /// @returns how many contacts handed their impulse over
 template <class S>
 std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now) {
+  const auto by_pair = [](const ContactKey& l, const ContactKey& r) {
+    return std::pair(l.a, l.b) < std::pair(r.a, r.b);
+  };
   std::size_t count = 0;
-  auto first = now.keys.begin();
   for (std::size_t j = 0; j < before.size(); ++j) {
     if (before.impulses[j].isZero(0)) continue;
     const ContactKey& key = before.keys[j];
-    const auto is_before = [](const ContactKey& l, const ContactKey& r) {
-      return std::pair(l.a, l.b) < std::pair(r.a, r.b);
-    };
-    first = std::lower_bound(first, now.keys.end(), key, is_before);
-    const auto last = std::upper_bound(first, now.keys.end(), key, is_before);
+    const auto [first, last] = std::equal_range(now.keys.begin(), now.keys.end(), key, by_pair);
     if (first == last || std::binary_search(first, last, key)) continue;
     const auto distance = [&](auto it) {
       return (now.points[std::size_t(it - now.keys.begin())].lever_a - before.points[j].lever_a)

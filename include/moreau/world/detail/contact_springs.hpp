@@ -14,6 +14,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/measure_residual.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -80,13 +81,9 @@ class ContactSprings {
   /// @param impulses its solution [N s]
   void measure(const StepContext<S, Law>& context, const ContactProblem<Operator, Law>& problem,
                std::span<const Row> impulses, StepReport& report) {
-    constexpr int rows = Row::RowsAtCompileTime;
     Energy energy;
-    double map = 0, norm = 0, trace = 0;
-    for (std::size_t c = 0; c < impulses.size(); ++c)
-      trace += double(problem.delassus.block(c).trace());
-    const auto scale =
-        static_cast<Scalar>(trace > 0 ? trace / (double(impulses.size()) * rows) : 1);
+    double map = 0, norm = 0;
+    const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus));
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Row& r = impulses[c];
       const Row stretch = compliance_[c].cwiseProduct(r);

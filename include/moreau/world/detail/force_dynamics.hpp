@@ -54,7 +54,7 @@ class ForceDynamics {
     const Bodies<S>& bodies = context.bodies;
     Contacts<S>& contacts = context.contacts;
     loads_.assign(bodies.size(), Twist::Zero());
-    report.warm_started = carry(context.previous, contacts, memory_, next_);
+    report.warm_started = carry(context.previous, contacts, memory_, next_, turned<S>);
     memory_.swap(next_);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
