@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Packings of N grains under a loaded lid: how many sweeps the contact problem of a step takes to a
 // tolerance, and how far the impulses of a step depend on where the solver starts. With compliant
-// contacts neither depends on N. Prints two tables.
+// contacts neither should depend on N. Prints two tables.
 //
 //   bench_jammed_packings SHAPE K N...     SHAPE is polygon or polyhedron, K the stiffness [N/m],
 //                                          rigid for contacts without springs
 //   bench_jammed_packings polygon 1e8 300 1200 4800 20000
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
