@@ -63,7 +63,7 @@ if (name eq "one_period") {
     set arrow 5 from t_peak, graph 0 to t_peak, graph 1 nohead dashtype 3 linecolor rgb orange
     set arrow 6 from t_min, graph 0.62 to t_peak, graph 0.62 heads size graph 0.008, 20 linecolor rgb orange
     set label 4 sprintf("δt_r = %.3g ms", mm(t_peak - t_min)) at 0.5 * (t_min + t_peak), graph 0.62 center offset 0, 0.8 textcolor rgb orange
-    set label 5 sprintf("the wall starts to move %.3g ms %s the minimum", mm(abs(t_min - t_onset)), t_onset < t_min ? "before" : "after") at t_min, graph 0.06 right offset -1, 0 textcolor rgb grey
+    set label 5 sprintf("the wall starts to move %.3g ms %s the minimum", mm(abs(t_min - t_onset)), t_onset < t_min ? "before" : "after") at graph 0.985, graph 0.06 right textcolor rgb grey
   }
   plot wall using 1:(kN($2)) skip 1 with lines linecolor rgb red linewidth 1.6 title "driving force", \
        wall using 1:(kN($5)) skip 1 with lines linecolor rgb blue linewidth 0.7 title "force of the grains"
