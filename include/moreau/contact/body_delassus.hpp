@@ -23,6 +23,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/local_block.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
 
 namespace moreau {
@@ -50,34 +51,20 @@ class BodyDelassus {
   /// @param contacts in: bodies, frames, levers; out: frames with turned tangents, see LocalBlock
   /// @param roots    M^-1/2 of every body
   /// @param free     velocity of every body without contacts, (v, w) in world axes [m/s, rad/s]
+  /// @param compliance function: contact c -> compliance of the springs in series with it, which is
+  ///                 added to the diagonal of W_cc: D entries, normal first [1/kg]. The entries of
+  ///                 the tangents must be equal, because the tangents are turned. Without this
+  ///                 argument the contacts are rigid.
+  /// @param team     threads that share the work
+  template <class Compliance = detail::RigidContacts>
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
-                std::span<const typename S::Twist> free) {
-    assemble(contacts, roots, free, detail::RigidContacts{});
-  }
-  /// The same with springs in series: adds compliance(c), D entries, normal first [1/kg], to the
-  /// diagonal of W_cc. The entries of the tangents must be equal, because the tangents are turned.
-  template <class Compliance>
-  void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
-                std::span<const typename S::Twist> free, const Compliance& compliance) {
-    constexpr int tangents = S::dim - 1;
+                std::span<const typename S::Twist> free, const Compliance& compliance = {},
+                const Team& team = {}) {
     rows_.resize(contacts.size());
     scaled_.assign(roots.size(), PaddedTwist::Zero());
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      Contact<S>& contact = contacts[c];
-      Row& row = rows_[c];
-      row.a = contact.a;
-      row.b = contact.b;
-      row.ja = scaled_rows(contact.frame, contact.lever_a, roots[contact.a]);
-      row.jb = scaled_rows(contact.frame, contact.lever_b, roots[contact.b]);
-      typename S::Matrix w = gram(row);
-      if constexpr (!std::same_as<Compliance, detail::RigidContacts>) w.diagonal() += compliance(c);
-      Eigen::Matrix<Scalar, tangents, tangents> turn;
-      row.block = align_tangents<S>(w, turn);
-      turn_tangents(contact.frame, turn);
-      turn_tangents(row.ja, turn);
-      turn_tangents(row.jb, turn);
-      row.free = relative_velocity(contact, free[contact.a], free[contact.b]);
-    }
+    team.share(contacts.size(), 64, [&](std::size_t begin, std::size_t end) {
+      assemble_some(begin, end, contacts, roots, free, compliance);
+    });
   }
 
   std::size_t size() const { return rows_.size(); }          ///< contacts
@@ -144,6 +131,29 @@ class BodyDelassus {
     Vector free;
     std::uint32_t a, b;
   };
+
+  template <class Compliance>
+  void assemble_some(std::size_t begin, std::size_t end, std::span<Contact<S>> contacts,
+                     std::span<const MobilityRoot<S>> roots,
+                     std::span<const typename S::Twist> free, const Compliance& compliance) {
+    constexpr int tangents = S::dim - 1;
+    for (std::size_t c = begin; c < end; ++c) {
+      Contact<S>& contact = contacts[c];
+      Row& row = rows_[c];
+      row.a = contact.a;
+      row.b = contact.b;
+      row.ja = scaled_rows(contact.frame, contact.lever_a, roots[contact.a]);
+      row.jb = scaled_rows(contact.frame, contact.lever_b, roots[contact.b]);
+      typename S::Matrix w = gram(row);
+      if constexpr (!std::same_as<Compliance, detail::RigidContacts>) w.diagonal() += compliance(c);
+      Eigen::Matrix<Scalar, tangents, tangents> turn;
+      row.block = align_tangents<S>(w, turn);
+      turn_tangents(contact.frame, turn);
+      turn_tangents(row.ja, turn);
+      turn_tangents(row.jb, turn);
+      row.free = relative_velocity(contact, free[contact.a], free[contact.b]);
+    }
+  }
 
   static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
     Vector velocity = S::spin(angular<S>(twist), lever);

@@ -26,11 +26,13 @@ class CompliantDelassus : public Rigid {
   /// @param compliance diagonal of D, one entry per row of a contact, normal first, equal for all
   ///                   tangents [1/kg]; one per contact
   void assemble(std::span<Contact<Space>> contacts, std::span<const MobilityRoot<Space>> roots,
-                std::span<const typename Space::Twist> free, std::span<const Vector> compliance) {
+                std::span<const typename Space::Twist> free, std::span<const Vector> compliance,
+                const Team& team = {}) {
     compliance_.assign(compliance.begin(), compliance.end());
     stretch_.assign(compliance.size(), Vector::Zero());
-    Rigid::assemble(contacts, roots, free,
-                    [&](std::size_t c) -> const Vector& { return compliance_[c]; });
+    Rigid::assemble(
+        contacts, roots, free, [&](std::size_t c) -> const Vector& { return compliance_[c]; },
+        team);
   }
 
   /// Diagonal of D of a contact [1/kg].

@@ -25,22 +25,19 @@ class RollingDelassus {
   using Scalar = typename S::Scalar;
   using Vector = typename RollingBlock<S>::Vector;
 
-  /// As BodyDelassus::assemble.
-  void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
-                std::span<const typename S::Twist> free) {
-    assemble(contacts, roots, free, detail::RigidContacts{});
-  }
-  /// The same with springs in series: compliance(c) has D + A entries [1/kg]. The last A entries are
+  /// As BodyDelassus::assemble, but compliance(c) has D + A entries [1/kg]. The last A entries are
   /// those of the couple / R and must be equal.
-  template <class Compliance>
+  template <class Compliance = detail::RigidContacts>
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
-                std::span<const typename S::Twist> free, const Compliance& compliance) {
+                std::span<const typename S::Twist> free, const Compliance& compliance = {},
+                const Team& team = {}) {
     constexpr bool rigid = std::same_as<Compliance, detail::RigidContacts>;
     if constexpr (rigid)
-      points_.assemble(contacts, roots, free);
+      points_.assemble(contacts, roots, free, compliance, team);
     else
-      points_.assemble(contacts, roots, free,
-                       [&](std::size_t c) { return typename S::Vector(linear<S>(compliance(c))); });
+      points_.assemble(
+          contacts, roots, free,
+          [&](std::size_t c) { return typename S::Vector(linear<S>(compliance(c))); }, team);
     rows_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts[c];

@@ -25,8 +25,9 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/integrate/detail/spin.hpp"
+#include "moreau/integrate/body_motion.hpp"
 
 namespace moreau {
 
@@ -49,15 +50,16 @@ class MoreauJean {
   /// configuration.
   /// @param momentum out: angular momentum L_i of each body about its centre, world axes [kg m^2/s]
   /// @param step     h [s]
+  /// @param team     threads that share the work
   template <class S>
   void predict_configuration(Bodies<S>& bodies, std::span<typename S::Angular> momentum,
-                             typename S::Scalar step) const {
+                             typename S::Scalar step, const Team& team = {}) const {
     const auto h = step * static_cast<typename S::Scalar>(1 - theta_);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    team.share_each(bodies.size(), 128, [&](std::size_t i) {
       momentum[i] =
           product(bodies.inertia(i, bodies.pose[i].rotation), angular<S>(bodies.velocity[i]));
-      detail::move(bodies.pose[i], bodies.velocity[i], h);
-    }
+      advance_pose(bodies.pose[i], bodies.velocity[i], h);
+    });
   }
 
   /// Computes the velocities at the end of the step without contacts.
@@ -65,37 +67,39 @@ class MoreauJean {
   /// @param momentum in: L_i, out: L_i + h tau of each body, world axes [kg m^2/s]
   /// @param free     out: twist (v, w) of each body, world axes [m/s, rad/s]
   /// @param step     h [s]
+  /// @param team     threads that share the work
   template <class S>
   void free_velocity(const Bodies<S>& bodies, const typename S::Vector& gravity,
                      std::span<typename S::Angular> momentum, std::span<typename S::Twist> free,
-                     typename S::Scalar step) const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+                     typename S::Scalar step, const Team& team = {}) const {
+    team.share_each(bodies.size(), 128, [&](std::size_t i) {
       free[i] = bodies.velocity[i];
-      linear<S>(free[i]) += detail::kick<S>(bodies, i, S::Vector::Zero(), gravity, step);
-      if (!bodies.rotates(i)) continue;
+      linear<S>(free[i]) += velocity_change<S>(bodies, i, S::Vector::Zero(), gravity, step);
+      if (!bodies.rotates(i)) return;
       momentum[i] += step * angular<S>(bodies.force[i]);
       const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
       angular<S>(free[i]) = product(inverse, momentum[i]);
-    }
+    });
   }
 
   /// Sets the new velocities and moves the bodies to the end of the step.
   /// @param after twist (v, w) of each body after the contact impulses, in the detection
   ///              configuration, world axes [m/s, rad/s]
   /// @param step  h [s]
+  /// @param team  threads that share the work
   template <class S>
   void advance_configuration(Bodies<S>& bodies, std::span<const typename S::Twist> after,
-                             typename S::Scalar step) const {
+                             typename S::Scalar step, const Team& team = {}) const {
     const auto h = step * static_cast<typename S::Scalar>(theta_);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    team.share_each(bodies.size(), 128, [&](std::size_t i) {
       bodies.velocity[i] = after[i];
       if (bodies.rotates(i)) {
         const typename S::Angular spin = angular<S>(after[i]);
-        angular<S>(bodies.velocity[i]) = detail::spin_after<S>(
+        angular<S>(bodies.velocity[i]) = spin_after<S>(
             bodies, i, product(bodies.inertia(i, bodies.pose[i].rotation), spin), spin, h);
       }
-      detail::move(bodies.pose[i], bodies.velocity[i], h);
-    }
+      advance_pose(bodies.pose[i], bodies.velocity[i], h);
+    });
   }
 
  private:

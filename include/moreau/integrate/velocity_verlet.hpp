@@ -17,7 +17,7 @@
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/integrate/detail/spin.hpp"
+#include "moreau/integrate/body_motion.hpp"
 
 namespace moreau {
 
@@ -36,17 +36,17 @@ class VelocityVerlet {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       Twist middle = bodies.velocity[i];
       linear<S>(middle) +=
-          detail::kick(bodies, i, typename S::Vector(linear<S>(loads[i])), gravity, step / 2);
+          velocity_change(bodies, i, typename S::Vector(linear<S>(loads[i])), gravity, step / 2);
       if (!bodies.rotates(i)) {
-        detail::move(bodies.pose[i], middle, step);
+        advance_pose(bodies.pose[i], middle, step);
         bodies.velocity[i] = middle;
         continue;
       }
       const typename S::Angular spin = angular<S>(middle);
       const typename S::Angular momentum = bodies.inertia(i, bodies.pose[i].rotation) * spin +
                                            step / 2 * torque(bodies, i, loads[i]);
-      angular<S>(middle) = detail::spin_after(bodies, i, momentum, spin, step / 2);
-      detail::move(bodies.pose[i], middle, step);
+      angular<S>(middle) = spin_after(bodies, i, momentum, spin, step / 2);
+      advance_pose(bodies.pose[i], middle, step);
       bodies.velocity[i] = middle;
       const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
       angular<S>(bodies.velocity[i]) = inverse * momentum;
@@ -64,7 +64,7 @@ class VelocityVerlet {
                              const typename S::Vector& gravity, typename S::Scalar step) const {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       linear<S>(bodies.velocity[i]) +=
-          detail::kick(bodies, i, typename S::Vector(linear<S>(loads[i])), gravity, step / 2);
+          velocity_change(bodies, i, typename S::Vector(linear<S>(loads[i])), gravity, step / 2);
       if (bodies.rotates(i))
         angular<S>(bodies.velocity[i]) +=
             step / 2 *

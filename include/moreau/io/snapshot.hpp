@@ -73,7 +73,7 @@ struct OptionsOf<Solver> {
   using type = typename Solver::Options;
 };
 
-/// The types of a snapshot. The broad phase and the threads of the solver are not part of a
+/// The types of a snapshot. The broad phase and the team of threads are not part of a
 /// snapshot.
 template <class World, class... More>
 struct SnapshotTypes;
@@ -220,7 +220,7 @@ std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& w
 }
 
 /// Restores the state of a simulation, and of other objects of the run, from the bytes of
-/// snapshot(). It replaces everything in the simulation except the threads of its solver.
+/// snapshot(). It replaces everything in the simulation except the team of threads.
 /// @param bytes the result of snapshot()
 /// @param world a simulation of the same type as in snapshot(); it may be empty
 /// @param more  objects of the same types and in the same order as in snapshot()

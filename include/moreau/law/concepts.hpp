@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The requirements of the solvers on a contact law.
+// The requirements of the solvers on a contact law. A team calls the functions of a law from several
+// threads at once: they must not change the law.
 #pragma once
 
 #include <array>

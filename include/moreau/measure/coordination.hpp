@@ -115,4 +115,22 @@ class CoordinationCounter {
   std::vector<char> taken_;
 };
 
+/// The coordination number of a simulation after its last step:
+///
+///     const double z = coordination(simulation).neighbours;
+///
+/// A contact is a pair of bodies with at least one contact point whose normal impulse is > 0 in the
+/// last step. A pair counts once, whatever its number of points; a grain that touches a wall has the
+/// wall as a neighbour. Points without impulse and points that attract do not count.
+/// @param simulation a Simulation
+/// @param fewest     grains with fewer neighbours than this are removed as rattlers; with 0 all
+///                   grains are counted (CoordinationCounter::count())
+template <class World>
+Coordination coordination(const World& simulation, std::size_t fewest = 0) {
+  const auto& contacts = simulation.contacts();
+  return CoordinationCounter<typename World::S>().count(
+      contacts.points, contacts.impulses, simulation.bodies().size(),
+      [&](std::size_t body) { return simulation.is_grain(body); }, fewest);
+}
+
 }  // namespace moreau

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Requirements on shapes. A shape is immutable geometry in its own (body) frame, with the centre of
-// mass at the origin. It has no pose: the simulation stores the pose of each body.
+// mass at the origin. It has no pose: the simulation stores the pose of each body. A team calls the
+// functions of a shape from several threads at once: they must not change the shape.
 #pragma once
 
 #include <concepts>

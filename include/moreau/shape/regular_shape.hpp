@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/components.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 
@@ -43,6 +44,22 @@ requires std::same_as<Shape, BallIn<SpaceOf<Shape>>> Shape
 regular_shape(typename Shape::Space::Scalar size) {
   detail::require_positive(size, "regular_shape", "size");
   return Shape(size / 2);
+}
+
+/// A cuboid, in the plane a rectangle. Its centre is the origin and its edges are parallel to the axes
+/// of the body.
+/// @param half_lengths half the length of the edges along each axis [m], D components, > 0
+/// @throws std::invalid_argument if a half length is not finite or not positive
+template <detail::HullOfPoints Shape>
+Shape cuboid(const VectorArgument<SpaceOf<Shape>>& half_lengths) {
+  using S = SpaceOf<Shape>;
+  for (int axis = 0; axis < S::dim; ++axis)
+    detail::require_positive(half_lengths[axis], "cuboid", "half length");
+  std::vector<typename S::Vector> corners(std::size_t{1} << S::dim, half_lengths);
+  for (std::size_t bits = 0; bits < corners.size(); ++bits)
+    for (int axis = 0; axis < S::dim; ++axis)
+      if ((bits >> axis & 1) != 0) corners[bits][axis] = -half_lengths[axis];
+  return Shape(std::span<const typename S::Vector>(corners));
 }
 
 }  // namespace moreau

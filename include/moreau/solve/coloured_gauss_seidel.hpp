@@ -29,13 +29,13 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured/coloured_sweeps.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/stop_test.hpp"
-#include "moreau/solve/team.hpp"
 
 namespace moreau {
 
@@ -54,10 +54,8 @@ struct ColouredOptions {
   bool accelerate = true;   ///< false: plain sweeps
 };
 
-/// The fast solver of contact problems for laws of points.
-/// @tparam TeamT the threads that share the work
-template <Team TeamT>
-class TeamGaussSeidel {
+/// The default solver of contact problems, for laws of points.
+class ColouredGaussSeidel {
  public:
   using Options = ColouredOptions;
   /// Buffers, kept from step to step.
@@ -68,16 +66,19 @@ class TeamGaussSeidel {
     std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
   };
 
+  ColouredGaussSeidel() = default;  ///< with the default options
   /// @throws std::invalid_argument for a tolerance that is not finite and positive, or a cap or an
   ///         interval below 1
-  explicit TeamGaussSeidel(const Options& options = {}, const TeamT& team = TeamT{})
-      : options_(options), team_(team) {
+  explicit ColouredGaussSeidel(const Options& options) : options_(options) {
     detail::require_stopping(options, "ColouredGaussSeidel");
     require(options.cold_sweeps >= 0, "ColouredGaussSeidel", "cold_sweeps", options.cold_sweeps,
             "must be >= 0");
   }
 
   const Options& options() const { return options_; }  ///< as given
+  /// Sets the threads that share the work, for a solver that is used by itself: that of a simulation
+  /// has the team of the simulation.
+  void set_team(const Team& team) { team_ = team; }
 
   /// Solves the contact problem; the arguments are those of NonlinearGaussSeidel::solve. Sizes are
   /// not checked.
@@ -118,7 +119,7 @@ class TeamGaussSeidel {
     if (problem.size() == 0) return report;
     report.converged = false;
     detail::set_impulses<Operator>(problem.delassus, impulses);
-    sweeps.start(problem, impulses, accelerate);
+    sweeps.start(problem, impulses, accelerate, team_);
     // The residual takes a pass over all contacts. It is measured once the change per sweep is
     // below the change at which the residual is expected to meet the tolerance.
     double expected_change = 3 * options_.tolerance;
@@ -180,23 +181,17 @@ class TeamGaussSeidel {
 
   /// The residual of the impulses, with velocities computed from them alone.
   template <class Operator, class Law>
-  static void certify(ContactProblem<Operator, Law>& problem,
-                      std::span<typename Operator::Vector> impulses,
-                      detail::ColouredSweeps<Operator, Law>& sweeps, SolveReport& report) {
+  void certify(ContactProblem<Operator, Law>& problem,
+               std::span<typename Operator::Vector> impulses,
+               detail::ColouredSweeps<Operator, Law>& sweeps, SolveReport& report) const {
     sweeps.unpack(impulses);
     detail::set_impulses<Operator>(problem.delassus, impulses);
     sweeps.load_velocities(problem.delassus);
-    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report);
+    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_);
   }
 
   Options options_;
-  TeamT team_;
-};
-
-/// The default solver: TeamGaussSeidel on the calling thread.
-class ColouredGaussSeidel : public TeamGaussSeidel<SingleThread> {
- public:
-  using TeamGaussSeidel::TeamGaussSeidel;
+  Team team_;
 };
 
 }  // namespace moreau

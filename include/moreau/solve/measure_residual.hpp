@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "moreau/core/team.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -27,6 +28,54 @@ double mean_diagonal(const Operator& op) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// The sums of measure_residual() over some contacts.
+template <class Operator, class Law>
+struct ResidualSums {
+  double map = 0, norm = 0, approach = 0, closing = 0;  // squared
+  double dissipation = 0;                               // of the wrong sign
+  double velocity = 0, cone = 0, complementarity = 0;   // largest violations
+
+  void add(const ResidualSums& other) {
+    map += other.map;
+    norm += other.norm;
+    approach += other.approach;
+    closing += other.closing;
+    dissipation += other.dissipation;
+    velocity = std::max(velocity, other.velocity);
+    cone = std::max(cone, other.cone);
+    complementarity = std::max(complementarity, other.complementarity);
+  }
+  /// Adds contact c with impulse r.
+  /// @param scale makes velocities of impulses [1/kg]
+  void add(const ContactProblem<Operator, Law>& problem, std::size_t c,
+           const typename Operator::Vector& r, double scale) {
+    using Vector = typename Operator::Vector;
+    const Operator& op = problem.delassus;
+    const double free = std::min(0.0, double(op.free_velocity(c)[0]));
+    approach += free * free;
+    if (r[0] == 0 && op.normal_velocity(c) >= 0) return;
+    const Vector u = op.velocity(c);
+    if (std::isinf(u[0]) && u[0] > 0) return;  // cannot act in this step
+    const auto to_velocity = static_cast<typename Operator::Scalar>(scale);
+    const Vector scaled = r * to_velocity;
+    const double left = std::min(0.0, double(u[0]));
+    closing += left * left;
+    map += double(natural_map(problem.law(c), u, scaled, to_velocity).squaredNorm());
+    norm += double(scaled.squaredNorm());
+    constexpr int tangents = Vector::RowsAtCompileTime - 1;
+    const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));
+    velocity = std::max(velocity, -double(u[0]));
+    complementarity = std::max(complementarity, std::abs(double(u[0] * r[0])));
+    dissipation += std::max(0.0, power);
+    const Vector still = Vector::Zero();
+    cone = std::max(cone, double(problem.law(c).natural_map(still, r).norm()));
+  }
+};
+
+}  // namespace detail
+
 /// How far impulses and velocities are from solving the contact problem: the natural-map residual
 /// and the separate violations of the laws, in one pass over all contacts.
 /// @param problem  its operator carries the velocities of the impulses
@@ -34,46 +83,28 @@ double mean_diagonal(const Operator& op) {
 /// @param report   out: residual, relative_approach, worst_velocity, worst_cone,
 ///                 worst_complementarity, wrong_sign_dissipation. The first two are infinite if
 ///                 velocities or impulses are not finite. Its other fields are not changed
+/// @param team     threads that share the work; the result does not depend on it
 template <class Operator, class Law>
 void measure_residual(const ContactProblem<Operator, Law>& problem,
-                      std::span<const typename Operator::Vector> impulses, SolveReport& report) {
-  using Vector = typename Operator::Vector;
-  const Operator& op = problem.delassus;
-  double map = 0, norm = 0, approach = 0, closing = 0;
-  report.worst_velocity = report.worst_cone = report.worst_complementarity = 0;
-  report.wrong_sign_dissipation = 0;
-  const Vector still = Vector::Zero();
-  const double scale = detail::mean_diagonal(op);
-  for (std::size_t c = 0; c < op.size(); ++c) {
-    const Vector& r = impulses[c];
-    const double free = std::min(0.0, double(op.free_velocity(c)[0]));
-    approach += free * free;
-    if (r[0] == 0 && op.normal_velocity(c) >= 0) continue;
-    const Vector u = op.velocity(c);
-    if (std::isinf(u[0]) && u[0] > 0) continue;  // cannot act in this step
-    const auto to_velocity = static_cast<typename Operator::Scalar>(scale);
-    const Vector scaled = r * to_velocity;
-    const double left = std::min(0.0, double(u[0]));
-    closing += left * left;
-    map += double(detail::natural_map(problem.law(c), u, scaled, to_velocity).squaredNorm());
-    norm += double(scaled.squaredNorm());
-    constexpr int tangents = Vector::RowsAtCompileTime - 1;
-    const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));
-    report.worst_velocity = std::max(report.worst_velocity, -double(u[0]));
-    report.worst_complementarity =
-        std::max(report.worst_complementarity, std::abs(double(u[0] * r[0])));
-    report.wrong_sign_dissipation += std::max(0.0, power);
-    report.worst_cone =
-        std::max(report.worst_cone, double(problem.law(c).natural_map(still, r).norm()));
-  }
-  report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
+                      std::span<const typename Operator::Vector> impulses, SolveReport& report,
+                      const Team& team = {}) {
+  using Sums = detail::ResidualSums<Operator, Law>;
+  const double scale = detail::mean_diagonal(problem.delassus);
+  const Sums sums = detail::sum_of<Sums>(team, problem.size(), [&](Sums& sum, std::size_t c) {
+    sum.add(problem, c, impulses[c], scale);
+  });
+  report.worst_velocity = sums.velocity;
+  report.worst_cone = sums.cone;
+  report.worst_complementarity = sums.complementarity;
+  report.wrong_sign_dissipation = sums.dissipation;
+  report.residual = sums.norm > 0 ? std::sqrt(sums.map / sums.norm) : std::sqrt(sums.map);
   // The map has the rounding of r at least: impulses so large that the velocities vanish in it show
   // nothing else. Beside the map stands the approach velocity, because with large mu the map of an
   // approach with slip and without impulse is only 1/mu of the approach.
   const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
-  const double remaining = std::max(map + rounding * rounding * norm, closing);
-  report.relative_approach = approach > 0 ? std::sqrt(remaining / approach) : 0;
-  if (std::isfinite(map) && std::isfinite(norm)) return;
+  const double remaining = std::max(sums.map + rounding * rounding * sums.norm, sums.closing);
+  report.relative_approach = sums.approach > 0 ? std::sqrt(remaining / sums.approach) : 0;
+  if (std::isfinite(sums.map) && std::isfinite(sums.norm)) return;
   report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
 }
 

@@ -16,6 +16,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/friction_problem.hpp"
@@ -53,6 +54,9 @@ class ProximalFallback {
   }
 
   const Options& options() const { return first_.options(); }  ///< of the sweeps, as given
+  /// Sets the threads that share the work of the sweeps.
+  void set_team(const Team& team) requires requires(First first) { first.set_team(team); }
+  { first_.set_team(team); }
 
   /// Solves the contact problem, with the arguments of NonlinearGaussSeidel::solve. The report
   /// counts the sweeps of both methods. If the second was needed, convergence is that of the

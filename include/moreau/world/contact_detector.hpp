@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -25,14 +26,15 @@
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
-#include "moreau/detect/reduce.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/tolerances.hpp"
 
 namespace moreau {
@@ -95,12 +97,14 @@ class ContactDetector {
   template <class ShapeOf>
   void place(std::span<const Pose<S>> poses, ShapeOf&& shape_of) {
     boxes_.resize(grains_.size());
-    for (std::size_t k = 0; k < grains_.size(); ++k) {
-      const Pose<S>& pose = poses[grains_[k].body.index()];
-      grains_[k].shape = &shape_of(k);
-      grains_[k].placed.update(*grains_[k].shape, pose);
-      boxes_[k] = grains_[k].placed.bounding_box();
-    }
+    team_.share(grains_.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const Pose<S>& pose = poses[grains_[k].body.index()];
+        grains_[k].shape = &shape_of(k);
+        grains_[k].placed.update(*grains_[k].shape, pose);
+        boxes_[k] = grains_[k].placed.bounding_box();
+      }
+    });
     place_walls(poses);
   }
   /// Moves the walls to the poses of their bodies.
@@ -110,6 +114,8 @@ class ContactDetector {
     for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
   }
 
+  /// Sets the threads that share the work.
+  void set_team(const Team& team) { team_ = team; }
   /// Sets which points of a contact between faces are used, from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
@@ -147,7 +153,11 @@ class ContactDetector {
 
   std::size_t pair_count() const { return pairs_.size(); }  ///< pairs of boxes, without walls
   /// Pairs with at least one contact point in the last detect().
-  std::size_t touching_count() const { return touching_; }
+  std::size_t touching_count() const {
+    std::size_t sum = 0;
+    for (const Member& member : members_) sum += member.touching();
+    return sum;
+  }
 
  private:
   friend struct SerializationAccess;
@@ -184,14 +194,22 @@ class ContactDetector {
   static Aabb<S> moved(const Aabb<S>& box, const Vector& shift) {
     return {box.lower + shift, box.upper + shift};
   }
-  /// Moves a grain by a shift from the pose of its body.
-  static void place(Grain& grain, std::span<const Pose<S>> poses, const Vector& shift) {
+  /// What a member of the team finds, and its buffers.
+  struct Member : detail::FoundContacts<S> {
+    std::optional<Grain> image;  // the second grain of a pair across a periodic boundary
+  };
+
+  /// The image of a grain, moved by a shift from the pose of its body.
+  static const Grain& image_of(const Grain& grain, std::span<const Pose<S>> poses,
+                               const Vector& shift, std::optional<Grain>& image) {
     Pose<S> pose = poses[grain.body.index()];
     pose.position += shift;
-    if constexpr (requires { grain.placed.move_to(pose.position); })
-      grain.placed.move_to(pose.position);
+    image = grain;
+    if constexpr (requires { image->placed.move_to(pose.position); })
+      image->placed.move_to(pose.position);
     else
-      grain.placed.update(*grain.shape, pose);
+      image->placed.update(*grain.shape, pose);
+    return *image;
   }
 
   static bool reaches(const Aabb<S>& box, const Placed<HalfSpace<S>>& wall, Scalar margin) {
@@ -200,6 +218,23 @@ class ContactDetector {
     return wall.normal().dot(center) - wall.normal().cwiseAbs().dot(half) <= margin;
   }
 
+  /// The first pair whose first grain is k or a later one.
+  std::size_t first_pair(std::size_t k) const {
+    const auto before = [](const IndexPair& pair, std::size_t grain) { return pair.first < grain; };
+    return std::size_t(std::lower_bound(pairs_.begin(), pairs_.end(), k, before) - pairs_.begin());
+  }
+  /// The first grain k such that k grains and their pairs are `work` units or more.
+  std::size_t grain_at(std::size_t work) const {
+    std::size_t low = 0, high = grains_.size();
+    while (low < high) {
+      const std::size_t k = (low + high) / 2;
+      if (k + first_pair(k) < work)
+        low = k + 1;
+      else
+        high = k;
+    }
+    return low;
+  }
   /// Pairs that are in both lists keep their cache. Both lists are sorted.
   void carry_caches() {
     caches_.assign(pairs_.size(), PairCache<S>{});
@@ -207,65 +242,16 @@ class ContactDetector {
                [&](std::size_t i, std::size_t j) { caches_[i] = old_caches_[j]; });
   }
 
-  void detect_in_cylinders(std::size_t k, Scalar margin, Contacts<S>& out) {
+  /// Finds the contacts of the grains begin .. end - 1 with later grains and with walls.
+  void detect_of(std::size_t begin, std::size_t end, Scalar margin, std::span<const Pose<S>> poses,
+                 const Contacts<S>& previous, Member& found);
+  void detect_in_cylinders(std::size_t k, Scalar margin, detail::FoundContacts<S>& found) {
     const Grain& a = grains_[k];
-    for (const auto& wall : cylinders_) {
-      if (!wall.placed.reaches(boxes_[k], margin)) continue;
-      touching_ +=
-          collide_each(a.placed, wall.placed, margin, manifold_, [&] { write(a, wall, out); });
-    }
-  }
-
-  void emit(const Grain& a, const auto& b, const Contacts<S>& previous, Contacts<S>& out) {
-    ++touching_;
-    keep_few(a.body.value, b.body.value, previous);
-    write(a, b, out);
-  }
-
-  /// Adds the points of the manifold, with levers from the centres of the placed shapes.
-  void write(const Grain& a, const auto& b, Contacts<S>& out) {
-    const typename S::Matrix frame = S::contact_frame(manifold_.normal);
-    for (const ManifoldPoint<S>& point : manifold_.points) {
-      out.points.push_back({a.body.value, b.body.value, 0, point.gap, frame,
-                            point.position - a.placed.center(),
-                            point.position - b.placed.center()});
-      out.keys.push_back({a.body.value, b.body.value, point.feature});
-      out.classes.push_back(manifold_.contact_class);
-    }
-  }
-
-  /// Reduces the manifold to D points, if possible those of the step before.
-  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
-    if (kept_points_ == ContactPoints::all) return;
-    kept_.clear();
-    if (manifold_.points.size() > S::dim) {
-      const ContactKey from{a, b, FeatureKey()};
-      for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
-           key != previous.keys.end() && key->a == a && key->b == b; ++key) {
-        const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
-        kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
-      }
-    }
-    reduce(manifold_, S::dim, std::span<const KeptPoint>(kept_), reduction_);
-  }
-
-  /// Sorts by key: the id of a wall may be lower than that of a grain.
-  void sort(Contacts<S>& out) {
-    out.impulses.assign(out.size(), S::Vector::Zero());
-    if (std::is_sorted(out.keys.begin(), out.keys.end())) return;
-    order_.resize(out.size());
-    for (std::size_t c = 0; c < order_.size(); ++c) order_[c] = static_cast<std::uint32_t>(c);
-    std::sort(order_.begin(), order_.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return out.keys[i] < out.keys[j]; });
-    scratch_.clear();
-    for (const std::uint32_t c : order_) {
-      scratch_.points.push_back(out.points[c]);
-      scratch_.keys.push_back(out.keys[c]);
-      scratch_.classes.push_back(out.classes[c]);
-    }
-    std::swap(out.points, scratch_.points);
-    std::swap(out.keys, scratch_.keys);
-    std::swap(out.classes, scratch_.classes);
+    for (const auto& wall : cylinders_)
+      if (wall.placed.reaches(boxes_[k], margin))
+        found.add_each(a, wall, [&](auto&& add) {
+          return collide_each(a.placed, wall.placed, margin, found.manifold(), add);
+        });
   }
 
   std::vector<Grain> grains_;
@@ -278,14 +264,10 @@ class ContactDetector {
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
   std::vector<PairCache<S>> caches_, old_caches_;
-  Manifold<S> manifold_;
   ContactPoints kept_points_ = ContactPoints::few;
-  Reduction reduction_;
-  std::vector<KeptPoint> kept_;
-  Contacts<S> scratch_;
-  std::vector<std::uint32_t> order_;
-  std::size_t touching_ = 0;
-  Scalar widest_ = 0;  // width of the grains in any orientation [m]
+  Team team_;
+  std::vector<Member> members_;  // of the team
+  Scalar widest_ = 0;            // width of the grains in any orientation [m]
   bool stale_ = true;
 };
 
@@ -314,36 +296,47 @@ template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>& lengths,
                                                   std::span<const Pose<S>> poses,
                                                   const Contacts<S>& previous, Contacts<S>& out) {
-  out.clear();
-  touching_ = 0;
-  reduction_.resolution = static_cast<double>(lengths.resolution);
-  reduction_.shallower = reduction_.resolution / 10;
-  reduction_.near = reduction_.resolution;
-  std::size_t p = 0;
-  for (std::size_t k = 0; k < grains_.size(); ++k) {
-    const auto& a = grains_[k];
-    const Aabb<S> reach = boxes_[k].inflated(lengths.margin);
+  members_.resize(std::size_t(team_.size()));
+  for (Member& member : members_)
+    member.start(double(lengths.resolution), kept_points_ == ContactPoints::few);
+  // Parts with about as many grains and pairs. Members find nothing while the work is not shared.
+  const std::size_t work = grains_.size() + pairs_.size();
+  constexpr std::size_t least = 200;  // less is not worth a barrier
+  team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {
+    const detail::Share share(work, rank, size);
+    Member& member = members_[std::size_t(rank)];
+    detect_of(grain_at(share.begin), grain_at(share.end), lengths.margin, poses, previous, member);
+    member.sort();
+  });
+  Member::gather(members_, out);
+}
+
+template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::size_t end,
+                                                     Scalar margin, std::span<const Pose<S>> poses,
+                                                     const Contacts<S>& previous, Member& found) {
+  Manifold<S>& manifold = found.manifold();
+  std::size_t p = first_pair(begin);
+  for (std::size_t k = begin; k < end; ++k) {
+    const Grain& a = grains_[k];
+    const Aabb<S> reach = boxes_[k].inflated(margin);
     for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
       const std::size_t second = pairs_[p].second;
-      auto& b = grains_[second];
       const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
       if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
                     : reach.overlaps(boxes_[second])))
         continue;
-      if (crosses) place(b, poses, shifts_[p]);
-      if (collide(a.placed, b.placed, lengths.margin, manifold_, caches_[p]))
-        emit(a, b, previous, out);
-      if (crosses) place(b, poses, Vector::Zero());
+      const Grain& b =
+          crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
+      if (collide(a.placed, b.placed, margin, manifold, caches_[p])) found.add(a, b, previous);
     }
     for (const auto& wall : walls_) {
-      if (!reaches(boxes_[k], wall.placed, lengths.margin)) continue;
+      if (!reaches(boxes_[k], wall.placed, margin)) continue;
       PairCache<S> none;
-      if (collide(a.placed, wall.placed, lengths.margin, manifold_, none))
-        emit(a, wall, previous, out);
+      if (collide(a.placed, wall.placed, margin, manifold, none)) found.add(a, wall, previous);
     }
-    if (!cylinders_.empty()) detect_in_cylinders(k, lengths.margin, out);
+    if (!cylinders_.empty()) detect_in_cylinders(k, margin, found);
   }
-  sort(out);
 }
 
 }  // namespace moreau

@@ -21,18 +21,18 @@
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
-#include "moreau/detect/reduce.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/world/assign_laws.hpp"
+#include "moreau/world/body_access.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
-#include "moreau/world/detail/assembly.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 #include "moreau/world/detail/impulse_dynamics.hpp"
 #include "moreau/world/detail/policies.hpp"
@@ -54,13 +54,15 @@ namespace moreau {
 ///
 /// Policies that do not fit together do not compile; policies.hpp has the reasons.
 ///
+/// BodyAccess has the functions that read bodies: pose(id), velocity(id), grains(), ...
+///
 /// Functions throw std::invalid_argument, which names function, argument and value, for an id that
 /// is not of this simulation, a value that is not finite, and the cases in their comments. The
 /// simulation is then unchanged.
 template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
-class Simulation {
+class Simulation : public BodyAccess<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
  public:
@@ -68,6 +70,7 @@ class Simulation {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   using Twist = typename S::Twist;
+  using BodyAccess<ShapeT>::bodies;
 
   /// A simulation without bodies, at time 0, without gravity, for a set-valued law.
   /// @param grain_size size of the smallest grain [m], > 0; all tolerances are relative to it
@@ -196,8 +199,7 @@ class Simulation {
   /// and acts until it is set again. It does not move a body without mass, such as a wall.
   /// @throws std::invalid_argument for a body of another simulation or a force that is not finite
   void set_force(BodyId body, const VectorArgument<S>& force) {
-    assembly_.require_body(body, "Simulation::set_force");
-    require(all_finite(force), "Simulation::set_force", "force", force, "must be finite");
+    assembly_.require_body(body, "Simulation::set_force", "force", force);
     linear<S>(assembly_.bodies().force[body.index()]) = force;
   }
   /// Sets the velocity of the centre, world axes [m/s]. A body without mass, such as a wall, keeps
@@ -205,9 +207,7 @@ class Simulation {
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
   ///         not finite
   void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
-    assembly_.require_body(body, "Simulation::set_velocity");
-    require(all_finite(velocity), "Simulation::set_velocity", "velocity", velocity,
-            "must be finite");
+    assembly_.require_body(body, "Simulation::set_velocity", "velocity", velocity);
     linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
   }
   /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
@@ -215,8 +215,7 @@ class Simulation {
   /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
   ///         finite
   void set_spin(BodyId body, const AngularArgument<S>& spin) {
-    assembly_.require_body(body, "Simulation::set_spin");
-    require(all_finite(spin), "Simulation::set_spin", "spin", spin, "must be finite");
+    assembly_.require_body(body, "Simulation::set_spin", "spin", spin);
     angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
   }
   /// Sets the pose of a body, world axes [m]; its velocity does not change.
@@ -233,6 +232,13 @@ class Simulation {
   void set_gravity(const VectorArgument<S>& gravity) {
     require(all_finite(gravity), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
+  }
+  /// Sets the threads that share the work of a step; at first, the calling thread alone. Results
+  /// have the same bits for every team. Snapshots do not contain it; a copy of the simulation has the
+  /// same team, and needs another one to run at the same time.
+  void set_team(const Team& team) {
+    detector_.set_team(team);
+    if constexpr (set_valued) dynamics_.set_team(team);
   }
   /// Sets the solver from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
@@ -259,7 +265,6 @@ class Simulation {
 
   Scalar time() const { return time_; }              ///< sum of the steps [s]
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
-  const Bodies<S>& bodies() const { return assembly_.bodies(); }  ///< by BodyId::index()
   /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
   const Contacts<S>& contacts() const { return contacts_; }
   const Materials<Law>& materials() const { return materials_; }  ///< of all pairs
@@ -267,23 +272,7 @@ class Simulation {
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
-  const Vector& gravity() const { return gravity_; }                   ///< world axes [m/s^2]
-  std::size_t grain_count() const { return assembly_.grain_count(); }  ///< without walls
-  /// The k-th grain, in the order in which they were added.
-  /// @throws std::invalid_argument unless k < grain_count()
-  BodyId grain(std::size_t k) const {
-    assembly_.require_grain(k, "Simulation::grain");
-    return assembly_.grain(k);
-  }
-  /// Shape of the k-th grain, in its own frame.
-  /// @throws std::invalid_argument unless k < grain_count()
-  const ShapeT& shape_of_grain(std::size_t k) const {
-    assembly_.require_grain(k, "Simulation::shape_of_grain");
-    return assembly_.shape_of_grain(k);
-  }
-  std::span<const BodyId> walls() const { return assembly_.walls(); }  ///< half-spaces only
-  /// Whether body number `body`, which must exist, is a grain; else it is a wall.
-  bool is_grain(std::size_t body) const { return bodies().weight[body] > 0; }
+  const Vector& gravity() const { return gravity_; }  ///< world axes [m/s^2]
 
   /// Sum of the impulses that a body received from its contacts in the last step, attraction
   /// included, world axes [N s].
@@ -330,9 +319,6 @@ class Simulation {
     detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 
-  static double milliseconds(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
-  }
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
   void detect(StepReport& report) {
@@ -356,7 +342,7 @@ class Simulation {
   Vector gravity_ = Vector::Zero();
   Scalar time_ = 0;
 
-  detail::Assembly<ShapeT> assembly_;
+  using BodyAccess<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
 };
@@ -391,9 +377,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   }
   assembly_.require_finite("Simulation::step");
   time_ += step;
-  report.ms_detect = milliseconds(start, detected);
-  report.ms_solve = milliseconds(detected, Clock::now());
-  report.ms_total = report.ms_detect + report.ms_solve;
+  report.set_times(detected - start, Clock::now() - detected);
   return report;
 }
 

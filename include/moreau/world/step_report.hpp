@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
@@ -40,6 +41,13 @@ struct StepReport {
   double ms_solve = 0;                 ///< for the contact problem, assembly and correction [ms]
   double ms_total = 0;                 ///< for the whole step [ms]
 
+  /// Fills the times of the two parts of the step.
+  void set_times(std::chrono::duration<double, std::milli> detect,
+                 std::chrono::duration<double, std::milli> rest) {
+    ms_detect = detect.count();
+    ms_solve = rest.count();
+    ms_total = ms_detect + ms_solve;
+  }
   /// Fills the overlaps from the gaps of the contacts [m].
   template <class S>
   void measure_overlaps(const Contacts<S>& contacts) {

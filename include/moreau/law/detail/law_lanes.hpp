@@ -49,6 +49,7 @@ class LawLanes<Law, S> {
   void set(std::size_t lane, const Law& law) {
     const auto parameters = law.lane_parameters();
     for (std::size_t k = 0; k < parameters.size(); ++k) parameters_[k][lane] = parameters[k];
+    memory_[lane] = 0;
   }
   Vector solve(const Block& block, const Vector& b, const Vector& guess, bool polish) {
     return Law::solve_lanes(block, b, guess, parameters_, memory_, polish);

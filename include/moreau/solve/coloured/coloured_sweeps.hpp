@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/acceleration.hpp"
 #include "moreau/solve/coloured/group_kernel.hpp"
 #include "moreau/solve/coloured/schedule.hpp"
@@ -28,8 +29,8 @@ class ColouredSweeps {
 
   /// @param problem its operator carries the velocities of the impulses
   void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-             bool accelerate) {
-    kernel_.start(problem, impulses);
+             bool accelerate, const Team& team) {
+    kernel_.start(problem, impulses, team);
     acceleration_ = Acceleration<T>(accelerate);
     all_.assign(kernel_.groups(), [](std::uint32_t) { return true; });
     update_active();
@@ -57,24 +58,28 @@ class ColouredSweeps {
   }
   void unpack(std::span<Impulse> impulses) const { kernel_.unpack(impulses); }
 
-  /// An accelerated sweep over the active groups.
-  template <class Team>
+  /// An accelerated sweep over the active groups. While impulses are mixed it has no extrapolation,
+  /// and goes backward and forward in turn.
   void sweep_active(const Team& team) {
-    if (acceleration_.is_mixing()) {
-      mixed_sweep(team);
-      return;
-    }
-    team.run([&](int rank, int size, auto&& wait) {
-      kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
-      wait();
-      active_.forward(rank, size, wait, visit_active());
+    const bool mixing = acceleration_.is_mixing();
+    const bool back = mixing && mixed_sweeps_ % 2 == 0;
+    if (mixing) mix();
+    run(TimedWork::sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
+      const auto visit = [this](std::uint32_t k) { kernel_.visit_active(k, acceleration_.beta()); };
+      if (!mixing) {
+        kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
+        wait();
+      }
+      if (back)
+        active_.backward(rank, size, wait, visit);
+      else
+        active_.forward(rank, size, wait, visit);
     });
-    update_beta(active_);
+    if (!mixing) update_beta(active_);
   }
   /// An accelerated sweep over all groups; updates the active set.
-  template <class Team>
   void sweep_all(const Team& team) {
-    team.run([&](int rank, int size, auto&& wait) {
+    run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
       wait();
       all_.forward(rank, size, wait, [&](std::uint32_t k) {
@@ -86,12 +91,11 @@ class ColouredSweeps {
   }
   /// A sweep over all groups without acceleration; updates the active set.
   /// @returns its changes
-  template <class Team>
   SweepChange plain_sweep(const Team& team) {
     kernel_.velocity().settle();
     acceleration_.interrupt();
     kernel_.clear_measures();
-    team.run([&](int rank, int size, auto&& wait) {
+    run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       all_.forward(rank, size, wait,
                    [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); });
     });
@@ -109,34 +113,33 @@ class ColouredSweeps {
  private:
   using T = typename S::Scalar;
   static constexpr int sweeps_per_mix = 4;
+  /// Packs of points below which a sweep takes less time than its barriers cost.
+  static constexpr std::size_t least_points = 200;
 
-  auto visit_active() {
-    return [this](std::uint32_t k) { kernel_.visit_active(k, acceleration_.beta()); };
+  /// Runs a sweep: over the active groups, or over all.
+  void run(TimedWork kind, const Team& team, const TeamThreads::Work& sweep) {
+    const bool full = kind == TimedWork::full_sweep;
+    team.run_timed(kind, full ? kernel_.points().size() : active_points_, least_points, sweep);
   }
-  /// A sweep over the active groups, backward and forward in turn; every few sweeps the impulses
-  /// are mixed before.
-  template <class Team>
-  void mixed_sweep(const Team& team) {
+  /// Before a sweep while impulses are mixed: mixes them every few sweeps.
+  void mix() {
     if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) {
       mixing_.mix(kernel_);
       recompute_velocities();
     }
     kernel_.velocity().settle();
-    const bool back = mixed_sweeps_++ % 2 == 0;
-    team.run([&](int rank, int size, auto&& wait) {
-      if (back)
-        active_.backward(rank, size, wait, visit_active());
-      else
-        active_.forward(rank, size, wait, visit_active());
-    });
+    ++mixed_sweeps_;
   }
   void recompute_velocities() {
     kernel_.recompute_velocities();
     update_active();
   }
   void update_active() {
-    active_.assign(kernel_.groups(),
-                   [&](std::uint32_t k) { return kernel_.groups()[k].active > 0; });
+    active_points_ = 0;
+    active_.assign(kernel_.groups(), [&](std::uint32_t k) {
+      active_points_ += kernel_.groups()[k].active;
+      return kernel_.groups()[k].active > 0;
+    });
   }
   void update_beta(const Schedule& visited) {
     acceleration_.update_beta([&] { return kernel_.squared_change(visited.groups()); });
@@ -146,7 +149,8 @@ class ColouredSweeps {
   Schedule all_, active_;
   Acceleration<T> acceleration_;
   ImpulseMixing<Kernel> mixing_;
-  int mixed_sweeps_ = 0;  // since mixing started
+  int mixed_sweeps_ = 0;           // since mixing started
+  std::size_t active_points_ = 0;  // packs of them
   std::vector<typename Kernel::Values> saved_;
 };
 

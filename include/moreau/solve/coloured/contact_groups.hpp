@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "moreau/contact/lane_block.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/law/detail/law_lanes.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -88,7 +89,9 @@ class ContactGroups {
 
   /// @param problem  contacts of one pair of bodies follow one another
   /// @param impulses the warm start; pairs with an impulse come first within their colour
-  void build(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses) {
+  /// @param team     threads that share the work
+  void build(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+             const Team& team) {
     const Operator& op = problem.delassus;
     body_count_ = op.body_count();
     find_pairs(op);
@@ -96,8 +99,8 @@ class ContactGroups {
     find_light_hubs(op);
     sort(op, impulses);
     pairs.clear();
-    points.clear();
-    contact_of_.clear();
+    begin_.clear();
+    point_count_ = 0;
     for (std::size_t k = 0; k < order_.size();) {
       const std::uint64_t kind = order_[k].key & kind_mask;
       const bool alone = kind == alone_kind;
@@ -105,9 +108,13 @@ class ContactGroups {
       while (!alone && end < order_.size() && end - k < lanes &&
              (order_[end].key & kind_mask) == kind)
         ++end;
-      pack(problem, impulses, std::span(order_).subspan(k, end - k));
+      lay_out(k, end);
       k = end;
     }
+    begin_.push_back(order_.size());
+    points.resize(point_count_);
+    contact_of_.resize(point_count_ * lanes, none);
+    team.share_each(pairs.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
   }
 
   /// Writes the impulses of the groups in the order of the problem.
@@ -199,25 +206,38 @@ class ContactGroups {
     return impulses[c][0] > 0 || op.free_velocity(c)[0] < 0;
   }
 
-  void pack(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-            std::span<const Ordered> members) {
-    const Operator& op = problem.delassus;
+  /// Adds the group of the pairs order_[begin] .. order_[end - 1], without its contacts.
+  void lay_out(std::size_t begin, std::size_t end) {
     Pairs group;
-    group.first = static_cast<std::uint32_t>(points.size());
+    group.first = point_count_;
     group.count = group.active = 0;
-    group.colour = colouring_[members[0].pair];
-    group.hub = hub_of(members[0].pair);
-    const auto still = static_cast<std::uint32_t>(body_count_ + pairs.size());
+    group.colour = colouring_[order_[begin].pair];
+    group.hub = hub_of(order_[begin].pair);
+    for (std::size_t k = begin; k < end; ++k)
+      group.count = std::max(group.count, points_of(order_[k].pair));
+    point_count_ += group.count;
+    begin_.push_back(begin);
+    pairs.push_back(group);
+  }
+  std::uint32_t points_of(std::uint32_t pair) const { return first_[pair + 1] - first_[pair]; }
+
+  /// Fills a group with its bodies and contacts.
+  void pack(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+            std::size_t number) {
+    const Operator& op = problem.delassus;
+    Pairs& group = pairs[number];
+    const auto members =
+        std::span(order_).subspan(begin_[number], begin_[number + 1] - begin_[number]);
+    const auto still = static_cast<std::uint32_t>(body_count_ + number);
     group.a.fill(group.hub == Hub::a ? bodies_[members[0].pair][0] : still);
     group.b.fill(group.hub == Hub::b ? bodies_[members[0].pair][1] : still);
     std::uint32_t together = 0;  // points of the group
-    for (const Ordered& member : members) {
-      const std::uint32_t count = first_[member.pair + 1] - first_[member.pair];
-      group.count = std::max(group.count, count);
-      together += count;
+    for (const Ordered& member : members) together += points_of(member.pair);
+    if (together < group.count * lanes) {
+      std::fill_n(points.begin() + group.first, group.count, Points{});
+      std::fill_n(contact_of_.begin() + std::ptrdiff_t(group.first * lanes), group.count * lanes,
+                  none);
     }
-    points.resize(points.size() + group.count);
-    contact_of_.resize(points.size() * lanes, none);
     for (std::size_t lane = 0; lane < members.size(); ++lane) {
       const std::uint32_t k = members[lane].pair;
       if (moves_[bodies_[k][0]]) group.a[lane] = bodies_[k][0];
@@ -233,7 +253,6 @@ class ContactGroups {
           set(points[p++], lane, op, block, problem.law(c), impulses[c], c);
         }
     }
-    pairs.push_back(group);
   }
 
   /// Replaces W by W' of the head of this file.
@@ -264,6 +283,9 @@ class ContactGroups {
   }
 
   std::size_t body_count_ = 0;
+  std::uint32_t point_count_ = 0;  // PointPacks
+  std::vector<std::size_t>
+      begin_;  // of the pairs of each group in order_; at the end, their number
   std::vector<std::array<std::uint32_t, 2>> bodies_;
   std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
   std::vector<unsigned char> moves_, light_;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -33,8 +34,10 @@ class GroupKernel {
   using Points = typename Groups::Points;
 
   /// @param problem its operator carries the velocities of the impulses
-  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses) {
-    groups_.build(problem, impulses);
+  /// @param team    threads that share the work
+  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+             const Team& team) {
+    groups_.build(problem, impulses, team);
     changes_.assign(groups_.pairs.size(), Values{});
     load_velocities(problem.delassus);
     for (Pairs& group : groups_.pairs) update_active(group);

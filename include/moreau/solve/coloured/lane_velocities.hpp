@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
-#include "moreau/solve/team.hpp"
 
 namespace moreau::detail {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
-#include "moreau/solve/team.hpp"
 
 namespace moreau::detail {
 

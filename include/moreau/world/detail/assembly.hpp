@@ -2,6 +2,7 @@
 // The shapes and bodies of a simulation, and which body is a grain, a wall or a cylinder.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <deque>
@@ -19,7 +20,17 @@
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 
-namespace moreau::detail {
+namespace moreau {
+
+/// A cylinder wall of a simulation: its body, and its shape in the frame of the body.
+template <class S>
+struct CylinderBody {
+  BodyId body;  ///< its pose places the shape
+  /// In the frame of the body.
+  CylinderWall<S> shape = SerializationAccess::blank<CylinderWall<S>>();
+};
+
+namespace detail {
 
 /// Shapes and bodies of a Simulation, numbered in the order in which they are added. Its functions
 /// throw std::invalid_argument in the name of the public function that calls them, which they are
@@ -49,6 +60,7 @@ class Assembly {
   void set_grain(BodyId body, ShapeId shape, const MassProperties<S>& mass) {
     bodies_.set_mass(body.index(), mass.mass, mass.inertia);
     grains_.push_back({body, shape});
+    grain_ids_.push_back(body);
   }
   /// Makes a body a half-space, where its pose is.
   void set_wall(BodyId body) { walls_.push_back(body); }
@@ -79,10 +91,21 @@ class Assembly {
   Bodies<S>& bodies() { return bodies_; }
   const Bodies<S>& bodies() const { return bodies_; }
   std::span<const BodyId> walls() const { return walls_; }
+  std::span<const BodyId> grains() const { return grain_ids_; }
+  std::span<const CylinderBody<S>> cylinders() const { return cylinders_; }
   std::size_t grain_count() const { return grains_.size(); }
   BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< not checked
   /// Shape of the k-th grain; k is not checked.
   const ShapeT& shape_of_grain(std::size_t k) const { return shape(grains_[k].shape); }
+
+  /// The number k of a grain, such that grain(k) == body.
+  /// @throws std::invalid_argument for a body that is not a grain
+  std::size_t number_of_grain(BodyId body, const char* function) const {
+    const auto found = std::lower_bound(grain_ids_.begin(), grain_ids_.end(), body);
+    require(found != grain_ids_.end() && *found == body, function, "grain", body,
+            "must be the id of a grain");
+    return static_cast<std::size_t>(found - grain_ids_.begin());
+  }
 
   static void require_pose(const Pose<S>& pose, const char* function) {
     require(all_finite(pose.position), function, "pose.position", pose.position, "must be finite");
@@ -91,6 +114,12 @@ class Assembly {
   }
   void require_body(BodyId body, const char* function) const {
     require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
+  }
+  /// A body of which a vector is set: the id of a body and a finite vector.
+  void require_body(BodyId body, const char* function, const char* argument,
+                    const auto& vector) const {
+    require_body(body, function);
+    require(all_finite(vector), function, argument, vector, "must be finite");
   }
   void require_wall(BodyId body, const char* function) const {
     bool found = false;
@@ -118,7 +147,7 @@ class Assembly {
     for (const Grain& grain : grains_)
       valid = valid && exists(grain.body) && grain.shape.index() < shapes_.size();
     for (const BodyId wall : walls_) valid = valid && exists(wall);
-    for (const Cylinder& cylinder : cylinders_) valid = valid && exists(cylinder.body);
+    for (const CylinderBody<S>& cylinder : cylinders_) valid = valid && exists(cylinder.body);
     return valid;
   }
   /// Adds all grains, walls and cylinders to a detector.
@@ -126,7 +155,8 @@ class Assembly {
   void add_to(Detector& detector) const {
     for (const Grain& grain : grains_) detector.add_grain(grain.body, shape(grain.shape));
     for (const BodyId wall : walls_) detector.add_wall(wall, HalfSpace<S>(S::Vector::UnitX()));
-    for (const Cylinder& cylinder : cylinders_) detector.add_wall(cylinder.body, cylinder.shape);
+    for (const CylinderBody<S>& cylinder : cylinders_)
+      detector.add_wall(cylinder.body, cylinder.shape);
   }
 
  private:
@@ -134,19 +164,22 @@ class Assembly {
     BodyId body;
     ShapeId shape;
   };
-  struct Cylinder {
-    BodyId body;
-    CylinderWall<S> shape = SerializationAccess::blank<CylinderWall<S>>();
-  };
 
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(shapes_, grains_, walls_, cylinders_, bodies_); }
+  void deserialized() {
+    grain_ids_.clear();
+    for (const Grain& grain : grains_) grain_ids_.push_back(grain.body);
+  }
 
   std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
   std::vector<Grain> grains_;
+  std::vector<BodyId> grain_ids_;  // the body of each element of grains_, ascending
   std::vector<BodyId> walls_;
-  std::vector<Cylinder> cylinders_;
+  std::vector<CylinderBody<S>> cylinders_;
   Bodies<S> bodies_;
 };
 
-}  // namespace moreau::detail
+}  // namespace detail
+
+}  // namespace moreau

@@ -27,6 +27,7 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
@@ -67,7 +68,9 @@ class ImpulseDynamics {
 
   ImpulseDynamics(const Solver& solver, const OverlapCorrectionOptions& correction,
                   const Integrator& integrator)
-      : solver_(solver), correction_(checked(correction)), integrator_(integrator) {}
+      : solver_(solver), correction_(checked(correction)), integrator_(integrator) {
+    set_team(Team());
+  }
 
   /// Overlap correction unless the user asks for another: none of contacts with springs, whose
   /// overlap is the compression of the springs.
@@ -77,7 +80,15 @@ class ImpulseDynamics {
     return options;
   }
 
-  void set_solver(const Solver& solver) { solver_ = solver; }
+  void set_solver(const Solver& solver) {
+    solver_ = solver;
+    set_team(team_);
+  }
+  /// Sets the threads that share the work.
+  void set_team(const Team& team) {
+    team_ = team;
+    if constexpr (requires { solver_.set_team(team); }) solver_.set_team(team);
+  }
   void set_correction(const OverlapCorrectionOptions& options) {
     correction_ = OverlapCorrection<S>(checked(options));
   }
@@ -90,7 +101,11 @@ class ImpulseDynamics {
     free_.resize(bodies.size());
     after_.resize(bodies.size());
     roots_.resize(bodies.size());
-    integrator_.predict_configuration(bodies, std::span(momentum_), step);
+    const std::span momentum(momentum_);
+    if constexpr (requires { integrator_.predict_configuration(bodies, momentum, step, team_); })
+      integrator_.predict_configuration(bodies, momentum, step, team_);
+    else
+      integrator_.predict_configuration(bodies, momentum, step);
   }
 
   /// Stages 2 to 11.
@@ -119,16 +134,23 @@ class ImpulseDynamics {
   void assemble(const Context& context) {
     if constexpr (compliant)
       problem_.delassus.assemble(context.contacts.points, roots_, free_,
-                                 springs_.compliances(context));
+                                 springs_.compliances(context), team_);
     else
-      problem_.delassus.assemble(context.contacts.points, roots_, free_);
+      problem_.delassus.assemble(context.contacts.points, roots_, free_, RigidContacts{}, team_);
   }
 
   void free_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i) roots_[i] = bodies.mobility_root(i);
-    integrator_.free_velocity(bodies, context.gravity, std::span(momentum_), std::span(free_),
-                              context.step);
+    const std::span momentum(momentum_);
+    const std::span free(free_);
+    if constexpr (requires {
+                    integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step,
+                                              team_);
+                  })
+      integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step, team_);
+    else
+      integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step);
     if constexpr (AttractiveLaw<Law, S>) attract(context.materials, context);
   }
   /// Applies the attraction to the bodies as an external force. It depends on the gaps as detected,
@@ -211,21 +233,26 @@ class ImpulseDynamics {
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
-    Scalar fastest = 0;
     const auto impulses = unknowns_.impulses(context.contacts);
     before_.resize(context.contacts.size());
-    for (std::size_t c = 0; c < context.contacts.size(); ++c) {
-      const Contact<S>& contact = context.contacts.points[c];
-      before_[c] = BodyDelassus<S>::relative_velocity(contact, bodies.velocity[contact.a],
-                                                      bodies.velocity[contact.b]);
-      fastest = std::max(fastest, -before_[c][0]);
-      const Scalar offset = context.materials.laws()[contact.law].velocity_offset(
-          contact.gap, before_[c][0], context.step);
-      if (!std::isfinite(offset)) impulses[c].setZero();
-      problem_.delassus.offset_normal(c, offset);
-    }
-    return fastest;
+    return sum_of<Largest>(team_, context.contacts.size(),
+                           [&](Largest& fastest, std::size_t c) {
+                             const Contact<S>& contact = context.contacts.points[c];
+                             before_[c] = BodyDelassus<S>::relative_velocity(
+                                 contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
+                             fastest.add({-before_[c][0]});
+                             const Scalar offset =
+                                 context.materials.laws()[contact.law].velocity_offset(
+                                     contact.gap, before_[c][0], context.step);
+                             if (!std::isfinite(offset)) impulses[c].setZero();
+                             problem_.delassus.offset_normal(c, offset);
+                           })
+        .value;
   }
+  struct Largest {
+    Scalar value = 0;
+    void add(const Largest& other) { value = std::max(value, other.value); }
+  };
 
   void solve(const Context& context, StepReport& report) {
     report.solve = solver_.solve(problem_, unknowns_.impulses(context.contacts), workspace_);
@@ -248,34 +275,50 @@ class ImpulseDynamics {
     }
   }
 
+  /// Energies that the impulses took from the bodies in a step [J].
+  struct Losses {
+    double friction = 0, rolling = 0, dissipation = 0;
+    void add(const Losses& other) {
+      friction += other.friction;
+      rolling += other.rolling;
+      dissipation += other.dissipation;
+    }
+  };
   /// Energy that the impulses took from the bodies, -sum r . (u before + u after)/2, and the same
   /// for the couples.
   void measure_dissipation(const Context& context, StepReport& report) const {
+    const Losses losses =
+        sum_of<Losses>(team_, context.contacts.size(),
+                       [&](Losses& sum, std::size_t c) { add_losses(context, c, sum); });
+    report.friction += losses.friction;
+    report.rolling += losses.rolling;
+    report.dissipation += losses.dissipation;
+  }
+  void add_losses(const Context& context, std::size_t c, Losses& sum) const {
     constexpr int tangents = S::dim - 1;
     const Bodies<S>& bodies = context.bodies;
     const Contacts<S>& contacts = context.contacts;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const Contact<S>& contact = contacts.points[c];
-      const std::uint32_t a = contact.a, b = contact.b;
-      const Vector& impulse = contacts.impulses[c];
-      if (impulse.isZero(0)) continue;
-      Vector mean = BodyDelassus<S>::relative_velocity(contact, after_[a], after_[b]);
-      for (int k = 0; k < S::dim; ++k) mean[k] = (before_[c][k] + mean[k]) / 2;
-      const double friction =
-          -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
-      report.friction += friction;
-      report.dissipation += friction - double(impulse[0] * mean[0]);
-      if (contacts.couples.empty()) continue;
-      Twist turn;
-      for (int k = 0; k < S::dofs; ++k)
-        turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after_[b][k] - after_[a][k]) / 2;
-      const double rolling =
-          -double((S::angular_frame(contact.frame) * contacts.couples[c]).dot(angular<S>(turn)));
-      report.rolling += rolling;
-      report.dissipation += rolling;
-    }
+    const Contact<S>& contact = contacts.points[c];
+    const std::uint32_t a = contact.a, b = contact.b;
+    const Vector& impulse = contacts.impulses[c];
+    if (impulse.isZero(0)) return;
+    Vector mean = BodyDelassus<S>::relative_velocity(contact, after_[a], after_[b]);
+    for (int k = 0; k < S::dim; ++k) mean[k] = (before_[c][k] + mean[k]) / 2;
+    const double friction =
+        -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
+    sum.friction += friction;
+    sum.dissipation += friction - double(impulse[0] * mean[0]);
+    if (contacts.couples.empty()) return;
+    Twist turn;
+    for (int k = 0; k < S::dofs; ++k)
+      turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after_[b][k] - after_[a][k]) / 2;
+    const double rolling =
+        -double((S::angular_frame(contact.frame) * contacts.couples[c]).dot(angular<S>(turn)));
+    sum.rolling += rolling;
+    sum.dissipation += rolling;
   }
 
+  Team team_;
   Solver solver_;
   OverlapCorrection<S> correction_;
   Integrator integrator_;
@@ -306,7 +349,13 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context
   solve(context, report);
   velocities_after();
   measure_dissipation(context, report);
-  integrator_.advance_configuration(context.bodies, std::span<const Twist>(after_), context.step);
+  const std::span<const Twist> after(after_);
+  if constexpr (requires {
+                  integrator_.advance_configuration(context.bodies, after, context.step, team_);
+                })
+    integrator_.advance_configuration(context.bodies, after, context.step, team_);
+  else
+    integrator_.advance_configuration(context.bodies, after, context.step);
 }
 
 }  // namespace moreau::detail

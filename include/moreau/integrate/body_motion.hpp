@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The motion of one body during a step. Gyroscopic terms are implicit, so that a body without
-// torques conserves its angular momentum to rounding.
+// The motion of one body during a step: what integrators are made of, also those of a user. A user
+// of advance_pose(), velocity_change() and spin_after() gets implicit gyroscopic terms (a body
+// without torques conserves its angular momentum to rounding), and walls that move only along the
+// axes along which they have an inverse mass.
 #pragma once
 
 #include <Eigen/LU>
@@ -12,18 +14,21 @@
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 
-namespace moreau::detail {
+namespace moreau {
 
 /// Moves a body at constant velocity: x becomes x + h v, and q becomes exp(h w) q.
+/// @param velocity twist (v, w), world axes [m/s, rad/s]
+/// @param h        duration [s]
 template <class S>
-void move(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
+void advance_pose(Pose<S>& pose, const typename S::Twist& velocity, typename S::Scalar h) {
   pose.position = along(pose.position, h, linear<S>(velocity));
   pose.rotation = S::normalized(S::exp(h * angular<S>(velocity)) * pose.rotation);
 }
 
 /// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method. The derivative
-/// of I(q) w with respect to a rotation is S::gyroscopic_jacobian.
-/// @param momentum L, world axes [kg m^2/s]
+/// of I(q) w with respect to a rotation is S::gyroscopic_jacobian. The body i must rotate
+/// (Bodies::rotates()); q is its rotation in bodies.pose.
+/// @param momentum L about the centre of mass, world axes [kg m^2/s]
 /// @param start    initial value of the iteration [rad/s]
 /// @param h        duration of the rotation [s]
 template <class S>
@@ -47,11 +52,16 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
   return w;
 }
 
-/// The change of velocity h M^-1 F [m/s] by the forces on the centre of mass of body i: gravity,
-/// the external force and the force `load` [N].
+/// The change of velocity h M^-1 F of body i, world axes [m/s], by the forces on its centre of mass:
+/// gravity, the external force Bodies::force and the force `load`. It is zero along axes without
+/// inverse mass.
+/// @param load    a further force, world axes [N]; zero for integrators of impulses
+/// @param gravity acceleration, world axes [m/s^2]
+/// @param h       duration [s]
 template <class S>
-typename S::Vector kick(const Bodies<S>& bodies, std::size_t i, const typename S::Vector& load,
-                        const typename S::Vector& gravity, typename S::Scalar h) {
+typename S::Vector velocity_change(const Bodies<S>& bodies, std::size_t i,
+                                   const typename S::Vector& load,
+                                   const typename S::Vector& gravity, typename S::Scalar h) {
   const typename S::Matrix r = bodies.axes(i);
   typename S::Vector change = S::Vector::Zero();
   for (int axis = 0; axis < S::dim; ++axis) {
@@ -64,4 +74,4 @@ typename S::Vector kick(const Bodies<S>& bodies, std::size_t i, const typename S
   return change;
 }
 
-}  // namespace moreau::detail
+}  // namespace moreau

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Read access to the bodies of a simulation: poses, velocities, shapes, and which body is a grain,
+// a wall or a cylinder.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/world/detail/assembly.hpp"
+
+namespace moreau {
+
+/// The functions of Simulation that read bodies; Simulation inherits them. They throw
+/// std::invalid_argument, which names function, argument and value, for an id that is not of this
+/// simulation.
+///
+///     for (const moreau::BodyId grain : simulation.grains())
+///       lowest = std::min(lowest, simulation.pose(grain).position[2]);
+///
+/// @tparam ShapeT shape of the grains
+template <ConvexShape ShapeT>
+class BodyAccess {
+ public:
+  using S = SpaceOf<ShapeT>;
+
+  /// Position of the centre of mass [m], and rotation from body to world axes. The origin of a wall
+  /// is a point of its plane, the origin of a cylinder is a point of its axis. Poses of periodic
+  /// axes are not wrapped; cell().wrap() gives the position in the cell. The reference is valid
+  /// until a body is added.
+  /// @throws std::invalid_argument for a body that is not of this simulation
+  const Pose<S>& pose(BodyId body) const {
+    assembly_.require_body(body, "Simulation::pose");
+    return bodies().pose[body.index()];
+  }
+  /// Velocity of the centre of mass, world axes [m/s].
+  /// @throws std::invalid_argument for a body that is not of this simulation
+  typename S::Vector velocity(BodyId body) const {
+    assembly_.require_body(body, "Simulation::velocity");
+    return linear<S>(bodies().velocity[body.index()]);
+  }
+  /// Angular velocity, world axes [rad/s]: a vector in space; in the plane a vector with one
+  /// component, > 0 from x to y.
+  /// @throws std::invalid_argument for a body that is not of this simulation
+  typename S::Angular spin(BodyId body) const {
+    assembly_.require_body(body, "Simulation::spin");
+    return angular<S>(bodies().velocity[body.index()]);
+  }
+  /// Shape of a grain, in its own frame. Takes a time proportional to the logarithm of the number
+  /// of grains.
+  /// @throws std::invalid_argument for a body that is not a grain of this simulation
+  const ShapeT& shape(BodyId grain) const {
+    return assembly_.shape_of_grain(assembly_.number_of_grain(grain, "Simulation::shape"));
+  }
+
+  /// The ids of all grains, in the order in which they were added. The span is valid until a grain
+  /// is added.
+  std::span<const BodyId> grains() const { return assembly_.grains(); }
+  /// The ids of all walls that are half-spaces, in the order in which they were added. The span is
+  /// valid until a wall is added.
+  std::span<const BodyId> walls() const { return assembly_.walls(); }
+  /// All cylinder walls with their shapes, in the order in which they were added. The span is valid
+  /// until a cylinder is added.
+  std::span<const CylinderBody<S>> cylinders() const { return assembly_.cylinders(); }
+
+  std::size_t grain_count() const { return assembly_.grain_count(); }  ///< without walls
+  /// The k-th grain, in the order in which they were added.
+  /// @throws std::invalid_argument unless k < grain_count()
+  BodyId grain(std::size_t k) const {
+    assembly_.require_grain(k, "Simulation::grain");
+    return assembly_.grain(k);
+  }
+  /// Shape of the k-th grain, in its own frame.
+  /// @throws std::invalid_argument unless k < grain_count()
+  const ShapeT& shape_of_grain(std::size_t k) const {
+    assembly_.require_grain(k, "Simulation::shape_of_grain");
+    return assembly_.shape_of_grain(k);
+  }
+  /// Whether body number `body`, which must exist, is a grain; else it is a wall.
+  bool is_grain(std::size_t body) const { return bodies().weight[body] > 0; }
+
+  /// All quantities of all bodies, by BodyId::index(); indices are not checked.
+  const Bodies<S>& bodies() const { return assembly_.bodies(); }
+
+ protected:
+  BodyAccess() = default;
+
+  detail::Assembly<ShapeT> assembly_;  ///< bodies, shapes and walls
+};
+
+}  // namespace moreau
