@@ -8,6 +8,9 @@ list(SORT headers ORDER DESCENDING)
 if(NOT TARGET moreau_hdf5)
   list(REMOVE_ITEM headers moreau/io/fclib.hpp)
 endif()
+if(NOT TARGET moreau_picture)
+  list(FILTER headers EXCLUDE REGEX "moreau/io/(render_packing|write_picture|detail/rendering/.*)\\.hpp")
+endif()
 set(units "")
 set(together "int main() {}\n")
 foreach(header IN LISTS headers)
@@ -21,7 +24,8 @@ file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
 # Nothing of it runs: the code that is fastest to compile will do. Most of it is Eigen's, which a
 # header that leans on Eigen is spared; what it would be warned about, "together" is.
 add_library(moreau_headers OBJECT ${units})
-target_link_libraries(moreau_headers PUBLIC moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>)
+target_link_libraries(moreau_headers PUBLIC moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
+                                            $<TARGET_NAME_IF_EXISTS:moreau_picture>)
 target_compile_options(moreau_headers PUBLIC -O0 -g0 PRIVATE -w)
 target_precompile_headers(moreau_headers PRIVATE <Eigen/Geometry>)
 foreach(header IN LISTS headers)
@@ -37,7 +41,8 @@ target_link_libraries(moreau_headers_link PRIVATE moreau_headers)
 # All headers in one unit: what a second compiler is shown of those that no test includes.
 add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cpp)
 target_link_libraries(moreau_headers_together PRIVATE moreau_development
-                                              $<TARGET_NAME_IF_EXISTS:moreau_hdf5>)
+                                              $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
+                                              $<TARGET_NAME_IF_EXISTS:moreau_picture>)
 target_compile_options(moreau_headers_together PRIVATE -O0 -g0)
 
 add_test(NAME source.headers COMMAND ${PROJECT_SOURCE_DIR}/.ci/check_headers)

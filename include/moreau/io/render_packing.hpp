@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a packing and its force chains: in space a rendered scene, in the plane a drawing.
-// World axes: x to the right, the last axis up. The moving wall is at the upper end of x.
+// Pictures of grains in a box and of their force chains: in space a rendered scene, in the plane a
+// drawing. World axes: x to the right, the last axis up. The moving wall is at the upper end of x.
+// write_picture.hpp draws a whole simulation in one call.
+//
+// It needs libpng (CMake: moreau::picture; else -lpng). With the macro MOREAU_WITHOUT_PNG, which
+// must then be defined in all files of a program, it needs nothing and writes no pictures.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +17,13 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/detect/shape_kinds.hpp"
+#include "moreau/io/detail/rendering/drawing.hpp"
+#include "moreau/io/detail/rendering/lighting.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/shape/one_of.hpp"
 
-#include "drawing.hpp"
-#include "lighting.hpp"
-
-namespace rendering {
+namespace moreau::rendering {
 
 /// Colours of stone, from small (share 0) to large grains (1). They vary a little with the number
 /// of the grain, so that neighbours can be distinguished.
@@ -46,17 +51,18 @@ inline Color speed_color(double share) {
 
 /// Size and point of view of a picture.
 struct Picture {
-  int width = 1200, height = 1000;  ///< [pixels]
+  int width = 1200;       ///< [pixels]
+  int height = 1000;      ///< [pixels]
   double azimuth = 32;    ///< of the eye; at 0 it looks along +y, at 90 along -x [degrees]
   double elevation = 22;  ///< of the eye above the middle of the box [degrees]
-  bool walls = true;      ///< whether the box and its moving wall are drawn
+  bool walls = true;      ///< whether the box or the walls are drawn
 };
 
 namespace detail {
 
 constexpr int oversampling = 2;
 
-inline Vector3f corner_of(const moreau::Aabb<moreau::Space<3>>& box, int bits) {
+inline Vector3f corner_of(const Aabb<Space<3>>& box, int bits) {
   Vector3f x;
   for (int k = 0; k < 3; ++k)
     x[k] = static_cast<float>((bits >> k & 1) != 0 ? box.upper[k] : box.lower[k]);
@@ -64,7 +70,7 @@ inline Vector3f corner_of(const moreau::Aabb<moreau::Space<3>>& box, int bits) {
 }
 
 /// A perspective view that shows the whole box.
-inline View view_of(const moreau::Aabb<moreau::Space<3>>& box, const Picture& picture) {
+inline View view_of(const Aabb<Space<3>>& box, const Picture& picture) {
   const float degree = std::numbers::pi_v<float> / 180;
   const float a = degree * static_cast<float>(picture.azimuth);
   const float e = degree * static_cast<float>(picture.elevation);
@@ -107,8 +113,7 @@ inline void draw_line(const Vector3f& from, const Vector3f& to, float width,
 }
 
 /// Draws the edges of the box and tints the moving wall.
-inline void draw_box(const moreau::Aabb<moreau::Space<3>>& box, const DepthBuffer& seen,
-                     Image& image) {
+inline void draw_box(const Aabb<Space<3>>& box, const DepthBuffer& seen, Image& image) {
   const Color wall = screen_color(0x2F6FB0), frame = screen_color(0x4A4F57);
   const auto plate = [&](int a, int b, int c) {
     tint({seen.view()(corner_of(box, a)), seen.view()(corner_of(box, b)),
@@ -133,12 +138,12 @@ Vector2d section(const Vector& x) {
 }
 
 template <class S>
-Drawing drawing_of(const moreau::Aabb<S>& box, const Picture& picture) {
+Drawing drawing_of(const Aabb<S>& box, const Picture& picture) {
   return Drawing(section(box.lower), section(box.upper), picture.width, picture.height);
 }
 
 template <class S>
-void draw_walls(const moreau::Aabb<S>& box, Drawing& drawing) {
+void draw_walls(const Aabb<S>& box, Drawing& drawing) {
   const Vector2d low = section(box.lower), high = section(box.upper);
   const std::array<Vector2d, 4> corners = {low, Vector2d(high.x(), low.y()), high,
                                            Vector2d(low.x(), high.y())};
@@ -149,8 +154,7 @@ void draw_walls(const moreau::Aabb<S>& box, Drawing& drawing) {
 /// Draws each contact as a line whose width is proportional to its normal force: `width` pixels at
 /// six times the mean force, at most twice as wide.
 template <class S>
-void draw_chains(std::span<const moreau::ContactSegment<S>> chains, double width,
-                 Drawing& drawing) {
+void draw_chains(std::span<const ContactSegment<S>> chains, double width, Drawing& drawing) {
   double sum = 0;
   for (const auto& chain : chains) sum += double(chain.normal_force);
   if (!(sum > 0)) return;
@@ -160,9 +164,9 @@ void draw_chains(std::span<const moreau::ContactSegment<S>> chains, double width
                  std::min(2 * width, unit * double(chain.normal_force)));
 }
 
-template <moreau::Polytope Shape>
-void draw_grain(const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose,
-                const Color& color, Drawing& drawing) {
+template <Polytope Shape>
+void draw_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose, const Color& color,
+                Drawing& drawing) {
   std::vector<Vector2d> corners;
   for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
     corners.push_back(pose(shape.vertices().row(i).transpose()).template cast<double>());
@@ -170,19 +174,30 @@ void draw_grain(const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& 
   drawing.outline(corners, 0.25f * color, 1);
 }
 
-/// Draws a disk with a radius, which shows its rotation.
-template <class T>
-void draw_grain(const moreau::Disk<T>& disk, const moreau::Pose<moreau::Space<2, T>>& pose,
-                const Color& color, Drawing& drawing) {
+/// Draws a round shape by its support function; a disk also has a radius, which shows its rotation.
+template <ConvexShape Shape>
+requires(!Polytope<Shape>) void draw_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose,
+                                           const Color& color, Drawing& drawing) {
+  using Vector = typename SpaceOf<Shape>::Vector;
   std::vector<Vector2d> rim;
-  const Vector2d center = pose.position.template cast<double>();
-  for (int k = 0; k < 40; ++k) {
-    const double angle = double(pose.rotation.angle()) + 2 * std::numbers::pi * k / 40;
-    rim.push_back(center + double(disk.radius()) * Vector2d(std::cos(angle), std::sin(angle)));
+  constexpr int count = 96;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count;
+    const Vector direction =
+        Vector2d(std::cos(angle), std::sin(angle)).cast<typename Vector::Scalar>();
+    rim.push_back(pose(shape.support(direction)).template cast<double>());
   }
   drawing.fill(rim, color);
   drawing.outline(rim, 0.25f * color, 1);
-  drawing.line(center, rim[0], 0.45f * color, 1);
+  if constexpr (is_sphere<Shape>)
+    drawing.line(pose.position.template cast<double>(), rim[0], 0.45f * color, 1);
+}
+
+/// Draws the shape that a OneOf holds.
+template <class... Shapes>
+void draw_grain(const OneOf<Shapes...>& shape, const Pose<SpaceOf<OneOf<Shapes...>>>& pose,
+                const Color& color, Drawing& drawing) {
+  shape.visit([&](const auto& held) { draw_grain(held, pose, color, drawing); });
 }
 
 }  // namespace detail
@@ -191,11 +206,10 @@ void draw_grain(const moreau::Disk<T>& disk, const moreau::Pose<moreau::Space<2,
 /// @param box      the container; its wall at the upper end of x is tinted
 /// @param shape_of,pose_of,color_of k -> shape, pose, Color of grain k
 template <class T, class ShapeOf, class PoseOf, class ColorOf>
-Image render_packing(const moreau::Aabb<moreau::Space<3, T>>& box, std::size_t grain_count,
-                     const ShapeOf& shape_of, const PoseOf& pose_of, const ColorOf& color_of,
-                     const Picture& picture = {}) {
-  const moreau::Aabb<moreau::Space<3>> container{box.lower.template cast<double>(),
-                                                 box.upper.template cast<double>()};
+Image render_packing(const Aabb<Space<3, T>>& box, std::size_t grain_count, const ShapeOf& shape_of,
+                     const PoseOf& pose_of, const ColorOf& color_of, const Picture& picture = {}) {
+  const Aabb<Space<3>> container{box.lower.template cast<double>(),
+                                 box.upper.template cast<double>()};
   const Vector3f low = container.lower.cast<float>(), high = container.upper.cast<float>();
   const float size = (high - low).norm();
   Scene scene;
@@ -217,10 +231,9 @@ Image render_packing(const moreau::Aabb<moreau::Space<3, T>>& box, std::size_t g
 /// A drawing of grains in the plane, with the force chains over them.
 /// @param chains may be empty
 template <class T, class ShapeOf, class PoseOf, class ColorOf>
-Image render_packing(const moreau::Aabb<moreau::Space<2, T>>& box, std::size_t grain_count,
-                     const ShapeOf& shape_of, const PoseOf& pose_of, const ColorOf& color_of,
-                     const Picture& picture = {},
-                     std::span<const moreau::ContactSegment<moreau::Space<2, T>>> chains = {}) {
+Image render_packing(const Aabb<Space<2, T>>& box, std::size_t grain_count, const ShapeOf& shape_of,
+                     const PoseOf& pose_of, const ColorOf& color_of, const Picture& picture = {},
+                     std::span<const ContactSegment<Space<2, T>>> chains = {}) {
   Drawing drawing = detail::drawing_of(box, picture);
   for (std::size_t k = 0; k < grain_count; ++k)
     detail::draw_grain(shape_of(k), pose_of(k), color_of(k), drawing);
@@ -233,10 +246,9 @@ Image render_packing(const moreau::Aabb<moreau::Space<2, T>>& box, std::size_t g
 /// @param section in space, only contacts in this share of the depth of the box about its middle
 ///                are shown, 0..1
 template <class S>
-Image render_force_chains(const moreau::Aabb<S>& box,
-                          std::span<const moreau::ContactSegment<S>> chains, double section = 0.25,
-                          const Picture& picture = {}) {
-  std::vector<moreau::ContactSegment<S>> shown;
+Image render_force_chains(const Aabb<S>& box, std::span<const ContactSegment<S>> chains,
+                          double section = 0.25, const Picture& picture = {}) {
+  std::vector<ContactSegment<S>> shown;
   for (const auto& chain : chains) {
     bool inside = true;
     for (int k = 1; k + 1 < S::dim; ++k) {
@@ -251,4 +263,4 @@ Image render_force_chains(const moreau::Aabb<S>& box,
   return drawing.finished();
 }
 
-}  // namespace rendering
+}  // namespace moreau::rendering

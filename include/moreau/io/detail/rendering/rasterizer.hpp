@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace rendering {
+namespace moreau::rendering {
 
 using Eigen::Vector3f;
 
@@ -165,4 +165,4 @@ class DepthBuffer {
   std::vector<std::uint32_t> triangle_;
 };
 
-}  // namespace rendering
+}  // namespace moreau::rendering

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <vector>
 
-#include "scene.hpp"
+#include "moreau/io/detail/rendering/scene.hpp"
 
-namespace rendering {
+namespace moreau::rendering {
 
 class Lighting {
  public:
@@ -118,4 +118,4 @@ inline void draw_edges(const Scene& scene, const DepthBuffer& seen, int width, I
     }
 }
 
-}  // namespace rendering
+}  // namespace moreau::rendering

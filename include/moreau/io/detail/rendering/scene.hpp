@@ -11,21 +11,19 @@
 #include <vector>
 
 #include "moreau/core/pose.hpp"
+#include "moreau/io/detail/rendering/image.hpp"
+#include "moreau/io/detail/rendering/rasterizer.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/one_of.hpp"
 
-#include "image.hpp"
-#include "rasterizer.hpp"
-
-namespace rendering {
+namespace moreau::rendering {
 
 /// The objects of a picture.
 class Scene {
  public:
   /// Adds a polyhedron of any scalar type.
-  template <moreau::Polytope Shape>
-  void add_grain(const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose,
-                 const Color& color) {
+  template <Polytope Shape>
+  void add_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose, const Color& color) {
     std::vector<Vector3f> corner;
     for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
       corner.push_back(pose(shape.vertices().row(i).transpose()).template cast<float>());
@@ -43,9 +41,9 @@ class Scene {
   }
 
   /// Adds a round body, by its support function.
-  template <moreau::ConvexShape Shape>
-  requires(!moreau::Polytope<Shape>) void add_grain(
-      const Shape& shape, const moreau::Pose<moreau::SpaceOf<Shape>>& pose, const Color& color) {
+  template <ConvexShape Shape>
+  requires(!Polytope<Shape>) void add_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose,
+                                            const Color& color) {
     using Vector = typename Shape::Vector;
     constexpr int meridians = 32, parallels = 16;
     const auto corner = [&](int i, int j) -> std::array<Vector3f, 2> {
@@ -68,10 +66,9 @@ class Scene {
     colors_.push_back(color);
   }
 
-  /// What it is.
+  /// Adds the shape that a OneOf holds.
   template <class... Shapes>
-  void add_grain(const moreau::OneOf<Shapes...>& shape,
-                 const moreau::Pose<moreau::SpaceOf<moreau::OneOf<Shapes...>>>& pose,
+  void add_grain(const OneOf<Shapes...>& shape, const Pose<SpaceOf<OneOf<Shapes...>>>& pose,
                  const Color& color) {
     shape.visit([&](const auto& held) { add_grain(held, pose, color); });
   }
@@ -115,4 +112,4 @@ class Scene {
   std::vector<Color> colors_;
 };
 
-}  // namespace rendering
+}  // namespace moreau::rendering

@@ -15,14 +15,14 @@
 #include <string_view>
 #include <vector>
 
-#ifdef RENDERING_HAS_PNG  // set by CMake where libpng is installed
+#ifndef MOREAU_WITHOUT_PNG
 #include <png.h>
 #endif
 
 #include "moreau/core/error.hpp"
 #include "moreau/io/output_file.hpp"
 
-namespace rendering {
+namespace moreau::rendering {
 
 using Color = Eigen::Vector3f;  ///< red, green, blue in linear light, 0..1
 
@@ -34,11 +34,12 @@ inline Color screen_color(unsigned rgb) {
   return {linear(rgb >> 16), linear(rgb >> 8), linear(rgb)};
 }
 
+/// A grid of pixels.
 class Image {
  public:
   Image(int width, int height, const Color& background)
       : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {
-    moreau::require(width > 0 && height > 0, "Image", "width", width, "and height must be > 0");
+    require(width > 0 && height > 0, "Image", "width", width, "and height must be > 0");
     std::fill(pixels_.begin(), pixels_.end(), background);
   }
   int width() const { return width_; }
@@ -65,7 +66,7 @@ class Image {
   std::vector<Color> pixels_;
 };
 
-#ifdef RENDERING_HAS_PNG
+#ifndef MOREAU_WITHOUT_PNG
 /// Red, green and blue of every pixel in rows from the top, 8 bits each, encoded with gamma 2.2.
 inline std::vector<std::uint8_t> screen_bytes(const Image& image) {
   const auto to_byte = [](float light) {
@@ -81,11 +82,12 @@ inline std::vector<std::uint8_t> screen_bytes(const Image& image) {
 }
 #endif
 
-/// Writes the picture as a PNG file. A program that was built without libpng says on the standard
-/// output that it leaves the picture out.
+/// Writes the picture as a PNG file, whole or not at all. If the macro MOREAU_WITHOUT_PNG is defined
+/// in all files of a program, the program needs no libpng; the function then writes no picture, and
+/// says so on the standard output.
 /// @throws std::runtime_error or std::system_error naming the path
 inline void write_png(const std::filesystem::path& path, const Image& image) {
-#ifdef RENDERING_HAS_PNG
+#ifndef MOREAU_WITHOUT_PNG
   png_image head{};
   head.version = PNG_IMAGE_VERSION;
   head.width = static_cast<png_uint_32>(image.width());
@@ -96,11 +98,11 @@ inline void write_png(const std::filesystem::path& path, const Image& image) {
   std::string file(size, '\0');
   if (png_image_write_to_memory(&head, file.data(), &size, 0, pixels.data(), 0, nullptr) == 0)
     throw std::runtime_error("cannot write " + path.string() + ": " + head.message);
-  moreau::write_atomically(path, std::string_view(file.data(), size));
+  write_atomically(path, std::string_view(file.data(), size));
 #else
   static_cast<void>(image);
   std::printf("%s is left out: this program was built without libpng\n", path.c_str());
 #endif
 }
 
-}  // namespace rendering
+}  // namespace moreau::rendering

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "image.hpp"
-#include "rasterizer.hpp"
+#include "moreau/io/detail/rendering/image.hpp"
+#include "moreau/io/detail/rendering/rasterizer.hpp"
 
-namespace rendering {
+namespace moreau::rendering {
 
 using Eigen::Vector2d;
 
@@ -78,4 +78,4 @@ class Drawing {
   double scale_ = 1;
 };
 
-}  // namespace rendering
+}  // namespace moreau::rendering

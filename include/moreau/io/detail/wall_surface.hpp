@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// The parts of the walls of a simulation that are near its grains, as faces to draw.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/world/body_access.hpp"
+
+namespace moreau::detail {
+
+/// One wall. A face is a list of points in world axes [m]: two points are a segment of a line (in
+/// the plane), more are a polygon, counter-clockwise seen from the grains.
+template <class S>
+struct WallSurface {
+  BodyId body;
+  std::vector<std::vector<typename S::Vector>> faces;
+};
+
+/// The pose of a grain at its place in the periodic cell.
+template <class World>
+Pose<typename World::S> pose_in_cell(const World& world, BodyId grain) {
+  Pose<typename World::S> pose = world.pose(grain);
+  pose.position = world.cell().wrap(pose.position);
+  return pose;
+}
+
+/// The bounding box of all grains [m], each at its place in the periodic cell; empty without
+/// grains.
+template <class World>
+Aabb<typename World::S> box_of_grains(const World& world) {
+  Aabb<typename World::S> box;
+  for (std::size_t k = 0; k < world.grain_count(); ++k) {
+    const auto own = world.shape_of_grain(k).bounding_box(pose_in_cell(world, world.grain(k)));
+    box.merge(own.lower);
+    box.merge(own.upper);
+  }
+  return box;
+}
+
+/// The corners of a box.
+template <class S>
+std::vector<typename S::Vector> corners_of(const Aabb<S>& box) {
+  std::vector<typename S::Vector> corners;
+  for (unsigned bits = 0; bits < 1u << S::dim; ++bits) {
+    typename S::Vector& x = corners.emplace_back(box.lower);
+    for (int k = 0; k < S::dim; ++k)
+      if ((bits >> k & 1u) != 0) x[k] = box.upper[k];
+  }
+  return corners;
+}
+
+/// The least and the largest coordinate of points along a direction, counted from `origin`.
+template <class Vector>
+std::pair<typename Vector::Scalar, typename Vector::Scalar> range_along(
+    const Vector& direction, const Vector& origin, const std::vector<Vector>& points) {
+  auto range = std::pair(direction.dot(points[0] - origin), direction.dot(points[0] - origin));
+  for (const Vector& x : points) {
+    range.first = std::min(range.first, direction.dot(x - origin));
+    range.second = std::max(range.second, direction.dot(x - origin));
+  }
+  return range;
+}
+
+/// The part of a convex face on the side normal . (x - point) >= -tolerance of a plane
+/// (Sutherland-Hodgman).
+template <class Vector>
+std::vector<Vector> clipped(const std::vector<Vector>& face, const Vector& normal,
+                            const Vector& point, typename Vector::Scalar tolerance) {
+  std::vector<Vector> inside;
+  for (std::size_t k = 0; k < face.size(); ++k) {
+    const Vector &a = face[k], &b = face[(k + 1) % face.size()];
+    const auto from = normal.dot(a - point) + tolerance, to = normal.dot(b - point) + tolerance;
+    if (from >= 0) inside.push_back(a);
+    const bool is_edge = k + 1 < face.size() || face.size() > 2;  // a segment has a single edge
+    if (is_edge && (from >= 0) != (to >= 0)) inside.push_back(a + from / (from - to) * (b - a));
+  }
+  return inside;
+}
+
+/// The projection of a box onto the plane of a half-space, as one face.
+template <class S>
+std::vector<typename S::Vector> project(const std::vector<typename S::Vector>& corners,
+                                        const Pose<S>& wall) {
+  using Vector = typename S::Vector;
+  const typename S::Matrix frame = wall.rotation.toRotationMatrix();  // normal, tangents
+  std::vector<Vector> face{wall.position};
+  for (int k = 1; k < S::dim; ++k) {
+    const Vector tangent = frame.col(k);
+    const auto [low, high] = range_along(tangent, wall.position, corners);
+    const std::vector<Vector> before = face;
+    for (Vector& x : face) x += low * tangent;
+    for (std::size_t i = before.size(); i-- > 0;) face.push_back(before[i] + high * tangent);
+  }
+  return face;
+}
+
+/// The faces of a cylinder wall: 64 strips, as long as the box; in the plane 64 segments.
+template <class S>
+std::vector<std::vector<typename S::Vector>> cylinder_faces(
+    const std::vector<typename S::Vector>& corners, const Pose<S>& pose,
+    const CylinderWall<S>& shape) {
+  using Vector = typename S::Vector;
+  using Scalar = typename S::Scalar;
+  const typename S::Angular axis = S::adjoint(pose.rotation) * shape.axis();
+  // A turn about the axis annihilates the direction of the axis. In the plane there is no such
+  // direction, and `along` stays zero.
+  Vector across = Vector::Zero(), along = Vector::Zero();
+  for (int k = 0; k < S::dim; ++k) {
+    const Vector e = Vector::Unit(k), turned = S::spin(axis, e);
+    if (turned.norm() > across.norm()) across = turned;
+    const Vector rest = e + S::spin(axis, turned);
+    if (rest.norm() > std::max(along.norm(), Scalar(1e-3))) along = rest;
+  }
+  across.normalize();
+  along = along.isZero(0) ? along : along.normalized();
+  const Vector side = S::spin(axis, across);
+  const auto [low, high] = range_along(along, pose.position, corners);
+  const Vector center = pose.position + low * along;
+  constexpr int count = 64;
+  const auto rim = [&](int k) -> Vector {
+    const Scalar angle = 2 * std::numbers::pi_v<Scalar> * Scalar(k % count) / count;
+    return center + shape.radius() * (std::cos(angle) * across + std::sin(angle) * side);
+  };
+  const Vector length = (high - low) * along;
+  std::vector<std::vector<Vector>> faces;
+  for (int k = 0; k < count; ++k) {
+    auto& face = faces.emplace_back(std::vector<Vector>{rim(k), rim(k + 1)});
+    if (!length.isZero(0)) face.insert(face.end(), {rim(k + 1) + length, rim(k) + length});
+  }
+  return faces;
+}
+
+/// The walls of a simulation near its grains. A half-space is drawn as far as the bounding box of
+/// the grains, extended by a grain size, reaches along it, and ends at the other half-spaces. A
+/// half-space farther from the grains than the diagonal of this box is left out. Without grains
+/// there are no walls.
+template <class World>
+std::vector<WallSurface<typename World::S>> wall_surfaces(const World& world) {
+  using S = typename World::S;
+  std::vector<WallSurface<S>> surfaces;
+  if (world.grain_count() == 0) return surfaces;
+  const Aabb<S> box = box_of_grains(world).inflated(world.grain_size());
+  const auto corners = corners_of(box);
+  const auto diagonal = (box.upper - box.lower).norm();
+  const auto normal_of = [&](BodyId wall) ->
+      typename S::Vector { return world.pose(wall).rotation.toRotationMatrix().col(0); };
+  for (const BodyId wall : world.walls()) {
+    const auto [near, far] = range_along(normal_of(wall), world.pose(wall).position, corners);
+    if (near > diagonal || far < 0) continue;
+    auto face = project<S>(corners, world.pose(wall));
+    for (const BodyId other : world.walls())
+      if (other != wall && face.size() > 1)
+        face = clipped(face, normal_of(other), world.pose(other).position,
+                       typename S::Scalar(1e-6) * diagonal);
+    if (face.size() > 1) surfaces.push_back({wall, {face}});
+  }
+  for (const CylinderBody<S>& cylinder : world.cylinders())
+    surfaces.push_back(
+        {cylinder.body, cylinder_faces<S>(corners, world.pose(cylinder.body), cylinder.shape)});
+  return surfaces;
+}
+
+}  // namespace moreau::detail

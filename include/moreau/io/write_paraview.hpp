@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Writes all that ParaView shows of a simulation in one call: grains, walls and contacts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "moreau/core/error.hpp"
+#include "moreau/io/detail/wall_surface.hpp"
+#include "moreau/io/output_file.hpp"
+#include "moreau/io/vtk.hpp"
+#include "moreau/io/vtk_poly_data.hpp"
+#include "moreau/measure/force_chains.hpp"
+
+namespace moreau {
+
+namespace detail {
+
+/// Writes walls as polygons (in the plane as lines) with the arrays `id` (BodyId) and `velocity` of
+/// the origin of the wall [m/s].
+template <class World>
+void write_walls(const std::filesystem::path& path, const World& world) {
+  VtkPolyData data;
+  std::vector<std::int32_t> cell, ids;
+  std::vector<float> velocities;
+  for (const auto& surface : wall_surfaces(world))
+    for (const auto& face : surface.faces) {
+      cell.clear();
+      for (const auto& x : face) cell.push_back(data.add_point(x));
+      data.add_cell(face.size() > 2 ? VtkPolyData::Cells::polygons : VtkPolyData::Cells::lines,
+                    cell);
+      ids.push_back(static_cast<std::int32_t>(surface.body.value));
+      const auto v = world.velocity(surface.body);
+      for (int k = 0; k < 3; ++k)
+        velocities.push_back(k < v.size() ? static_cast<float>(v[k]) : 0.0f);
+    }
+  data.add_array<std::int32_t>(VtkPolyData::On::cells, "id", 1, ids);
+  data.add_array<float>(VtkPolyData::On::cells, "velocity", 3, velocities);
+  data.write(path);
+}
+
+}  // namespace detail
+
+/// Writes a simulation for ParaView into four files that begin with the same path:
+///
+///     write_paraview("out/run_0010", simulation, h);
+///
+/// | file                       | content                                                         |
+/// |----------------------------|-----------------------------------------------------------------|
+/// | out/run_0010.vtm           | names the other three: open this file in ParaView               |
+/// | out/run_0010_grains.vtp    | surfaces with the arrays of VtkWriter::write_grains()           |
+/// | out/run_0010_walls.vtp     | half-spaces and cylinders with the arrays `id`, `velocity`      |
+/// | out/run_0010_contacts.vtp  | lines with the arrays of VtkWriter::write_contacts()            |
+///
+/// ParaView shows the files run_0000.vtm, run_0001.vtm, ... as one series. PvdSeries::add() adds
+/// the time to such a file.
+///
+/// Coordinates are in world axes [m]. Each grain is at its place in the periodic cell. Walls have
+/// no bounds: a half-space is drawn as far as the bounding box of the grains, extended by a grain
+/// size, reaches along it, and it ends at the other half-spaces. A half-space farther from the
+/// grains than the diagonal of this box is left out. The contacts are all contact points of the
+/// last step, also those without force; the positions are those after the step.
+///
+/// @param path       of the files, without extension; an extension .vtm is removed. Its folder must
+///                   exist
+/// @param simulation a Simulation
+/// @param step       length of the last step [s], by which impulses are divided to obtain
+///                   `normal_force` and `friction_force` [N]. With the default 1 these arrays are
+///                   the impulses [N s]
+/// @param options    how grains are drawn
+/// @throws std::invalid_argument for a path whose last part is empty or contains one of " < & or a
+///         control character, a step that is not finite or not positive, options out of range
+/// @throws std::system_error naming the path of a file that cannot be written
+template <class World>
+void write_paraview(const std::filesystem::path& path, const World& simulation, double step = 1,
+                    const VtkOptions& options = {}) {
+  using S = typename World::S;
+  const std::filesystem::path stem =
+      path.extension() == ".vtm" ? std::filesystem::path(path).replace_extension() : path;
+  const std::string name = stem.filename().string();
+  require(!name.empty() && detail::is_plain_xml(name), "write_paraview", "path", path.string(),
+          "must end in a name without control characters and without \" < &");
+  const auto& cell = simulation.cell();
+  std::vector<Pose<S>> poses;
+  for (const BodyId grain : simulation.grains())
+    poses.push_back(detail::pose_in_cell(simulation, grain));
+  std::vector<ContactSegment<S>> segments;
+  contact_segments<S>(
+      simulation.contacts(), static_cast<typename S::Scalar>(step),
+      [&](std::size_t body) { return cell.wrap(simulation.bodies().pose[body].position); },
+      [&](std::size_t body) { return simulation.is_grain(body); }, segments, cell);
+
+  VtkWriter<S> writer(options);
+  writer.write_grains(
+      stem.string() + "_grains.vtp", simulation.grain_count(),
+      [&](std::size_t k) -> const auto& { return simulation.shape_of_grain(k); },
+      [&](std::size_t k) -> const Pose<S>& { return poses[k]; },
+      [&](std::size_t k) { return simulation.bodies().velocity[simulation.grain(k).index()]; });
+  detail::write_walls(stem.string() + "_walls.vtp", simulation);
+  writer.write_contacts(stem.string() + "_contacts.vtp", segments);
+
+  std::string list =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\">\n"
+      "<vtkMultiBlockDataSet>\n";
+  int index = 0;
+  for (const std::string part : {"grains", "walls", "contacts"})
+    list += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + part + "\" file=\"" +
+            name + "_" + part + ".vtp\"/>\n";
+  write_atomically(stem.string() + ".vtm", list + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
+}
+
+}  // namespace moreau
