@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "moreau/core/thread_team.hpp"
 #include "moreau/detect/broad/all_pairs.hpp"
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/io/snapshot.hpp"
@@ -23,7 +24,6 @@
 #include "moreau/moreau.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
-#include "moreau/solve/thread_team.hpp"
 
 #include "../../bench/pairs.hpp"
 
@@ -268,9 +268,10 @@ void policies(const std::string& name) {
   using Simple = Simulation<ShapeT, Coulomb>;
   simulate(name + ", qm16, restitution, friction that falls",
            Simple(T(0.02), coulomb, ColouredGaussSeidel(qm16)), shapes);
-  using Threads = Simulation<ShapeT, Coulomb, MoreauJean, CellGrid<S>, ParallelGaussSeidel>;
-  simulate(name + ", two threads, cell grid",
-           Threads(T(0.02), coulomb, ParallelGaussSeidel(ColouredOptions{}, 2)), shapes);
+  using Grid = Simulation<ShapeT, Coulomb, MoreauJean, CellGrid<S>>;
+  Grid shared(T(0.02), coulomb);
+  shared.set_team(ThreadTeam(2));
+  simulate(name + ", two threads, cell grid", shared, shapes);
   using Reference = Simulation<ShapeT, Coulomb, MoreauJean, AllPairs<S>, NonlinearGaussSeidel>;
   simulate(name + ", reference solver", Reference(T(0.02), coulomb), shapes);
   using Frictionless_ = Simulation<ShapeT, Frictionless<T>>;

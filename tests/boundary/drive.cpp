@@ -8,18 +8,10 @@
 
 #include "moreau/boundary/servo.hpp"
 
+#include "boundary/check_lid.hpp"
 #include "world/assemblies.hpp"
 
-using moreau::BallIn;
-using moreau::BodyId;
-using moreau::ForceDrive;
-using moreau::HarmonicForce;
-using moreau::Polygon;
-using moreau::Polyhedron;
-using moreau::PressureLoad;
-using moreau::PressureServo;
-using moreau::Space;
-using moreau::VelocityDrive;
+using namespace moreau;
 
 namespace {
 
@@ -87,26 +79,7 @@ TEST_CASE("a driven velocity is taken in the middle of the step") {
 
 TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT, Polyhedron<>, Polygon<>,
                    moreau::Ball<>, moreau::Disk<>) {
-  using Scene = scenes::BoxOfGrains<ShapeT>;
-  using Vector = typename Scene::Vector;
-  Scene scene(18);
-  const double h = 5e-4, pressure = Scene::up == 1 ? 2e3 : 5e3;
-  const BodyId lid =
-      scene.simulation.add_wall(-Vector::Unit(Scene::up), 0.2 * Vector::Unit(Scene::up));
-  const double area = std::pow(0.08, double(Scene::up));
-  const PressureLoad load(scene.simulation, lid, pressure, 0.5, [&] { return area; });
-  double mean = 0;
-  const int settle = 1200, last = 100;
-  for (int k = 0; k < settle + last; ++k) {
-    load.apply(scene.simulation, h);
-    scene.simulation.step(h);
-    if (k >= settle) mean += moreau::wall_pressure(scene.simulation, lid, h, area) / last;
-  }
-  CHECK(mean == doctest::Approx(pressure).epsilon(0.01));
-  CHECK(scene.simulation.bodies().pose[lid.index()].position[Scene::up] > 0.02);
-  // The floor carries the load of the lid and the weight of the grains, minus the friction of the
-  // side walls.
-  CHECK(moreau::wall_pressure(scene.simulation, scene.walls.back(), h, area) > 0.5 * pressure);
+  scenes::check_lid<ShapeT>();
 }
 
 TEST_CASE("bad drives and servos are named") {

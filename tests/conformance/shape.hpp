@@ -16,17 +16,9 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/support_box.hpp"
 
-namespace conformance {
+#include "conformance/random_direction.hpp"
 
-template <class S>
-typename S::Vector random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  typename S::Vector v;
-  do {
-    for (auto& x : v) x = static_cast<typename S::Scalar>(normal(random));
-  } while (v.norm() < 1e-3);
-  return v.normalized();
-}
+namespace conformance {
 
 template <class S>
 moreau::Pose<S> random_pose(std::mt19937_64& random) {

@@ -68,6 +68,16 @@ double height_above(const Solid& shape, const Pose<S>& pose, const Vector& x) {
   return ((shape.face_normals() * body).array() - shape.face_offsets().array()).maxCoeff();
 }
 
+/// Calls check(pair, random) with pairs of grains that touch.
+void with_touching_grains(unsigned seed, int count, const auto& check) {
+  std::mt19937_64 random(seed);
+  const auto shapes = grains(40, random);
+  for (int i = 0; i < count; ++i) {
+    Pair pair = touching_pair(shapes, random);
+    check(pair, random);
+  }
+}
+
 void check_against_oracle(const Pair& pair, double margin) {
   const auto truth = oracle::signed_gap(*pair.a, pair.pose_a, *pair.b, pair.pose_b);
   const Placed<Solid> a(*pair.a, pair.pose_a), b(*pair.b, pair.pose_b);
@@ -124,37 +134,29 @@ void check_same(const Manifold<S>& one, const Manifold<S>& other, const Pose<S>&
 }  // namespace
 
 TEST_CASE("polyhedra: gap, normal and points against exhaustive search, around touching") {
-  std::mt19937_64 random(1);
-  const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> offset(-0.005, 0.005);
-  for (int i = 0; i < rounds(150); ++i) {
-    Pair pair = touching_pair(shapes, random);
+  with_touching_grains(1, rounds(150), [&](Pair& pair, auto& random) {
     pair.pose_b.position *= 1 + offset(random);
     check_against_oracle(pair, 0.004 * pair.size);
-  }
+  });
 }
 
 TEST_CASE("polyhedra: gap, normal and points against exhaustive search, deep and apart") {
-  std::mt19937_64 random(2);
-  const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> factor(0, 1.3);
-  for (int i = 0; i < rounds(100); ++i) {
-    Pair pair = touching_pair(shapes, random);
+  with_touching_grains(2, rounds(100), [&](Pair& pair, auto& random) {
     pair.pose_b.position *= factor(random);
     check_against_oracle(pair, 0.1 * pair.size);
-  }
+  });
 }
 
 TEST_CASE("polyhedra: gaps of 1e-15 to 1e-3 of the size keep their digits") {
-  std::mt19937_64 random(3);
-  const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> exponent(-15, -3);
-  for (int i = 0; i < rounds(100); ++i) {
-    Pair pair = touching_pair(shapes, random);
-    const double change = std::pow(10., exponent(random));
-    pair.pose_b.position *= 1 + (i % 2 ? change : -change);
+  double sign = -1;
+  with_touching_grains(3, rounds(100), [&](Pair& pair, auto& random) {
+    pair.pose_b.position *= 1 + sign * std::pow(10., exponent(random));
+    sign = -sign;
     check_against_oracle(pair, 1e-5 * pair.size);
-  }
+  });
 }
 
 TEST_CASE("polyhedra: needles, plates, prisms, tetrahedra, boxes, sizes 1 to 1000") {
@@ -192,11 +194,8 @@ TEST_CASE("polyhedra: coincident shapes") {
 }
 
 TEST_CASE("polyhedra: the manifold does not know which shape is called a, nor where it lies") {
-  std::mt19937_64 random(7);
-  const auto shapes = grains(40, random);
   std::uniform_real_distribution<double> offset(-0.003, 0.003);
-  for (int i = 0; i < rounds(500); ++i) {
-    Pair pair = touching_pair(shapes, random);
+  with_touching_grains(7, rounds(500), [&](Pair& pair, auto& random) {
     pair.pose_b.position *= 1 + offset(random);
     const double margin = 0.0031 * pair.size;
     Manifold<S> straight, swapped, moved;
@@ -218,15 +217,12 @@ TEST_CASE("polyhedra: the manifold does not know which shape is called a, nor wh
                       [&](const auto& q) { return q.feature.swapped() == point.feature; });
       CHECK(is_there);
     }
-  }
+  });
 }
 
 TEST_CASE("polyhedra: a cache changes nothing, whatever it holds") {
-  std::mt19937_64 random(8);
-  const auto shapes = grains(20, random);
   std::uniform_real_distribution<double> offset(-0.01, 0.01);
-  for (int i = 0; i < rounds(500); ++i) {
-    Pair pair = touching_pair(shapes, random);
+  with_touching_grains(8, rounds(500), [&](Pair& pair, auto& random) {
     pair.pose_b.position *= 1 + offset(random);
     const Placed<Solid> a(*pair.a, pair.pose_a), b(*pair.b, pair.pose_b);
     Manifold<S> cold, cached;
@@ -235,13 +231,13 @@ TEST_CASE("polyhedra: a cache changes nothing, whatever it holds") {
     const bool touch = collide(a, b, 0.002 * pair.size, cold);
     CHECK(collide(a, b, 0.002 * pair.size, cached, cache) == touch);
     CHECK(collide(a, b, 0.002 * pair.size, cached, cache) == touch);
-    if (!touch) continue;
+    if (!touch) return;
     CHECK(cached.gap == cold.gap);
     CHECK(cached.normal == cold.normal);
     REQUIRE(cached.points.size() == cold.points.size());
     for (std::size_t k = 0; k < cold.points.size(); ++k)
       CHECK(cached.points[k].feature == cold.points[k].feature);
-  }
+  });
 }
 
 TEST_CASE("polyhedra: classes of boxes that meet by face, edge and vertex") {

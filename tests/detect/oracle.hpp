@@ -146,18 +146,30 @@ typename moreau::Space<3, T>::Vector nearest_difference(
   return best;
 }
 
+/// Compares all pairs of edges of two polygons that are apart.
 template <class T>
-Truth<moreau::Space<3, T>> signed_gap(const moreau::Polyhedron<T>& a,
-                                      const moreau::Pose<moreau::Space<3, T>>& pose_a,
-                                      const moreau::Polyhedron<T>& b,
-                                      const moreau::Pose<moreau::Space<3, T>>& pose_b) {
-  using S = moreau::Space<3, T>;
-  using Vector = typename S::Vector;
-  const World<moreau::Polyhedron<T>> world_a(a, pose_a, pose_a.position);
-  const World<moreau::Polyhedron<T>> world_b(b, pose_b, pose_a.position);
-  Best<S> best;
-  for (const Vector& n : world_a.normals) best.take(n, separation(world_a, world_b, n));
-  for (const Vector& n : world_b.normals) best.take(-n, separation(world_a, world_b, Vector(-n)));
+typename moreau::Space<2, T>::Vector nearest_difference(const moreau::Polygon<T>&,
+                                                        const World<moreau::Polygon<T>>& world_a,
+                                                        const moreau::Polygon<T>&,
+                                                        const World<moreau::Polygon<T>>& world_b) {
+  using Vector = typename moreau::Space<2, T>::Vector;
+  Vector best = Vector::Constant(T(1e6));
+  const std::size_t n = world_a.vertices.size(), m = world_b.vertices.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < m; ++j) {
+      const Vector d = segment_to_segment(world_a.vertices[i], world_a.vertices[(i + 1) % n],
+                                          world_b.vertices[j], world_b.vertices[(j + 1) % m]);
+      if (d.squaredNorm() < best.squaredNorm()) best = d;
+    }
+  return best;
+}
+
+/// Takes the normals of all pairs of edges of two polyhedra.
+template <class T>
+void take_edge_normals(const moreau::Polyhedron<T>& a, const World<moreau::Polyhedron<T>>& world_a,
+                       const moreau::Polyhedron<T>& b, const World<moreau::Polyhedron<T>>& world_b,
+                       Best<moreau::Space<3, T>>& best) {
+  using Vector = typename moreau::Space<3, T>::Vector;
   for (const auto& e : a.edges())
     for (const auto& f : b.edges()) {
       const Vector u = world_a.vertices[e.vertex[1]] - world_a.vertices[e.vertex[0]];
@@ -168,41 +180,29 @@ Truth<moreau::Space<3, T>> signed_gap(const moreau::Polyhedron<T>& a,
       best.take(n, separation(world_a, world_b, n));
       best.take(-n, separation(world_a, world_b, Vector(-n)));
     }
+}
+
+template <class ShapeT>
+Truth<moreau::SpaceOf<ShapeT>> signed_gap(const ShapeT& a,
+                                          const moreau::Pose<moreau::SpaceOf<ShapeT>>& pose_a,
+                                          const ShapeT& b,
+                                          const moreau::Pose<moreau::SpaceOf<ShapeT>>& pose_b) {
+  using S = moreau::SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  const World<ShapeT> world_a(a, pose_a, pose_a.position);
+  const World<ShapeT> world_b(b, pose_b, pose_a.position);
+  Best<S> best;
+  for (const Vector& n : world_a.normals) best.take(n, separation(world_a, world_b, n));
+  for (const Vector& n : world_b.normals) best.take(-n, separation(world_a, world_b, Vector(-n)));
+  if constexpr (S::dim == 3) take_edge_normals(a, world_a, b, world_b, best);
   const T size = a.circumradius() + b.circumradius();
-  Truth<S> truth = best.truth(size);
+  const Truth<S> truth = best.truth(size);
   if (truth.gap <= T(0)) return truth;
   const Vector apart = nearest_difference(a, world_a, b, world_b);
   const T gap = apart.norm();
   // A vector as short as a few rounding errors has no reliable direction. The best axis is used
   // instead.
-  if (gap < T(1e-10) * size) return {gap, truth.normal, false};
-  return {gap, apart / gap, true};
-}
-
-template <class T>
-Truth<moreau::Space<2, T>> signed_gap(const moreau::Polygon<T>& a,
-                                      const moreau::Pose<moreau::Space<2, T>>& pose_a,
-                                      const moreau::Polygon<T>& b,
-                                      const moreau::Pose<moreau::Space<2, T>>& pose_b) {
-  using S = moreau::Space<2, T>;
-  using Vector = typename S::Vector;
-  const World<moreau::Polygon<T>> world_a(a, pose_a, pose_a.position);
-  const World<moreau::Polygon<T>> world_b(b, pose_b, pose_a.position);
-  Best<S> best;
-  for (const Vector& n : world_a.normals) best.take(n, separation(world_a, world_b, n));
-  for (const Vector& n : world_b.normals) best.take(-n, separation(world_a, world_b, Vector(-n)));
-  const T size = a.circumradius() + b.circumradius();
-  Truth<S> truth = best.truth(size);
-  if (truth.gap <= T(0)) return truth;
-  Vector apart = Vector::Constant(T(1e6));
-  const std::size_t n = world_a.vertices.size(), m = world_b.vertices.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < m; ++j) {
-      const Vector d = segment_to_segment(world_a.vertices[i], world_a.vertices[(i + 1) % n],
-                                          world_b.vertices[j], world_b.vertices[(j + 1) % m]);
-      if (d.squaredNorm() < apart.squaredNorm()) apart = d;
-    }
-  const T gap = apart.norm();
   if (gap < T(1e-10) * size) return {gap, truth.normal, false};
   return {gap, apart / gap, true};
 }

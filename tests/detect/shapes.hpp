@@ -11,16 +11,13 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
+#include "conformance/random_direction.hpp"
+
 namespace samples {
 
 template <class S>
 typename S::Vector direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  typename S::Vector v;
-  do {
-    for (auto& x : v) x = static_cast<typename S::Scalar>(normal(random));
-  } while (v.norm() < 1e-3);
-  return v.normalized();
+  return conformance::random_direction<S>(random);
 }
 
 template <class T>

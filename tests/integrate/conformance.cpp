@@ -3,6 +3,7 @@
 #include "moreau/integrate/velocity_verlet.hpp"
 
 #include "conformance/integrator.hpp"
+#include "own_integrator/explicit_contacts.hpp"
 #include "own_integrator/symplectic_euler.hpp"
 
 using moreau::Space;
@@ -12,6 +13,7 @@ TEST_CASE_TEMPLATE("integrators", S, Space<2>, Space<3>) {
   conformance::integrator<S>(moreau::MoreauJean(1));
   conformance::integrator<S>(moreau::VelocityVerlet());
   conformance::integrator<S>(SymplecticEuler());
+  conformance::integrator<S>(ExplicitContacts());
 }
 
 TEST_CASE("Verlet errs with the square of the step") {

@@ -61,7 +61,7 @@ struct Column {
     world.set_wall_mass(lid, mass);
   }
   double height(std::size_t k) const { return world.bodies().pose[k].position[up]; }
-  double lid_height() const { return world.bodies().pose[lid.index()].position[up]; }
+  double lid_height() const { return world.pose(lid).position[up]; }
   StepReport run(int steps) {
     StepReport report;
     for (int k = 0; k < steps; ++k) report = world.step(step);
@@ -105,7 +105,7 @@ TEST_CASE_TEMPLATE("compliant: a column at rest is compressed by its weight", S,
     Column<S> column(count, Spring(Coulomb(0.4), stiffness));
     column.world.set_gravity(typename S::Vector(-gravity * S::Vector::Unit(S::dim - 1)));
     column.world.set_pose(column.lid, [&] {
-      Pose<S> pose = column.world.bodies().pose[column.lid.index()];
+      Pose<S> pose = column.world.pose(column.lid);
       pose.position[S::dim - 1] += 1;
       return pose;
     }());
@@ -156,7 +156,7 @@ TEST_CASE("compliant: a block on a slope moves by its load over the tangential s
   world.set_gravity(Vector(gravity * std::sin(slope), -gravity * std::cos(slope)));
   for (int k = 0; k < 4000; ++k) world.step(step);
   const double weight = density<Space<2>> * 4 * half * half * gravity;
-  const Vector moved = world.bodies().pose[block.index()].position - Vector(0, half);
+  const Vector moved = world.pose(block).position - Vector(0, half);
   // The two points share the stiffness of the pair. The block also tilts: its centre is above the
   // plane of the springs, which adds to what its centre moves along the slope.
   const double tilt = weight * std::sin(slope) * half / (stiffness * half * half);
@@ -181,7 +181,7 @@ TEST_CASE_TEMPLATE("compliant: an impact keeps the restitution up to eps", S, Sp
     for (int k = 0; k < 50; ++k) world.step(step);
     const double mass = BallIn<S>(radius).mass_properties(density<S>).mass;
     const double eps = mass / (stiffness * step * step);
-    const double after = world.bodies().velocity[ball.index()][S::dim - 1] / speed;
+    const double after = world.velocity(ball)[S::dim - 1] / speed;
     CHECK(std::abs(after - restitution) <= 3 * eps);
   }
 }
@@ -207,8 +207,7 @@ TEST_CASE("compliant: a loaded cube on a floor comes to rest") {
     energy.add(world, report, step);
   }
   const double load = force + mass * gravity, sunk = load / stiffness;
-  CHECK(half - world.bodies().pose[cube.index()].position[2] ==
-        doctest::Approx(sunk).epsilon(1e-6));
+  CHECK(half - world.pose(cube).position[2] == doctest::Approx(sunk).epsilon(1e-6));
   CHECK(report.elastic_energy == doctest::Approx(load * sunk / 2).epsilon(1e-6));
   CHECK(energy.kinetic() < 1e-12);
   const EnergyTerms& terms = energy.terms();
@@ -251,7 +250,7 @@ TEST_CASE("compliant: no friction means no tangential spring") {
   world.add_wall(Vector(0, 1), Vector(0, 0));
   world.set_gravity(Vector(1, -gravity));
   for (int k = 0; k < 100; ++k) world.step(step);
-  CHECK(world.bodies().velocity[disk.index()][0] == doctest::Approx(100 * step));
+  CHECK(world.velocity(disk)[0] == doctest::Approx(100 * step));
 }
 
 TEST_CASE("compliant: a longer step feels the same forces") {

@@ -73,6 +73,7 @@ Aabb<S> random_box(std::mt19937_64& random, typename S::Scalar size) {
   return box;
 }
 
+/// In this order of vertices the volumes of the parts of a cuboid have no rounding.
 template <class T>
 Polyhedron<T> cuboid(const V3<T>& half) {
   std::vector<V3<T>> v;

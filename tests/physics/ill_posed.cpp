@@ -8,11 +8,13 @@
 #include <string>
 
 #include "sanitized.hpp"
+#include "validation/cases/is_sane.hpp"
 #include "world/assemblies.hpp"
 
 using moreau::BodyId;
 using moreau::Polygon;
 using moreau::Polyhedron;
+using validation::is_sane;
 
 namespace {
 
@@ -36,24 +38,8 @@ struct Scene {
     x[up] = height;
     return x;
   }
-  bool is_finite() const {
-    for (const auto& pose : simulation.bodies().pose)
-      if (!pose.is_finite()) return false;
-    for (const auto& velocity : simulation.bodies().velocity)
-      if (!velocity.allFinite()) return false;
-    return true;
-  }
+  bool is_finite() const { return validation::is_finite(simulation.bodies()); }
 };
-
-bool is_sane(const moreau::StepReport& report) {
-  const moreau::SolveReport& solve = report.solve;
-  for (const double value :
-       {report.max_overlap, report.mean_overlap, report.dissipation, solve.residual,
-        solve.worst_velocity, solve.worst_cone, solve.worst_complementarity,
-        solve.wrong_sign_dissipation, report.correction.work, report.correction.largest_shift})
-    if (!std::isfinite(value)) return false;
-  return solve.converged != solve.capped && solve.residual >= 0;
-}
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -134,7 +120,7 @@ TEST_CASE_TEMPLATE("a heavy grain in a self-locking wedge stays", ShapeT, Polyhe
   for (const double side : {-1.0, 1.0})
     scene.simulation.add_wall(Box::vector(-side * std::cos(half), std::sin(half)), Vector::Zero());
   scene.simulation.set_gravity(-9.81 * Vector::Unit(Box::up));
-  const Vector start = scene.simulation.bodies().pose[grain.index()].position;
+  const Vector start = scene.simulation.pose(grain).position;
   int insane = 0, unsolved = 0;
   double allowed = 0;
   for (int k = 0; k < 500; ++k) {
@@ -143,7 +129,7 @@ TEST_CASE_TEMPLATE("a heavy grain in a self-locking wedge stays", ShapeT, Polyhe
     unsolved += !report.solve.converged;
     allowed += h * report.solve.residual;
   }
-  const double moved = (scene.simulation.bodies().pose[grain.index()].position - start).norm();
+  const double moved = (scene.simulation.pose(grain).position - start).norm();
   CHECK(insane == 0);
   CHECK(unsolved == 0);
   // A velocity error of residual x g h x |r| / (m g h) acts in each step. The factor |r| / (m g h)

@@ -82,7 +82,7 @@ struct Structure {
   std::vector<Vector> vertices() const {
     std::vector<Vector> all;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
-      const auto& pose = simulation.bodies().pose[simulation.grain(k).index()];
+      const auto& pose = simulation.pose(simulation.grain(k));
       for (const auto& row : simulation.shape_of_grain(k).vertices().rowwise())
         all.push_back(pose(Vector(row.transpose())));
     }

@@ -46,7 +46,7 @@ TEST_CASE_TEMPLATE("the gap of a box at rest does not follow the step", ShapeT, 
         const double lowest = [&] {
           double least = 1;
           for (const auto& row : box.vertices().rowwise())
-            least = std::min(least, simulation.bodies().pose[grain.index()](row.transpose())[up]);
+            least = std::min(least, simulation.pose(grain)(row.transpose())[up]);
           return least;
         }();
         CAPTURE(tilt);

@@ -13,7 +13,6 @@
 #include "moreau/contact/compliant_delassus.hpp"
 #include "moreau/solve/gathered_problem.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
-#include "moreau/solve/thread_team.hpp"
 
 #include "solve/assembly.hpp"
 
@@ -92,7 +91,6 @@ int other_answers(CompliantAssembly<S>& assembly, typename S::Scalar compliance)
   for (const bool accelerate : {false, true})
     for (const T scale : {T(0), T(1)})
       check(ColouredGaussSeidel(fast<S>(tolerance, accelerate)), scale);
-  check(ParallelGaussSeidel(fast<S>(tolerance), 2), T(1));
   return others;
 }
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# Compiles SOURCE twice. With MOREAU_CORRECTED defined it has to compile, so that nothing but the
-# mistake it is about can be what fails; without, it has to fail, and every pattern on its lines
-# "// expect: <regular expression>" has to occur in what the compiler says; with a line "// and no other
-# error" that has to be all.
-set(compile ${COMPILER} -std=c++20 -fsyntax-only -I${INCLUDE} -isystem ${EIGEN})
+# Compiles the lines of SOURCE between "#ifdef USE" and "#endif  // USE" twice. The head of
+# rejected.cpp says what is expected.
+set(compile ${COMPILER} -std=c++20 -fsyntax-only -I${INCLUDE} -isystem ${EIGEN} -D${USE})
+file(READ ${SOURCE} text)
+string(REGEX MATCH "\n#ifdef ${USE}\n.*\n#endif  // ${USE}\n" text "${text}")
 
 execute_process(COMMAND ${compile} -DMOREAU_CORRECTED ${SOURCE}
                 RESULT_VARIABLE result ERROR_VARIABLE output)
@@ -16,20 +16,20 @@ if(result EQUAL 0)
   message(FATAL_ERROR "compiles, but should be rejected")
 endif()
 
-file(STRINGS ${SOURCE} lines REGEX "^// expect: ")
+string(REGEX MATCHALL "\n// expect: [^\n]+" lines "${text}")
 if(NOT lines)
   message(FATAL_ERROR "names no message to expect")
 endif()
 foreach(line IN LISTS lines)
-  string(REPLACE "// expect: " "" pattern "${line}")
+  string(REPLACE "\n// expect: " "" pattern "${line}")
   if(NOT output MATCHES "${pattern}")
     message(FATAL_ERROR "is rejected, but without '${pattern}':\n${output}")
   endif()
 endforeach()
 
-file(STRINGS ${SOURCE} alone REGEX "^// and no other error$")
+string(FIND "${text}" "\n// and no other error\n" alone)
 string(REGEX MATCHALL "[^a-z]error: " errors "${output}")
 list(LENGTH errors count)
-if(alone AND NOT count EQUAL 1)
+if(NOT alone EQUAL -1 AND NOT count EQUAL 1)
   message(FATAL_ERROR "is rejected with ${count} errors:\n${output}")
 endif()

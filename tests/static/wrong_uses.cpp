@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a user may get wrong and the compiler refuses. REFUSED(n, use) states that use number n does
-// not compile; TAKEN(use) is the same call written right. The tests in rejected/ compile the uses 38
-// to 40 (velocity_of_two_numbers, pose_of_another_dimension, shape_of_a_space) and policies that do
-// not fit each other, and compare the compiler's messages with the text in each file. The first
+// not compile; TAKEN(use) is the same call written right. The tests in rejected.cpp compile the uses
+// 38 to 40 (velocity_of_two_numbers, pose_of_another_dimension, shape_of_a_space) and policies that
+// do not fit each other, and compare the compiler's messages with the text in that file. The first
 // lines of the messages of g++ 12, without the name of the file:
 //
 // | use | message |

@@ -19,7 +19,7 @@ void check_rest() {
     overlap = std::max(overlap, scene.simulation.step(5e-4f).max_overlap);
   CHECK(overlap < 1e-2 * 0.02);
   for (const BodyId grain : scene.grains)
-    CHECK(scene.simulation.bodies().pose[grain.index()].position.minCoeff() > 0);
+    CHECK(scene.simulation.pose(grain).position.minCoeff() > 0);
 }
 
 }  // namespace scenes

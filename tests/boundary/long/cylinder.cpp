@@ -6,12 +6,7 @@
 
 #include "world/assemblies.hpp"
 
-using moreau::BallIn;
-using moreau::BodyId;
-using moreau::Polygon;
-using moreau::Polyhedron;
-using moreau::Pose;
-using moreau::Space;
+using namespace moreau;
 
 namespace {
 
@@ -47,7 +42,7 @@ struct InCylinder {
     options.max_sweeps = 20000;
     return moreau::ColouredGaussSeidel(options);
   }
-  const Vector& position() const { return simulation.bodies().pose[grain.index()].position; }
+  const Vector& position() const { return simulation.pose(grain).position; }
   double mass() const { return simulation.bodies().weight[grain.index()]; }
 };
 

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <doctest/doctest.h>
 
-#include "moreau/boundary/servo.hpp"
-
+#include "boundary/check_lid.hpp"
 #include "world/assemblies.hpp"
 
 namespace {
@@ -18,24 +17,7 @@ using Law = moreau::SignoriniCoulomb<float>;
 
 TEST_CASE_TEMPLATE("float: a lid under pressure settles to it", ShapeT, Polyhedron<float>,
                    Polygon<float>) {
-  using Scene = scenes::BoxOfGrains<ShapeT>;
-  using Vector = typename Scene::Vector;
-  Scene scene(18);
-  const float h = 5e-4f, pressure = Scene::up == 1 ? 2e3f : 5e3f;
-  const BodyId lid =
-      scene.simulation.add_wall(-Vector::Unit(Scene::up), 0.2f * Vector::Unit(Scene::up));
-  const float area = Scene::up == 1 ? 0.08f : 0.0064f;
-  const moreau::PressureLoad load(scene.simulation, lid, double(pressure), 0.5,
-                                  [&] { return double(area); });
-  float mean = 0;
-  const int settle = 1200, last = 100;
-  for (int k = 0; k < settle + last; ++k) {
-    load.apply(scene.simulation, h);
-    scene.simulation.step(h);
-    if (k >= settle) mean += moreau::wall_pressure(scene.simulation, lid, h, area) / last;
-  }
-  CHECK(double(mean) == doctest::Approx(double(pressure)).epsilon(0.01));
-  CHECK(scene.simulation.bodies().pose[lid.index()].position[Scene::up] > 0.02f);
+  scenes::check_lid<ShapeT>();
 }
 
 TEST_CASE_TEMPLATE("float: a box rests in a cylinder on its corners", ShapeT, Polyhedron<float>,

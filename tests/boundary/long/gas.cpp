@@ -7,11 +7,7 @@
 #include "boundary/grain_of_radius.hpp"
 #include "world/assemblies.hpp"
 
-using moreau::BallIn;
-using moreau::Polygon;
-using moreau::Polyhedron;
-using moreau::Pose;
-using moreau::Space;
+using namespace moreau;
 
 namespace {
 

@@ -114,9 +114,8 @@ TEST_CASE_TEMPLATE("a soft ball swings in a cylinder", S, Space<2>, Space<3>) {
   world.set_gravity(-g * Vector::Unit(up));
   const double quarter = std::numbers::pi / 2 / rate;
   while (world.time() < quarter) world.step(h);
-  const double x = world.bodies().pose[ball.index()].position[0];
+  const double x = world.pose(ball).position[0];
   CHECK(std::abs(x) < 0.02 * angle * (R - r));
   while (world.time() < 2 * quarter) world.step(h);
-  CHECK(world.bodies().pose[ball.index()].position[0] ==
-        doctest::Approx(-(R - r) * std::sin(angle)).epsilon(0.02));
+  CHECK(world.pose(ball).position[0] == doctest::Approx(-(R - r) * std::sin(angle)).epsilon(0.02));
 }

@@ -62,7 +62,7 @@ struct Box {
     for (int k = 0; k < 5000; ++k) simulation.step(h);
   }
   void set_load(double share) { simulation.set_force(lid, -share * load * Vector::UnitY()); }
-  double height() const { return simulation.bodies().pose[lid.index()].position[1]; }
+  double height() const { return simulation.pose(lid).position[1]; }
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
-#include "moreau/solve/thread_team.hpp"
 
 #include "conformance/matrix.hpp"
 #include "world/assemblies.hpp"
@@ -16,10 +15,6 @@ TEST_CASE_TEMPLATE("every solver", Grain, moreau::Polygon<double>, moreau::Polyh
   const Grain grain =
       scenes::cuboid<Grain>(Vector::Constant(T(0.0025)) + T(5e-4) * Vector::UnitX());
   const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
-  SUBCASE("ParallelGaussSeidel") {
-    conformance::world<conformance::With<void, void, moreau::ParallelGaussSeidel>>(grain, coulomb,
-                                                                                   T(0.01));
-  }
   SUBCASE("ProximalFallback") {
     conformance::world<conformance::With<void, void, moreau::ProximalFallback<>>>(grain, coulomb,
                                                                                   T(0.01));

@@ -68,8 +68,7 @@ TEST_CASE("balls, rods and rounded rocks come to rest, momentum balanced at ever
   }
   CHECK(worst < 1e-10 * h * weight.norm());
   CHECK(overlap < 1e-2 * 0.02);
-  for (std::size_t k = 0; k < world.grain_count(); ++k)
-    CHECK(world.bodies().pose[world.grain(k).index()].position.minCoeff() > 0.003);
+  for (const BodyId grain : world.grains()) CHECK(world.pose(grain).position.minCoeff() > 0.003);
   if (sanitizer_share == 1) CHECK(momentum(world).norm() < 0.01 * 24 * 0.011);
 }
 
@@ -83,7 +82,7 @@ TEST_CASE("a rod that is given a kick rolls on as far as its spin says") {
   world.set_velocity(rod, {0, 0.1, 0});
   world.set_spin(rod, {-10, 0, 0});
   for (int k = 0; k < 500; ++k) world.step(1e-3);
-  const Pose<S>& pose = world.bodies().pose[rod.index()];
+  const Pose<S>& pose = world.pose(rod);
   CHECK(pose.position.y() == doctest::Approx(0.05).epsilon(1e-6));
   CHECK(std::abs(pose.position.z() - 0.01) < 1e-5);
   CHECK(std::abs(pose.position.x()) < 1e-9);
@@ -99,7 +98,7 @@ TEST_CASE("a plank of two rods does not tip, a ball on a rounded box stays") {
   world.add_wall(Vector::UnitZ(), Vector::Zero());
   world.set_gravity({0, 0, -9.81});
   for (int k = 0; k < 300; ++k) CHECK(world.step(1e-3).solve.converged);
-  CHECK((world.bodies().pose[top.index()].position - Vector(0, 0, 0.027)).norm() < 1e-5);
+  CHECK((world.pose(top).position - Vector(0, 0, 0.027)).norm() < 1e-5);
   CHECK(world.bodies().velocity[top.index()].norm() < 1e-6);
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("it stays at rest on a floor, round or nearly a box, turned about the 
     world.add_wall(V::UnitZ(), V::Zero());
     world.set_gravity({0, 0, -9.81});
     for (int k = 0; k < rounds(500); ++k) CHECK(world.step(5e-4).solve.converged);
-    const auto& pose = world.bodies().pose[grain.index()];
+    const auto& pose = world.pose(grain);
     CHECK((pose.position - start.position).norm() < 1e-5);
     CHECK(pose.rotation.angularDistance(start.rotation) < 1e-3);
     CHECK(world.bodies().velocity[grain.index()].norm() < 1e-4);
@@ -85,9 +85,9 @@ TEST_CASE("it comes to rest in a heap between walls") {
   world.set_gravity({0, 0, -9.81});
   double overlap = 0, speed = 0;
   for (int k = 0; k < rounds(2000); ++k) overlap = std::max(overlap, world.step(5e-4).max_overlap);
-  for (std::size_t k = 0; k < world.grain_count(); ++k) {
-    speed = std::max(speed, world.bodies().velocity[world.grain(k).index()].head<3>().norm());
-    CHECK(world.bodies().pose[world.grain(k).index()].position.minCoeff() > 0.006);
+  for (const BodyId grain : world.grains()) {
+    speed = std::max(speed, world.velocity(grain).norm());
+    CHECK(world.pose(grain).position.minCoeff() > 0.006);
   }
   CHECK(overlap < 1e-2 * 0.02);
   if (sanitizer_share == 1) CHECK(speed < 0.02);

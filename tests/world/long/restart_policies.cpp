@@ -2,6 +2,7 @@
 // Restarts with every kind of stored state that a law, a shape or a boundary has.
 #include <doctest/doctest.h>
 
+#include "moreau/core/thread_team.hpp"
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
@@ -9,7 +10,6 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/moreau.hpp"
-#include "moreau/solve/thread_team.hpp"
 
 using namespace moreau;
 
@@ -122,8 +122,9 @@ TEST_CASE("the number of threads is not in a snapshot") {
   const Materials<Law> laws(2, Law(0.4));
   // Other broad phases and solvers than the defaults may be compiled in a different translation
   // unit with different flags.
-  using World = Simulation<Disk<>, Law, MoreauJean, CellGrid<Plane>, ParallelGaussSeidel>;
-  World alone(0.01, laws, ParallelGaussSeidel({}, 1)), team(0.01, laws, ParallelGaussSeidel({}, 2));
+  using World = Simulation<Disk<>, Law, MoreauJean, CellGrid<Plane>>;
+  World alone(0.01, laws), team(0.01, laws);
+  team.set_team(ThreadTeam(2));
   build(alone, false);
   for (int k = 0; k < 300; ++k) alone.step(5e-4);
   restore_snapshot(snapshot(alone), team);

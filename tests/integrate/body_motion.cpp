@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/integrate/body_motion.hpp"
+
+#include <doctest/doctest.h>
+
+#include "conformance/integrator.hpp"
+
+using namespace moreau;
+
+TEST_CASE_TEMPLATE("a pose advances along the twist", S, Space<2>, Space<3>) {
+  Pose<S> pose;
+  pose.position = S::Vector::Constant(1);
+  typename S::Twist twist = S::Twist::Zero();
+  twist[0] = 2, twist[S::dofs - 1] = 0.4;
+  advance_pose<S>(pose, twist, 0.5);
+  CHECK(pose.position[0] == 2);
+  CHECK(pose.position[1] == 1);
+  const typename S::Vector turned = pose.rotation * S::Vector::UnitX();
+  CHECK(turned[0] == doctest::Approx(std::cos(0.2)));
+  CHECK(turned[1] == doctest::Approx(std::sin(0.2)));
+}
+
+TEST_CASE_TEMPLATE("forces change the velocity along axes with an inverse mass only", S, Space<2>,
+                   Space<3>) {
+  conformance::FreeBody<S> body(2, conformance::uneven_inertia<S>());
+  body.bodies.force[0][0] = 6;
+  const typename S::Vector load = 4 * S::Vector::UnitX(), gravity = -10 * S::Vector::UnitY();
+  typename S::Vector change = velocity_change<S>(body.bodies, 0, load, gravity, 0.1);
+  CHECK(change[0] == doctest::Approx(0.1 * (6 + 4) / 2));
+  CHECK(change[1] == doctest::Approx(-1));
+  body.bodies.inverse_mass[0] = S::Vector::UnitX() / 2;
+  change = velocity_change<S>(body.bodies, 0, load, gravity, 0.1);
+  CHECK(change[0] == doctest::Approx(0.5));
+  CHECK(change[1] == 0);
+}
+
+TEST_CASE("the spin at the end of a rotation has the angular momentum that is given") {
+  using S = Space<3>;
+  conformance::FreeBody<S> body(1, conformance::uneven_inertia<S>());
+  const Eigen::Vector3d momentum(1, -2, 3);
+  const Eigen::Vector3d spin = spin_after<S>(body.bodies, 0, momentum, {1, 1, 1}, 0.2);
+  const Eigen::Vector3d result = body.bodies.inertia(0, S::exp(0.2 * spin)) * spin;
+  CHECK((result - momentum).norm() < 1e-14);
+}

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// What a user may get wrong, and the message of the compiler. The test static.rejected.NAME compiles
+// the lines between #ifdef NAME and #endif  // NAME of this file twice:
+//
+//  1. With MOREAU_CORRECTED defined they must compile. So the mistake alone is what fails in 2.
+//  2. Without it they must not compile. What the compiler says must match every regular expression
+//     after "expect:". With a line "and no other error" it must report exactly one error.
+
+/// A mistake, and what is right in its place.
+#ifdef MOREAU_CORRECTED
+#define EITHER(wrong, right) right
+#else
+#define EITHER(wrong, right) wrong
+#endif
+
+#ifdef velocity_of_two_numbers
+// A velocity with two components in a simulation in space.
+// expect: (use of|call to) deleted (function|constructor).*Components
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using World = moreau::Simulation<moreau::Ball<double>, moreau::SignoriniCoulomb<double>>;
+
+void push(World& world, moreau::BodyId body) {
+#ifdef MOREAU_CORRECTED
+  world.set_velocity(body, {1, 0, 0});
+#else
+  world.set_velocity(body, {1, 0});
+#endif
+}
+#endif  // velocity_of_two_numbers
+
+#ifdef pose_of_another_dimension
+// A position with two components for a pose in space.
+// expect: (use of|call to) deleted (function|constructor).*Components
+// and no other error
+#include "moreau/core/pose.hpp"
+
+#ifdef MOREAU_CORRECTED
+const moreau::Pose<moreau::Space<3>> pose{{0, 0, 0}};
+#else
+const moreau::Pose<moreau::Space<3>> pose{{0, 0}};
+#endif
+#endif  // pose_of_another_dimension
+
+#ifdef ids_do_not_mix
+// The id of a body is passed where the id of a shape is required.
+// expect: (could not convert|no known conversion)
+#include "moreau/core/ids.hpp"
+
+inline std::size_t vertices_of(moreau::ShapeId shape) {
+  return shape.index();
+}
+
+const std::size_t count = vertices_of(EITHER(moreau::BodyId, moreau::ShapeId)(std::size_t{1}));
+#endif  // ids_do_not_mix
+
+#ifdef space_of_integers
+// The scalar type of a space is an integer.
+// expect: (floating_point|is_floating_point)
+#include "moreau/core/space.hpp"
+
+moreau::Space<3, EITHER(int, float)>::Vector x;
+#endif  // space_of_integers
+
+#ifdef shape_of_a_space
+// A space is given as template argument where a shape requires a scalar type.
+// expect: (constraint failure for.*floating_point|constraints not satisfied for alias template 'Ball')
+#include "moreau/shape/ball.hpp"
+
+using Grain = moreau::Ball<EITHER(moreau::Space<3>, double)>;
+Grain* grain;
+#endif  // shape_of_a_space
+
+#ifdef shape_without_mass
+// A simulation of a shape without mass properties. The message names the missing expression.
+// expect: shape.mass_properties\(density\)
+#include "moreau/shape/ball.hpp"
+
+struct Bubble {
+  using Space = moreau::Space<3>;
+  moreau::Aabb<Space> bounding_box(const moreau::Pose<Space>& pose) const;
+#ifdef MOREAU_CORRECTED
+  moreau::MassProperties<Space> mass_properties(double density) const;
+#endif
+};
+
+template <moreau::Shape T>
+struct Grain {};
+
+Grain<Bubble> grain;
+#endif  // shape_without_mass
+
+#ifdef sphere_is_no_polytope
+// A ball is given as template argument where a polytope is required.
+// expect: shape.vertices\(\)
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+template <moreau::Polytope T>
+struct Clipped {};
+
+Clipped<EITHER(moreau::Ball<double>, moreau::Polyhedron<double>)> clipped;
+#endif  // sphere_is_no_polytope
+
+#ifdef support_leaks_expression
+// A support function with the return type auto: it returns an Eigen expression of its argument.
+// expect: shape.support\(direction\)
+#include "moreau/shape/ball.hpp"
+
+struct Ball : moreau::Ball<double> {
+  EITHER(auto, Vector) support(const Vector& direction) const { return 2 * direction; }
+};
+
+template <moreau::ConvexShape T>
+struct Grain {};
+
+Grain<Ball> grain;
+#endif  // support_leaks_expression
+
+#ifdef simulation_of_leaking_support
+// The mistake of support_leaks_expression, in a simulation.
+// expect: shape.support\(direction\)
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Ball : moreau::Ball<double> {
+  EITHER(auto, Vector) support(const Vector& direction) const { return 2 * direction; }
+};
+
+using Simulation = moreau::Simulation<Ball, moreau::SignoriniCoulomb<double>>;
+Simulation* simulation;
+#endif  // simulation_of_leaking_support
+
+#ifdef broad_phase_of_another_space
+// A broad phase for the plane in a simulation of balls in space.
+// expect: Broad is no BroadPhase in the space of the shape
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Broad = moreau::SweepAndPrune<moreau::Space<EITHER(2, 3)>>;
+
+using Law = moreau::SignoriniCoulomb<double>;
+moreau::Simulation<moreau::Ball<>, Law, moreau::MoreauJean, Broad> simulation(
+    0.01, moreau::Materials<Law>(1));
+#endif  // broad_phase_of_another_space
+
+#ifdef law_of_another_dimension
+// A law for the plane in a simulation in space. The message names the call that is not valid.
+// expect: law.solve\(block, vector, vector\)
+#include "moreau/law/concepts.hpp"
+
+using S = moreau::Space<EITHER(2, 3)>;
+
+struct Frictionless {
+  double velocity_offset(double gap, double before, double step) const;
+  S::Vector solve(const moreau::LocalBlock<S>& block, const S::Vector& b,
+                  const S::Vector& guess) const;
+  S::Vector natural_map(const S::Vector& velocity, const S::Vector& impulse) const;
+};
+
+template <class Law>
+requires moreau::SetValuedLaw<Law, moreau::Space<3>>
+struct Contacts {
+};
+
+Contacts<Frictionless> contacts;
+#endif  // law_of_another_dimension
+
+#ifdef law_of_another_scalar
+// A law in single precision for grains in double precision.
+// expect: Law offers neither velocity_offset, solve and natural_map
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Law = moreau::SignoriniCoulomb<EITHER(float, double)>;
+moreau::Simulation<moreau::Ball<double>, Law> simulation(0.01, moreau::Materials<Law>(1));
+#endif  // law_of_another_scalar
+
+#ifdef forces_under_moreau_jean
+// A regularized law with an integrator of impulses.
+// expect: a regularized law gives forces, which an integrator of impulses such as MoreauJean
+// and no other error
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Integrator = EITHER(moreau::MoreauJean, moreau::VelocityVerlet);
+using Law = moreau::LinearSpringDashpot<double>;
+moreau::Simulation<moreau::Ball<double>, Law, Integrator> simulation(0.01,
+                                                                     moreau::Materials<Law>(1));
+#endif  // forces_under_moreau_jean
+
+#ifdef impulses_under_verlet
+// A set-valued law with an integrator of forces.
+// expect: a set-valued law gives impulses, which an integrator of forces such as VelocityVerlet
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Integrator = EITHER(moreau::VelocityVerlet, moreau::MoreauJean);
+using Law = moreau::SignoriniCoulomb<double>;
+moreau::Simulation<moreau::Ball<double>, Law, Integrator> simulation(0.01,
+                                                                     moreau::Materials<Law>(1));
+#endif  // impulses_under_verlet
+
+#ifdef springs_with_a_solver
+// A regularized law, for which there is nothing to solve, with a contact solver.
+// expect: a regularized law leaves nothing to solve
+// and no other error
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Solver = EITHER(moreau::NonlinearGaussSeidel, moreau::NoSolver);
+using Law = moreau::LinearSpringDashpot<double>;
+using Plane = moreau::Space<2>;
+moreau::Simulation<moreau::Disk<>, Law, moreau::VelocityVerlet, moreau::SweepAndPrune<Plane>,
+                   Solver>
+    simulation(0.01, moreau::Materials<Law>(1));
+#endif  // springs_with_a_solver
+
+#ifdef impulses_without_solver
+// A set-valued law without a contact solver.
+// expect: Solver cannot take this set-valued law
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Solver = EITHER(moreau::NoSolver, moreau::NonlinearGaussSeidel);
+using Law = moreau::SignoriniCoulomb<double>;
+using Plane = moreau::Space<2>;
+moreau::Simulation<moreau::Disk<>, Law, moreau::MoreauJean, moreau::SweepAndPrune<Plane>, Solver>
+    simulation(0.01, moreau::Materials<Law>(1));
+#endif  // impulses_without_solver
+
+#ifdef rolling_under_colours
+// A law with couples and a solver that can treat only point contacts.
+// expect: Solver cannot take this set-valued law
+// and no other error
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Solver = EITHER(moreau::ColouredGaussSeidel, moreau::NonlinearGaussSeidel);
+using Law = moreau::RollingResistance<double>;
+using Plane = moreau::Space<2>;
+moreau::Simulation<moreau::Disk<>, Law, moreau::MoreauJean, moreau::SweepAndPrune<Plane>, Solver>
+    simulation(0.01, moreau::Materials<Law>(1));
+#endif  // rolling_under_colours
