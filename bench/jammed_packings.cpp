@@ -27,12 +27,13 @@
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "packing.hpp"
+
 namespace {
 
 using namespace moreau;
 
-constexpr double density = 2700, thickness = 0.05;  // of the grains [kg/m^3], in the plane [m]
-constexpr double pressure = 1e4, h = 2e-4;          // on the lid [Pa], time step [s]
+constexpr double h = bench::packing_step;
 
 /// The impulses from which a solve starts.
 enum class Start { warm, zero, random };
@@ -79,64 +80,7 @@ class StartingSolver : public ColouredGaussSeidel {
 };
 
 template <class ShapeT, class Law>
-class Packing {
- public:
-  using S = SpaceOf<ShapeT>;
-  using Vector = typename S::Vector;
-  using World = Simulation<ShapeT, Law, MoreauJean, SweepAndPrune<S>, StartingSolver>;
-  static constexpr int up = S::dim - 1;
-
-  Packing(std::size_t count, const Law& law) : world(0.025, Materials<Law>(1, law)) {
-    std::mt19937_64 random(1);
-    std::vector<ShapeT> shapes;
-    std::vector<double> radii;
-    double volume = 0;
-    for (const double diameter : SizeDistribution::azema2008().sample(count, random)) {
-      shapes.push_back(Ballast<ShapeT>::draw(random).scaled(diameter / 2));
-      radii.push_back(diameter / 2);
-      volume += shapes.back().volume();
-    }
-    length_ = std::pow(volume / 0.6, 1.0 / S::dim);
-    const auto poses = random_deposition<S>(radii, length_, random);
-    double top = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      world.add_grain(world.add_shape(shapes[k]), poses[k], density * depth());
-      top = std::max(top, poses[k].position[up] + radii[k]);
-    }
-    mass_ = density * depth() * volume;
-    for (int axis = 0; axis < S::dim; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
-    for (int axis = 0; axis < up; ++axis)
-      world.add_wall(-Vector::Unit(axis), length_ * Vector::Unit(axis));
-    lid_ = world.add_wall(-Vector::Unit(up), top * Vector::Unit(up));
-    world.set_gravity(-9.81 * Vector::Unit(up));
-  }
-
-  /// Lowers the lid until the grains carry its force, and lets them come to rest under the force.
-  void compress() {
-    world.set_solver(StartingSolver(1e-4));
-    world.set_velocity(lid_, -1.0 * Vector::Unit(up));
-    double reaction = 0;
-    while (reaction < force()) {
-      world.step(h);
-      reaction += 0.05 * (world.contact_impulse(lid_)[up] / h - reaction);
-    }
-    world.set_velocity(lid_, Vector::Zero());
-    world.set_wall_mass(lid_, mass_);
-    load(1);
-    for (int k = 0; k < 1500; ++k) world.step(h);
-  }
-  /// Sets the force on the lid, relative to that of the pressure.
-  void load(double share) { world.set_force(lid_, -share * force() * Vector::Unit(up)); }
-
-  World world;
-
- private:
-  static constexpr double depth() { return std::is_same_v<S, Space<2>> ? thickness : 1; }
-  double force() const { return pressure * depth() * std::pow(length_, up); }
-
-  double length_ = 0, mass_ = 0;
-  BodyId lid_;
-};
+using Packing = bench::Packing<ShapeT, Law, StartingSolver>;
 
 /// Prints the mean and the largest number of sweeps over 40 steps, in which the force on the lid falls
 /// by 0.5 % per step.
@@ -207,7 +151,7 @@ void print_tables(const Law& law, const std::vector<std::size_t>& counts) {
       "| N | points | tolerance | sweeps | most | capped | solve [ms] | per point and sweep [ns] "
       "|\n|---|---|---|---|---|---|---|---|\n");
   for (const std::size_t count : counts) {
-    packings.emplace_back(count, law);
+    packings.emplace_back(count, law, StartingSolver(1e-4));
     packings.back().compress();
     print_sweeps(packings.back(), count);
   }

@@ -81,11 +81,11 @@ class Press {
   State state(const State& start) const {
     State out = start;
     for (std::size_t k = 0; k < out.poses.size(); ++k)
-      out.poses[k] = simulation.bodies().pose[simulation.grain(k).index()];
+      out.poses[k] = simulation.pose(simulation.grain(k));
     out.lid = height();
     return out;
   }
-  double height() const { return simulation.bodies().pose[lid.index()].position.y(); }
+  double height() const { return simulation.pose(lid).position.y(); }
 
   Simulation simulation;
   moreau::BodyId lid;
@@ -128,10 +128,7 @@ Outcome settle(const State& packing, const Law& law, double step) {
   out.solid = moreau::solid_fraction<S>(
       inside, press.simulation.grain_count(),
       [&](std::size_t k) { return press.simulation.shape_of_grain(k); },
-      [&](std::size_t k) {
-        return press.simulation.bodies().pose[press.simulation.grain(k).index()];
-      },
-      workspace);
+      [&](std::size_t k) { return press.simulation.pose(press.simulation.grain(k)); }, workspace);
   std::vector<double> pushes;
   for (const Vector& r : press.simulation.contacts().impulses)
     if (r[0] > 0) pushes.push_back(r[0] / step);

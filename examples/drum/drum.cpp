@@ -2,8 +2,8 @@
 // The dynamic angle of repose of grains in a slowly rotating drum. Prints the mean angle and
 // writes:
 //  - drum.csv: the angle over time
-//  - drum.vtp: the grains at the end, for ParaView
-//  - drum.png (in the plane only): the grains at the end; a lighter color is a higher speed
+//  - drum.vtm: the grains, the drum and the contacts at the end, for ParaView
+//  - drum.png: the grains at the end; a lighter color is a higher speed
 //
 //   gnuplot -p -e 'set datafile separator ","; plot "drum.csv" using 1:2 skip 1 with lines'
 //
@@ -17,10 +17,9 @@
 #include <vector>
 
 #include "moreau/io/csv.hpp"
-#include "moreau/io/vtk.hpp"
+#include "moreau/io/write_paraview.hpp"
+#include "moreau/io/write_picture.hpp"
 #include "moreau/sample/ballast.hpp"
-
-#include "../rendering/render.hpp"  // of the examples
 
 using Law = moreau::SignoriniCoulomb<double>;
 
@@ -57,32 +56,23 @@ void fill(Simulation& simulation, const std::vector<Shape>& shapes) {
 template <class Simulation>
 double angle_of_repose(const Simulation& simulation) {
   typename Simulation::Vector sum = Simulation::Vector::Zero();
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
-    const std::size_t i = simulation.grain(k).index();
-    sum += simulation.bodies().weight[i] * simulation.bodies().pose[i].position;
-  }
+  for (const moreau::BodyId grain : simulation.grains())
+    sum += simulation.bodies().weight[grain.index()] * simulation.pose(grain).position;
   return std::atan2(std::abs(sum[0]), -sum[Simulation::S::dim - 1]) * 180 / std::numbers::pi;
 }
 
-void draw(const moreau::Simulation<moreau::Polygon<double>, Law>& simulation) {
-  const Eigen::Vector2d corner = Eigen::Vector2d::Constant(setup::radius);
-  rendering::Drawing drawing(-corner, corner, 700, 700);
-  const auto circle = [](double angle) -> Eigen::Vector2d {
-    return setup::radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-  };
-  std::vector<Eigen::Vector2d> rim;
-  for (int k = 0; k < 200; ++k) rim.push_back(circle(std::numbers::pi * k / 100));
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
-    const std::size_t i = simulation.grain(k).index();
-    const double speed = simulation.bodies().velocity[i].head<2>().norm();
-    const auto color = rendering::speed_color(speed / (3 * setup::rate * setup::radius));
-    rendering::detail::draw_grain(simulation.shape_of_grain(k), simulation.bodies().pose[i], color,
-                                  drawing);
-  }
-  drawing.outline(rim, rendering::screen_color(0x4A4F57), 4);
-  rendering::write_png("drum.png", drawing.finished());
+/// A lighter color is a higher speed.
+void draw(const auto& simulation) {
+  moreau::rendering::Picture picture;
+  picture.width = picture.height = 700;
+  moreau::write_picture(
+      "drum.png", simulation,
+      [&](moreau::BodyId grain) {
+        const double speed = simulation.velocity(grain).norm();
+        return moreau::rendering::speed_color(speed / (3 * setup::rate * setup::radius));
+      },
+      picture);
 }
-void draw(const auto&) {}
 
 template <class Shape>
 bool run() {
@@ -111,12 +101,7 @@ bool run() {
     table.row(simulation.time(), angle);
     if (simulation.time() > setup::warm_up) sum += angle, ++count;
   }
-  const auto& bodies = simulation.bodies();
-  moreau::VtkWriter<S>().write_grains(
-      "drum.vtp", simulation.grain_count(),
-      [&](std::size_t k) { return simulation.shape_of_grain(k); },
-      [&](std::size_t k) { return bodies.pose[simulation.grain(k).index()]; },
-      [&](std::size_t k) { return bodies.velocity[simulation.grain(k).index()]; });
+  moreau::write_paraview("drum", simulation, setup::h);
   draw(simulation);
   std::cout << simulation.grain_count() << " grains, angle of repose " << sum / count
             << " degrees; " << unsolved << " of " << steps << " steps not converged\n";

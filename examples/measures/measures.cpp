@@ -3,7 +3,7 @@
 // presses on them, and the program measures the packing. Prints a table for each dimension and
 // writes into measures-output/:
 //  - run.csv: height of the lid and kinetic energy over time
-//  - run.pvd: grains and contacts over time, for ParaView
+//  - run.pvd: grains, walls and contacts over time, for ParaView
 //  - displacement.vtp: displacements of the grains at the end, for ParaView
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 
 #include "moreau/io/csv.hpp"
 #include "moreau/io/vtk.hpp"
+#include "moreau/io/write_paraview.hpp"
 #include "moreau/measure/contact_classes.hpp"
 #include "moreau/measure/coordination.hpp"
 #include "moreau/measure/energy_balance.hpp"
@@ -95,16 +96,12 @@ void run(const fs::path& folder) {
   const auto& bodies = simulation.bodies();
   const auto position_of = [&](std::size_t body) { return bodies.pose[body].position; };
   const auto is_grain = [&](std::size_t body) { return simulation.is_grain(body); };
-  const auto shape_of = [&](std::size_t k) -> const Shape& { return simulation.shape_of_grain(k); };
-  const auto pose_of = [&](std::size_t k) { return bodies.pose[simulation.grain(k).index()]; };
-  const auto twist_of = [&](std::size_t k) { return bodies.velocity[simulation.grain(k).index()]; };
   std::vector<Vector> start;
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k) start.push_back(pose_of(k).position);
+  for (const moreau::BodyId grain : simulation.grains())
+    start.push_back(simulation.pose(grain).position);
 
   moreau::CsvWriter table(folder / "run.csv", {{"t", "s"}, {"lid", "m"}, {"kinetic", "J"}});
-  moreau::VtkWriter<S> writer;
   moreau::PvdSeries series(folder / "run.pvd");
-  std::vector<moreau::ContactSegment<S>> segments;
   moreau::EnergyBalance<S> energy(simulation);
   Watch watch;
   for (int step = 0; simulation.time() < duration; ++step) {
@@ -112,18 +109,14 @@ void run(const fs::path& folder) {
     watch(report);
     energy.add(simulation, report, h);
     if (step % 200 != 0) continue;
-    table.row(simulation.time(), position_of(lid.index())[up], energy.kinetic());
-    const std::string number = std::to_string(step / 200) + ".vtp";
-    writer.write_grains(folder / ("grains_" + number), simulation.grain_count(), shape_of, pose_of,
-                        twist_of);
-    moreau::contact_segments(simulation.contacts(), h, position_of, is_grain, segments);
-    writer.write_contacts(folder / ("contacts_" + number), segments);
-    series.add(simulation.time(), "grains_" + number, 0);
-    series.add(simulation.time(), "contacts_" + number, 1);
+    table.row(simulation.time(), simulation.pose(lid).position[up], energy.kinetic());
+    const std::string name = "run_" + std::to_string(step / 200);
+    moreau::write_paraview(folder / name, simulation, h);
+    series.add(simulation.time(), name + ".vtm");
   }
 
   moreau::Aabb<S> box{Vector::Zero(), Vector::Constant(width)};
-  box.upper[up] = position_of(lid.index())[up];
+  box.upper[up] = simulation.pose(lid).position[up];
   const typename S::Matrix stress =
       moreau::contact_stress(simulation.contacts(), h, box, position_of, is_grain);
   std::vector<moreau::PairForce<S>> pairs;
@@ -131,15 +124,15 @@ void run(const fs::path& folder) {
   const auto fabric = moreau::fabric<S>(pairs, box, position_of, is_grain);
   const auto forces = moreau::force_distribution<double>(
       pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; }, 12, 4.0);
-  moreau::CoordinationCounter<S> counter;
-  const auto coordination = counter.count(
-      simulation.contacts().points, simulation.contacts().impulses, bodies.size(), is_grain, 2);
+  const moreau::Coordination coordination = moreau::coordination(simulation, 2);
   typename moreau::GridField<S>::Cells cells;
   cells.fill(6);
   moreau::GridField<S> displacement(box, cells);
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k)
-    displacement.add(pose_of(k).position, pose_of(k).position - start[k]);
-  writer.write_field(folder / "displacement.vtp", displacement);
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const Vector& position = simulation.pose(simulation.grain(k)).position;
+    displacement.add(position, position - start[k]);
+  }
+  moreau::VtkWriter<S>().write_field(folder / "displacement.vtp", displacement);
 
   const moreau::EnergyTerms& terms = energy.terms();
   std::cout << folder.filename().string() << ", " << simulation.grain_count() << " grains\n"

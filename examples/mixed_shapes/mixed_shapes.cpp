@@ -6,11 +6,10 @@
 #include <cstddef>
 #include <iostream>
 #include <map>
+#include <moreau/io/write_picture.hpp>
 #include <moreau/moreau.hpp>
 #include <string>
 #include <vector>
-
-#include "../rendering/render.hpp"  // of the examples
 
 using S = moreau::Space<3>;
 using Vector = S::Vector;
@@ -48,27 +47,19 @@ int main() {
   }
 
   const unsigned colors[] = {0xB3562E, 0xD3C1A5, 0x3F6E8C};
-  rendering::Picture picture;
-  picture.width = picture.height = 700;
-  picture.walls = false;
-  rendering::write_png(
-      "mixed_shapes.png",
-      rendering::render_packing(
-          moreau::Aabb<S>{{0, 0, 0}, {0.145, 0.145, 0.1}}, simulation.grain_count(),
-          [&](std::size_t k) { return simulation.shape_of_grain(k); },
-          [&](std::size_t k) { return simulation.bodies().pose[simulation.grain(k).index()]; },
-          [&](std::size_t k) {
-            return rendering::screen_color(colors[simulation.shape_of_grain(k).index()]);
-          },
-          picture));
+  moreau::write_picture(
+      "mixed_shapes.png", simulation,
+      [&](moreau::BodyId grain) {
+        return moreau::rendering::screen_color(colors[simulation.shape(grain).index()]);
+      },
+      {.width = 700, .height = 700});
 
   // Contact points of each pair of kinds.
   const char* names[] = {"ball", "die", "rod"};
   std::map<std::string, int> points;
   const auto kind_of = [&](std::uint32_t body) -> std::string {
-    for (std::size_t k = 0; k < simulation.grain_count(); ++k)
-      if (simulation.grain(k).value == body) return names[simulation.shape_of_grain(k).index()];
-    return "wall";
+    if (!simulation.is_grain(body)) return "wall";
+    return names[simulation.shape(moreau::BodyId(body)).index()];
   };
   for (const auto& contact : simulation.contacts().points) {
     const auto [first, second] = std::minmax({kind_of(contact.a), kind_of(contact.b)});

@@ -31,9 +31,9 @@ double error_of_bounces(double drop, double step) {
   for (int bounces = 0; bounces < 5 || speed > 0;) {
     const double before = speed;
     simulation.step(step);
-    speed = simulation.bodies().velocity[ball.index()][2];
+    speed = simulation.velocity(ball)[2];
     if (before < 0 && speed >= 0) ++bounces, top = 0;
-    top = std::max(top, simulation.bodies().pose[ball.index()].position.z() - 0.05);
+    top = std::max(top, simulation.pose(ball).position.z() - 0.05);
   }
   return std::abs(top - drop);
 }

@@ -35,7 +35,7 @@ int main() {
       const double t = simulation.time();
       const double expected =
           mass * 9.81 * std::sin(slope) / drag * (1 - std::exp(-drag * t / mass));
-      const double speed = simulation.bodies().velocity[crate.index()][0];
+      const double speed = simulation.velocity(crate)[0];
       worst = std::max(worst, std::abs(speed - expected));
       std::printf("%.1f %.6f %.6f\n", t, speed, expected);
     }

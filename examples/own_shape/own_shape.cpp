@@ -4,10 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <moreau/io/write_picture.hpp>
 #include <moreau/moreau.hpp>
 #include <moreau/shape/support_box.hpp>
-
-#include "../rendering/render.hpp"  // of the examples
 
 using S = moreau::Space<3>;
 
@@ -76,20 +75,11 @@ int main() {
     deepest = std::max(deepest, report.max_overlap);
     unsolved += !report.solve.converged;
   }
-  rendering::Picture picture;
-  picture.width = picture.height = 700;
-  picture.walls = false;
-  rendering::write_png(
-      "own_shape.png",
-      rendering::render_packing(
-          moreau::Aabb<S>{{-0.07, -0.07, 0}, {0.13, 0.13, 0.05}}, simulation.grain_count(),
-          [&](std::size_t k) { return simulation.shape_of_grain(k); },
-          [&](std::size_t k) { return simulation.bodies().pose[simulation.grain(k).index()]; },
-          [&](std::size_t k) { return rendering::stone_color(0.05 * double(k), k); }, picture));
+  moreau::write_picture("own_shape.png", simulation, {.width = 700, .height = 700});
 
   double height = 0;
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k)
-    height += simulation.bodies().pose[simulation.grain(k).index()].position.z() / 20;
+  for (const moreau::BodyId grain : simulation.grains())
+    height += simulation.pose(grain).position.z() / 20;
   std::cout << "after " << simulation.time() << " s: " << report.pairs
             << " pairs in contact, mean height " << height << " m, deepest overlap on the way "
             << deepest << " m, " << unsolved << " steps not solved; "

@@ -87,21 +87,15 @@ bool is_calm(const Simulation& simulation, const moreau::StepReport& report) {
 
 /// Prints the solid fraction inside the packing and the mean number of neighbours.
 void print(const Simulation& simulation) {
-  const auto& bodies = simulation.bodies();
   const auto shape_of = [&](std::size_t k) -> const Shape& { return simulation.shape_of_grain(k); };
-  const auto pose_of = [&](std::size_t k) { return bodies.pose[simulation.grain(k).index()]; };
-  const auto is_grain = [&](std::size_t body) { return simulation.is_grain(body); };
+  const auto pose_of = [&](std::size_t k) { return simulation.pose(simulation.grain(k)); };
   moreau::Aabb<S> inner{Vector::Constant(0.03), Vector::Constant(width - 0.03)};
   inner.upper[S::dim - 1] = 0.09;  // below the surface of the packing
   moreau::ClipWorkspace<S> workspace;
   const double fraction =
       moreau::solid_fraction(inner, simulation.grain_count(), shape_of, pose_of, workspace);
-  moreau::CoordinationCounter<S> counter;
-  const auto& contacts = simulation.contacts();
-  const auto coordination =
-      counter.count(contacts.points, contacts.impulses, bodies.size(), is_grain, 2);
   std::cout << "solid fraction " << fraction << ", mean number of neighbours "
-            << coordination.neighbours << '\n';
+            << moreau::coordination(simulation, 2).neighbours << '\n';
 }
 
 int main() {

@@ -4,29 +4,40 @@
 // away, and the grains flow out over the floor until they come to rest. In space the box is
 // periodic along its depth, so that the flow is plane in the mean.
 //
-// Prints the run-out (L - L0) / L0 over the aspect ratio a, with its standard error over three
-// samples, and writes plane_and_space.csv. plane_and_space.gp plots it.
+//   plane_and_space [folder] [grains in the plane] [grains in space] [samples]
+//
+// The defaults are plane_and_space-output, 300, 300 and 3. Prints the run-out (L - L0) / L0 over the
+// aspect ratio a, with its standard error over the samples, and writes it to plane_and_space.csv in
+// the folder. Each sample is stored in a file of its own in the folder samples/ when it is finished.
+// A run that was stopped continues from these files; delete them after a change of the program.
+// run.sh builds, runs and plots it.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <moreau/moreau.hpp>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "moreau/io/csv.hpp"
+#include "moreau/io/output_file.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/sample/size_distribution.hpp"
 
+namespace fs = std::filesystem;
 using Law = moreau::SignoriniCoulomb<double>;
 
 namespace setup {
 constexpr double size = 0.01, depth = 0.05;  // of the smallest grain, of the box in space [m]
 constexpr double gravity = 9.81, h = 5e-4;   // [m/s^2], [s]
 constexpr double friction = 0.4;             // of grains with grains and with the floor [-]
+constexpr double longest = 1.5;              // of the collapse, for grains that roll on [s]
 }  // namespace setup
 
 /// One column.
@@ -66,13 +77,13 @@ class Column {
   /// @returns the run-out (L - L0) / L0, where L is the length that contains 98 % of the grains [-]
   double collapse() {
     settle(1.5);
-    moreau::Pose<S> pose = simulation_.bodies().pose[gate_.index()];
+    moreau::Pose<S> pose = simulation_.pose(gate_);
     pose.position += 1000 * Vector::UnitX();
     simulation_.set_pose(gate_, pose);
-    settle(2.5);
+    settle(setup::longest);
     std::vector<double> x;
-    for (std::size_t k = 0; k < simulation_.grain_count(); ++k)
-      x.push_back(simulation_.bodies().pose[simulation_.grain(k).index()].position[0]);
+    for (const moreau::BodyId grain : simulation_.grains())
+      x.push_back(simulation_.pose(grain).position[0]);
     const auto front = x.begin() + std::ptrdiff_t(0.98 * double(x.size()));
     std::nth_element(x.begin(), front, x.end());
     return (*front - length_) / length_;
@@ -116,10 +127,8 @@ class Column {
       ++steps_;
       unsolved_ += !report.solve.converged;
       fastest = 0;
-      for (std::size_t k = 0; k < simulation_.grain_count(); ++k) {
-        const auto& velocity = simulation_.bodies().velocity[simulation_.grain(k).index()];
-        fastest = std::max(fastest, moreau::linear<S>(velocity).norm());
-      }
+      for (const moreau::BodyId grain : simulation_.grains())
+        fastest = std::max(fastest, simulation_.velocity(grain).norm());
     }
     duration_ = simulation_.time() - start;
   }
@@ -130,37 +139,78 @@ class Column {
   std::size_t steps_ = 0, unsolved_ = 0;
 };
 
-/// Three samples for each aspect ratio.
+/// Results of one sample.
+struct Sample {
+  double run_out = 0, duration = 0;
+  std::size_t steps = 0, unsolved = 0;
+};
+
+/// The sample in this file, or, if there is no such file, a new sample, which is then stored in it.
 template <class Shape>
-void run(const std::string& name, std::size_t count, moreau::CsvWriter& file) {
-  constexpr int samples = 3;
+Sample stored_sample(const fs::path& path, std::size_t count, double aspect, std::uint64_t seed) {
+  Sample sample;
+  if (std::ifstream file(path);
+      file >> sample.run_out >> sample.duration >> sample.steps >> sample.unsolved)
+    return sample;
+  Column<Shape> column(count, aspect, seed);
+  sample.run_out = column.collapse();
+  sample.duration = column.duration(), sample.steps = column.steps();
+  sample.unsolved = column.unsolved();
+  std::ostringstream text;
+  text.precision(17);
+  text << sample.run_out << ' ' << sample.duration << ' ' << sample.steps << ' ' << sample.unsolved
+       << '\n';
+  moreau::write_atomically(path, text.str());
+  return sample;
+}
+
+/// Where the samples are stored, and how many there are for each aspect ratio.
+struct Series {
+  fs::path folder;
+  std::uint64_t samples;
+};
+
+/// All samples of one shape.
+template <class Shape>
+void run(const std::string& name, std::size_t count, const Series& series,
+         moreau::CsvWriter& file) {
+  const auto n = double(series.samples);
   for (const double aspect : {0.5, 1.0, 2.0, 4.0}) {
     double sum = 0, square = 0, duration = 0;
     std::size_t steps = 0, unsolved = 0;
-    for (int sample = 1; sample <= samples; ++sample) {
-      Column<Shape> column(count, aspect, std::uint64_t(sample));
-      const double run_out = column.collapse();
-      sum += run_out;
-      square += run_out * run_out;
-      duration += column.duration() / samples;
-      steps += column.steps();
-      unsolved += column.unsolved();
+    for (std::uint64_t seed = 1; seed <= series.samples; ++seed) {
+      std::ostringstream stem;
+      stem << name << '_' << count << '_' << aspect << '_' << seed << ".txt";
+      const Sample sample =
+          stored_sample<Shape>(series.folder / "samples" / stem.str(), count, aspect, seed);
+      sum += sample.run_out;
+      square += sample.run_out * sample.run_out;
+      duration += sample.duration / n;
+      steps += sample.steps;
+      unsolved += sample.unsolved;
     }
-    const double mean = sum / samples;
-    const double variance = std::max(0.0, (square - samples * mean * mean) / (samples - 1));
-    const double error = std::sqrt(variance / samples);
+    const double mean = sum / n;
+    const double variance = std::max(0.0, (square - n * mean * mean) / std::max(1.0, n - 1));
+    const double error = std::sqrt(variance / n);
     std::cout << name << ", a = " << aspect << ": run-out " << mean << " +- " << error
-              << ", at rest after " << duration << " s; " << unsolved << " of " << steps
+              << ", end after " << duration << " s; " << unsolved << " of " << steps
               << " steps not solved" << std::endl;
-    file.row(double(moreau::SpaceOf<Shape>::dim), aspect, mean, error, duration);
+    file.row(double(moreau::SpaceOf<Shape>::dim), double(count), aspect, mean, error, n, duration);
   }
 }
 
-int main() {
-  moreau::CsvWriter file("plane_and_space.csv",
-                         {"dimension", "aspect", "run_out", "standard_error", "duration"});
-  run<moreau::Polygon<double>>("polygons", 400, file);
-  run<moreau::Disk<double>>("disks", 400, file);
-  run<moreau::Polyhedron<double>>("polyhedra", 800, file);
-  run<moreau::Ball<double>>("balls", 800, file);
+int main(int count, char** arguments) {
+  const auto number = [&](int k, int otherwise) {
+    return count > k ? std::stoul(arguments[k]) : static_cast<unsigned long>(otherwise);
+  };
+  const Series series{count > 1 ? arguments[1] : "plane_and_space-output", number(4, 3)};
+  const std::size_t plane = number(2, 300), space = number(3, 300);
+  fs::create_directories(series.folder / "samples");
+  moreau::CsvWriter file(
+      series.folder / "plane_and_space.csv",
+      {"dimension", "grains", "aspect", "run_out", "standard_error", "samples", {"duration", "s"}});
+  run<moreau::Polygon<double>>("polygons", plane, series, file);
+  run<moreau::Disk<double>>("disks", plane, series, file);
+  run<moreau::Polyhedron<double>>("polyhedra", space, series, file);
+  run<moreau::Ball<double>>("balls", space, series, file);
 }

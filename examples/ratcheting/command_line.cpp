@@ -146,7 +146,7 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
          "reference. The preparation always uses coloured")
       ->check(CLI::IsMember({"coloured", "plain"}));
   app.add_option("--threads", p.threads,
-                 "number of threads of the solver; the results do not depend on it")
+                 "threads that share the work; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   app.add_flag(
       "--cold-start", p.cold_start,

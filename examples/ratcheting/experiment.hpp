@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/thread_team.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy.hpp"
 #include "moreau/sample/random_deposition.hpp"
@@ -50,6 +51,7 @@ class Experiment {
   /// @param thickness of a grain out of the plane [m]; 1 in space
   Experiment(const Parameters& p, double thickness)
       : parameters_(p), random_(p.seed), simulation_(make_simulation(p)) {
+    simulation_.set_team(moreau::ThreadTeam(p.threads));
     const Grains<ShapeT> grains = make_grains<ShapeT>(p, random_);
     volume_ = grains.volume;
     thickness_ = thickness;
@@ -79,7 +81,7 @@ class Experiment {
       options.tolerance = parameters_.preparation_tolerance;
       options.stop_test = moreau::StopTest::qm16;
       options.max_sweeps = parameters_.preparation_sweeps;
-      simulation_.set_solver(Solver(options, parameters_.threads));
+      simulation_.set_solver(Solver(options));
     }
     const double force = parameters_.lid_force * mass_ * 9.81;
     const double size = simulation_.grain_size();
@@ -88,7 +90,7 @@ class Experiment {
     simulation_.set_velocity(lid_, -speed * up_axis);
     double reaction = 0;
     while (reaction < force) {
-      if (simulation_.bodies().pose[lid_.index()].position[up] < size)
+      if (simulation_.pose(lid_).position[up] < size)
         throw std::runtime_error(
             "the lid reached the floor without meeting its force: the sample "
             "is too small for its box");
@@ -124,7 +126,7 @@ class Experiment {
     simulation_.set_wall_mass(lid_, std::numeric_limits<double>::infinity());
     simulation_.set_velocity(lid_, Vector::Zero());
     simulation_.set_force(lid_, Vector::Zero());
-    auto pose = simulation_.bodies().pose[lid_.index()];
+    auto pose = simulation_.pose(lid_);
     pose.position[up] += parameters_.lid_raise;
     simulation_.set_pose(lid_, pose);
     height_ = pose.position[up];
@@ -181,10 +183,8 @@ class Experiment {
 
   double time() const { return simulation_.time() - start_; }  ///< since f started [s]
   /// Displacement of the wall, outward positive [m].
-  double displacement() const {
-    return simulation_.bodies().pose[wall_.index()].position[0] - length_;
-  }
-  double wall_velocity() const { return simulation_.bodies().velocity[wall_.index()][0]; }
+  double displacement() const { return simulation_.pose(wall_).position[0] - length_; }
+  double wall_velocity() const { return simulation_.velocity(wall_)[0]; }
   /// Force of the grains on the wall over the last step, outward positive [N].
   double wall_force() const { return simulation_.contact_impulse(wall_)[0] / parameters_.step; }
   /// Kinetic energy of the grains [J].
@@ -252,7 +252,7 @@ class Experiment {
     options.stop_test = p.stop_test;
     options.max_sweeps = p.max_sweeps;
     options.cold_sweeps = p.cold_sweeps;
-    return Solver(options, p.threads, p.cold_start, p.solver == "plain");
+    return Solver(options, p.cold_start, p.solver == "plain");
   }
   void set_correction() requires solves {
     moreau::OverlapCorrectionOptions correction;

@@ -14,22 +14,21 @@
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
-#include "moreau/solve/thread_team.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "parameters.hpp"
 
 namespace ratcheting {
 
-/// The threaded solver of the library, with two options. `cold` starts every step from zero
+/// The default solver of the library, with two options. `cold` starts every step from zero
 /// impulses, to see how unique the solutions are. `plain` solves with the reference solver instead,
 /// to see what the speed costs.
-class StudySolver : public moreau::ParallelGaussSeidel {
+class StudySolver : public moreau::ColouredGaussSeidel {
  public:
-  explicit StudySolver(const Options& options = {}, int threads = 1, bool cold = false,
-                       bool plain = false)
-      : ParallelGaussSeidel(options, threads), cold_(cold), plain_(plain) {}
+  explicit StudySolver(const Options& options = {}, bool cold = false, bool plain = false)
+      : ColouredGaussSeidel(options), cold_(cold), plain_(plain) {}
 
   template <class Operator, class Law>
   moreau::SolveReport solve(moreau::ContactProblem<Operator, Law>& problem,
@@ -37,13 +36,13 @@ class StudySolver : public moreau::ParallelGaussSeidel {
                             Workspace<Operator, Law>& workspace) const {
     if (cold_) std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
     if (plain_) return reference().solve(problem, impulses);
-    return ParallelGaussSeidel::solve(problem, impulses, workspace);
+    return ColouredGaussSeidel::solve(problem, impulses, workspace);
   }
 
  private:
   friend struct moreau::SerializationAccess;
   auto serialized_members() {
-    return std::tie(static_cast<ParallelGaussSeidel&>(*this), cold_, plain_);
+    return std::tie(static_cast<ColouredGaussSeidel&>(*this), cold_, plain_);
   }
 
   moreau::NonlinearGaussSeidel reference() const {

@@ -138,7 +138,7 @@ class Recorder {
           return simulation.shape_of_grain(k);
         },
         [&](std::size_t k) -> const moreau::Pose<S>& {
-          return simulation.bodies().pose[simulation.grain(k).index()];
+          return simulation.pose(simulation.grain(k));
         },
         workspace_);
   }

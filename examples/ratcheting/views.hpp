@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "moreau/io/csv.hpp"
+#include "moreau/io/render_packing.hpp"
 #include "moreau/io/vtk.hpp"
 #include "moreau/measure/force_chains.hpp"
 
-#include "../rendering/render.hpp"
 #include "experiment.hpp"
 
 namespace ratcheting {
@@ -81,13 +81,15 @@ class Views {
     moreau::force_chains<S>(simulation.contacts(), step_, position(), is_grain(), segments_);
     const auto color = [&](std::size_t k) {
       const double radius = double(simulation.shape_of_grain(k).circumradius());
-      return rendering::stone_color((2 * radius / largest() - 0.5) * 2, k);
+      return moreau::rendering::stone_color((2 * radius / largest() - 0.5) * 2, k);
     };
-    rendering::write_png(folder_ / ("packing" + suffix + ".png"),
-                         rendering::render_packing(experiment_.box(), simulation.grain_count(),
-                                                   shape(), pose(), color));
-    rendering::write_png(folder_ / ("force_chains" + suffix + ".png"),
-                         rendering::render_force_chains<S>(experiment_.box(), segments_));
+    moreau::rendering::write_png(
+        folder_ / ("packing" + suffix + ".png"),
+        moreau::rendering::render_packing(experiment_.box(), simulation.grain_count(), shape(),
+                                          pose(), color));
+    moreau::rendering::write_png(
+        folder_ / ("force_chains" + suffix + ".png"),
+        moreau::rendering::render_force_chains<S>(experiment_.box(), segments_));
   }
 
  private:
@@ -98,7 +100,7 @@ class Views {
   }
   auto pose() const {
     return [this](std::size_t k) -> const moreau::Pose<S>& {
-      return experiment_.simulation().bodies().pose[experiment_.simulation().grain(k).index()];
+      return experiment_.simulation().pose(experiment_.simulation().grain(k));
     };
   }
   auto position() const {

@@ -47,8 +47,7 @@ void rain(Simulation& simulation, std::mt19937_64& random) {
 /// Mean height of the grains [m].
 double mean_height(const Simulation& simulation) {
   double sum = 0;
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k)
-    sum += simulation.bodies().pose[simulation.grain(k).index()].position[1];
+  for (const moreau::BodyId grain : simulation.grains()) sum += simulation.pose(grain).position[1];
   return sum / double(simulation.grain_count());
 }
 

@@ -31,7 +31,8 @@ class Compression {
 
   /// @param ratio size of the larger half of the grains / size of the smaller half
   Compression(std::size_t count, double ratio, std::uint64_t seed, const Law& law)
-      : world_(world_of<ShapeT, Law>(size, law, options(), tolerances())) {
+      : world_(world_of<ShapeT, Law>(size, law, {.tolerance = 1e-5, .max_sweeps = 3000},
+                                     {.margin = 0.05})) {
     std::mt19937_64 random(seed);
     double solid = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -63,17 +64,6 @@ class Compression {
   }
 
  private:
-  static moreau::ColouredOptions options() {
-    moreau::ColouredOptions o;
-    o.tolerance = 1e-5;
-    o.max_sweeps = 3000;
-    return o;
-  }
-  static moreau::Tolerances tolerances() {
-    moreau::Tolerances t;
-    t.margin = 0.05;
-    return t;
-  }
   Vector free_place(double radius, std::mt19937_64& random) const {
     std::uniform_real_distribution<double> any(radius, side_ - radius);
     for (;;) {
@@ -88,8 +78,7 @@ class Compression {
   BodyId piston(int axis) const { return pistons_[std::size_t(axis)]; }
   Vector corner() const {
     Vector x;
-    for (int axis = 0; axis < S::dim; ++axis)
-      x[axis] = world_.bodies().pose[piston(axis).index()].position[axis];
+    for (int axis = 0; axis < S::dim; ++axis) x[axis] = world_.pose(piston(axis)).position[axis];
     return x;
   }
   void press_walls() {
@@ -101,9 +90,7 @@ class Compression {
   /// sqrt(pressure/density).
   bool still() const {
     std::size_t moving = 0;
-    for (std::size_t k = 0; k < world_.grain_count(); ++k)
-      moving +=
-          world_.bodies().velocity[world_.grain(k).index()].template head<S::dim>().norm() > 1e-5;
+    for (const BodyId grain : world_.grains()) moving += world_.velocity(grain).norm() > 1e-5;
     for (int axis = 0; axis < S::dim; ++axis)
       if (world_.bodies().velocity[piston(axis).index()].norm() > 1e-6) return false;
     return moving * 10 < world_.grain_count();
@@ -114,10 +101,7 @@ class Compression {
     return moreau::solid_fraction(
         inner, world_.grain_count(),
         [&](std::size_t k) -> const ShapeT& { return world_.shape_of_grain(k); },
-        [&](std::size_t k) -> const Pose<S>& {
-          return world_.bodies().pose[world_.grain(k).index()];
-        },
-        workspace);
+        [&](std::size_t k) -> const Pose<S>& { return world_.pose(world_.grain(k)); }, workspace);
   }
   /// Contacts with less than a thousandth of the mean force count as open.
   double coordination() const {

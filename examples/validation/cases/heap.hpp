@@ -61,9 +61,7 @@ struct Heap {
   }
 
   /// Pose of grain k in the order in which the grains are drawn.
-  const Pose<S>& pose(std::size_t k) const {
-    return world.bodies().pose[world.grain(place[k]).index()];
-  }
+  const Pose<S>& pose(std::size_t k) const { return world.pose(world.grain(place[k])); }
 
  private:
   static Law law(double friction) {

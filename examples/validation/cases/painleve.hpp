@@ -3,32 +3,10 @@
 
 #include <numbers>
 
+#include "is_sane.hpp"
 #include "scene.hpp"
 
 namespace validation {
-
-namespace detail {
-
-inline bool is_sane(const moreau::StepReport& report) {
-  const moreau::SolveReport& solve = report.solve;
-  for (const double value :
-       {report.max_overlap, report.mean_overlap, report.dissipation, solve.residual,
-        solve.worst_velocity, solve.worst_cone, solve.worst_complementarity,
-        solve.wrong_sign_dissipation, report.correction.work, report.correction.largest_shift})
-    if (!std::isfinite(value)) return false;
-  return solve.converged != solve.capped && solve.residual >= 0;
-}
-
-template <class ShapeT>
-bool is_finite(const World<ShapeT>& world) {
-  for (const auto& pose : world.bodies().pose)
-    if (!pose.is_finite()) return false;
-  for (const auto& velocity : world.bodies().velocity)
-    if (!velocity.allFinite()) return false;
-  return true;
-}
-
-}  // namespace detail
 
 /// A rod as a cuboid whose long axis, of length `length`, stands at an angle to the floor. In space
 /// it touches the floor with its lowest edge, at two points, or with a corner if it is rotated
@@ -118,7 +96,7 @@ void painleve(Record& record) {
       double work = 0;
       for (int k = 0; k < 200; ++k) {
         const moreau::StepReport report = scene.world.step(h);
-        insane += !detail::is_sane(report) || !detail::is_finite(scene.world);
+        insane += !is_sane(report) || !is_finite(scene.world.bodies());
         unsolved += !report.solve.converged;
         work += std::abs(report.correction.work);
         gained = std::max(gained, (energy(scene.world) - work - start) / unit);

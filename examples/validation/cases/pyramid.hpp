@@ -41,7 +41,7 @@ bool pyramid_stands(double between, double floor) {
   world.add_wall(Vector::Unit(up), Vector::Zero(), moreau::MaterialId(1));
   world.set_gravity(tilted_gravity<S>(0));
   for (int k = 0; k < 300; ++k) world.step(1e-3);
-  return radius + rise - world.bodies().pose[top.index()].position[up] < 1e-4 * radius;
+  return radius + rise - world.pose(top).position[up] < 1e-4 * radius;
 }
 
 }  // namespace detail

@@ -28,7 +28,7 @@ Departure roll_off(const Law& law, double angle, double h, double overlap = 0) {
   const BodyId rolling =
       world.add_grain(ball, {in_plane<S>(arm * std::sin(angle), arm * std::cos(angle))}, 1);
   world.set_force(rolling, -mass * S::Vector::Unit(up));
-  const auto& x = world.bodies().pose[rolling.index()].position;
+  const auto& x = world.pose(rolling).position;
   const auto energy_of_ball = [&] { return kinetic_energy(world) / mass + x[up]; };
   double gain = 0, least = energy_of_ball();
   while (world.time() < 60) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "moreau/measure/energy.hpp"
+#include "moreau/shape/regular_shape.hpp"
 
 #include "record.hpp"
 #include "world.hpp"
@@ -19,6 +20,7 @@
 namespace validation {
 
 using moreau::BodyId;
+using moreau::cuboid;
 using moreau::Materials;
 using moreau::Pose;
 using moreau::SpaceOf;
@@ -78,20 +80,6 @@ void without_correction(World<ShapeT, Law, Solver>& world) {
 
 template <class ShapeT>
 constexpr bool is_round = std::is_constructible_v<ShapeT, double>;
-
-/// A cuboid (rectangle) with these half extents.
-template <class ShapeT>
-ShapeT cuboid(const typename SpaceOf<ShapeT>::Vector& half) {
-  using S = SpaceOf<ShapeT>;
-  std::vector<typename S::Vector> corners;
-  for (int corner = 0; corner < (1 << S::dim); ++corner) {
-    typename S::Vector x = half;
-    for (int axis = 0; axis < S::dim; ++axis)
-      if ((corner >> axis & 1) != 0) x[axis] = -x[axis];
-    corners.push_back(x);
-  }
-  return ShapeT(corners);
-}
 
 /// A ball, or a cube around it.
 template <class ShapeT>
@@ -196,7 +184,7 @@ struct OnFloor {
   OnFloor(const ShapeT& shape, double height, const Law& law, double tilt = 0, double theta = 0.5)
       : OnFloor(shape, Pose<S>{in_plane<S>(0, height)}, law, tilt, theta) {}
 
-  const Pose<S>& pose() const { return world.bodies().pose[grain.index()]; }
+  const Pose<S>& pose() const { return world.pose(grain); }
   const typename S::Twist& twist() const { return world.bodies().velocity[grain.index()]; }
   double along() const { return twist()[0]; }    ///< velocity [m/s]
   double upward() const { return twist()[up]; }  ///< velocity [m/s]

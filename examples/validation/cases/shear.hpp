@@ -35,7 +35,9 @@ class ShearCell {
       : length_(across * 1.02),
         rate_(number),
         h_(2e-3 / number),
-        world_(0.8, materials(friction), solver(), tolerances()) {
+        world_(0.8, materials(friction),
+               moreau::NonlinearGaussSeidel({.tolerance = 1e-3, .max_sweeps = 1000}),
+               {.margin = 0.08}) {
     world_.set_periodic(0, 0, length_);
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> diameter(0.8, 1.2);
@@ -81,19 +83,8 @@ class ShearCell {
     all.set(moreau::MaterialId(0), moreau::MaterialId(1), Law(100, 100));
     return all;
   }
-  static moreau::NonlinearGaussSeidel solver() {
-    moreau::GaussSeidelOptions o;
-    o.tolerance = 1e-3;
-    o.max_sweeps = 1000;
-    return moreau::NonlinearGaussSeidel(o);
-  }
-  static moreau::Tolerances tolerances() {
-    moreau::Tolerances t;
-    t.margin = 0.08;
-    return t;
-  }
 
-  double height() const { return world_.bodies().pose[lid_.index()].position.y(); }
+  double height() const { return world_.pose(lid_).position.y(); }
   moreau::Aabb<S> middle() const {
     return {Vector(0, height() / 4), Vector(length_, 3 * height() / 4)};
   }

@@ -25,7 +25,9 @@ struct Silo {
 
   Silo(int across, int layers, std::uint64_t seed)
       : width(across * size * 1.12),
-        world(0.9 * size, materials(), moreau::ColouredGaussSeidel(options()), tolerances()) {
+        world(0.9 * size, materials(),
+              moreau::ColouredGaussSeidel({.tolerance = 1e-4, .max_sweeps = 5000}),
+              {.margin = 0.08}) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> share(0.9, 1.1), jitter(-0.005, 0.005);
     const int per_layer = S::dim == 3 ? across * across : across;
@@ -52,17 +54,6 @@ struct Silo {
     Materials<Coulomb<ShapeT>> all(2, Coulomb<ShapeT>(mu));
     all.set(moreau::MaterialId(0), moreau::MaterialId(1), Coulomb<ShapeT>(0));
     return all;
-  }
-  static moreau::ColouredOptions options() {
-    moreau::ColouredOptions o;
-    o.tolerance = 1e-4;
-    o.max_sweeps = 5000;
-    return o;
-  }
-  static moreau::Tolerances tolerances() {
-    moreau::Tolerances t;
-    t.margin = 0.08;
-    return t;
   }
 
   int unsolved = 0;  ///< steps that did not converge

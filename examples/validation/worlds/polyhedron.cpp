@@ -7,4 +7,5 @@ namespace validation {
 template moreau::StepReport World<Polyhedron<>, Coulomb<Polyhedron<>>>::step(double);
 template moreau::StepReport
 World<Polyhedron<>, Coulomb<Polyhedron<>>, moreau::ProximalFallback<>>::step(double);
+template moreau::StepReport World<Polyhedron<>, Springs<Polyhedron<>>>::step(double);
 }  // namespace validation
