@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the narrow phase stores of a pair from one time step to the next: the features that made the
-// separating axis in the last query. They are the first guess of the next query.
+// What the narrow phase stores of a pair from one time step to the next: the separating axis of the
+// last search and the features that define it. They are the first guess of the next query.
 #pragma once
 
 #include <cstdint>
@@ -27,14 +27,16 @@ enum class AxisKind : std::uint8_t {
 
 }  // namespace detail
 
-/// What the narrow phase stores of a pair from one step to the next, to save time. An empty cache,
-/// or the cache of another pair, gives the same results bit by bit: the features are only a guess,
-/// which is proved for the present poses before it is used (polytope/prove_axis.hpp).
+/// What the narrow phase stores of a pair from one step to the next, to save time. It is only a
+/// guess, which is proved for the present poses before it is used. For two polytopes an empty cache,
+/// or the cache of another pair, gives the same results bit by bit (polytope/prove_axis.hpp). For
+/// shapes of which only the support function is known, gaps agree to 1e-9 of the size of the shapes
+/// (convex/smooth_axis.hpp).
 template <class S>
 struct PairCache {
-  /// The axis found last, a unit vector from a to b in world axes; zero if no axis is known. If
-  /// `kind` is none and the axis is not zero, the shapes were separated along it by more than the
-  /// margin.
+  /// The axis that the last search found: a unit vector from a to b, world axes; zero before the
+  /// first search. Polytopes: if `kind` is not none, it is the separating axis of the features a and
+  /// b; if `kind` is none, a direction along which the shapes were separated by more than the margin.
   typename S::Vector axis = S::Vector::Zero();
   detail::AxisKind kind = detail::AxisKind::none;  ///< the kinds of features that made the axis
   std::uint32_t a = 0;                             ///< index of a's feature

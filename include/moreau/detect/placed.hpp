@@ -39,9 +39,13 @@ class Placement {
   void update(const ShapeT& shape, const Pose<S>& pose) {
     shape_ = &shape;
     pose_ = pose;
+    box_ = shape.bounding_box(pose);
   }
   /// Moves the centre, world axes [m]. The orientation is unchanged.
-  void move_to(const Vector& center) { pose_.position = center; }
+  void move_to(const Vector& center) {
+    pose_.position = center;
+    box_ = shape_->bounding_box(pose_);
+  }
 
   const ShapeT& shape() const { return *shape_; }          ///< the shape that was placed
   const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
@@ -53,11 +57,12 @@ class Placement {
     return pose_.rotation * shape_->support(pose_.rotation.inverse() * direction);
   }
   /// The bounding box, world axes [m].
-  Aabb<S> bounding_box() const { return shape_->bounding_box(pose_); }
+  const Aabb<S>& bounding_box() const { return box_; }
 
  private:
   const ShapeT* shape_ = nullptr;
   Pose<S> pose_;
+  Aabb<S> box_;
 };
 
 /// The placed data of a polytope: vertices and face normals, rotated into world axes once per step.

@@ -19,6 +19,7 @@
 
 #include "moreau/detect/convex/epa.hpp"
 #include "moreau/detect/convex/gjk.hpp"
+#include "moreau/detect/convex/smooth_axis.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
@@ -43,14 +44,32 @@ class ConvexPair {
         offset_(b.center() - a.center()),
         size_(extent(a.bounding_box()) + extent(b.bounding_box())) {}
 
-  /// Signed distance of the pair. The function is not inlined, so that all callers get the same
-  /// bits.
+  /// Signed distance of the pair, by Newton's method if the surfaces are smooth (smooth_axis.hpp).
+  /// @param margin  if the gap exceeds this, the result may be any gap that exceeds it [m]
+  /// @param axis    in: first guess of the axis, unit, or zero: the direction between the centres;
+  ///                out: the axis
+  SignedDistance<S> distance(T margin, Vector& axis) const {
+    if (axis.isZero(0)) axis = is_concentric() ? Vector(Vector::UnitX()) : offset_.normalized();
+    const auto reach_along = [this](const Vector& n) { return reach(n); };
+    const T proved = std::max(size_ * T(1e-9), precise());
+    SmoothAxisSearch<S, decltype(reach_along)> search(reach_along, margin, precise(), proved);
+    SignedDistance<S> found;
+    if (const auto smooth = search.run(axis)) {
+      const Vector witness = a_.center() + smooth->on_a;
+      found = {smooth->gap, smooth->normal, witness, witness + smooth->gap * smooth->normal};
+    } else {
+      found = distance(margin);
+    }
+    if (found.gap < std::numeric_limits<T>::infinity()) axis = found.normal;
+    return found;
+  }
+  /// Signed distance of the pair by GJK and EPA. The function is not inlined, so that all callers
+  /// get the same bits.
   /// @param margin  if the gap exceeds this, the result may be any gap that exceeds it [m]
   [[gnu::noinline]] SignedDistance<S> distance(
       T margin = std::numeric_limits<T>::infinity()) const {
     SignedDistance<S> found;
-    const bool is_at_center = !(offset_.norm() > rounding());
-    const Vector start = is_at_center ? Vector(Vector::UnitX()) : offset_;
+    const Vector start = is_concentric() ? Vector(Vector::UnitX()) : offset_;
     return is_apart(start, Vector::Zero(), margin, found) ? found : depth();
   }
 
@@ -112,6 +131,7 @@ class ConvexPair {
   /// Accuracy of a distance between curved surfaces, which rounding of the surface points limits
   /// [m].
   T precise() const { return size_ * T(512) * std::numeric_limits<T>::epsilon(); }
+  bool is_concentric() const { return !(offset_.norm() > rounding()); }
   T rounding() const { return size_ * DetectionTolerance<T>::rounding; }
   ExtremePoint<Vector> reach(const Vector& n) const {
     const Vector on_a = a_.support(-n);
@@ -197,7 +217,9 @@ class ConvexPair {
 template <class A, class B>
 requires GeneralPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
                                                                const Placed<B>& b) {
-  return detail::ConvexPair<A, B>(a, b).distance();
+  typename SpaceOf<A>::Vector axis = SpaceOf<A>::Vector::Zero();
+  return detail::ConvexPair<A, B>(a, b).distance(
+      std::numeric_limits<typename SpaceOf<A>::Scalar>::infinity(), axis);
 }
 
 /// Collides convex shapes with one contact point, midway between the nearest or deepest points.
@@ -207,10 +229,10 @@ requires GeneralPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& 
 template <class A, class B>
 requires GeneralPair<A, B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
-             Manifold<SpaceOf<A>>& out, PairCache<SpaceOf<A>>&) {
+             Manifold<SpaceOf<A>>& out, PairCache<SpaceOf<A>>& cache) {
   MOREAU_ASSERT(margin >= 0);
-  return detail::touch_at_one_point(detail::ConvexPair<A, B>(a, b).distance(margin), margin,
-                                    FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0), out);
+  return detail::touch_at_one_point(detail::ConvexPair<A, B>(a, b).distance(margin, cache.axis),
+                                    margin, FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0), out);
 }
 
 }  // namespace moreau
