@@ -52,7 +52,7 @@ class Couple {
     a_.update(shape_a_, {Vector::Zero(), samples::rotation(S{}, random)});
   }
   /// Puts b where the signed gap along a random line is about `gap` [m].
-  void meet(double gap, std::mt19937_64& random) {
+  void put_at(double gap, std::mt19937_64& random) {
     pose_.rotation = samples::rotation(S{}, random);
     const Vector line = samples::direction<S>(random);
     double inside = 0, outside = 4 * size;
@@ -101,7 +101,7 @@ Errors follow(double p, double gap) {
   long warm_calls = 0, queries = 0;
   for (int pair = 0; pair < 20; ++pair) {
     Couple<S> couple(p, random);
-    couple.meet(gap * Couple<S>::size, random);
+    couple.put_at(gap * Couple<S>::size, random);
     typename S::Vector axis = S::Vector::Zero();
     couple.quick(axis);
     for (int step = 0; step < 10; ++step) {
@@ -155,7 +155,7 @@ TEST_CASE("a wrong guess of the axis does not change the gap") {
   std::mt19937_64 random(3);
   for (int pair = 0; pair < 50; ++pair) {
     Couple<S> couple(2.5, random);
-    couple.meet((pair % 2 == 0 ? 1e-3 : -1e-3) * Couple<S>::size, random);
+    couple.put_at((pair % 2 == 0 ? 1e-3 : -1e-3) * Couple<S>::size, random);
     const double exact = couple.exact();
     for (int guess = 0; guess < 20; ++guess) {
       S::Vector axis = samples::direction<S>(random);

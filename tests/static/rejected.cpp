@@ -174,7 +174,7 @@ Contacts<Frictionless> contacts;
 
 #ifdef law_of_another_scalar
 // A law in single precision for grains in double precision.
-// expect: Law offers neither velocity_offset, solve and natural_map
+// expect: Law offers neither the functions velocity_offset, solve and natural_map
 // and no other error
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"

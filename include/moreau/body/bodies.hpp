@@ -43,7 +43,8 @@ struct Bodies {
   /// Position of the centre of mass [m], and rotation from body to world axes.
   std::vector<Pose<S>> pose;
   std::vector<Twist> velocity;  ///< twist (v, w), world axes [m/s, rad/s]
-  std::vector<Twist> force;     ///< external (force, torque), world axes [N, N m]
+  std::vector<Twist> force;     ///< applied (force, torque about the centre of mass), without
+                                ///< gravity and contacts, world axes [N, N m]
   /// Along each axis of the body [1/kg]; 0 if the motion along the axis is prescribed.
   std::vector<Vector> inverse_mass;
   /// About the centre of mass, body axes [kg m^2]; 0 if the rotation is prescribed.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Drives: bodies whose force or velocity is a function of time. The program applies a drive before
-// each step of its time loop:
+// A drive prescribes the force on a body, or its velocity, as a function of time. The program
+// applies the drive before each step of its time loop:
 //
 //   const ForceDrive shake(wall, -Vector::UnitX(), HarmonicForce(100, 500, 5));
 //   for (...) { shake.apply(world, h); world.step(h); }

@@ -101,7 +101,8 @@ inline void tint(const std::array<Vector3f, 3>& screen, const DepthBuffer& seen,
                  });
 }
 
-/// Draws a line in space, `width` pixels wide.
+/// Draws the visible part of a segment between two points of the world, `width` pixels of `image`
+/// wide.
 inline void draw_line(const Vector3f& from, const Vector3f& to, float width,
                       const DepthBuffer& seen, const Color& color, Image& image) {
   const Vector3f a = seen.view()(from), b = seen.view()(to);

@@ -100,7 +100,9 @@ class VtkWriter {
     data_.write(path);
   }
 
-  /// Writes contacts as lines between the centres of their bodies. The arrays are `normal_force`
+  /// Writes each contact point as a line from the centre of a to the centre of b. If one of the
+  /// bodies is a wall, the line ends at the contact point. In a periodic cell the line ends at the
+  /// image of b that a touches. The arrays are `normal_force`
   /// and `friction_force` [N], `gap` [m], `class` (value of the ContactClass) and `point`, the
   /// position of the contact point [m].
   /// @param contacts result of force_chains() or contact_segments()

@@ -36,7 +36,8 @@ class Frictionless {
     return detail::newton_offset(restitution_, gap, before, step);
   }
 
-  /// The exact impulse of the local problem on b, in the contact's frame [N s].
+  /// Solves the problem of one contact exactly. Returns the impulse that acts on the second body,
+  /// in the contact frame, normal first [N s].
   /// @param block W of the contact [1/kg]
   /// @param b     D, relative velocity at zero impulse, with the offset [m/s]
   template <class S>

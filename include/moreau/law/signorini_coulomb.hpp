@@ -50,7 +50,8 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
   // Within this relative |phi| the last Newton step is taken along the derivative at hand, which
   // leaves an error of its square: rounding.
   constexpr T close = std::numeric_limits<T>::epsilon() < T(1e-10) ? T(2e-8) : T(2e-4);
-  // In units of the impulse without friction: products of small impulses would underflow.
+  // Velocities and impulses are divided by `free`, the impulse of the problem without friction.
+  // Otherwise products of small impulses would underflow.
   const T free = -b[0] / block.normal, unit = T(1) / free;
   if (!std::isfinite(unit))
     return Eigen::Matrix<T, 3, 1>::Zero();  // below the smallest normal number

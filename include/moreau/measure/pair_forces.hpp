@@ -24,8 +24,8 @@ struct PairForce {
   std::uint32_t b;             ///< index of the second body
   std::size_t points;          ///< number of points with normal impulse > 0
   ContactClass contact_class;  ///< contact class of the pair
-  Vector normal;        ///< unit, from a to b; if points differ in normal (CylinderWall), the mean
-                        ///< weighted by force
+  Vector normal;        ///< unit, from a to b; if the points have different normals (CylinderWall),
+                        ///< their mean weighted by normal force, normalized
   Vector lever_a;       ///< from the centre of a to the centre of pressure of the contact [m]
   Vector lever_b;       ///< from the centre of b to the centre of pressure of the contact [m]
   Vector force;         ///< force on b [N]

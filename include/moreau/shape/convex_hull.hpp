@@ -5,8 +5,10 @@
 //   1. Points closer together than the tolerance (HullTolerance) are merged.
 //   2. The hull of the remaining points is computed with exact signs of determinants
 //      (orientation.hpp). It is therefore always closed and convex.
-//   3. Edges in the plane that are collinear within the tolerance are joined. In space triangles
-//      that are coplanar within the tolerance are joined (face_merging.hpp).
+//   3. In the plane, a vertex whose distance from the line through its two neighbours is within the
+//      tolerance is removed, so that its two edges become one. In space, neighbouring triangles
+//      whose corners lie in one plane within the tolerance are merged into one face
+//      (face_merging.hpp).
 //
 // All steps process the points in lexicographic order, so that the result does not depend on the
 // order of the input.

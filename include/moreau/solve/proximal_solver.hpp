@@ -103,7 +103,8 @@ class ProximalSolver {
       }
     }
 
-    /// Proximal point steps until the residual has not fallen for many of them.
+    /// Makes proximal point steps until over(), or until about `most_idle` steps in a row have not
+    /// reduced the best residual of the problem without shift (epsilon = 0) by a tenth.
     void proximal_point() {
       constexpr double first = 0.1, least = 1e-9, most = 10, down = 0.3, up = 4, progress = 0.9;
       constexpr int most_idle = 1000;

@@ -347,7 +347,8 @@ class Simulation : public BodyAccess<ShapeT> {
   Contacts<S> contacts_, previous_;
 };
 
-// Outside of the class, so that a program can instantiate it once and declare it extern elsewhere.
+// step() is defined outside of the class, so that it is not inline. A program can then instantiate it
+// in one source file and declare it `extern template` in the others (moreau/instances).
 template <ConvexShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,

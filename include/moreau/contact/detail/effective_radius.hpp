@@ -5,10 +5,11 @@
 
 namespace moreau {
 
-/// Effective radius R = 1 / (1/R_a + 1/R_b) of a contact [m], where R_a and R_b are the distances
-/// of the contact point from the centres of mass: exact for spheres and disks, an estimate for
-/// other shapes. 0 between two flat bodies.
-/// @param a_is_round false for a wall, which has no curvature
+/// Effective radius R = 1 / (1/R_a + 1/R_b) of a contact [m]. R_a and R_b are the distances from the
+/// centres of mass to the contact point: the radius plus half the gap for spheres and disks, an
+/// estimate for other shapes. Walls, also cylinders, count as plane: 1/R = 0. Returns 0 if both
+/// bodies are walls.
+/// @param a_is_round false for a wall
 /// @param b_is_round as a_is_round, of body b
 template <class S>
 typename S::Scalar effective_radius(const Contact<S>& contact, bool a_is_round, bool b_is_round) {

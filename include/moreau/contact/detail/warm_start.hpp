@@ -21,9 +21,9 @@ typename S::Vector turned(const Contact<S>& before, const Contact<S>& now,
   return transposed_product(now.frame, product(before.frame, vector));
 }
 
-/// The impulse of a contact of the step before as the memory of its springs in this step. The normal
-/// impulse stays the normal impulse; only the tangential impulse is turned, through world axes.
-/// Turning the whole vector would change a part of the normal impulse into a tangential impulse
+/// Returns the impulse that the springs of a contact carry over from the step before, in the contact
+/// frame of this step [N s]. The normal component is kept. The tangential component is transformed
+/// through world axes. (law/compliant.hpp explains its use.) Transforming the whole vector would change a part of the normal impulse into a tangential impulse
 /// wherever the normal turns.
 template <class S>
 typename S::Vector turned_memory(const Contact<S>& before, const Contact<S>& now,

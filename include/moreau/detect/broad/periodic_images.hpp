@@ -28,9 +28,9 @@ class PeriodicImages {
   using Vector = typename S::Vector;
 
   /// Replaces the contents of `pairs` by all pairs of boxes that overlap through some image,
-  /// sorted, each pair once. Boxes may lie anywhere. Along a periodic axis, the extents of any two
-  /// boxes must add up to no more than the length of the cell (PeriodicCell::require_room), so that
-  /// a pair overlaps through at most one image.
+  /// sorted, each pair once. Boxes may lie anywhere. Precondition: along each periodic axis, the sum
+  /// of the extents of any two boxes is less than the length of the cell. A pair then overlaps
+  /// through at most one image. PeriodicCell::require_room checks this for grains.
   /// @param boxes       world axes [m]
   /// @param broad_phase a BroadPhase of this space
   /// @param pairs       pairs of indices into `boxes`

@@ -51,8 +51,9 @@ class EpaPolygon {
   /// @param precise  differences below this are ignored [m]
   EpaPolygon(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
 
-  /// Starts from three points of C and grows until C reaches no farther than `precise` beyond the
-  /// nearest side.
+  /// Starts with a triangle of three points of C. Adds support points of C until C extends at most
+  /// `precise` beyond the line of the side nearest to the origin, or until the polygon has
+  /// most_points points.
   void run() {
     for (int k = 0; k < 3; ++k) {
       const T angle = T(2.0943951) * static_cast<T>(k);
@@ -109,8 +110,9 @@ class EpaPolytope {
   /// The arguments are the same as for EpaPolygon.
   EpaPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
 
-  /// Starts from four points of C and grows until C reaches no farther than `precise` beyond the
-  /// nearest face.
+  /// Starts with a tetrahedron of four points of C. Adds support points of C until C extends at most
+  /// `precise` beyond the plane of the face nearest to the origin, or until the polytope has
+  /// most_points points.
   void run() {
     start();
     while (grow()) {

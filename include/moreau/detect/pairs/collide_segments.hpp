@@ -107,7 +107,8 @@ FeatureKey feature_of(const SegmentAxis<S>& axis) {
 
 /// Contact points of two segments: the ends of each segment that project onto the other segment and
 /// have a gap of at most the margin. There are two of them if one segment lies along the other. If
-/// none of them is as deep as the gap, the point midway between the nearest points is added.
+/// there is no such point, or if the gap of each is larger than the signed gap of the pair (by more
+/// than rounding), the midpoint between the nearest points is added. Its gap is that of the pair.
 /// @param margin  largest gap of a pair in contact [m], >= 0
 /// @param out     filled if the pair is in contact, unchanged otherwise
 /// @returns whether the signed gap is at most the margin

@@ -22,11 +22,12 @@ struct FacingFeatures {
   std::uint32_t a, b;
 };
 
-/// The edge of a polygon that faces the direction. If an edge makes the axis, that edge is
-/// returned. If the top vertex makes the axis, one of the two edges at this vertex is returned: the
-/// edge of which both ends lie at most `slab` [m] below the top vertex, or, if both or neither edge
-/// does, the edge whose normal is more aligned with the direction.
-/// @param id  index of the feature that makes the axis: an edge, or the top vertex in the direction
+/// Returns the edge of this polygon that faces the other polygon. `kind` and `id` are this polygon's
+/// feature of the separating axis. If the feature is an edge (FeatureKind::face in the plane), this
+/// edge is returned. If it is a vertex, one of the two edges at the vertex is returned: the edge of
+/// which both ends lie at most `slab` [m] below the vertex, or, if both or neither edge does, the
+/// edge whose normal is more aligned with the direction.
+/// @param id  index of the feature: an edge, or the top vertex in the direction
 template <std::floating_point T>
 std::uint32_t facing_feature(const Placed<Polygon<T>>& shape, FeatureKind kind, std::uint32_t id,
                              const typename Space<2, T>::Vector& direction, T slab) {

@@ -24,8 +24,8 @@ namespace moreau::detail {
 
 /// Step 3 for polyhedra. If the contact polygon is narrower than the distance below which two
 /// points count as one, it may lack the deepest point. The deepest point is then the witness point.
-/// If the witness point lies beside the face, the deepest corner of the polygon takes its place and
-/// gets the gap of the axis.
+/// If the witness point does not lie on both features of the separating axis and the polygon has a
+/// corner, the deepest corner is used instead, and its gap is set to the signed gap of the pair.
 /// @param deepest  the deepest corner of the contact polygon; its gap is infinite if the polygon
 ///                 has no corners
 template <std::floating_point T>

@@ -148,7 +148,8 @@ class FaceMerging {
     return cycle;
   }
 
-  /// Removes vertices with fewer than three faces, and faces with fewer than three vertices.
+  /// Removes vertices with fewer than three faces, and faces with fewer than three vertices. Repeats
+  /// until nothing changes.
   void drop_flat_vertices(FaceList& faces) const {
     for (bool changed = true; changed;) {
       changed = false;

@@ -51,10 +51,11 @@ class AndersonMixing {
     next_ = (next_ + 1) % memory;
   }
 
-  /// Minimizes | f - sum_k w_k (change of f)_k | with each change scaled to 1; regularized by
-  /// `share`, relative to the scaled changes.
+  /// Returns the weights w_k that minimize |f - sum_k w_k df_k|^2 + c sum_k (w_k |df_k|)^2, where
+  /// f = g(x) - x is the residual of the last iteration, df_k are the stored differences of
+  /// residuals of successive iterations, and c is `regularization`.
   Weights weights() const {
-    constexpr double share = 1e-10;
+    constexpr double regularization = 1e-10;
     Weights scale{}, right{};
     for (std::size_t k = 0; k < known_; ++k) {
       scale[k] = gram_[k][k] > 0 ? 1 / std::sqrt(gram_[k][k]) : 0;
@@ -63,7 +64,7 @@ class AndersonMixing {
     Gram scaled{};
     for (std::size_t i = 0; i < known_; ++i)
       for (std::size_t k = 0; k < known_; ++k)
-        scaled[i][k] = scale[i] * gram_[i][k] * scale[k] + (i == k ? share : 0);
+        scaled[i][k] = scale[i] * gram_[i][k] * scale[k] + (i == k ? regularization : 0);
     solve(scaled, right, known_);
     for (std::size_t k = 0; k < known_; ++k) right[k] *= scale[k];
     return right;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles on a grid of pixels with a depth buffer.
+// Rasterizes triangles: projects them to the screen, finds the pixels that they cover, and finds the
+// nearest triangle at each pixel with a depth buffer.
 #pragma once
 
 #include <Eigen/Core>
