@@ -85,11 +85,25 @@ inline constexpr Situation apart{"apart", 0.01, 0.15};
 inline constexpr Situation aligned{"aligned", -0.005, 0.005, true};
 inline constexpr double margin_over_diameter = 0.005;
 
+/// Radius of a ball about the centre of a placed shape that contains the shape.
+template <class ShapeT>
+auto radius_of(const Placed<ShapeT>& placed) {
+  if constexpr (requires { placed.radius(); }) {
+    return placed.radius();
+  } else {
+    const auto box = placed.bounding_box();
+    return (box.lower - placed.center())
+        .cwiseAbs()
+        .cwiseMax((box.upper - placed.center()).cwiseAbs())
+        .norm();
+  }
+}
+
 /// The distance of b's centre from a's along the line at which they touch.
 template <class ShapeT>
 auto touching_distance(const Placed<ShapeT>& a, Placed<ShapeT> b,
                        const typename Placed<ShapeT>::Vector& line) {
-  auto inside = typename Placed<ShapeT>::Scalar(0), outside = a.radius() + b.radius();
+  auto inside = typename Placed<ShapeT>::Scalar(0), outside = radius_of(a) + radius_of(b);
   for (int k = 0; k < 50; ++k) {
     const auto middle = (inside + outside) / 2;
     b.move_to(a.center() + middle * line);
@@ -125,7 +139,7 @@ struct Pairs {
   const ShapeT& shape_of(std::size_t body) const { return shapes[shape_index_[body]]; }
   std::size_t shape_index(std::size_t body) const { return shape_index_[body]; }
   T diameter(const Pair& pair) const {
-    return 2 * std::min(bodies[pair.a].radius(), bodies[pair.b].radius());
+    return 2 * std::min(radius_of(bodies[pair.a]), radius_of(bodies[pair.b]));
   }
 
  private:
@@ -150,7 +164,7 @@ struct Pairs {
         add_body(b % shapes.size(), turn_onto(normal, Vector(-askew.normalized())));
         b = bodies.size() - 1;
       }
-    const T size = 2 * std::min(bodies[a].radius(), bodies[b].radius());
+    const T size = 2 * std::min(radius_of(bodies[a]), radius_of(bodies[b]));
     std::uniform_real_distribution<double> part(situation.from, situation.to);
     const T distance = touching_distance(bodies[a], bodies[b], line);
     list.push_back({a, b, (distance + size * static_cast<T>(part(random))) * line,
@@ -204,11 +218,17 @@ struct Trajectories {
   }
 };
 
-/// Random shapes as in the samples of the study.
+/// Random shapes: those of a type with a function draw(random), or as in the samples of the study.
 template <class ShapeT>
 std::vector<ShapeT> ballast(std::size_t count) {
   std::mt19937_64 random(1);
-  return moreau::ballast_shapes<ShapeT>(count, random);
+  if constexpr (requires { ShapeT::draw(random); }) {
+    std::vector<ShapeT> shapes;
+    for (std::size_t k = 0; k < count; ++k) shapes.push_back(ShapeT::draw(random));
+    return shapes;
+  } else {
+    return moreau::ballast_shapes<ShapeT>(count, random);
+  }
 }
 
 }  // namespace pairs
