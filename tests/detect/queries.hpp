@@ -171,6 +171,12 @@ void check_queries(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::
   const auto same = [](double x, double y) {
     return is_visited ? std::abs(x - y) <= 1e-2 * exactness<A, A> : x == y;
   };
+  // Of smooth shapes the cache holds the start of an iteration: another start ends within its
+  // accuracy (detect/convex/smooth_axis.hpp).
+  constexpr bool is_general = GeneralPair<A, B> || GeneralPair<B, A>;
+  const auto alike = [&](double x, double y, double tolerance) {
+    return is_general ? std::abs(x - y) < tolerance : same(x, y);
+  };
   Manifold<S> manifold, other;
   PairCache<S> first, second, third;
   const bool touch = collide(a, b, margin, manifold);
@@ -183,8 +189,8 @@ void check_queries(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::
     CHECK(same(distance(a, b, second).gap, found.gap));
     CHECK(collide(a, b, margin, other, third) == touch);
     if (!touch) continue;
-    CHECK(same(other.gap, manifold.gap));
-    CHECK(same((other.normal - manifold.normal).norm(), 0));
+    CHECK(alike(other.gap, manifold.gap, close));
+    CHECK(alike((other.normal - manifold.normal).norm(), 0, turned<A, B>));
     CHECK(other.contact_class == manifold.contact_class);
   }
   if (touch) CHECK(std::abs(manifold.gap - found.gap) < close);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -101,26 +102,41 @@ class OverlapCorrection {
   void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
              std::size_t body_count, Scalar slop) {
     scaled_.assign(body_count, BodyDelassus<S>::PaddedTwist::Zero());
-    pushes_.assign(contacts.size(), Scalar(0));
+    moved_.assign(body_count, 0);
+    rows_.clear();
+    for (const Contact<S>& contact : contacts)
+      rows_.push_back({-(contact.gap + slop), 0, contact.a, contact.b});
     for (int k = 0; k < options_.sweeps; ++k) {
       for (std::size_t c = 0; c < contacts.size(); ++c) {
-        const Contact<S>& contact = contacts[c];
-        const Scalar depth = -(contact.gap + slop);
-        const Scalar target = depth > 0 ? static_cast<Scalar>(options_.rate) * depth : depth;
-        const Scalar missing = target - closing(op, c, contact);
-        const Scalar push = std::max(Scalar(0), pushes_[c] + missing / op.block(c).normal);
-        const Scalar change = push - pushes_[c];
+        Row& row = rows_[c];
+        // Most contacts are not too deep and between bodies that do not move: nothing to do.
+        if (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b]) continue;
+        const Scalar target =
+            row.depth > 0 ? static_cast<Scalar>(options_.rate) * row.depth : row.depth;
+        const Scalar missing = target - closing(op, c, contacts[c]);
+        const Scalar push = std::max(Scalar(0), row.push + missing / op.block(c).normal);
+        const Scalar change = push - row.push;
         if (change == Scalar(0)) continue;
-        pushes_[c] = push;
-        scaled_[contact.b] += change * op.rows_b(c).col(0);
-        scaled_[contact.a] -= change * op.rows_a(c).col(0);
+        row.push = push;
+        scaled_[row.b] += change * op.rows_b(c).col(0);
+        scaled_[row.a] -= change * op.rows_a(c).col(0);
+        moved_[row.a] = !scaled_[row.a].isZero(0);
+        moved_[row.b] = !scaled_[row.b].isZero(0);
       }
     }
   }
 
+  /// A contact in the sweeps.
+  struct Row {
+    Scalar depth;        // overlap beyond the slop, < 0 if there is none [m]
+    Scalar push;         // multiplier, >= 0
+    std::uint32_t a, b;  // its bodies
+  };
+
   Options options_;
   std::vector<typename BodyDelassus<S>::PaddedTwist> scaled_;
-  std::vector<Scalar> pushes_;
+  std::vector<unsigned char> moved_;  // bodies with a contact that pushed
+  std::vector<Row> rows_;
   std::vector<typename S::Twist> shifts_;
 };
 
