@@ -9,7 +9,8 @@
 #  - turns a link to a page or to a heading into a reference,
 #  - turns a link to another file of the examples into a link to its listing, where there is one; of any other
 #    file it leaves the path, as text,
-#  - leaves the name of a picture: IMAGE_PATH has the folders.
+#  - leaves the name of a picture: IMAGE_PATH has the folders,
+#  - makes names of public types in code links to their reference.
 #
 # The number of lines stays the same, so that warnings name the right line.
 
@@ -58,6 +59,36 @@ function reference(text, link,   hash, anchor, path, name, listing) {
   return text == path ? text : text " (`" path "`)"
 }
 
+# A text whose names of public types are links: `Name` and `Name<...>`.
+function linked(text,   out, found, name) {
+  while (match(text, /`[A-Z][A-Za-z]+(<[^`]*>)?`/)) {
+    found = substr(text, RSTART, RLENGTH)
+    out = out substr(text, 1, RSTART - 1)
+    text = substr(text, RSTART + RLENGTH)
+    name = found
+    gsub(/`|<.*/, "", name)
+    if (name in is_type) {
+      gsub(/`/, "", found)
+      gsub(/</, "\\&lt;", found)
+      gsub(/>/, "\\&gt;", found)
+      found = "<code>@ref moreau::" name " \"" found "\"</code>"
+    }
+    out = out found
+  }
+  return out text
+}
+
+BEGIN {
+  list = "find include/moreau -name '*.hpp' | grep -Ev '/detail/|/detect/(convex|polytope|pairs)/|/solve/coloured/' | " \
+    "xargs awk '/^namespace/ { ++depth; if (!skip && /detail|rendering/) skip = depth } " \
+    "/^}  \\/\\/ namespace/ { if (skip == depth--) skip = 0 } !skip' | " \
+    "grep -oE '^(.*[>)] )?(class|struct|concept|using) [A-Z][A-Za-z]+' | grep -vE '^ *//|^ +using'"
+  while ((list | getline declaration) > 0) {
+    sub(/.* /, "", declaration)
+    is_type[declaration] = 1
+  }
+  close(list)
+}
 FNR == 1 {
   page = FILENAME
   sub(/.*\/examples\//, "examples/", page)
@@ -67,17 +98,24 @@ FNR == 1 {
 /^ *```/ { fenced = !fenced }
 fenced { print; next }
 /^# / { print name_of(page) == "index" ? $0 : $0 " {#" name_of(page) "}"; next }
-/^##+ / { title = $0; sub(/^#+ /, "", title); print $0 " {#" name_of(page) "-" anchor_of(title) "}"; next }
+/^##+ / {
+  title = $0
+  sub(/^#+ /, "", title)
+  gsub(/`/, "")  # Doxygen shows no code in a heading that has a name
+  print $0 " {#" name_of(page) "-" anchor_of(title) "}"
+  next
+}
 {
   line = $0
   out = ""
   while (match(line, /!?\[[^][]+\]\([^() ]+\)/)) {
     found = substr(line, RSTART, RLENGTH)
-    out = out substr(line, 1, RSTART - 1)
+    before = substr(line, 1, RSTART - 1)
     line = substr(line, RSTART + RLENGTH)
+    out = out linked(before)
     if (found ~ /^!/) { sub(/\]\(.*\//, "](", found); out = out found; continue }
     middle = index(found, "](")
     out = out reference(substr(found, 2, middle - 2), substr(found, middle + 2, length(found) - middle - 2))
   }
-  print out line
+  print out linked(line)
 }
