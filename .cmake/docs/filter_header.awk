@@ -5,6 +5,7 @@
 #    Headers in folders named detail/ and in private rooms are in no group.
 #  - Specialisations of variables are left out: their primary has the description.
 #  - The short names that every class has for the types of its space are left out: conventions.md has them.
+#  - "this file" becomes its path, which Doxygen makes a link to the listing.
 #  - Of a program of the examples nothing is read: Doxygen lists its source, to which pages link.
 #
 # The number of lines stays the same, so that warnings name the right line.
@@ -19,6 +20,8 @@ function declarator(line) {
 }
 FNR == 1 {
   program = FILENAME !~ /include\/moreau\//
+  path = FILENAME
+  sub(/.*include\//, "", path)
   room = FILENAME
   private_room = room ~ /\/detail\/|\/detect\/(convex|polytope|pairs)\/|\/solve\/coloured\//
   sub(/.*include\/moreau\//, "", room)
@@ -27,6 +30,7 @@ FNR == 1 {
   end = "/** @} */ "
 }
 program { print ""; next }
+/^ *\/\/\/ / { gsub(/this file/, path) }
 # The lines "template <...>" and "requires ..." above a name.
 /^template </ || (head && /^ /) { head = head $0 "\n"; next }
 head && /^inline constexpr [a-z]+ [a-z_]+<.*> = .*;$/ { gsub(/[^\n]+/, "", head); $0 = "" }
