@@ -167,10 +167,11 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   }
 };
 
-/// These guides allow an Eigen expression, such as -Vector::UnitX(), as the direction of a drive.
+/// The direction can be an Eigen expression, such as -Vector::UnitX().
 template <class Expression, class F>
 ForceDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> ForceDrive<typename Expression::PlainObject, F>;
+/// The direction can be an Eigen expression, such as -Vector::UnitX().
 template <class Expression, class F>
 VelocityDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> VelocityDrive<typename Expression::PlainObject, F>;

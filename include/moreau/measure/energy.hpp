@@ -65,7 +65,7 @@ Momentum<S> momentum(const BodyMotion<S>& body,
 
 /// Kinetic energy of many bodies [J].
 /// @param count     number of bodies
-/// @param motion_of function: k -> BodyMotion<S> of body k, for k < count
+/// @param motion_of function: k -> BodyMotion of body k, for k < count
 template <class S, class MotionOf>
 KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   KineticEnergy<S> sum;
@@ -79,7 +79,7 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
 
 /// Sum of the momenta of many bodies.
 /// @param count     number of bodies
-/// @param motion_of function: k -> BodyMotion<S> of body k, for k < count
+/// @param motion_of function: k -> BodyMotion of body k, for k < count
 /// @param origin    the point about which the angular momentum is taken, world axes [m]
 template <class S, class MotionOf>
 Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
