@@ -5,7 +5,7 @@
 # force. From this checkpoint four periods are simulated with other stiffnesses, tolerances, steps and
 # frequencies. The rigid contacts of the default have a checkpoint of their own. A simulation that is
 # done is not repeated, so the script can be stopped at any time. Plots the position of the wall over a
-# period.
+# period. `python3 stiffness.py FOLDER` prints the tables.
 #
 #   stiffness.sh PROGRAM FOLDER [SHAPE...]
 #   stiffness.sh build/study/examples/ratcheting stiffness polygon disk
@@ -32,6 +32,13 @@ for seed in ${SEEDS:-1 2 3}; do
     common=(--shape "$shape" --seed "$seed")
     run "$start-soft" "${common[@]}" "${soft[@]}" --duration 0.35 --checkpoint-every 1750
     run "$start-rigid" "${common[@]}" "${rigid[@]}" --duration 0.35 --checkpoint-every 1750
+    # The elastic lines: the force falls in a second.
+    for stiffness in k 3k 10k; do
+      case $stiffness in k) options=() ;; 3k) options=(--stiffness 3e8 --tolerance 3e-6) ;;
+        10k) options=(--stiffness 1e9 --tolerance 1e-6) ;; esac
+      run "$shape-$seed-static-$stiffness" "${common[@]}" "${soft[@]}" "${options[@]}" \
+        --frequency 0.5 --duration 0.9 --from "$start-soft/checkpoint.snapshot"
+    done
     for frequency in 5 20; do
       # Four periods after the hold of 0.05 s.
       duration=$(awk "BEGIN { print 0.05 + 4 / $frequency }")
