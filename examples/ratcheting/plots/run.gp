@@ -97,7 +97,7 @@ if (name eq "rho_t") {
   box = STATS_min
   set xlabel "t  [s]"
   set ylabel "Δρ"
-  set key above nobox
+  set key bottom right nobox
   set offsets 0, 0, graph 0.05, graph 0.05
   plot packing using 1:($3 - box) skip 1 with lines linecolor rgb grey linewidth 0.9 title sprintf("whole box, from %.4f", box), \
        packing using 1:($2 - inner) skip 1 with lines linecolor rgb green linewidth 1.6 title sprintf("inner control volume, from %.4f", inner)
@@ -148,7 +148,7 @@ if (name eq "phase_portrait") {
 
 # Cost and quality of each step: sweeps, residual, overlap.
 if (name eq "solver") {
-  set multiplot layout 3, 1 margins 0.11, 0.97, 0.10, 0.97 spacing 0, 0.03
+  set multiplot layout 3, 1 margins 0.11, 0.97, 0.10, 0.955 spacing 0, 0.03
   set offsets 0, 0, graph 0.05, 0
   set format x ""
   set ylabel "sweeps"

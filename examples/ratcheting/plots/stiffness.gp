@@ -4,7 +4,8 @@
 set datafile separator ","
 set terminal pngcairo size 900,620 font "sans,13"
 set output name.".png"
-set title sprintf("%s: 1200 grains, f_{max} = %g kN, one sample, second period", name, fmax / 1e3)
+parts = system("echo ".name." | tr - ' '")
+set title sprintf("%s, seed %s: 1200 grains, {/Symbol n} = %g Hz, f_{max} = %g kN, second period", word(parts, 1), word(parts, 2), 1 / period, fmax / 1e3)
 set xlabel "time since f was largest / period"
 set ylabel "displacement of the wall since then, outward [mm]"
 set xrange [0:0.75]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Terminal, colours and the names of the tables, for run.gp and uniqueness.gp. `folder` is the folder of the
+# Terminal, colours, caption and the names of the tables, for run.gp and uniqueness.gp. `folder` is the folder of the
 # run.
 if (!exists("folder")) folder = "."
 wall = folder."/wall.csv"        # t,f,x,v,f_g
@@ -28,3 +28,8 @@ orange = "#d07a00"
 grey = "#7a7a7a"
 mm(x) = 1e3 * x
 kN(f) = 1e-3 * f
+# Caption above the plot: what was simulated, from run.json of the folder.
+parameter(run, key) = system(sprintf("sed -n 's/^ *\"%s\": *\"*\\([^\",]*\\).*/\\1/p' '%s/run.json' 2>/dev/null | head -n 1", key, run))
+caption(run) = strlen(parameter(run, "grains")) == 0 ? "" : sprintf("N = %s (%s), {/Symbol n} = %g Hz, f_{max} = %g kN, seed %s, %s, tolerance %s (%s)", parameter(run, "grains"), parameter(run, "shape"), real(parameter(run, "frequency")), kN(real(parameter(run, "fmax"))), parameter(run, "seed"), parameter(run, "method"), parameter(run, "tolerance"), parameter(run, "stop_test"))
+set tmargin 2
+set label 99 caption(folder) at screen 0.54, screen 0.98 center font ",12" textcolor rgb grey

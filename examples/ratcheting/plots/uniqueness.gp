@@ -3,6 +3,7 @@
 # the solver and the order of the contacts (uniqueness.sh).
 load system("dirname '".ARG0."'")."/style.gp"
 set output folder."/uniqueness.png"
+set label 99 caption(folder."/warm")
 array names = ["warm start", "cold start", "another order", "a third order"]
 array runs = ["warm", "cold", "order1", "order2"]
 array colors = [blue, red, green, orange]
