@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/detect/manifold.hpp"
 
@@ -69,6 +70,15 @@ struct Contacts {
       sum += point.b == body ? impulse : typename S::Vector(-impulse);
     }
     return sum;
+  }
+  /// Removes points; keeps the order of the others, and the memory.
+  /// @param is_gone function: index before the removal -> whether the point is removed
+  void erase(const auto& is_gone) {
+    erase_at(points, is_gone);
+    erase_at(keys, is_gone);
+    erase_at(classes, is_gone);
+    erase_at(impulses, is_gone);
+    erase_at(couples, is_gone);
   }
   /// Removes all points; keeps the memory.
   void clear() {

@@ -43,7 +43,7 @@ class RollingDelassus {
       const Contact<S>& contact = contacts[c];
       const MobilityRoot<S>&a = roots[contact.a], &b = roots[contact.b];
       Row& row = rows_[c];
-      row.radius = effective_radius(contact, !a.angular.isZero(0), !b.angular.isZero(0));
+      row.radius = effective_radius(contact, is_round(a), is_round(b));
       const typename S::Inertia axes = row.radius * S::angular_frame(contact.frame);
       row.ka = a.angular * axes;
       row.kb = b.angular * axes;
@@ -111,6 +111,9 @@ class RollingDelassus {
     RollingBlock<S> block;
     Scalar radius;
   };
+  static bool is_round(const MobilityRoot<S>& body) {
+    return body.grain || !body.angular.isZero(0);
+  }
   static Vector joined(const typename S::Vector& point, const typename S::Angular& spin) {
     Vector u;
     u << point, spin;
