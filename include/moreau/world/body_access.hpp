@@ -75,6 +75,13 @@ class BodyAccess {
     return bodies().is_prescribed(body.index());
   }
 
+  /// An added shape, in its own frame.
+  /// @throws std::invalid_argument for a shape that is not of this simulation
+  const ShapeT& shape(ShapeId shape) const {
+    assembly_.require_shape(shape, "Simulation::shape");
+    return assembly_.shape(shape);
+  }
+
   /// The ids of all grains, ascending: in the order in which they were added, as long as no grain was
   /// removed. The span is valid until a grain is added or removed.
   std::span<const BodyId> grains() const { return assembly_.grains(); }

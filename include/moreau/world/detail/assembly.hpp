@@ -110,7 +110,7 @@ class Assembly {
   ///         from the origin than 1e-3 of the grain size
   MassProperties<S> mass_of(ShapeId shape, Scalar density, Scalar grain_size,
                             const char* function) const {
-    require(shape.index() < shapes_.size(), function, "shape", shape, "must be the id of a shape");
+    require_shape(shape, function);
     require(std::isfinite(density) && density > 0, function, "density", density,
             "must be finite and > 0");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
@@ -150,6 +150,9 @@ class Assembly {
   bool contains(BodyId body) const {
     return body.index() < bodies_.size() && bodies_.id[body.index()] == body &&
            bodies_.exists(body.index());
+  }
+  void require_shape(ShapeId shape, const char* function) const {
+    require(shape.index() < shapes_.size(), function, "shape", shape, "must be the id of a shape");
   }
   void require_body(BodyId body, const char* function) const {
     require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
