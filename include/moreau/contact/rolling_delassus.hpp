@@ -51,6 +51,8 @@ class RollingDelassus {
       row.block.point = points_.block(c);
       row.block.spin = row.ka.transpose() * row.ka + row.kb.transpose() * row.kb;
       if constexpr (!rigid) row.block.spin.diagonal() += angular<S>(compliance(c));
+      // Two bodies whose rotation is prescribed: any positive value will do, see BodyDelassus.
+      if (row.block.spin.isZero(0)) row.block.spin.diagonal().setConstant(row.block.point.normal);
       row.block.coupling =
           points_.rows_a(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.ka +
           points_.rows_b(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.kb;
