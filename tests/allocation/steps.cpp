@@ -69,3 +69,26 @@ TEST_CASE_TEMPLATE("nor does one that drifts through a periodic cell, in a cylin
   CHECK(allocations == before);
   CHECK(world.contacts().size() >= 12);
 }
+
+TEST_CASE_TEMPLATE("nor does one in which grains are removed and added", ShapeT,
+                   moreau::Polyhedron<>, moreau::Disk<>) {
+  scenes::BoxOfGrains<ShapeT> scene(std::size_t(rounds(18)));
+  auto& world = scene.simulation;
+  using S = typename scenes::BoxOfGrains<ShapeT>::S;
+  const auto shape = world.add_shape(moreau::regular_shape<ShapeT>(0.015));
+  const moreau::Pose<S> pose(S::Vector::Constant(0.04) + 0.3 * S::Vector::Unit(S::dim - 1),
+                             S::identity());
+  moreau::BodyId guest = world.add_grain(shape, pose, 2700);
+  const auto cycle = [&] {
+    for (int k = 0; k < 100; ++k) world.step(5e-4);
+    world.remove_grain(guest);
+    for (int k = 0; k < 10; ++k) world.step(5e-4);
+    guest = world.add_grain(shape, pose, 2700);
+  };
+  for (int k = 0; k < 15; ++k) cycle();
+  const long before = allocations;
+  Eigen::internal::set_is_malloc_allowed(false);
+  for (int k = 0; k < rounds(5); ++k) cycle();
+  Eigen::internal::set_is_malloc_allowed(true);
+  CHECK(allocations == before);
+}

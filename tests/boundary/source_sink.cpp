@@ -164,11 +164,11 @@ TEST_CASE("a run with a source and a sink restarts with the same bits") {
   using S = Space<2>;
   for (auto* one : {&shaft, &other}) one->world.add_wall({0.6, 0.8}, {0.1, -0.1});
   auto options = shaft.options();
-  options.rate = 300;
+  options.rate = 150;
   Source source(options), other_source(options);
   Sink<S> sink = Sink<S>::behind({0, 1}, {0, -0.2}), other_sink = sink;
   const auto run = [](auto& world, auto& from, auto& to) {
-    for (int k = 0; k < 150; ++k) {
+    for (int k = 0; k < 500; ++k) {
       from.apply(world, h);
       world.step(h);
       to.apply(world);
