@@ -32,9 +32,17 @@ ColouredOptions solver_options() {
   return options;
 }
 
+/// Grains that fall from the source move up to 4 mm in a step: contacts are detected from there on.
+Tolerances tolerances() {
+  Tolerances tolerances;
+  tolerances.margin = 0.5;
+  return tolerances;
+}
+
 /// A silo with side walls and a floor of disks that do not move, with a gap of eight diameters.
 struct Silo {
-  World world{0.8 * diameter, Materials<Law>(1, Law(0.4)), ColouredGaussSeidel(solver_options())};
+  World world{0.8 * diameter, Materials<Law>(1, Law(0.4)), ColouredGaussSeidel(solver_options()),
+              tolerances()};
   std::size_t fixed = 0;
   Source<S> source;
   Sink<S> sink = Sink<S>::behind(S::Vector::UnitY(), {0, -0.1});

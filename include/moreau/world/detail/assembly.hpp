@@ -215,7 +215,7 @@ class Assembly {
     grain_ids_.clear();
     for (const Grain& grain : grains_) grain_ids_.push_back(grain.body);
     free_.clear();
-    for (std::size_t i = bodies_.size(); i-- > 0;)
+    for (std::size_t i = bodies_.id.size(); i-- > 0;)
       if (!bodies_.exists(i)) add_free(bodies_.id[i]);
   }
   /// Makes the index of a removed body free, unless its generations are used up.
