@@ -99,11 +99,9 @@ inline State loose(int count, std::uint64_t seed) {
   std::uniform_real_distribution<double> radius(0.004, 0.006), shift(-5e-4, 5e-4);
   constexpr int per_row = 9;
   for (int k = 0; k < count; ++k) {
-    moreau::Pose<S> pose;
-    pose.position = {0.0067 + 0.0133 * (k % per_row) + shift(random),
-                     0.0067 + 0.0133 * (k / per_row)};
+    const double x = 0.0067 + 0.0133 * (k % per_row) + shift(random);
     state.radii.push_back(radius(random));
-    state.poses.push_back(pose);
+    state.poses.push_back({{x, 0.0067 + 0.0133 * (k / per_row)}, S::identity()});
   }
   state.lid = 0.0133 * (count / per_row + 1);
   return state;

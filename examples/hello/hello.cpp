@@ -19,9 +19,9 @@ int main() {
   simulation.add_wall(up, S::Vector::Zero());
   simulation.set_gravity(-9.81 * up);
 
-  for (int step = 0; step < 2000; ++step) {
-    const moreau::StepReport report = simulation.step(5e-4);  // s
-    if (step % 50 == 49)
+  for (int step = 0; step < 10000; ++step) {
+    const moreau::StepReport report = simulation.step(1e-4);  // s
+    if (step % 250 == 249)
       std::cout << report.points << " points, " << report.solve.sweeps << " sweeps, residual "
                 << report.solve.residual << '\n';
   }

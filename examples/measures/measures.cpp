@@ -37,13 +37,14 @@ using namespace setup;
 /// Counts the steps that did not converge and keeps the largest residual and overlap [m] of a run.
 struct Watch {
   std::size_t steps = 0, unsolved = 0;
-  double residual = 0, overlap = 0;
+  double residual = 0, overlap = 0, approach = 0;
 
   void operator()(const moreau::StepReport& report) {
     ++steps;
     if (!report.solve.converged) ++unsolved;
     residual = std::max(residual, report.solve.residual);
     overlap = std::max(overlap, report.max_overlap);
+    approach = std::max(approach, report.approach);
   }
 };
 

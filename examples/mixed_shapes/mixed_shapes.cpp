@@ -59,7 +59,7 @@ int main() {
   std::map<std::string, int> points;
   const auto kind_of = [&](std::uint32_t body) -> std::string {
     if (!simulation.is_grain(body)) return "wall";
-    return names[simulation.shape(moreau::BodyId(body)).index()];
+    return names[simulation.shape(simulation.body_id(body)).index()];
   };
   for (const auto& contact : simulation.contacts().points) {
     const auto [first, second] = std::minmax({kind_of(contact.a), kind_of(contact.b)});

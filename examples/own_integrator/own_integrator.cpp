@@ -22,9 +22,7 @@ double error_of_bounces(double drop, double step) {
   using Law = moreau::LinearSpringDashpot<double>;
   moreau::Simulation<Ball, Law, Integrator> simulation(0.1, moreau::Materials<Law>(1, Law(1e4)));
   const auto shape = simulation.add_shape(Ball(0.05));
-  moreau::Pose<S> pose;
-  pose.position = {0, 0, 0.05 + drop};
-  const auto ball = simulation.add_grain(shape, pose, 1000);
+  const auto ball = simulation.add_grain(shape, {{0, 0, 0.05 + drop}, S::identity()}, 1000);
   simulation.add_wall(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
   simulation.set_gravity({0, 0, -9.81});
   double top = 0, speed = 0;

@@ -20,8 +20,7 @@ int main() {
   const std::vector<Eigen::Vector2d> corners{
       {-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}};
   const auto shape = simulation.add_shape(Crate(corners));
-  moreau::Pose<moreau::Space<2>> pose;
-  pose.position = {0, 0.05};
+  const moreau::Pose<moreau::Space<2>> pose{{0, 0.05}, moreau::Space<2>::identity()};
   const auto crate = simulation.add_grain(shape, pose, 500);
   simulation.add_wall({0, 1}, {0, 0});
   simulation.set_gravity({9.81 * std::sin(slope), -9.81 * std::cos(slope)});

@@ -99,7 +99,9 @@ void print(const Simulation& simulation) {
 }
 
 int main() {
-  Simulation simulation(0.02, moreau::Materials<Law>(1, Law(0.4)));
+  moreau::Tolerances tolerances;
+  tolerances.margin = 0.08;  // of the grain size: in one step a falling grain moves by up to 1.5 mm
+  Simulation simulation(0.02, moreau::Materials<Law>(1, Law(0.4)), {}, tolerances);
   add_box(simulation);
   add_grains(simulation, moreau::SizeDistribution({{0.02, 0.5}, {0.03, 0.3}, {0.04, 0.2}}), 300);
 

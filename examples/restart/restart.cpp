@@ -39,8 +39,7 @@ void build(Simulation& simulation) {
 void rain(Simulation& simulation, std::mt19937_64& random) {
   std::uniform_real_distribution<double> radius(0.4 * size, 0.6 * size), place(size, width - size);
   const moreau::ShapeId disk = simulation.add_shape(Disk(radius(random)));
-  moreau::Pose<Simulation::S> pose;
-  pose.position = {place(random), width};
+  const moreau::Pose<Simulation::S> pose{{place(random), width}, Simulation::S::identity()};
   simulation.add_grain(disk, pose, 2500);
 }
 

@@ -1,102 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Checks that a step allocates no memory after the first steps. Calls of operator new are counted.
 // Eigen calls malloc directly; its runtime check asserts that it does not.
-#include <atomic>
-#include <cstddef>
-#include <cstdlib>
 #include <doctest/doctest.h>
 #include <new>
 
+#include "allocation/counted_new.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t size) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void* counted(std::size_t size, std::align_val_t alignment) noexcept {
-  ++allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  return std::aligned_alloc(a, (size + a - 1) / a * a);
-}
-void* or_throw(void* p) {
-  if (!p) throw std::bad_alloc();
-  return p;
-}
-
-using Size = std::size_t;
-using Align = std::align_val_t;
-using Nothrow = std::nothrow_t;
-
-}  // namespace
-
-// All forms of operator new are replaced. If a library had its own new[] or nothrow new, its
-// allocations would not be counted, and memory would be freed by a delete that does not match. The
-// functions are not inline, because the compiler would then report malloc and delete as a mismatch.
-[[gnu::noinline]] void* operator new(Size n) {
-  return or_throw(counted(n));
-}
-[[gnu::noinline]] void* operator new[](Size n) {
-  return or_throw(counted(n));
-}
-[[gnu::noinline]] void* operator new(Size n, Align a) {
-  return or_throw(counted(n, a));
-}
-[[gnu::noinline]] void* operator new[](Size n, Align a) {
-  return or_throw(counted(n, a));
-}
-[[gnu::noinline]] void* operator new(Size n, const Nothrow&) noexcept {
-  return counted(n);
-}
-[[gnu::noinline]] void* operator new[](Size n, const Nothrow&) noexcept {
-  return counted(n);
-}
-[[gnu::noinline]] void* operator new(Size n, Align a, const Nothrow&) noexcept {
-  return counted(n, a);
-}
-[[gnu::noinline]] void* operator new[](Size n, Align a, const Nothrow&) noexcept {
-  return counted(n, a);
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, Size) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, Align) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, Size, Align) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, const Nothrow&) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, Align, const Nothrow&) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, Size) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, Align) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, Size, Align) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, const Nothrow&) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, Align, const Nothrow&) noexcept {
-  std::free(p);
-}
 
 TEST_CASE("every form of new is counted") {
   struct alignas(128) Wide {
@@ -158,4 +68,27 @@ TEST_CASE_TEMPLATE("nor does one that drifts through a periodic cell, in a cylin
   Eigen::internal::set_is_malloc_allowed(true);
   CHECK(allocations == before);
   CHECK(world.contacts().size() >= 12);
+}
+
+TEST_CASE_TEMPLATE("nor does one in which grains are removed and added", ShapeT,
+                   moreau::Polyhedron<>, moreau::Disk<>) {
+  scenes::BoxOfGrains<ShapeT> scene(std::size_t(rounds(18)));
+  auto& world = scene.simulation;
+  using S = typename scenes::BoxOfGrains<ShapeT>::S;
+  const auto shape = world.add_shape(moreau::regular_shape<ShapeT>(0.015));
+  const moreau::Pose<S> pose(S::Vector::Constant(0.04) + 0.3 * S::Vector::Unit(S::dim - 1),
+                             S::identity());
+  moreau::BodyId guest = world.add_grain(shape, pose, 2700);
+  const auto cycle = [&] {
+    for (int k = 0; k < 100; ++k) world.step(5e-4);
+    world.remove_grain(guest);
+    for (int k = 0; k < 10; ++k) world.step(5e-4);
+    guest = world.add_grain(shape, pose, 2700);
+  };
+  for (int k = 0; k < 15; ++k) cycle();
+  const long before = allocations;
+  Eigen::internal::set_is_malloc_allowed(false);
+  for (int k = 0; k < rounds(5); ++k) cycle();
+  Eigen::internal::set_is_malloc_allowed(true);
+  CHECK(allocations == before);
 }

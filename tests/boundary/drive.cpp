@@ -134,3 +134,26 @@ TEST_CASE("bad drives and servos are named") {
                        "wall_pressure: wall = 9 must be the id of a half-space",
                        std::invalid_argument);
 }
+
+TEST_CASE("a velocity drives a grain of prescribed motion, a force does not") {
+  LoneWall<moreau::Disk<>> scene;
+  using V = Eigen::Vector2d;
+  auto& world = scene.simulation;
+  const auto shape = world.add_shape(moreau::Disk<>(0.01));
+  const BodyId grain = world.add_grain(shape, {V(1, 0), moreau::Space<2>::identity()}, 1000);
+  const auto one = [](double) { return 1.0; };
+  const ForceDrive push(grain, V(1, 0), one);
+  const VelocityDrive pull(grain, V(1, 0), one);
+  CHECK_NOTHROW(push.apply(world, 1e-3));
+  CHECK_THROWS_AS(pull.apply(world, 1e-3), std::invalid_argument);
+  world.prescribe_motion(grain);
+  CHECK_THROWS_AS(push.apply(world, 1e-3), std::invalid_argument);
+  pull.apply(world, 1e-3);
+  world.step(1e-3);
+  CHECK(world.pose(grain).position[0] == doctest::Approx(1.001));
+  world.remove_grain(grain);
+  world.prescribe_motion(world.add_grain(shape, {}, 1000));  // has the same index
+  CHECK_THROWS_WITH_AS(pull.apply(world, 1e-3),
+                       "VelocityDrive::apply: body = 1 must be the id of a body",
+                       std::invalid_argument);
+}

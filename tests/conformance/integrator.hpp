@@ -32,6 +32,7 @@ struct FreeBody {
     bodies.inverse_inertia_root_body.push_back(moreau::inverse_root<S>(inertia));
     bodies.weight.push_back(mass);
     bodies.material.push_back(moreau::MaterialId(0));
+    bodies.id.emplace_back();
   }
   template <class Integrator>
   void step(const Integrator& integrator, const typename S::Vector& gravity, T h) {

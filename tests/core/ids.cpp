@@ -18,7 +18,7 @@ static_assert(!std::is_constructible_v<BodyId, ShapeId>);
 static_assert(!std::is_convertible_v<std::size_t, BodyId>);
 static_assert(!std::is_convertible_v<BodyId, std::size_t>);
 static_assert(std::is_trivially_copyable_v<BodyId>);
-static_assert(sizeof(BodyId) == 4);
+static_assert(sizeof(BodyId) == 8);
 
 TEST_CASE("an id keeps its index, its order and its text") {
   constexpr BodyId third(std::size_t{3});

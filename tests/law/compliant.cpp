@@ -282,3 +282,21 @@ TEST_CASE("compliant: a restart goes on with the same bits") {
   for (std::size_t k = 0; k < 4; ++k)
     CHECK(column.world.bodies().pose[k].position == again.bodies().pose[k].position);
 }
+
+TEST_CASE("compliant: the energy of springs leaves with a removed grain") {
+  Column<Space<2>> column(3, Spring(Coulomb(0.4), 1e6));
+  column.world.set_gravity(Eigen::Vector2d(0, -gravity));
+  column.world.set_pose(
+      column.lid, Pose<Space<2>>(Eigen::Vector2d(0, 9), column.world.pose(column.lid).rotation));
+  const double before = column.run(2000).elastic_energy;  // of the loads 1, 2 and 3 weights
+  CHECK(before > 0);
+  column.world.remove_grain(column.world.grains().back());
+  auto again = column.world;
+  restore_snapshot(snapshot(column.world), again);
+  for (auto* world : {&column.world, &again}) {
+    const StepReport report = world->step(step);
+    CHECK(report.warm_started == 2);
+    CHECK(report.elastic_energy - report.elastic_work ==
+          doctest::Approx(before * (4 + 9) / 14).epsilon(1e-6));
+  }
+}

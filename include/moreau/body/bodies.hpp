@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <tuple>
 #include <vector>
 
 #include "moreau/body/mobility.hpp"
@@ -47,17 +48,24 @@ struct Bodies {
                                 ///< gravity and contacts, world axes [N, N m]
   /// Along each axis of the body [1/kg]; 0 if the motion along the axis is prescribed.
   std::vector<Vector> inverse_mass;
-  /// About the centre of mass, body axes [kg m^2]; 0 if the rotation is prescribed.
+  /// About the centre of mass, body axes [kg m^2]; 0 for walls. A grain keeps it while its motion is
+  /// prescribed.
   std::vector<Inertia> inertia_body;
   /// I^-1/2, body axes [kg^-1/2 m^-1]; 0 if the rotation is prescribed.
   std::vector<Inertia> inverse_inertia_root_body;
   /// The mass on which gravity acts [kg]: weight[i] times the gravitational acceleration [m/s^2] is
-  /// the force of gravity [N]. It is the mass for grains, and 0 for walls, also for walls that have
-  /// an inverse mass along an axis. It is not a force.
+  /// the force of gravity [N]. It is the mass for grains, also while their motion is prescribed. It is
+  /// 0 for walls, also for walls that have an inverse mass along an axis. It is not a force.
   std::vector<typename S::Scalar> weight;
   std::vector<MaterialId> material;  ///< material of the surface
+  /// The id of the body. If its generation is odd, the element belongs to no body: its grain was
+  /// removed, and it will be the element of a body that is added later. Until then it is at rest and
+  /// has zero mass.
+  std::vector<BodyId> id;
 
-  std::size_t size() const { return pose.size(); }  ///< number of bodies, grains and walls
+  /// Number of elements of each array: bodies, and elements of removed grains that no later body has
+  /// taken.
+  std::size_t size() const { return pose.size(); }
   /// Adds a body at rest with zero inverse mass and inertia, which no force moves. set_mass() turns
   /// it into a grain.
   void push_back(const Pose<S>& at, MaterialId of) {
@@ -69,6 +77,23 @@ struct Bodies {
     inverse_inertia_root_body.push_back(Inertia::Zero());
     weight.push_back(0);
     material.push_back(of);
+    id.push_back(BodyId(id.size()));
+  }
+  /// Gives element i, whose body was removed, to a new body like that of push_back().
+  void reuse(std::size_t i, const Pose<S>& at, MaterialId of) {
+    pose[i] = at;
+    material[i] = of;
+    ++id[i].generation;
+  }
+  /// Removes body i: element i keeps the pose, and belongs to no body until reuse().
+  void remove(std::size_t i) {
+    velocity[i].setZero();
+    force[i].setZero();
+    inverse_mass[i].setZero();
+    inertia_body[i].setZero();
+    inverse_inertia_root_body[i].setZero();
+    weight[i] = 0;
+    ++id[i].generation;
   }
   /// Turns body i into a grain: a body that forces move along all axes. Arguments are not checked.
   /// @param mass    [kg], > 0
@@ -79,18 +104,30 @@ struct Bodies {
     inverse_inertia_root_body[i] = inverse_root<S>(inertia);
     weight[i] = mass;
   }
+  /// Makes grain i move at its velocity alone: neither forces nor impulses change it. set_mass() with
+  /// weight[i] and inertia_body[i] is the inverse.
+  void prescribe_motion(std::size_t i) {
+    inverse_mass[i].setZero();
+    inverse_inertia_root_body[i].setZero();
+  }
   /// Whether all arrays have the same size and all indices of materials are smaller than
   /// `materials`.
   bool are_valid(std::size_t materials) const {
     for (const std::size_t count :
          {velocity.size(), force.size(), inverse_mass.size(), inertia_body.size(),
-          inverse_inertia_root_body.size(), weight.size(), material.size()})
+          inverse_inertia_root_body.size(), weight.size(), material.size(), id.size()})
       if (count != size()) return false;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (id[i].index() != i) return false;
     return std::all_of(material.begin(), material.end(),
                        [&](MaterialId one) { return one.index() < materials; });
   }
   /// Whether torques change the angular velocity of body i.
-  bool rotates(std::size_t i) const { return inertia_body[i](0, 0) > 0; }
+  bool rotates(std::size_t i) const { return inverse_inertia_root_body[i](0, 0) > 0; }
+  /// Whether neither forces nor impulses change the velocity of body i, along any axis.
+  bool is_prescribed(std::size_t i) const { return !rotates(i) && inverse_mass[i].isZero(0); }
+  /// Whether element i belongs to a body, not to a grain that was removed.
+  bool exists(std::size_t i) const { return id[i].generation % 2 == 0; }
 
   /// The axes of body i as the columns of a D x D matrix: unit vectors in world axes.
   typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
@@ -110,7 +147,13 @@ struct Bodies {
         for (int k = 0; k < S::dim; ++k)
           linear(row, column) += r(row, k) * std::sqrt(inverse_mass[i][k]) * r(column, k);
       }
-    return {linear, turned * a.transpose()};
+    return {linear, turned * a.transpose(), weight[i] > 0};
+  }
+
+  /// See core/serialize.hpp.
+  auto serialized_members() {
+    return std::tie(pose, velocity, force, inverse_mass, inertia_body, inverse_inertia_root_body,
+                    weight, material, id);
   }
 };
 

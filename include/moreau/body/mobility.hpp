@@ -12,6 +12,10 @@ template <class S>
 struct MobilityRoot {
   typename S::Matrix linear;    ///< for forces, D x D [kg^-1/2]
   typename S::Inertia angular;  ///< for torques, A x A [kg^-1/2 m^-1]
+  /// Whether the body is a grain, whose surface is curved for the laws with an effective radius; also
+  /// if `angular` is zero because the motion is prescribed. A body that torques rotate counts as a
+  /// grain without it.
+  bool grain = false;
 };
 
 }  // namespace moreau

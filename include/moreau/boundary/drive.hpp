@@ -96,7 +96,8 @@ class Drive {
   void require_mass(const auto& simulation, bool expected, const char* self,
                     const char* expectation) const {
     const auto& bodies = simulation.bodies();
-    require(body_.index() < bodies.size(), self, "body", body_, "must be the id of a body");
+    require(body_.index() < bodies.size() && bodies.id[body_.index()] == body_, self, "body", body_,
+            "must be the id of a body");
     const auto root = bodies.mobility_root(body_.index()).linear;
     const bool accelerates = (root * direction_).norm() > Scalar(1e-5) * root.norm();
     require(accelerates == expected, self, "body", body_, expectation);
@@ -110,8 +111,8 @@ class Drive {
 
 }  // namespace detail
 
-/// A force f(t) [N] on a body along a fixed direction. The body is a grain, or a wall to which
-/// set_wall_mass has given a mass. The force replaces the force that set_force() has set.
+/// A force f(t) [N] on a body along a fixed direction. The body is a grain whose motion is not
+/// prescribed, or a wall to which set_wall_mass has given a mass. The force replaces the force that set_force() has set.
 template <class VectorT, class F>
 class ForceDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
@@ -139,14 +140,15 @@ class ForceDrive : public detail::Drive<VectorT, F> {
   }
 };
 
-/// A velocity f(t) [m/s] along a fixed direction of a body without mass, such as a wall. The
-/// velocity replaces the velocity that set_velocity() has set.
+/// A velocity f(t) [m/s] along a fixed direction of a body without mass, such as a wall, or of a grain
+/// after Simulation::prescribe_motion(). The velocity replaces the velocity that set_velocity() has set.
 template <class VectorT, class F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
 
  public:
-  /// @param body      a body without mass along the direction; apply() checks this
+  /// @param body      a body without mass along the direction, or a grain whose motion is prescribed;
+  ///                  apply() checks this
   /// @param direction D components, unit, world axes; if f > 0 the body moves in this direction
   /// @param f         function: time at the middle of the step [s] -> velocity [m/s]
   /// @throws std::invalid_argument if the length of the direction differs from 1 by more than 1e-5

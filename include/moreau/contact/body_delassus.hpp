@@ -16,6 +16,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -148,6 +149,7 @@ class BodyDelassus {
       if constexpr (!std::same_as<Compliance, detail::RigidContacts>) w.diagonal() += compliance(c);
       Eigen::Matrix<Scalar, tangents, tangents> turn;
       row.block = align_tangents<S>(w, turn);
+      make_regular(row.block);
       turn_tangents(contact.frame, turn);
       turn_tangents(row.ja, turn);
       turn_tangents(row.jb, turn);
@@ -155,6 +157,15 @@ class BodyDelassus {
     }
   }
 
+  /// No impulse changes the tangential velocity of a wall with a mass and a grain of prescribed motion:
+  /// the slip of W_cc is zero. The local solution divides by it. Any positive value leaves the solution
+  /// of the contact problem as it is, because each visit of a contact subtracts W_cc r before it solves
+  /// with the same W_cc. Of other contacts the slip is of the order of w_nn.
+  static void make_regular(LocalBlock<S>& block) {
+    constexpr Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon();
+    for (auto& slip : block.slip)
+      if (slip <= rounding * block.normal) slip = block.normal;
+  }
   static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
     Vector velocity = S::spin(angular<S>(twist), lever);
     for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];

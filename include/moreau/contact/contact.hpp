@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/detect/manifold.hpp"
 
@@ -22,7 +23,8 @@ struct Contact {
   std::uint32_t a;             ///< first body, BodyId::index()
   std::uint32_t b;             ///< second body
   std::uint32_t law;           ///< index into the table of laws, Materials::laws()
-  typename S::Scalar gap;      ///< along the normal [m], < 0 is penetration
+  typename S::Scalar gap;      ///< along the normal at the detection configuration [m], < 0 is
+                               ///< penetration; after the step, with the overlap correction
   typename S::Matrix frame;    ///< columns n (unit, from a to b), t[, s]; right-handed, world axes
   typename S::Vector lever_a;  ///< from the centre of a to the contact point, world axes [m]
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
@@ -69,6 +71,15 @@ struct Contacts {
       sum += point.b == body ? impulse : typename S::Vector(-impulse);
     }
     return sum;
+  }
+  /// Removes points; keeps the order of the others, and the memory.
+  /// @param is_gone function: index before the removal -> whether the point is removed
+  void erase(const auto& is_gone) {
+    erase_at(points, is_gone);
+    erase_at(keys, is_gone);
+    erase_at(classes, is_gone);
+    erase_at(impulses, is_gone);
+    erase_at(couples, is_gone);
   }
   /// Removes all points; keeps the memory.
   void clear() {

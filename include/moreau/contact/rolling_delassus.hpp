@@ -43,7 +43,7 @@ class RollingDelassus {
       const Contact<S>& contact = contacts[c];
       const MobilityRoot<S>&a = roots[contact.a], &b = roots[contact.b];
       Row& row = rows_[c];
-      row.radius = effective_radius(contact, !a.angular.isZero(0), !b.angular.isZero(0));
+      row.radius = effective_radius(contact, is_round(a), is_round(b));
       const typename S::Inertia axes = row.radius * S::angular_frame(contact.frame);
       row.ka = a.angular * axes;
       row.kb = b.angular * axes;
@@ -51,6 +51,8 @@ class RollingDelassus {
       row.block.point = points_.block(c);
       row.block.spin = row.ka.transpose() * row.ka + row.kb.transpose() * row.kb;
       if constexpr (!rigid) row.block.spin.diagonal() += angular<S>(compliance(c));
+      // Two bodies whose rotation is prescribed: any positive value will do, see BodyDelassus.
+      if (row.block.spin.isZero(0)) row.block.spin.diagonal().setConstant(row.block.point.normal);
       row.block.coupling =
           points_.rows_a(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.ka +
           points_.rows_b(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.kb;
@@ -111,6 +113,9 @@ class RollingDelassus {
     RollingBlock<S> block;
     Scalar radius;
   };
+  static bool is_round(const MobilityRoot<S>& body) {
+    return body.grain || !body.angular.isZero(0);
+  }
   static Vector joined(const typename S::Vector& point, const typename S::Angular& spin) {
     Vector u;
     u << point, spin;

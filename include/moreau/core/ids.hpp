@@ -32,9 +32,30 @@ struct Id {
   friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
 };
 
-using BodyId = Id<struct BodyTag>;    ///< id of a grain or wall, in the order in which they were
-                                      ///< added
-using ShapeId = Id<struct ShapeTag>;  ///< id of a shape, which several grains can share
+/// Id of a grain or wall. Its index is the position of the body in the arrays of Bodies. The index
+/// of a removed grain is given to a body that is added later; the generations of the two ids differ.
+/// A simulation refuses the id of a removed grain. Ids are ordered by index, then by generation.
+struct BodyId : Id<struct BodyTag> {
+  /// 0 for the first body with this index, 2 for the second, and so on. An odd number belongs to an
+  /// index without a body.
+  std::uint32_t generation = 0;
+
+  constexpr BodyId() = default;  ///< the id of the first body
+  /// Id of the first body that has this index, < 2^32. BodyAccess::body_id() gives the id of the
+  /// present body.
+  /// @throws std::invalid_argument for an index of 2^32 or more
+  constexpr explicit BodyId(std::size_t index) : Id(index) {}
+
+  auto serialized_members() { return std::tie(value, generation); }  ///< see core/serialize.hpp
+  friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
+  friend std::ostream& operator<<(std::ostream& out, BodyId id) {
+    out << id.value;
+    if (id.generation > 0) out << " (generation " << id.generation << ')';
+    return out;
+  }
+};
+
+using ShapeId = Id<struct ShapeTag>;        ///< id of a shape, which several grains can share
 using MaterialId = Id<struct MaterialTag>;  ///< id of a material, in the order in which Materials
                                             ///< lists them
 

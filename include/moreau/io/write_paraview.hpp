@@ -56,6 +56,9 @@ void write_walls(const std::filesystem::path& path, const World& world) {
 /// | out/run_0010_walls.vtp     | half-spaces and cylinders with the arrays `id`, `velocity`      |
 /// | out/run_0010_contacts.vtp  | lines with the arrays of VtkWriter::write_contacts()            |
 ///
+/// The array `id` of the grains is their position in grains(). It changes when a grain with a lower id
+/// is removed.
+///
 /// ParaView shows the files run_0000.vtm, run_0001.vtm, ... as one series. PvdSeries::add() adds
 /// the time to such a file.
 ///

@@ -31,6 +31,7 @@
 #include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/world/step_report.hpp"
@@ -64,7 +65,14 @@ struct EnergyTerms {
 };
 
 /// The energy balance of one simulation. If the user sets velocities or poses of bodies with a mass
-/// between two steps, the change appears in the imbalance, or in the work of gravity and forces.
+/// between two steps, the change appears in the imbalance, or in the work of gravity and forces, unless
+/// the program calls rebase() after the change. After grains were added or removed, and after
+/// prescribe_motion() and release(), call rebase() before the next step:
+///
+///     source.apply(world, h);
+///     energy.rebase(world);
+///     energy.add(world, world.step(h), h);
+///
 /// write_snapshot() can store the balance together with the simulation, so that a restarted run
 /// continues it.
 template <class S>
@@ -82,19 +90,20 @@ class EnergyBalance {
 
   /// Adds the last step to the balance. Forces and gravity must still be those of this step.
   /// @param step length of the step [s], > 0
-  /// @throws std::invalid_argument if the step is not positive, or if bodies were added since the
-  ///                               start
+  /// @throws std::invalid_argument if the step is not positive, or if bodies were added or removed
+  ///                               since the start or the last rebase()
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
     const Bodies<S>& bodies = simulation.bodies();
     require(std::isfinite(step) && step > 0, "EnergyBalance::add", "step", step,
             "must be finite and > 0");
-    require(bodies.size() == positions_.size(), "EnergyBalance::add", "number of bodies",
-            bodies.size(), "must be their number at the start of the balance");
+    require(bodies.id == ids_, "EnergyBalance::add", "number of bodies", bodies.size(),
+            "must be the same bodies as at the start of the balance or at the last rebase()");
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector way = bodies.pose[i].position - positions_[i];
       const Vector force = linear<S>(bodies.force[i]);
-      terms_.gravity += double(bodies.weight[i] * simulation.gravity().dot(way));
+      if (!bodies.is_prescribed(i))
+        terms_.gravity += double(bodies.weight[i] * simulation.gravity().dot(way));
       terms_.forces += double(with_mass(bodies, i, force).dot(way));
     }
     terms_.drives += work_of_drives(bodies, simulation.contacts());
@@ -106,16 +115,27 @@ class EnergyBalance {
     remember(bodies);
   }
 
+  /// Continues with the present bodies, positions and velocities, which the program has changed since
+  /// the last step. The change of the kinetic energy is added to kinetic_at_start(). It appears in no
+  /// term and not in the imbalance.
+  template <class Simulation>
+  void rebase(const Simulation& simulation) {
+    const double before = kinetic_;
+    remember(simulation.bodies());
+    start_ += kinetic_ - before;
+  }
+
   const EnergyTerms& terms() const { return terms_; }  ///< the terms, summed so far [J]
-  /// kinetic energy of grains, and of walls with a mass [J]
+  /// kinetic energy of grains, without those whose motion is prescribed, and of walls with a mass [J]
   double kinetic() const { return kinetic_; }
-  double kinetic_at_start() const { return start_; }  ///< kinetic() when the balance began [J]
+  /// kinetic() when the balance began, and all changes at calls of rebase() [J]
+  double kinetic_at_start() const { return start_; }
   /// The increase of the kinetic energy that the terms do not explain [J].
   double imbalance() const { return kinetic_ - start_ - terms_.gain(); }
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(terms_, positions_, kinetic_, start_); }
+  auto serialized_members() { return std::tie(terms_, positions_, ids_, kinetic_, start_); }
 
   /// The component of a vector along those axes of the body along which the body has a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x) {
@@ -128,7 +148,9 @@ class EnergyBalance {
   static double kinetic_energy(const Bodies<S>& bodies, std::size_t i) {
     const Vector v = bodies.axes(i).transpose() * linear<S>(bodies.velocity[i]);
     const typename S::Angular w = angular<S>(bodies.velocity[i]);
-    double energy = double(w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) / 2;
+    double energy = 0;
+    if (bodies.rotates(i))
+      energy = double(w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) / 2;
     for (int k = 0; k < S::dim; ++k)
       if (bodies.inverse_mass[i][k] > 0)
         energy += double(v[k] * v[k] / bodies.inverse_mass[i][k]) / 2;
@@ -161,6 +183,7 @@ class EnergyBalance {
 
   void remember(const Bodies<S>& bodies) {
     positions_.resize(bodies.size());
+    ids_ = bodies.id;
     kinetic_ = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       positions_[i] = bodies.pose[i].position;
@@ -170,6 +193,7 @@ class EnergyBalance {
 
   EnergyTerms terms_;
   std::vector<Vector> positions_;
+  std::vector<BodyId> ids_;
   double kinetic_ = 0, start_ = 0;
 };
 

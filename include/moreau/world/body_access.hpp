@@ -18,7 +18,7 @@ namespace moreau {
 
 /// The functions of Simulation that read bodies; Simulation inherits them. They throw
 /// std::invalid_argument, which names function, argument and value, for an id that is not of this
-/// simulation.
+/// simulation, or of a grain that was removed.
 ///
 ///     for (const moreau::BodyId grain : simulation.grains())
 ///       lowest = std::min(lowest, simulation.pose(grain).position[2]);
@@ -58,8 +58,32 @@ class BodyAccess {
     return assembly_.shape_of_grain(assembly_.number_of_grain(grain, "Simulation::shape"));
   }
 
-  /// The ids of all grains, in the order in which they were added. The span is valid until a grain
-  /// is added.
+  /// Whether the id is that of a grain or wall of this simulation that was not removed.
+  bool contains(BodyId body) const { return assembly_.contains(body); }
+  /// The id of the body with this index, e.g. of Contact::a.
+  /// @throws std::invalid_argument if no body has this index
+  BodyId body_id(std::size_t index) const {
+    require(index < bodies().size() && bodies().exists(index), "Simulation::body_id", "index",
+            index, "must be the index of a body");
+    return bodies().id[index];
+  }
+  /// Whether neither forces nor contacts change the motion of a body: a grain after
+  /// prescribe_motion(), a wall without mass.
+  /// @throws std::invalid_argument for a body that is not of this simulation
+  bool is_prescribed(BodyId body) const {
+    assembly_.require_body(body, "Simulation::is_prescribed");
+    return bodies().is_prescribed(body.index());
+  }
+
+  /// An added shape, in its own frame.
+  /// @throws std::invalid_argument for a shape that is not of this simulation
+  const ShapeT& shape(ShapeId shape) const {
+    assembly_.require_shape(shape, "Simulation::shape");
+    return assembly_.shape(shape);
+  }
+
+  /// The ids of all grains, ascending: in the order in which they were added, as long as no grain was
+  /// removed. The span is valid until a grain is added or removed.
   std::span<const BodyId> grains() const { return assembly_.grains(); }
   /// The ids of all walls that are half-spaces, in the order in which they were added. The span is
   /// valid until a wall is added.
@@ -69,22 +93,24 @@ class BodyAccess {
   std::span<const CylinderBody<S>> cylinders() const { return assembly_.cylinders(); }
 
   std::size_t grain_count() const { return assembly_.grain_count(); }  ///< without walls
-  /// The k-th grain, in the order in which they were added.
+  /// The k-th element of grains().
   /// @throws std::invalid_argument unless k < grain_count()
   BodyId grain(std::size_t k) const {
     assembly_.require_grain(k, "Simulation::grain");
     return assembly_.grain(k);
   }
-  /// Shape of the k-th grain, in its own frame.
+  /// Shape of the k-th element of grains(), in its own frame.
   /// @throws std::invalid_argument unless k < grain_count()
   const ShapeT& shape_of_grain(std::size_t k) const {
     assembly_.require_grain(k, "Simulation::shape_of_grain");
     return assembly_.shape_of_grain(k);
   }
-  /// Whether body number `body`, which must exist, is a grain; else it is a wall.
+  /// Whether the element `body` of bodies(), which must exist, is a grain. Else it is a wall, or belongs
+  /// to no body (Bodies::exists()).
   bool is_grain(std::size_t body) const { return bodies().weight[body] > 0; }
 
-  /// All quantities of all bodies, by BodyId::index(); indices are not checked.
+  /// All quantities of all bodies, by BodyId::index(); indices are not checked. Removed grains leave
+  /// elements with zero mass, which a body that is added later takes (Bodies::exists()).
   const Bodies<S>& bodies() const { return assembly_.bodies(); }
 
  protected:

@@ -16,12 +16,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/detail/merge_join.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
@@ -32,6 +36,7 @@
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
+#include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
@@ -57,12 +62,12 @@ class ContactDetector {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
 
-  /// Adds a grain; the shape must outlive the detector.
-  void add_grain(BodyId body, const ShapeT& shape) {
-    grains_.push_back({body, &shape, Placed<ShapeT>(shape)});
-    widest_ = std::max(widest_, width(shape));
-    stale_ = true;
-  }
+  /// Adds a grain; the shape must outlive the detector. Grains are numbered in the order of their
+  /// bodies.
+  void add_grain(BodyId body, const ShapeT& shape);
+  /// Removes grains; the list of the other pairs and their caches stay as they are.
+  /// @param is_removed one entry per body
+  void remove_grains(std::span<const unsigned char> is_removed);
   /// Adds a plane wall; the shape, in body coordinates, is copied.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
     walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
@@ -93,7 +98,7 @@ class ContactDetector {
 
   /// Moves grains and walls to the poses of their bodies and computes the boxes of the grains.
   /// @param poses    one per body
-  /// @param shape_of k -> shape of grain k, in the order they were added
+  /// @param shape_of k -> shape of grain k, in the order of their bodies
   template <class ShapeOf>
   void place(std::span<const Pose<S>> poses, ShapeOf&& shape_of) {
     boxes_.resize(grains_.size());
@@ -125,12 +130,13 @@ class ContactDetector {
   void find_pairs(const DetectionLengths<Scalar>& lengths);
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, feature), with zero
-  /// impulse and law 0. Call find_pairs() before.
-  /// @param poses     one per body, the same as for place()
+  /// impulse and law 0. Pairs of two bodies whose motion is prescribed have none: no impulse could
+  /// change their relative velocity. Call find_pairs() before.
+  /// @param bodies    with the poses that place() was given
   /// @param previous  contacts of the step before: where a contact between faces has more
   ///                  points than are kept, those of the step before are chosen first
   /// @param out       replaced
-  void detect(const DetectionLengths<Scalar>& lengths, std::span<const Pose<S>> poses,
+  void detect(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
               const Contacts<S>& previous, Contacts<S>& out);
 
   /// Replaces grains and walls after their shapes have been read from a file; keeps the pairs.
@@ -169,6 +175,7 @@ class ContactDetector {
     BodyId body;
     const ShapeT* shape;
     Placed<ShapeT> placed;
+    Scalar width;  // in any orientation [m]
   };
   template <class WallShape>
   struct Wall {
@@ -178,14 +185,7 @@ class ContactDetector {
   };
 
   /// Width of a grain in any orientation [m].
-  static Scalar width(const ShapeT& shape) {
-    if constexpr (requires { shape.circumradius(); }) {
-      return 2 * shape.circumradius();
-    } else {
-      const Aabb<S> box = shape.bounding_box(Pose<S>{});
-      return 2 * box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
-    }
-  }
+  static Scalar width(const ShapeT& shape) { return 2 * circumradius(shape); }
   /// Width that find_pairs() adds to that of a grain, both sides together [m].
   static Scalar around(const DetectionLengths<Scalar>& lengths) {
     return lengths.margin + 2 * lengths.skin;
@@ -243,7 +243,7 @@ class ContactDetector {
   }
 
   /// Finds the contacts of the grains begin .. end - 1 with later grains and with walls.
-  void detect_of(std::size_t begin, std::size_t end, Scalar margin, std::span<const Pose<S>> poses,
+  void detect_of(std::size_t begin, std::size_t end, Scalar margin, const Bodies<S>& bodies,
                  const Contacts<S>& previous, Member& found);
   void detect_in_cylinders(std::size_t k, Scalar margin, detail::FoundContacts<S>& found) {
     const Grain& a = grains_[k];
@@ -254,7 +254,9 @@ class ContactDetector {
         });
   }
 
-  std::vector<Grain> grains_;
+  std::vector<Grain> grains_;  // ascending by body
+  std::vector<Grain> spare_;   // of removed grains; what they have allocated is used again
+  std::vector<std::uint32_t> number_after_;  // of each grain, in remove_grains()
   std::vector<Wall<HalfSpace<S>>> walls_;
   std::vector<Wall<CylinderWall<S>>> cylinders_;
   PeriodicCell<S> cell_;
@@ -272,6 +274,56 @@ class ContactDetector {
 };
 
 // Outside of the class: compiled once where a program declares the detector extern.
+template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::add_grain(BodyId body, const ShapeT& shape) {
+  const auto before = [](const Grain& grain, BodyId id) { return grain.body < id; };
+  const auto place = std::lower_bound(grains_.begin(), grains_.end(), body, before);
+  const auto k = static_cast<std::size_t>(place - grains_.begin());
+  if (k < grains_.size())
+    for (IndexPair& pair : pairs_) {
+      pair.first += pair.first >= k;
+      pair.second += pair.second >= k;
+    }
+  if (spare_.empty()) {
+    grains_.insert(place, Grain{body, &shape, Placed<ShapeT>(shape), width(shape)});
+  } else {
+    spare_.back().body = body;
+    spare_.back().shape = &shape;
+    spare_.back().width = width(shape);
+    grains_.insert(place, std::move(spare_.back()));
+    spare_.pop_back();
+  }
+  widest_ = std::max(widest_, width(shape));
+  stale_ = true;
+}
+
+template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
+    std::span<const unsigned char> is_removed) {
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  number_after_.clear();
+  std::uint32_t left = 0;
+  for (Grain& grain : grains_) {
+    const bool goes = is_removed[grain.body.index()] != 0;
+    number_after_.push_back(goes ? none : left++);
+    if (goes) spare_.push_back(std::move(grain));
+  }
+  const auto has_gone = [&](std::size_t k) { return number_after_[k] == none; };
+  erase_at(grains_, has_gone);
+  if (!stale_) erase_at(fat_, has_gone);
+
+  const auto pair_has_gone = [&](std::size_t p) {
+    return has_gone(pairs_[p].first) || has_gone(pairs_[p].second);
+  };
+  erase_at(shifts_, pair_has_gone);
+  erase_at(caches_, pair_has_gone);
+  erase_at(pairs_, pair_has_gone);
+  for (IndexPair& pair : pairs_) pair = {number_after_[pair.first], number_after_[pair.second]};
+  // The width of all grains that are left: the same as after a restart from a snapshot.
+  widest_ = 0;
+  for (const Grain& grain : grains_) widest_ = std::max(widest_, grain.width);
+}
+
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Scalar>& lengths) {
   const Scalar reach = lengths.margin / 2;
@@ -294,7 +346,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>& lengths,
-                                                  std::span<const Pose<S>> poses,
+                                                  const Bodies<S>& bodies,
                                                   const Contacts<S>& previous, Contacts<S>& out) {
   members_.resize(std::size_t(team_.size()));
   for (Member& member : members_)
@@ -305,7 +357,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
   team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {
     const detail::Share share(work, rank, size);
     Member& member = members_[std::size_t(rank)];
-    detect_of(grain_at(share.begin), grain_at(share.end), lengths.margin, poses, previous, member);
+    detect_of(grain_at(share.begin), grain_at(share.end), lengths.margin, bodies, previous, member);
     member.sort();
   });
   Member::gather(members_, out);
@@ -313,29 +365,33 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::size_t end,
-                                                     Scalar margin, std::span<const Pose<S>> poses,
+                                                     Scalar margin, const Bodies<S>& bodies,
                                                      const Contacts<S>& previous, Member& found) {
   Manifold<S>& manifold = found.manifold();
+  const std::span<const Pose<S>> poses(bodies.pose);
   std::size_t p = first_pair(begin);
   for (std::size_t k = begin; k < end; ++k) {
     const Grain& a = grains_[k];
     const Aabb<S> reach = boxes_[k].inflated(margin);
+    const bool prescribed = bodies.is_prescribed(a.body.index());
+    const auto ignores = [&](BodyId b) { return prescribed && bodies.is_prescribed(b.index()); };
     for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
       const std::size_t second = pairs_[p].second;
       const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
       if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
-                    : reach.overlaps(boxes_[second])))
+                    : reach.overlaps(boxes_[second])) ||
+          ignores(grains_[second].body))
         continue;
       const Grain& b =
           crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
       if (collide(a.placed, b.placed, margin, manifold, caches_[p])) found.add(a, b, previous);
     }
     for (const auto& wall : walls_) {
-      if (!reaches(boxes_[k], wall.placed, margin)) continue;
+      if (!reaches(boxes_[k], wall.placed, margin) || ignores(wall.body)) continue;
       PairCache<S> none;
       if (collide(a.placed, wall.placed, margin, manifold, none)) found.add(a, wall, previous);
     }
-    if (!cylinders_.empty()) detect_in_cylinders(k, margin, found);
+    if (!cylinders_.empty() && !prescribed) detect_in_cylinders(k, margin, found);
   }
 }
 

@@ -16,14 +16,14 @@ namespace moreau {
 /// each in the frame of its contact, normal first [N s]; under adhesion, without the adhesion.
 /// @param simulation with Coulomb's law, with adhesion or without
 /// @returns a GatheredProblem, whose contacts are indices into simulation.contacts()
-/// @throws std::invalid_argument if the contacts were read from a snapshot and no step was made
-///         since
+/// @throws std::invalid_argument if the contacts were read from a snapshot, or grains with contacts
+///         were removed, and no step was made since
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver>
 auto gather_problem(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation) requires
     CoulombLaw<Law, SpaceOf<ShapeT>> {
   require(simulation.contact_problem().size() == simulation.contacts().size(), "gather_problem",
           "contacts", simulation.contacts().size(),
-          "must be those of a step made since they were read");
+          "must be those of a step made since they were read or grains were removed");
   return gather_problem(simulation.contact_problem());
 }
 

@@ -22,7 +22,6 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
-#include "moreau/core/twist.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -30,7 +29,7 @@
 #include "moreau/shape/half_space.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/world/assign_laws.hpp"
-#include "moreau/world/body_access.hpp"
+#include "moreau/world/body_control.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
@@ -54,15 +53,16 @@ namespace moreau {
 ///
 /// Policies that do not fit together do not compile; policies.hpp has the reasons.
 ///
-/// BodyAccess has the functions that read bodies: pose(id), velocity(id), grains(), ...
+/// BodyAccess has the functions that read bodies: pose(id), velocity(id), grains(), ... BodyControl
+/// has those that set forces and motions: set_velocity(id, v), prescribe_motion(id), ...
 ///
 /// Functions throw std::invalid_argument, which names function, argument and value, for an id that
-/// is not of this simulation, a value that is not finite, and the cases in their comments. The
-/// simulation is then unchanged.
+/// is not of this simulation or of a grain that was removed, a value that is not finite, and the
+/// cases in their comments. The simulation is then unchanged.
 template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
-class Simulation : public BodyAccess<ShapeT> {
+class Simulation : public BodyControl<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
  public:
@@ -70,7 +70,7 @@ class Simulation : public BodyAccess<ShapeT> {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   using Twist = typename S::Twist;
-  using BodyAccess<ShapeT>::bodies;
+  using BodyControl<ShapeT>::bodies;
 
   /// A simulation without bodies, at time 0, without gravity, for a set-valued law.
   /// @param grain_size size of the smallest grain [m], > 0; all tolerances are relative to it
@@ -93,15 +93,16 @@ class Simulation : public BodyAccess<ShapeT> {
              const Integrator& integrator = Integrator{}) requires(!set_valued)
       : Simulation(grain_size, materials, tolerances, Dynamics(integrator)) {}
 
-  /// Adds a shape that grains can share; it is copied.
+  /// Adds a shape that grains can share; it is copied. It stays, also if no grain has it any more.
   ShapeId add_shape(const ShapeT& shape) { return assembly_.add_shape(shape); }
 
-  /// Adds a grain at rest.
+  /// Adds a grain at rest, before the first step or between two steps.
   /// @param shape    an id that add_shape() returned
   /// @param pose     of the shape's frame in the world [m]; its origin is the centre of mass
   /// @param density  [kg/m^3], in the plane [kg/m^2], > 0
   /// @param material of its surface
-  /// @returns its id; bodies, grains and walls, are numbered in the order in which they are added
+  /// @returns its id; bodies, grains and walls, are numbered in the order in which they are added,
+  ///          except that a new body takes the lowest index that a removed grain has left
   /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite or
   ///         no rigid one, a density that is not finite or not positive, a mass or an inertia that
   ///         the scalar cannot hold, a shape whose centre of mass is farther from its origin than
@@ -115,7 +116,19 @@ class Simulation : public BodyAccess<ShapeT> {
     const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
     assembly_.set_grain(body, shape, mass);
     detector_.add_grain(body, assembly_.shape(shape));
+    if constexpr (!set_valued) dynamics_.forget();
     return body;
+  }
+  /// Removes a grain, with its contacts of the last step. Its id is refused from now on. All other ids
+  /// stay valid. The other grains keep their contacts with the impulses and the memory of the laws.
+  /// The measures of the last step no longer include the grain.
+  /// @throws std::invalid_argument for a body that is not a grain of this simulation
+  void remove_grain(BodyId grain) { remove(std::span(&grain, 1), "Simulation::remove_grain"); }
+  /// Removes grains as remove_grain() does. One call for many grains takes as long as for one.
+  /// @throws std::invalid_argument for a body that is not a grain of this simulation, or that is
+  ///         listed twice; no grain is removed then
+  void remove_grains(std::span<const BodyId> grains) {
+    if (!grains.empty()) remove(grains, "Simulation::remove_grains");
   }
 
   /// Adds a half-space as a wall: fixed, or moving at the velocity that set_velocity gives.
@@ -184,40 +197,6 @@ class Simulation : public BodyAccess<ShapeT> {
   }
   const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
 
-  /// Makes a wall move along its normal as a body of this mass, under set_force() and its contacts.
-  /// Gravity does not act on walls. With an infinite mass the wall is fixed or driven again.
-  /// @param wall a half-space; a cylinder cannot have a mass
-  /// @param mass [kg], > 0
-  /// @throws std::invalid_argument for a body that is not in walls() or a mass that is not positive
-  void set_wall_mass(BodyId wall, Scalar mass) {
-    assembly_.require_wall(wall, "Simulation::set_wall_mass");
-    require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
-            "must be > 0, with a finite inverse");
-    assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
-  }
-  /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
-  /// and acts until it is set again. It does not move a body without mass, such as a wall.
-  /// @throws std::invalid_argument for a body of another simulation or a force that is not finite
-  void set_force(BodyId body, const VectorArgument<S>& force) {
-    assembly_.require_body(body, "Simulation::set_force", "force", force);
-    linear<S>(assembly_.bodies().force[body.index()]) = force;
-  }
-  /// Sets the velocity of the centre, world axes [m/s]. A body without mass, such as a wall, keeps
-  /// it.
-  /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
-  ///         not finite
-  void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
-    assembly_.require_body(body, "Simulation::set_velocity", "velocity", velocity);
-    linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
-  }
-  /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
-  /// from x to y. A body without inertia, such as a wall, keeps it.
-  /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
-  ///         finite
-  void set_spin(BodyId body, const AngularArgument<S>& spin) {
-    assembly_.require_body(body, "Simulation::set_spin", "spin", spin);
-    angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
-  }
   /// Sets the pose of a body, world axes [m]; its velocity does not change.
   /// @throws std::invalid_argument for a body that is not of this simulation, or a pose that is not
   ///         finite or no rigid one
@@ -282,7 +261,8 @@ class Simulation : public BodyAccess<ShapeT> {
     return contacts_.impulse_on(body.value);
   }
   /// The contact problem that the last step solved, one row per contact of contacts(), for
-  /// gather_problem() and for solvers of one's own.
+  /// gather_problem() and for solvers of one's own. It still has the contacts of grains that were
+  /// removed since.
   const ContactProblem<OperatorOf<Law, S>, Law>& contact_problem() const requires set_valued {
     return dynamics_.problem();
   }
@@ -315,8 +295,23 @@ class Simulation : public BodyAccess<ShapeT> {
   void deserialized() {
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), materials_.laws().size()),
-            "Simulation", "bodies", bodies().size(), "must be those that all else is of");
+            "Simulation", "bodies", bodies().size(), "must be the bodies that contacts, pairs and materials refer to");
+    require(dynamics_.is_valid(contacts_.size()), "Simulation", "contacts", contacts_.size(),
+            "must be those that the memory of the laws is of");
     detector_.rebuild([&] { assembly_.add_to(detector_); });
+  }
+
+  void remove(std::span<const BodyId> grains, const char* function) {
+    const std::vector<unsigned char>& removed = assembly_.mark(grains, function);
+    lost_.clear();
+    for (const Contact<S>& contact : contacts_.points)
+      lost_.push_back(removed[contact.a] != 0 || removed[contact.b] != 0);
+    const auto is_lost = [&](std::size_t c) { return lost_[c] != 0; };
+    dynamics_.erase(is_lost);
+    contacts_.erase(is_lost);
+    detector_.remove_grains(removed);
+    assembly_.remove_marked();
+    if constexpr (!set_valued) dynamics_.forget();
   }
 
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
@@ -327,7 +322,7 @@ class Simulation : public BodyAccess<ShapeT> {
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     detector_.find_pairs(lengths());
-    detector_.detect(lengths(), poses, previous_, contacts_);
+    detector_.detect(lengths(), bodies(), previous_, contacts_);
     assign_laws(assembly_.bodies(), materials_, contacts_);
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
@@ -342,9 +337,10 @@ class Simulation : public BodyAccess<ShapeT> {
   Vector gravity_ = Vector::Zero();
   Scalar time_ = 0;
 
-  using BodyAccess<ShapeT>::assembly_;
+  using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
+  std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
 // step() is defined outside of the class, so that it is not inline. A program can then instantiate it

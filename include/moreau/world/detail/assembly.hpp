@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <functional>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
+#include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
@@ -32,9 +36,9 @@ struct CylinderBody {
 
 namespace detail {
 
-/// Shapes and bodies of a Simulation, numbered in the order in which they are added. Its functions
-/// throw std::invalid_argument in the name of the public function that calls them, which they are
-/// given.
+/// Shapes and bodies of a Simulation, numbered in the order in which they are added; a new body takes
+/// the lowest index that a removed grain has left. Its functions throw std::invalid_argument in the
+/// name of the public function that calls them, which they are given.
 template <ConvexShape ShapeT>
 class Assembly {
  public:
@@ -53,14 +57,45 @@ class Assembly {
                   const char* function) {
     require(material.index() < materials, function, "material", material,
             "must be the id of a material");
-    bodies_.push_back(pose, material);
-    return BodyId(bodies_.size() - 1);
+    if (free_.empty()) {
+      bodies_.push_back(pose, material);
+      return bodies_.id.back();
+    }
+    const std::uint32_t index = free_.back();
+    free_.pop_back();
+    bodies_.reuse(index, pose, material);
+    return bodies_.id[index];
   }
   /// Makes a body a grain.
   void set_grain(BodyId body, ShapeId shape, const MassProperties<S>& mass) {
     bodies_.set_mass(body.index(), mass.mass, mass.inertia);
-    grains_.push_back({body, shape});
-    grain_ids_.push_back(body);
+    const auto place = std::lower_bound(grain_ids_.begin(), grain_ids_.end(), body);
+    grains_.insert(grains_.begin() + (place - grain_ids_.begin()), {body, shape});
+    grain_ids_.insert(place, body);
+  }
+  /// Finds out whether grains can be removed; changes nothing that anyone but remove_grains() sees.
+  /// @returns one entry per body: whether it is one of these grains
+  /// @throws std::invalid_argument for a body that is not a grain, or one that is listed twice
+  const std::vector<unsigned char>& mark(std::span<const BodyId> grains, const char* function) {
+    marked_.assign(bodies_.size(), 0);
+    for (const BodyId grain : grains) {
+      number_of_grain(grain, function);
+      require(marked_[grain.index()] == 0, function, "grain", grain, "must be listed once");
+      marked_[grain.index()] = 1;
+    }
+    return marked_;
+  }
+  /// Removes the grains that the last mark() was given. Their indices become free.
+  void remove_marked() {
+    for (const BodyId grain : grain_ids_) {
+      if (marked_[grain.index()] == 0) continue;
+      bodies_.remove(grain.index());
+      add_free(bodies_.id[grain.index()]);
+    }
+    std::sort(free_.begin(), free_.end(), std::greater<>());
+    const auto is_gone = [&](std::size_t k) { return marked_[grains_[k].body.index()] != 0; };
+    erase_at(grain_ids_, is_gone);
+    erase_at(grains_, is_gone);
   }
   /// Makes a body a half-space, where its pose is.
   void set_wall(BodyId body) { walls_.push_back(body); }
@@ -75,7 +110,7 @@ class Assembly {
   ///         from the origin than 1e-3 of the grain size
   MassProperties<S> mass_of(ShapeId shape, Scalar density, Scalar grain_size,
                             const char* function) const {
-    require(shape.index() < shapes_.size(), function, "shape", shape, "must be the id of a shape");
+    require_shape(shape, function);
     require(std::isfinite(density) && density > 0, function, "density", density,
             "must be finite and > 0");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
@@ -112,8 +147,16 @@ class Assembly {
     require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",
             "(no rotation)", "must be finite and of unit length");
   }
+  bool contains(BodyId body) const {
+    return body.index() < bodies_.size() && bodies_.id[body.index()] == body &&
+           bodies_.exists(body.index());
+  }
+  void require_shape(ShapeId shape, const char* function) const {
+    require(shape.index() < shapes_.size(), function, "shape", shape, "must be the id of a shape");
+  }
   void require_body(BodyId body, const char* function) const {
     require(body.index() < bodies_.size(), function, "body", body, "must be the id of a body");
+    require(contains(body), function, "body", body, "must not be the id of a removed grain");
   }
   /// A body of which a vector is set: the id of a body and a finite vector.
   void require_body(BodyId body, const char* function, const char* argument,
@@ -142,12 +185,13 @@ class Assembly {
 
   /// Whether its members agree with one another, after they were read from a file.
   bool is_valid(std::size_t materials) const {
-    const auto exists = [&](BodyId body) { return body.index() < bodies_.size(); };
-    bool valid = bodies_.are_valid(materials);
+    bool valid = bodies_.are_valid(materials) &&
+                 std::adjacent_find(grain_ids_.begin(), grain_ids_.end(), std::greater_equal<>()) ==
+                     grain_ids_.end();
     for (const Grain& grain : grains_)
-      valid = valid && exists(grain.body) && grain.shape.index() < shapes_.size();
-    for (const BodyId wall : walls_) valid = valid && exists(wall);
-    for (const CylinderBody<S>& cylinder : cylinders_) valid = valid && exists(cylinder.body);
+      valid = valid && contains(grain.body) && grain.shape.index() < shapes_.size();
+    for (const BodyId wall : walls_) valid = valid && contains(wall);
+    for (const CylinderBody<S>& cylinder : cylinders_) valid = valid && contains(cylinder.body);
     return valid;
   }
   /// Adds all grains, walls and cylinders to a detector.
@@ -170,11 +214,21 @@ class Assembly {
   void deserialized() {
     grain_ids_.clear();
     for (const Grain& grain : grains_) grain_ids_.push_back(grain.body);
+    free_.clear();
+    for (std::size_t i = bodies_.id.size(); i-- > 0;)
+      if (!bodies_.exists(i)) add_free(bodies_.id[i]);
+  }
+  /// Makes the index of a removed body free, unless its generations are used up.
+  void add_free(BodyId removed) {
+    if (removed.generation < std::numeric_limits<std::uint32_t>::max())
+      free_.push_back(removed.value);
   }
 
-  std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
-  std::vector<Grain> grains_;
-  std::vector<BodyId> grain_ids_;  // the body of each element of grains_, ascending
+  std::deque<ShapeT> shapes_;        // addresses stay valid as shapes are added
+  std::vector<Grain> grains_;        // ascending by body
+  std::vector<BodyId> grain_ids_;    // the body of each element of grains_
+  std::vector<std::uint32_t> free_;  // indices that removed grains have left, descending
+  std::vector<unsigned char> marked_;
   std::vector<BodyId> walls_;
   std::vector<CylinderBody<S>> cylinders_;
   Bodies<S> bodies_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
@@ -82,12 +83,14 @@ class ContactSprings {
   void measure(const StepContext<S, Law>& context, const ContactProblem<Operator, Law>& problem,
                std::span<const Row> impulses, StepReport& report) {
     Energy energy;
+    energies_.resize(impulses.size());
     double map = 0, norm = 0;
     const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus));
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Row& r = impulses[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
-      energy.add(r.cwiseProduct(stretch));
+      energies_[c] = Energy::of(r.cwiseProduct(stretch));
+      energy.add(energies_[c]);
       report.max_elastic_overlap =
           std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
       Row u = problem.delassus.velocity(c) - stretch - relaxation_[c];
@@ -109,6 +112,15 @@ class ContactSprings {
     energy_ = energy;
   }
 
+  /// Removes the springs of contacts with removed grains: their energy leaves with the grains.
+  /// @param is_gone function: index of a contact -> whether it is removed
+  void erase(const auto& is_gone) {
+    erase_at(energies_, is_gone);
+    sum_energies();
+  }
+  /// Whether the springs are those of as many contacts, after they were read from a file.
+  bool are_valid(std::size_t contacts) const { return energies_.size() == contacts; }
+
  private:
   /// Energy of normal springs, of tangential springs and of those of rolling [J].
   struct Energy {
@@ -116,21 +128,35 @@ class ContactSprings {
 
     double total() const { return normal + tangential + rolling; }
     /// @param work impulse x stretch of one contact, by its rows
-    void add(const Row& work) {
-      normal += double(work[0]) / 2;
-      tangential += double(work.template segment<S::dim - 1>(1).sum()) / 2;
-      if constexpr (RollingLaw<Law, S>) rolling += double(angular<S>(work).sum()) / 2;
+    static Energy of(const Row& work) {
+      Energy energy;
+      energy.normal = double(work[0]) / 2;
+      energy.tangential = double(work.template segment<S::dim - 1>(1).sum()) / 2;
+      if constexpr (RollingLaw<Law, S>) energy.rolling = double(angular<S>(work).sum()) / 2;
+      return energy;
+    }
+    void add(const Energy& other) {
+      normal += other.normal;
+      tangential += other.tangential;
+      rolling += other.rolling;
     }
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };
 
   friend struct moreau::SerializationAccess;
-  auto serialized_members() { return std::tie(last_step_, energy_); }
+  auto serialized_members() { return std::tie(last_step_, energies_); }
+  void deserialized() { sum_energies(); }
 
-  std::vector<Row> compliance_;  // c [1/kg]
-  std::vector<Row> relaxation_;  // what the memory adds to b [m/s]
-  Scalar last_step_ = 0;         // h of the step before [s]
-  Energy energy_;                // after the step before
+  void sum_energies() {
+    energy_ = {};
+    for (const Energy& energy : energies_) energy_.add(energy);
+  }
+
+  std::vector<Row> compliance_;   // c [1/kg]
+  std::vector<Row> relaxation_;   // what the memory adds to b [m/s]
+  Scalar last_step_ = 0;          // h of the step before [s]
+  std::vector<Energy> energies_;  // one per contact, after the step before
+  Energy energy_;                 // their sum
 };
 
 }  // namespace moreau::detail

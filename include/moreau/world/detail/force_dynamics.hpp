@@ -15,6 +15,7 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/detail/effective_radius.hpp"
 #include "moreau/contact/detail/warm_start.hpp"
+#include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/materials.hpp"
@@ -40,7 +41,13 @@ class ForceDynamics {
 
   /// Whether the forces belong to the present configuration.
   bool is_ready(std::size_t bodies) const { return loads_.size() == bodies; }
+  /// The forces are evaluated anew before the next step.
   void forget() { loads_.clear(); }
+  /// Removes the memory of contacts with removed grains.
+  /// @param is_gone function: index of a contact -> whether it is removed
+  void erase(const auto& is_gone) { erase_at(memory_, is_gone); }
+  /// Whether the memory is that of as many contacts, after it was read from a file.
+  bool is_valid(std::size_t contacts) const { return memory_.size() == contacts; }
 
   void predict(Bodies<S>& bodies, const Vector& gravity, Scalar step) {
     integrator_.predict_configuration(bodies, std::span<const Twist>(loads_), gravity, step);
@@ -85,7 +92,7 @@ class ForceDynamics {
     return {contact.gap,
             BodyDelassus<S>::relative_velocity(contact, bodies.velocity[a], bodies.velocity[b]),
             inverse_mass > 0 ? 1 / inverse_mass : Scalar(0),
-            effective_radius(contact, bodies.rotates(a), bodies.rotates(b)), elapsed};
+            effective_radius(contact, bodies.weight[a] > 0, bodies.weight[b] > 0), elapsed};
   }
   static Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i, const Vector& n) {
     return (bodies.axes(i).transpose() * n).cwiseAbs2().dot(bodies.inverse_mass[i]);

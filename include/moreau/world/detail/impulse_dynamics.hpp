@@ -94,6 +94,18 @@ class ImpulseDynamics {
   }
   const OverlapCorrection<S>& correction() const { return correction_; }
   const Problem& problem() const { return problem_; }  ///< of the last step
+  /// Removes the springs of contacts with removed grains.
+  /// @param is_gone function: index of a contact -> whether it is removed
+  void erase([[maybe_unused]] const auto& is_gone) {
+    if constexpr (compliant) springs_.erase(is_gone);
+  }
+  /// Whether the springs are those of as many contacts, after they were read from a file.
+  bool is_valid([[maybe_unused]] std::size_t contacts) const {
+    if constexpr (compliant)
+      return springs_.are_valid(contacts);
+    else
+      return true;
+  }
 
   /// Stage 1.
   void predict(Bodies<S>& bodies, Scalar step) {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Write access to the bodies of a simulation: forces, velocities, and whether a motion is prescribed.
+#pragma once
+
+#include <cmath>
+
+#include "moreau/core/components.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/world/body_access.hpp"
+
+namespace moreau {
+
+/// The functions of Simulation that set forces and motions of bodies; Simulation inherits them. They
+/// throw std::invalid_argument, which names function, argument and value, for an id that is not of
+/// this simulation, or of a grain that was removed, and for a value that is not finite. The simulation
+/// is then unchanged.
+///
+/// A grain whose motion is prescribed is an obstacle: part of a rough floor, an insert, an intruder
+/// that is pulled through a bed.
+///
+///     const moreau::BodyId intruder = simulation.add_grain(shape, pose, 2700);
+///     simulation.prescribe_motion(intruder);
+///     simulation.set_velocity(intruder, {0.1, 0});
+///
+/// @tparam ShapeT shape of the grains
+template <ConvexShape ShapeT>
+class BodyControl : public BodyAccess<ShapeT> {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// Prescribes the motion of a grain: neither forces nor contacts change its velocity and spin. It
+  /// keeps those that it has until set_velocity() and set_spin() set others. It has contacts with
+  /// grains that are free and with walls that have a mass. It has none with walls without mass and
+  /// with other grains of prescribed motion, and can pass through them.
+  ///
+  /// contact_impulse() gives the impulse that it received. Its mass still counts in the measures. No
+  /// effect on a grain whose motion is prescribed already.
+  /// @throws std::invalid_argument for a body that is not a grain of this simulation
+  void prescribe_motion(BodyId grain) {
+    assembly_.number_of_grain(grain, "Simulation::prescribe_motion");
+    assembly_.bodies().prescribe_motion(grain.index());
+  }
+  /// Makes a grain move under forces and contacts again, with its mass and inertia; its velocity does
+  /// not change. The inverse of prescribe_motion(). No effect on a grain whose motion is not
+  /// prescribed.
+  /// @throws std::invalid_argument for a body that is not a grain of this simulation
+  void release(BodyId grain) {
+    assembly_.number_of_grain(grain, "Simulation::release");
+    Bodies<S>& bodies = assembly_.bodies();
+    const std::size_t i = grain.index();
+    if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.weight[i], bodies.inertia_body[i]);
+  }
+  /// Makes a wall move along its normal as a body of this mass, under set_force() and its contacts.
+  /// Gravity does not act on walls. With an infinite mass the wall is fixed or driven again.
+  /// @param wall a half-space; a cylinder cannot have a mass
+  /// @param mass [kg], > 0
+  /// @throws std::invalid_argument for a body that is not in walls() or a mass that is not positive
+  void set_wall_mass(BodyId wall, Scalar mass) {
+    assembly_.require_wall(wall, "Simulation::set_wall_mass");
+    require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
+            "must be > 0, with a finite inverse");
+    assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
+  }
+  /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
+  /// and acts until it is set again. It does not move a body without mass, such as a wall, or one
+  /// whose motion is prescribed.
+  /// @throws std::invalid_argument for a body of another simulation or a force that is not finite
+  void set_force(BodyId body, const VectorArgument<S>& force) {
+    assembly_.require_body(body, "Simulation::set_force", "force", force);
+    linear<S>(assembly_.bodies().force[body.index()]) = force;
+  }
+  /// Sets the velocity of the centre, world axes [m/s]. A body without mass, such as a wall, and one
+  /// whose motion is prescribed keep it.
+  /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
+  ///         not finite
+  void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
+    assembly_.require_body(body, "Simulation::set_velocity", "velocity", velocity);
+    linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
+  }
+  /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
+  /// from x to y. A body without inertia, such as a wall, and one whose motion is prescribed keep it.
+  /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
+  ///         finite
+  void set_spin(BodyId body, const AngularArgument<S>& spin) {
+    assembly_.require_body(body, "Simulation::set_spin", "spin", spin);
+    angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
+  }
+
+ protected:
+  BodyControl() = default;
+
+  using BodyAccess<ShapeT>::assembly_;
+};
+
+}  // namespace moreau
