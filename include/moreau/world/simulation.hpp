@@ -124,7 +124,8 @@ class Simulation : public BodyControl<ShapeT> {
   /// The measures of the last step no longer include the grain.
   /// @throws std::invalid_argument for a body that is not a grain of this simulation
   void remove_grain(BodyId grain) { remove(std::span(&grain, 1), "Simulation::remove_grain"); }
-  /// Removes grains as remove_grain() does. One call for many grains takes as long as for one.
+  /// Removes grains as remove_grain() does. One call for many grains takes about as long as
+  /// for one.
   /// @throws std::invalid_argument for a body that is not a grain of this simulation, or that is
   ///         listed twice; no grain is removed then
   void remove_grains(std::span<const BodyId> grains) {
@@ -149,6 +150,7 @@ class Simulation : public BodyControl<ShapeT> {
     const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
     assembly_.set_wall(body);
     detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
+    if constexpr (!set_valued) dynamics_.forget();
     return body;
   }
   /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
@@ -176,6 +178,7 @@ class Simulation : public BodyControl<ShapeT> {
     const CylinderWall<S> shape(axis, radius);
     assembly_.set_cylinder(body, shape);
     detector_.add_wall(body, shape);
+    if constexpr (!set_valued) dynamics_.forget();
     return body;
   }
 
