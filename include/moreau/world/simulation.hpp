@@ -104,9 +104,9 @@ class Simulation : public BodyControl<ShapeT> {
   /// @returns its id; bodies, grains and walls, are numbered in the order in which they are added,
   ///          except that a new body takes the lowest index that a removed grain has left
   /// @throws std::invalid_argument for an unknown shape or material, a pose that is not finite or
-  ///         no rigid one, a density that is not finite or not positive, a mass or an inertia that
-  ///         the scalar cannot hold, a shape whose centre of mass is farther from its origin than
-  ///         1e-3 of the grain size, a grain too wide for a periodic cell
+  ///         whose rotation is not of unit length, a density that is not finite or not positive, a
+  ///         mass or an inertia that the scalar cannot hold, a shape whose centre of mass is farther
+  ///         from its origin than 1e-3 of the grain size, a grain too wide for a periodic cell
   BodyId add_grain(ShapeId shape, const Pose<S>& pose, Scalar density,
                    MaterialId material = MaterialId(0)) {
     constexpr const char* self = "Simulation::add_grain";
@@ -202,7 +202,7 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Sets the pose of a body, world axes [m]; its velocity does not change.
   /// @throws std::invalid_argument for a body that is not of this simulation, or a pose that is not
-  ///         finite or no rigid one
+  ///         finite or whose rotation is not of unit length
   void set_pose(BodyId body, const Pose<S>& pose) {
     assembly_.require_body(body, "Simulation::set_pose");
     assembly_.require_pose(pose, "Simulation::set_pose");
