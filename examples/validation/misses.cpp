@@ -35,7 +35,8 @@ constexpr Miss misses_in_double[] = {
      "one step in which grains lock does not converge with sweeps alone (residual 5.8e-5), and its "
      "result depends on rounding; if every step converges, the frames agree to 2e-11"},
     {"heap of 27, polyhedron: what rounding of the places grows to", "over size", 1e-4,
-     "rough polyhedra that lock magnify rounding by a factor that depends on the instructions of the "
+     "rough polyhedra that lock magnify rounding by a factor that depends on the instructions of "
+     "the "
      "build: 1.3e-7 and 3.7e-5 were measured; where every step converges, frames agree to 2e-11"},
     {"energy without drive", ": rise while falling, 0.5 ms, uncorrected", 1e-5,
      "the velocity before a step points out of the contact frame after it by v h/R; first order"},
