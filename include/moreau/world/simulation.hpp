@@ -298,7 +298,8 @@ class Simulation : public BodyControl<ShapeT> {
   void deserialized() {
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), materials_.laws().size()),
-            "Simulation", "bodies", bodies().size(), "must be the bodies that contacts, pairs and materials refer to");
+            "Simulation", "bodies", bodies().size(),
+            "must be the bodies that contacts, pairs and materials refer to");
     require(dynamics_.is_valid(contacts_.size()), "Simulation", "contacts", contacts_.size(),
             "must be those that the memory of the laws is of");
     detector_.rebuild([&] { assembly_.add_to(detector_); });
