@@ -74,7 +74,8 @@ class SmoothAxisSearch {
       if (const Result beyond = tilt()) return beyond;
       if (!newton_step()) return {};
       // Near the maximum it is known how deep the shapes overlap, and which tilt proves the depth.
-      if (step_.norm() < theta_ && theta_ < tilt_for(-separation_) / 2) {
+      const bool overlaps = separation_ < 0 && step_.norm() < theta_;
+      if (overlaps && theta_ < tilt_for(-separation_) / 2) {
         theta_ = tilt_for(-separation_);
         continue;
       }
