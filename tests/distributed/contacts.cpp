@@ -131,7 +131,8 @@ TEST_CASE("Grains leave their processes and come back, without a new partition")
   Balls row = empty_world<Balls>();
   const ShapeId shape = row.add_shape(regular_shape<Ball<>>(size));
   for (int k = 0; k < 40; ++k) {
-    const BodyId ball = row.add_grain(shape, {{0.0201 * k, 0, 0.01}, {}}, 2700);
+    const BodyId ball =
+        row.add_grain(shape, {{0.0201 * k, 0, 0.01}, Space<3>::Rotation::Identity()}, 2700);
     row.set_velocity(ball, {10, 0, 0});
   }
   row.add_wall({0, 0, 1}, {0, 0, 0});

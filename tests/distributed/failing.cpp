@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
   using World = Simulation<Ball<>, Law, Failing>;
   World world(0.02, Materials<Law>(1, Law(0.3)));
   const ShapeId shape = world.add_shape(Ball<>(0.01));
-  for (int k = 0; k < 9; ++k) world.add_grain(shape, {{0.03 * k, 0, 0}, {}}, 2700);
+  for (int k = 0; k < 9; ++k)
+    world.add_grain(shape, {{0.03 * k, 0, 0}, Space<3>::Rotation::Identity()}, 2700);
   DistributedSimulation<World> packing(MPI_COMM_WORLD, world);
   packing.step(1e-3);
   std::puts("goes on");
