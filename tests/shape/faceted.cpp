@@ -72,7 +72,7 @@ TEST_CASE_TEMPLATE("the polytope lies inside the shape and is as close as its er
     CHECK(least >= -rounding);
     CHECK(most <= double(faceted.error()) + rounding);
     // The bound is not far from the truth, the less so the wider the normal cones are.
-    CHECK(double(faceted.error()) <= (n < 40 ? 3 : 2) * most + rounding);
+    CHECK(double(faceted.error()) <= (n < 40 ? 4 : 2) * most + rounding);
     CHECK(double(faceted.error()) < before);
     before = double(faceted.error());
   }
