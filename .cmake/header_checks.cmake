@@ -11,6 +11,9 @@ endif()
 if(NOT TARGET moreau_picture)
   list(FILTER headers EXCLUDE REGEX "moreau/io/(render_packing|write_picture|detail/rendering/.*)\\.hpp")
 endif()
+if(NOT TARGET moreau_mesh)
+  list(REMOVE_ITEM headers moreau/io/read_mesh.hpp)
+endif()
 set(units "")
 set(together "int main() {}\n")
 if(NOT TARGET moreau_distributed)
@@ -29,6 +32,7 @@ file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
 add_library(moreau_headers OBJECT ${units})
 target_link_libraries(moreau_headers PUBLIC moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                             $<TARGET_NAME_IF_EXISTS:moreau_picture>
+                                            $<TARGET_NAME_IF_EXISTS:moreau_mesh>
                                             $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
 target_compile_options(moreau_headers PUBLIC -O0 -g0 PRIVATE -w)
 target_precompile_headers(moreau_headers PRIVATE <Eigen/Geometry>)
@@ -47,6 +51,7 @@ add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cp
 target_link_libraries(moreau_headers_together PRIVATE moreau_development
                                               $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                               $<TARGET_NAME_IF_EXISTS:moreau_picture>
+                                              $<TARGET_NAME_IF_EXISTS:moreau_mesh>
                                               $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
 target_compile_options(moreau_headers_together PRIVATE -O0 -g0)
 
