@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
       std::printf("t = %.2f s: %zu points, %d sweeps, residual %.1e, %zu grains in process 0\n",
                   packing.time(), report.points, report.solve.sweeps, report.solve.residual,
                   own.grains);
+    moreau::write_pieces(folder / "packing", packing, step);
+    if (const std::optional<World> whole = packing.gather()) moreau::write_snapshot(file, *whole);
   }
-  moreau::write_pieces(folder / "packing", packing, step);
-  if (const std::optional<World> whole = packing.gather()) moreau::write_snapshot(file, *whole);
 }

@@ -55,3 +55,31 @@ TEST_CASE("The residual on one rank is below the tolerance, and momentum is bala
   check_steps<SoftPolyhedra>(80, 1e-4, 250);
   check_steps<SoftPolyhedra>(80, 1e-6, 250);
 }
+
+TEST_CASE("Overlaps across processes are corrected as in one process") {
+  // Rows of balls that overlap by a hundredth of their size.
+  Balls rows = empty_world<Balls>();
+  rows.set_correction({});
+  const ShapeId shape = rows.add_shape(regular_shape<Ball<>>(size));
+  for (int k = 0; k < 60; ++k)
+    rows.add_grain(shape, Pose<Space<3>>({0.99 * size * (k % 20), 2 * size * (k / 20), 0}), 2700);
+  Balls alone = rows;
+  DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>([&] { return rows; }));
+  StepReport report, reference;
+  for (int k = 0; k < 200; ++k) {
+    report = packing.step(step);
+    reference = alone.step(step);
+    if (k == 0) CHECK(report.correction.corrected == 57);
+    if (k == 0) CHECK(report.correction.corrected == reference.correction.corrected);
+    CHECK(report.max_overlap <= 0.0101 * size);
+  }
+  // The slop of the correction is left, and about as much is left in one process.
+  CHECK(report.max_overlap <= 4e-4 * size);
+  CHECK(report.max_overlap <= 1.5 * reference.max_overlap + 1e-5 * size);
+  const std::optional<Balls> whole = packing.gather();
+  if (!whole) return;
+  Space<3>::Vector center = Space<3>::Vector::Zero();
+  for (const BodyId grain : whole->grains())
+    center += (whole->pose(grain).position - rows.pose(grain).position) / 60;
+  CHECK(center.norm() <= 1e-12);
+}
