@@ -240,9 +240,10 @@ void check_grain(const ShapeT& grain) {
     const double limit = rounding<ShapeT>() * (size + 1);
     const auto around = grain.bounding_box(pose);
     for (const auto& x : points)
-      expect_at_most("a point from the box",
-                     std::max((around.lower - pose(x)).maxCoeff(), (pose(x) - around.upper).maxCoeff()),
-                     limit);
+      expect_at_most(
+          "a point from the box",
+          std::max((around.lower - pose(x)).maxCoeff(), (pose(x) - around.upper).maxCoeff()),
+          limit);
   }
   check_members(grain, points, size);
 }

@@ -122,8 +122,9 @@ TEST_CASE_TEMPLATE("a gamma stands or tips as its centre of mass says", Part, Po
 // of mass passes outside of it.
 TEST_CASE_TEMPLATE("an L stands on a slope or tips", Part, Polygon<>, Polyhedron<>) {
   using S = SpaceOf<Part>;
-  const Compound<Part> l({compounds::box<Part>(compounds::point<S>(0, 0), compounds::point<S>(2, 1, 1)),
-                          compounds::box<Part>(compounds::point<S>(0, 1), compounds::point<S>(1, 3, 1))});
+  const Compound<Part> l(
+      {compounds::box<Part>(compounds::point<S>(0, 0), compounds::point<S>(2, 1, 1)),
+       compounds::box<Part>(compounds::point<S>(0, 1), compounds::point<S>(1, 3, 1))});
   const auto centre = l.centroid_of_input();
   const double angle = std::atan2(2 - centre[0], centre[S::dim - 1]);
   for (const double share : {0.99, 1.01}) {
@@ -190,6 +191,37 @@ TEST_CASE_TEMPLATE("a hexagon of two halves rolls on a slope of more than 30 deg
     if (share < 1)
       CHECK(scene.turn() < 1e-7);
     else
-      CHECK(std::abs(scene.world.pose(scene.grain).position[0]) > (sanitizer_share > 1 ? 0.01 : 0.5));
+      CHECK(std::abs(scene.world.pose(scene.grain).position[0]) >
+            (sanitizer_share > 1 ? 0.01 : 0.5));
+  }
+}
+
+// A small block slides without friction over the seam of a block cut in two as over the whole block:
+// the edges of the cut make no contacts.
+TEST_CASE_TEMPLATE("a block slides over the seam between two parts", Part, Polygon<>,
+                   Polyhedron<>) {
+  using S = SpaceOf<Part>;
+  using Grain = Compound<Part>;
+  const Part floor =
+      compounds::box<Part>(compounds::point<S>(-4, -1, -4), compounds::point<S>(4, 0, 4));
+  const auto parts = compounds::halves<Part>(floor, S::Vector::UnitX(), S::Vector::Zero());
+  const Grain cut{std::span<const Part>(parts)};
+  const Grain block(
+      {compounds::box<Part>(compounds::point<S>(-0.5, 0, -0.5), compounds::point<S>(0.5, 1, 0.5))});
+  for (const double overlap : {0.0, 1e-6, 1e-4}) {
+    Simulation<Grain, Law> world(1, Materials<Law>(1, Law(0.0)));
+    OverlapCorrectionOptions off;
+    off.enabled = false;
+    world.set_correction(off);
+    world.set_contact_points(ContactPoints::all);
+    world.prescribe_motion(world.add_grain(world.add_shape(cut), {cut.centroid_of_input()}, 1000));
+    const BodyId grain = world.add_grain(world.add_shape(block),
+                                         {compounds::point<S>(-0.9, 0.5 - overlap, 0)}, 1000);
+    world.set_gravity(compounds::point<S>(0, -10));
+    world.set_velocity(grain, compounds::point<S>(1, 0));
+    for (int k = 0; k < 1800; ++k) world.step(1e-3);
+    CAPTURE(overlap);
+    CHECK((world.velocity(grain) - compounds::point<S>(1, 0)).norm() < 1e-7);
+    CHECK(std::abs(world.pose(grain).position[0] - 0.9) < 1e-6);
   }
 }

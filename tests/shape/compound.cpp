@@ -21,6 +21,8 @@ using namespace moreau;
 
 namespace {
 
+using Vector2 = Space<2>::Vector;
+
 /// Relative difference of mass properties.
 template <class S>
 double difference(const MassProperties<S>& a, const MassProperties<S>& b) {
@@ -51,8 +53,9 @@ TEST_CASE_TEMPLATE("a grain cut in two has the mass properties of the whole", Pa
 TEST_CASE_TEMPLATE("mass properties of an L against the integral", Part, Polygon<>, Polyhedron<>) {
   using S = SpaceOf<Part>;
   // A square with the side 3 without one with the side 2; in space 1 deep.
-  const Compound<Part> l({compounds::box<Part>(compounds::point<S>(0, 0), compounds::point<S>(3, 1, 1)),
-                          compounds::box<Part>(compounds::point<S>(0, 1), compounds::point<S>(1, 3, 1))});
+  const Compound<Part> l(
+      {compounds::box<Part>(compounds::point<S>(0, 0), compounds::point<S>(3, 1, 1)),
+       compounds::box<Part>(compounds::point<S>(0, 1), compounds::point<S>(1, 3, 1))});
   const Part large = compounds::box<Part>(compounds::point<S>(0, 0), compounds::point<S>(3, 3, 1));
   const Part small = compounds::box<Part>(compounds::point<S>(1, 1), compounds::point<S>(3, 3, 1));
   const auto a = large.mass_properties(1), b = small.mass_properties(1);
@@ -69,6 +72,31 @@ TEST_CASE_TEMPLATE("mass properties of an L against the integral", Part, Polygon
   CHECK((l.mass_properties(2).inertia - 2 * inertia).norm() < 1e-12 * inertia.norm());
 }
 
+TEST_CASE("grains of the guide") {
+  const Polygon<double> foot({{0, 0}, {0.02, 0}, {0.02, 0.01}, {0, 0.01}});
+  const Polygon<double> leg({{0, 0.01}, {0.01, 0.01}, {0.01, 0.03}, {0, 0.03}});
+  const Compound<Polygon<double>> l({foot, leg});
+  CHECK((l.centroid_of_input() - Vector2(0.0075, 0.01)).norm() < 1e-15);
+
+  const Ball<double> ball(0.005);
+  const Compound<Ball<double>> dumbbell({{ball, {{-0.005, 0, 0}}}, {ball, {{0.005, 0, 0}}}});
+  CHECK(dumbbell.volume() == doctest::Approx(2 * ball.volume()));
+
+  const Ball<double> small(0.003);
+  const Compound<Ball<double>>::Part clump_parts[] = {{ball, {}}, {small, {{0.006, 0, 0}}}};
+  MassProperties<Space<3>> measured;  // at density 1, in the frame of the parts
+  measured.mass = 5.9e-7;             // the volume [m^3]
+  measured.center = {0.0007, 0, 0};   // [m]
+  measured.inertia.diagonal() << 5.8e-12, 8.1e-12, 8.1e-12;  // about the centre [m^5]
+  const Compound<Ball<double>> clump(clump_parts, measured);
+  CHECK(clump.volume() == 5.9e-7);
+
+  std::mt19937_64 random(1);
+  const auto stones = ballast_shapes<Compound<Polyhedron<double>>>(30, random);
+  CHECK(stones[0].parts().size() == 4);
+  CHECK(stones[0].circumradius() == doctest::Approx(1));
+}
+
 TEST_CASE_TEMPLATE("two balls, in the plane two disks", S, Space<2>, Space<3>) {
   using Grain = Compound<BallIn<S>>;
   const typename S::Vector x = S::Vector::UnitX();
@@ -81,8 +109,8 @@ TEST_CASE_TEMPLATE("two balls, in the plane two disks", S, Space<2>, Space<3>) {
   CHECK(dumbbell.circumradius() == doctest::Approx(3));
 }
 
-TEST_CASE_TEMPLATE("parts that overlap need mass properties", S, Space<2>, Space<3>, Space<2, float>,
-                   Space<3, float>) {
+TEST_CASE_TEMPLATE("parts that overlap need mass properties", S, Space<2>, Space<3>,
+                   Space<2, float>, Space<3, float>) {
   using T = typename S::Scalar;
   using Grain = Compound<BallIn<S>>;
   using Part = typename Grain::Part;
@@ -93,7 +121,8 @@ TEST_CASE_TEMPLATE("parts that overlap need mass properties", S, Space<2>, Space
   const std::vector<Part> same(2);
   CHECK_NOTHROW(Grain{std::span<const Part>(apart)});
   CHECK(message_of([&] { Grain{std::span<const Part>(close)}; }) ==
-        "Compound: parts = 0 and 1 must not overlap, unless the mass properties of the grain are given");
+        "Compound: parts = 0 and 1 must not overlap, unless the mass properties of the grain are "
+        "given");
   MassProperties<S> mass = BallIn<S>(1).mass_properties(1);
   mass.center = T(0.95) * x;
   mass.mass *= T(1.9);

@@ -274,6 +274,7 @@ class Placed<ShapeT> {
   /// Places the grain at a pose, world axes [m]. Keeps the memory of the parts. The shape must outlive
   /// this object.
   void update(const ShapeT& shape, const Pose<Space>& pose) {
+    shape_ = &shape;
     center_ = pose.position;
     box_ = {};
     boxes_.clear();
@@ -289,14 +290,16 @@ class Placed<ShapeT> {
     }
   }
 
-  const Vector& center() const { return center_; }                 ///< world axes [m]
-  std::size_t part_count() const { return boxes_.size(); }         ///< number of parts
-  const Part& part(std::size_t k) const { return parts_[k]; }      ///< part k at its pose
+  const ShapeT& shape() const { return *shape_; }                    ///< the grain that was placed
+  const Vector& center() const { return center_; }                   ///< world axes [m]
+  std::size_t part_count() const { return boxes_.size(); }           ///< number of parts
+  const Part& part(std::size_t k) const { return parts_[k]; }        ///< part k at its pose
   const Aabb<Space>& box(std::size_t k) const { return boxes_[k]; }  ///< of part k, world axes [m]
   /// The bounding box of all parts, world axes [m].
   const Aabb<Space>& bounding_box() const { return box_; }
 
  private:
+  const ShapeT* shape_ = nullptr;
   Vector center_;
   std::vector<Part> parts_;  // more than part_count() if a grain placed before had more
   std::vector<Aabb<Space>> boxes_;

@@ -206,8 +206,8 @@ void draw_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose, const Colo
   std::size_t corner = 0;
   for (const std::int32_t end : mesh.ends)
     for (rims.emplace_back(); corner < static_cast<std::size_t>(end); ++corner)
-      rims.back().push_back(
-          pose(mesh.points[static_cast<std::size_t>(mesh.corners[corner])]).template cast<double>());
+      rims.back().push_back(pose(mesh.points[static_cast<std::size_t>(mesh.corners[corner])])
+                                .template cast<double>());
   for (const auto& rim : rims) drawing.outline(rim, 0.25f * color, 2);
   for (const auto& rim : rims) drawing.fill(rim, color);
 }

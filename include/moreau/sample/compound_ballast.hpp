@@ -94,21 +94,30 @@ requires Polytope<Part> && BallastShape<Part>
 struct Ballast<Compound<Part>> {
   /// A grain with the circumradius 1.
   static Compound<Part> draw(std::mt19937_64& random) {
+    for (;;) {
+      const Part stone = Ballast<Part>::draw(random);
+      for (int trial = 0; trial < 100; ++trial) {
+        const std::vector<Part> parts = cut(stone, random);
+        if (parts.empty()) continue;
+        const Compound<Part> grain{std::span<const Part>(parts)};
+        return grain.scaled(1 / grain.circumradius());
+      }
+    }
+  }
+
+ private:
+  /// Nothing if the cuts touch.
+  static std::vector<Part> cut(const Part& stone, std::mt19937_64& random) {
     using S = SpaceOf<Part>;
     using Scalar = typename S::Scalar;
     constexpr std::size_t peaks = 3;
     constexpr double spacing = 1.5;  // 2 sin(97 degrees / 2)
-    for (;;) {
-      const auto directions = detail::spaced_directions<S::dim>(peaks, spacing, random);
-      if (directions.size() < peaks) continue;
-      detail::CutStone<Part> stone(Ballast<Part>::draw(random));
-      for (const auto& direction : directions)
-        stone.cut(direction.template cast<Scalar>(), Scalar(detail::uniform(0.62, 0.72, random)));
-      if (!stone.cuts_are_apart()) continue;
-      const std::vector<Part> parts = stone.parts();
-      const Compound<Part> grain{std::span<const Part>(parts)};
-      return grain.scaled(1 / grain.circumradius());
-    }
+    const auto directions = detail::spaced_directions<S::dim>(peaks, spacing, random);
+    if (directions.size() < peaks) return {};
+    detail::CutStone<Part> cuts(stone);
+    for (const auto& direction : directions)
+      cuts.cut(direction.template cast<Scalar>(), Scalar(detail::uniform(0.62, 0.72, random)));
+    return cuts.cuts_are_apart() ? cuts.parts() : std::vector<Part>();
   }
 };
 

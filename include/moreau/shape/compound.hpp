@@ -17,6 +17,7 @@
 #include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/detail/overlap_test.hpp"
+#include "moreau/shape/detail/seams.hpp"
 #include "moreau/shape/detail/vertices.hpp"
 
 namespace moreau {
@@ -98,6 +99,9 @@ class Compound {
   /// are polytopes or balls.
   Scalar circumradius() const { return circumradius_; }
 
+  /// Where the parts touch one another; for contact detection.
+  const detail::Seams& seams() const requires Polytope<ShapeT> { return seams_; }
+
   /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
   /// @throws std::invalid_argument unless the density is finite and greater than zero
@@ -143,8 +147,12 @@ class Compound {
     return std::tie(parts_, centroid_of_input_, unit_.mass, unit_.inertia, volume_share_,
                     circumradius_);
   }
-  void deserialized() const {
+  void deserialized() {
     require(!parts_.empty(), "Compound", "parts.size()", parts_.size(), "must be at least 1");
+    find_seams();
+  }
+  void find_seams() {
+    if constexpr (Polytope<ShapeT>) seams_.find(parts_);
   }
 
   static std::vector<Part> in_place(std::span<const ShapeT> shapes) {
@@ -204,6 +212,7 @@ class Compound {
       circumradius_ = std::max(circumradius_, reach(part));
     }
     volume_share_ = unit_.mass / sum;
+    find_seams();
   }
   void require_mass(const char* function) const {
     detail::require_positive(unit_.mass, function, "volume");
@@ -227,6 +236,7 @@ class Compound {
   MassProperties<Space> unit_;  // at density 1, about the origin
   Vector centroid_of_input_ = Vector::Zero();
   Scalar volume_share_ = 1, circumradius_ = 0;
+  detail::Seams seams_;
 };
 
 }  // namespace moreau

@@ -323,8 +323,8 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
   const Scalar reach = lengths.margin / 2;
   bool left = stale_ || fat_.size() != boxes_.size();
   for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
-    left = !fat_[k].contains(boxes_[k].inflated(reach)) ||
-           !caches_.holds(k, grains_[k].placed, reach);
+    left =
+        !fat_[k].contains(boxes_[k].inflated(reach)) || !caches_.holds(k, grains_[k].placed, reach);
   if (!left) return;
   stale_ = false;
   fat_.resize(boxes_.size());

@@ -20,6 +20,6 @@ TEST_CASE_TEMPLATE("concave ballast under every law", Part, Polygon<>, Polyhedro
 TEST_CASE_TEMPLATE("dumbbells under every law", S, Space<2>, Space<3, float>) {
   using T = typename S::Scalar;
   const typename S::Vector x = T(0.0025) * S::Vector::UnitX();
-  conformance::all_laws(Compound<BallIn<S>>({{BallIn<S>(T(0.0025)), {x}}, {BallIn<S>(T(0.0025)), {-x}}}),
-                        T(0.01));
+  conformance::all_laws(
+      Compound<BallIn<S>>({{BallIn<S>(T(0.0025)), {x}}, {BallIn<S>(T(0.0025)), {-x}}}), T(0.01));
 }

@@ -4,6 +4,7 @@
 // only parts whose boxes are near: world/detail/pair_caches.hpp.)
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,7 +14,10 @@
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
 #include "moreau/detect/placed.hpp"
+#include "moreau/detect/polytope/axis.hpp"
 #include "moreau/detect/shape_kinds.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
 
 namespace moreau {
 
@@ -32,6 +36,77 @@ void for_each_part(const Placed<ShapeT>& grain, Use&& use) {
   }
 }
 
+namespace detail {
+
+/// Calls use(v) for the vertices v of a feature of a polygon, whose faces are its edges.
+template <std::floating_point T, class Use>
+void for_each_vertex(const Polygon<T>& polygon, FeatureKind kind, std::size_t feature, Use&& use) {
+  use(feature);
+  if (kind == FeatureKind::face) use((feature + 1) % polygon.vertex_count());
+}
+/// Calls use(v) for the vertices v of a feature of a polyhedron.
+template <std::floating_point T, class Use>
+void for_each_vertex(const Polyhedron<T>& polyhedron, FeatureKind kind, std::size_t feature,
+                     Use&& use) {
+  if (kind == FeatureKind::vertex) {
+    use(feature);
+  } else if (kind == FeatureKind::edge) {
+    for (const auto v : polyhedron.edges()[feature].vertex) use(v);
+  } else {
+    for (const auto v : polyhedron.face(feature)) use(v);
+  }
+}
+
+/// Whether a feature of part `part` lies in another part of its grain that reaches beyond it along the
+/// direction, by more than 0.05 of its size. The grain continues there, so the feature cannot make a
+/// contact with this normal.
+/// @param direction unit, out of the part, world axes
+template <CompoundShape ShapeT>
+bool is_inside(const Placed<ShapeT>& grain, std::uint32_t part, FeatureKind kind,
+               std::uint32_t feature, const typename SpaceOf<ShapeT>::Vector& direction) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  const auto& seams = grain.shape().seams();
+  auto others = ~std::uint64_t{0};
+  std::size_t vertex = 0;
+  for_each_vertex(grain.part(part).shape(), kind, feature, [&](std::size_t v) {
+    others &= seams.neighbours_at(part, v);
+    vertex = v;
+  });
+  for (std::size_t bit = 0; others != 0; ++bit, others >>= 1) {
+    if ((others & 1) == 0) continue;
+    const auto& other = grain.part(seams.neighbour(part, bit));
+    const Vector here = grain.part(part).center() - other.center() +
+                        grain.part(part).vertices()[static_cast<std::uint32_t>(vertex)];
+    if (direction.dot(other.support(direction) - here) > T(0.05) * other.radius()) return true;
+  }
+  return false;
+}
+
+/// Whether the normal of a contact of two parts is that of a feature inside one of the grains. Without
+/// this test a grain that slides over the seam between two parts would bump against the edge or face
+/// of the second part. Features are known for pairs of polytopes.
+/// @param cache  of the pair of parts, after the collision
+/// @param normal unit, from a to b, world axes
+template <CompoundShape ShapeT>
+bool is_at_seam(const Placed<ShapeT>& a, std::uint32_t part_a, const Placed<ShapeT>& b,
+                std::uint32_t part_b, const PairCache<SpaceOf<ShapeT>>& cache,
+                const typename SpaceOf<ShapeT>::Vector& normal) {
+  if constexpr (requires {
+                  for_each_vertex(a.part(0).shape(), FeatureKind::face, 0, [](std::size_t) {});
+                }) {
+    const AxisKind kind = cache.kind;
+    if (kind == AxisKind::none || kind == AxisKind::nearest_points) return false;
+    return (kind != AxisKind::face_b &&
+            is_inside(a, part_a, feature_of_a(kind), cache.a, normal)) ||
+           (kind != AxisKind::face_a && is_inside(b, part_b, feature_of_b(kind), cache.b, -normal));
+  } else {
+    return false;
+  }
+}
+
+}  // namespace detail
+
 /// The contacts of all parts of a pair, without caches.
 /// @param margin largest gap of two parts in contact [m], >= 0
 /// @param out    overwritten for each pair of parts in contact
@@ -46,6 +121,8 @@ bool collide_parts(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::
     for_each_part(b, [&](std::uint32_t j, const auto& part_b) {
       PairCache<SpaceOf<A>> none;
       if (!collide(part_a, part_b, margin, out, none)) return;
+      if constexpr (std::same_as<A, B> && CompoundShape<A>)
+        if (detail::is_at_seam(a, i, b, j, none, out.normal)) return;
       out.part_a = i;
       out.part_b = j;
       touch = true;
@@ -91,9 +168,8 @@ requires CompoundPair<A, B>
 bool overlap(const Placed<A>& a, const Placed<B>& b) {
   bool found = false;
   for_each_part(a, [&](std::uint32_t, const auto& part_a) {
-    for_each_part(b, [&](std::uint32_t, const auto& part_b) {
-      found = found || overlap(part_a, part_b);
-    });
+    for_each_part(
+        b, [&](std::uint32_t, const auto& part_b) { found = found || overlap(part_a, part_b); });
   });
   return found;
 }

@@ -75,7 +75,8 @@ bool parts_overlap(const Part& a, const Part& b) {
   constexpr double shrinks = epsilon > 1e-9 ? 1e-4 : 1e-6;
   const auto farthest = [&](const Part& part, const typename S::Vector& direction) -> Point {
     const typename S::Vector body = part.pose.rotation.inverse() * direction;
-    return ((1 - shrinks) * (part.pose.rotation * part.shape.support(body)).template cast<double>());
+    return ((1 - shrinks) *
+            (part.pose.rotation * part.shape.support(body)).template cast<double>());
   };
   const Point offset = (b.pose.position - a.pose.position).template cast<double>();
   const auto difference = [&](const Point& n) -> Point {

@@ -91,9 +91,8 @@ class PairCaches<ShapeT> {
       const std::size_t from = begin(ends_, p), old_from = begin(old_ends_, q);
       const std::span<const IndexPair> now(parts_.data() + from, ends_[p] - from);
       const std::span<const IndexPair> old(old_parts_.data() + old_from, old_ends_[q] - old_from);
-      merge_join(now, old, [&](std::size_t i, std::size_t j) {
-        caches_[from + i] = old_[old_from + j];
-      });
+      merge_join(now, old,
+                 [&](std::size_t i, std::size_t j) { caches_[from + i] = old_[old_from + j]; });
     });
   }
   /// Whether the boxes of the parts of grain k, inflated by `reach` [m], lie in those that renew() was
@@ -142,7 +141,8 @@ class PairCaches<ShapeT> {
     for (std::size_t k = begin(ends_, p); k < ends_[p]; ++k) {
       const auto [i, j] = parts_[k];
       if (!a.box(i).inflated(margin).overlaps(b.box(j)) ||
-          !collide(a.part(i), b.part(j), margin, out, caches_[k]))
+          !collide(a.part(i), b.part(j), margin, out, caches_[k]) ||
+          is_at_seam(a, i, b, j, caches_[k], out.normal))
         continue;
       out.part_a = i;
       out.part_b = j;
@@ -204,11 +204,11 @@ class PairCaches<ShapeT> {
     }
   }
 
-  std::vector<IndexPair> parts_, old_parts_;     // near parts of all pairs, sorted for each pair
-  std::vector<std::uint64_t> ends_, old_ends_;   // of each pair: one past its last element of parts_
-  std::vector<PairCache<S>> caches_, old_;       // one per element of parts_
-  std::vector<Aabb<S>> boxes_;                   // of the parts of all grains, inflated
-  std::vector<std::uint64_t> box_ends_;          // of each grain: one past its last element of boxes_
+  std::vector<IndexPair> parts_, old_parts_;    // near parts of all pairs, sorted for each pair
+  std::vector<std::uint64_t> ends_, old_ends_;  // of each pair: one past its last element of parts_
+  std::vector<PairCache<S>> caches_, old_;      // one per element of parts_
+  std::vector<Aabb<S>> boxes_;                  // of the parts of all grains, inflated
+  std::vector<std::uint64_t> box_ends_;  // of each grain: one past its last element of boxes_
   std::vector<unsigned char> gone_;
 };
 
