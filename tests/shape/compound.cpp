@@ -11,6 +11,7 @@
 #include "moreau/shape/capsule.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/regular_shape.hpp"
+#include "moreau/shape/surface_mesh.hpp"
 
 #include "conformance/shape.hpp"
 #include "detect/shapes.hpp"
@@ -132,6 +133,36 @@ TEST_CASE_TEMPLATE("parts that overlap need mass properties", S, Space<2>, Space
   mass.inertia.setZero();
   CHECK_THROWS_AS(Grain(std::span<const Part>(close), mass), std::invalid_argument);
   CHECK_THROWS_AS(Grain(std::vector<Part>{}), std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("mass properties of concave ballast against the integral over its surface", Part,
+                   Polygon<>, Polyhedron<>) {
+  using S = SpaceOf<Part>;
+  std::mt19937_64 random(9);
+  for (int k = 0; k < 10; ++k) {
+    const auto grain = Ballast<Compound<Part>>::draw(random);
+    SurfaceMesh<S> mesh;
+    SurfaceMesher<S>().mesh(grain, mesh);
+    Moments<S> moments;
+    std::size_t first = 0;
+    for (const std::int32_t end : mesh.ends) {
+      // A fan of triangles of a face; in the plane the segments of an outline.
+      const std::size_t count = std::size_t(end) - first, fixed = S::dim - 2;
+      for (std::size_t i = fixed; i < (fixed > 0 ? count - 1 : count); ++i) {
+        typename S::Matrix corners;
+        const std::size_t of[] = {i, (i + 1) % count, 0};
+        for (int c = 0; c < S::dim; ++c) {
+          const std::size_t corner = of[std::size_t(c)];
+          corners.col(c) = mesh.points[std::size_t(mesh.corners[first + corner])];
+        }
+        moments.add_simplex(corners);
+      }
+      first = std::size_t(end);
+    }
+    const MassProperties<S> integral(moments.volume, moments.first / moments.volume,
+                                     moments.centered().inertia());
+    CHECK(difference(grain.mass_properties(1), integral) < 1e-12);
+  }
 }
 
 TEST_CASE("parts of other shapes: rounded, of several types, in float") {
