@@ -2,7 +2,7 @@
 // Whether two convex parts of a grain overlap. For the construction of grains: it may be slow.
 #pragma once
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
@@ -54,7 +54,8 @@ class NearestToOrigin {
     if (of.size() == 1) return {of[0], true};
     Eigen::MatrixXd edges(Dim, Eigen::Index(of.size()) - 1);
     for (std::size_t k = 1; k < of.size(); ++k) edges.col(Eigen::Index(k) - 1) = of[k] - of[0];
-    const Eigen::VectorXd weights = edges.completeOrthogonalDecomposition().solve(-of[0]);
+    const Eigen::VectorXd weights =
+        (edges.transpose() * edges).fullPivLu().solve(-edges.transpose() * of[0]);
     return {of[0] + edges * weights, weights.minCoeff() >= 0 && weights.sum() <= 1};
   }
 
