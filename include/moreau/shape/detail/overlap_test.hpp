@@ -2,9 +2,8 @@
 // Whether two convex parts of a grain overlap. For the construction of grains: it may be slow.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -46,17 +45,42 @@ class NearestToOrigin {
     bool inside;
   };
   /// The projection of the origin onto the affine hull of some corners, and whether it lies between
-  /// them.
+  /// them. Corners whose hull is degenerate have none.
   Projection projection(std::size_t subset) const {
-    std::vector<Point> of;
-    for (std::size_t k = 0; k < corners_.size(); ++k)
-      if ((subset >> k & 1) != 0) of.push_back(corners_[k]);
-    if (of.size() == 1) return {of[0], true};
-    Eigen::MatrixXd edges(Dim, Eigen::Index(of.size()) - 1);
-    for (std::size_t k = 1; k < of.size(); ++k) edges.col(Eigen::Index(k) - 1) = of[k] - of[0];
-    const Eigen::VectorXd weights =
-        (edges.transpose() * edges).fullPivLu().solve(-edges.transpose() * of[0]);
-    return {of[0] + edges * weights, weights.minCoeff() >= 0 && weights.sum() <= 1};
+    Point first = Point::Zero(), x = Point::Zero();
+    std::array<Point, Dim> axes;  // orthonormal, of the edges from the first corner
+    std::array<std::array<double, Dim>, Dim> edges{};  // edge k along axis j: upper triangular
+    std::array<double, Dim> along{};                   // from the first corner to the projection
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      if ((subset >> k & 1) == 0) continue;
+      if ((subset & ((std::size_t{1} << k) - 1)) == 0) {
+        first = x = corners_[k];
+        continue;
+      }
+      if (count == Dim) return {x, false};
+      Point axis = corners_[k] - first;
+      const double length = axis.norm();
+      for (std::size_t j = 0; j < count; ++j) {
+        edges[j][count] = axes[j].dot(axis);
+        axis -= edges[j][count] * axes[j];
+      }
+      edges[count][count] = axis.norm();
+      if (!(edges[count][count] > 1e-12 * length)) return {x, false};
+      axes[count] = axis / edges[count][count];
+      along[count] = -axes[count].dot(first);
+      x += along[count] * axes[count];
+      ++count;
+    }
+    double sum = 0;
+    for (std::size_t k = count; k-- > 0;) {
+      double weight = along[k];
+      for (std::size_t j = k + 1; j < count; ++j) weight -= edges[k][j] * along[j];
+      along[k] = weight / edges[k][k];
+      if (!(along[k] >= 0)) return {x, false};
+      sum += along[k];
+    }
+    return {x, sum <= 1};
   }
 
   std::vector<Point> corners_;
