@@ -48,9 +48,10 @@ class NearestToOrigin {
   /// them. Corners whose hull is degenerate have none.
   Projection projection(std::size_t subset) const {
     Point first = Point::Zero(), x = Point::Zero();
-    std::array<Point, Dim> axes;  // orthonormal, of the edges from the first corner
-    std::array<std::array<double, Dim>, Dim> edges{};  // edge k along axis j: upper triangular
-    std::array<double, Dim> along{};                   // from the first corner to the projection
+    constexpr auto most = static_cast<std::size_t>(Dim);
+    std::array<Point, most> axes;  // orthonormal, of the edges from the first corner
+    std::array<std::array<double, most>, most> edges{};  // edge k along axis j: upper triangular
+    std::array<double, most> along{};                    // from the first corner to the projection
     std::size_t count = 0;
     for (std::size_t k = 0; k < corners_.size(); ++k) {
       if ((subset >> k & 1) == 0) continue;
@@ -58,7 +59,7 @@ class NearestToOrigin {
         first = x = corners_[k];
         continue;
       }
-      if (count == Dim) return {x, false};
+      if (count == most) return {x, false};
       Point axis = corners_[k] - first;
       const double length = axis.norm();
       for (std::size_t j = 0; j < count; ++j) {
