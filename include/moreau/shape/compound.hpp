@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
@@ -21,6 +22,16 @@
 #include "moreau/shape/detail/vertices.hpp"
 
 namespace moreau {
+
+namespace detail {
+
+/// A polygon or polyhedron, which knows where its points were given.
+template <class T>
+concept KnowsInput = Polytope<T> && requires(const T shape) {
+  { shape.centroid_of_input() } -> std::same_as<const typename T::Vector&>;
+};
+
+}  // namespace detail
 
 /// A rigid grain of several convex parts: a concave stone of polyhedra, an L of two polygons, a clump
 /// of balls. Parts touch other grains, each as a convex shape. Parts of one grain do not touch one
@@ -73,19 +84,19 @@ class Compound {
   }
   /// Polygons or polyhedra that stay where their points were given.
   /// @throws std::invalid_argument as for parts at poses
-  explicit Compound(std::span<const ShapeT> shapes) requires Polytope<ShapeT>
+  explicit Compound(std::span<const ShapeT> shapes) requires detail::KnowsInput<ShapeT>
       : Compound(std::span<const Part>(in_place(shapes))) {}
   /// Polygons or polyhedra, which may overlap, that stay where their points were given.
   /// @param of_density_one as for parts at poses
   /// @throws std::invalid_argument as for parts at poses
   Compound(std::span<const ShapeT> shapes,
-           const MassProperties<Space>& of_density_one) requires Polytope<ShapeT>
+           const MassProperties<Space>& of_density_one) requires detail::KnowsInput<ShapeT>
       : Compound(std::span<const Part>(in_place(shapes)), of_density_one) {}
   /// A list of parts at poses.
   explicit Compound(std::initializer_list<Part> parts)
       : Compound(std::span<const Part>(parts.begin(), parts.size())) {}
   /// A list of polygons or polyhedra that stay where their points were given.
-  explicit Compound(std::initializer_list<ShapeT> shapes) requires Polytope<ShapeT>
+  explicit Compound(std::initializer_list<ShapeT> shapes) requires detail::KnowsInput<ShapeT>
       : Compound(std::span<const ShapeT>(shapes.begin(), shapes.size())) {}
 
   /// The parts, in the order of the input, with their poses in the body frame.
@@ -155,7 +166,8 @@ class Compound {
     if constexpr (Polytope<ShapeT>) seams_.find(parts_);
   }
 
-  static std::vector<Part> in_place(std::span<const ShapeT> shapes) {
+  static std::vector<Part> in_place(
+      std::span<const ShapeT> shapes) requires detail::KnowsInput<ShapeT> {
     std::vector<Part> parts;
     for (const ShapeT& shape : shapes) parts.push_back({shape, {shape.centroid_of_input()}});
     return parts;
