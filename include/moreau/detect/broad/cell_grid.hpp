@@ -111,6 +111,10 @@ class CellGrid {
       for (std::size_t axis = 0; axis < dim; ++axis)
         level(k).most[axis] = std::max(level(k).most[axis], cells_[i][axis]);
     }
+    // Memory for all extents that boxes of this number can have.
+    const std::size_t most = 8 * boxes.size() + 2 * max_levels;
+    begin_.reserve(most);
+    next_.reserve(most);
     begin_.assign(lay_out_buckets() + 1, 0);
     for (std::size_t i = 0; i < boxes.size(); ++i) ++begin_[bucket_of(i) + 1];
     for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
