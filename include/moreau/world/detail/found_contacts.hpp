@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/core/error.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/reduce.hpp"
 
@@ -28,7 +26,7 @@ class alignas(64) FoundContacts {
     reduction_.shallower = resolution / 10;
     few_ = few;
     contacts_.clear();
-    touching_ = cursor_ = 0;
+    touching_ = 0;
   }
   Manifold<S>& manifold() { return manifold_; }       ///< of the present pair, for collide()
   std::size_t touching() const { return touching_; }  ///< pairs with a contact
@@ -47,16 +45,23 @@ class alignas(64) FoundContacts {
     touching_ += collide_each([&] { add_all(a, b); });
   }
 
-  /// Sorts by key. The contacts of each body a follow one another, in the order of a. Only those of
-  /// one body a can be out of order: the id of a wall may be lower than that of a grain.
+  /// Sorts by key: the id of a wall may be lower than that of a grain.
   void sort() {
-    const std::vector<ContactKey>& keys = contacts_.keys;
-    for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
-      while (end < keys.size() && keys[end].a == keys[begin].a) ++end;
-      const auto first = keys.begin() + std::ptrdiff_t(begin);
-      if (!std::is_sorted(first, keys.begin() + std::ptrdiff_t(end))) sort(begin, end);
+    Contacts<S>& out = contacts_;
+    if (std::is_sorted(out.keys.begin(), out.keys.end())) return;
+    order_.resize(out.size());
+    for (std::size_t c = 0; c < order_.size(); ++c) order_[c] = static_cast<std::uint32_t>(c);
+    std::sort(order_.begin(), order_.end(),
+              [&](std::uint32_t i, std::uint32_t j) { return out.keys[i] < out.keys[j]; });
+    scratch_.clear();
+    for (const std::uint32_t c : order_) {
+      scratch_.points.push_back(out.points[c]);
+      scratch_.keys.push_back(out.keys[c]);
+      scratch_.classes.push_back(out.classes[c]);
     }
-    MOREAU_ASSERT(std::is_sorted(keys.begin(), keys.end()));
+    out.points.swap(scratch_.points);
+    out.keys.swap(scratch_.keys);
+    out.classes.swap(scratch_.classes);
   }
 
   /// Makes one list of the contacts that the threads have found, in their order; zero impulses.
@@ -90,42 +95,16 @@ class alignas(64) FoundContacts {
       contacts_.classes.push_back(manifold_.contact_class);
     }
   }
-  /// Sorts the contacts begin .. end - 1.
-  void sort(std::size_t begin, std::size_t end) {
-    Contacts<S>& out = contacts_;
-    order_.resize(end - begin);
-    std::iota(order_.begin(), order_.end(), static_cast<std::uint32_t>(begin));
-    std::sort(order_.begin(), order_.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return out.keys[i] < out.keys[j]; });
-    scratch_.clear();
-    for (const std::uint32_t c : order_) {
-      scratch_.points.push_back(out.points[c]);
-      scratch_.keys.push_back(out.keys[c]);
-      scratch_.classes.push_back(out.classes[c]);
-    }
-    const auto at = std::ptrdiff_t(begin);
-    std::copy(scratch_.points.begin(), scratch_.points.end(), out.points.begin() + at);
-    std::copy(scratch_.keys.begin(), scratch_.keys.end(), out.keys.begin() + at);
-    std::copy(scratch_.classes.begin(), scratch_.classes.end(), out.classes.begin() + at);
-  }
-  /// The first contact of the step before with a body a that is not lower than this. Calls come with
-  /// ascending a: the search goes on from the last answer.
-  std::size_t first_of(std::uint32_t a, const std::vector<ContactKey>& keys) {
-    const auto is_lower = [](const ContactKey& key, std::uint32_t body) { return key.a < body; };
-    constexpr std::size_t near = 16;
-    for (std::size_t k = 0; k < near; ++k, ++cursor_)
-      if (cursor_ >= keys.size() || keys[cursor_].a >= a) return cursor_;
-    const auto from = keys.begin() + std::ptrdiff_t(cursor_);
-    return cursor_ = std::size_t(std::lower_bound(from, keys.end(), a, is_lower) - keys.begin());
-  }
   /// Reduces the manifold to D points, if possible those of the step before.
   void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
-      const std::vector<ContactKey>& keys = previous.keys;
-      for (std::size_t c = first_of(a, keys); c < keys.size() && keys[c].a == a; ++c)
-        if (keys[c].b == b)
-          kept_.push_back({keys[c].feature, std::max(0.0, double(previous.impulses[c][0]))});
+      const ContactKey from{a, b, FeatureKey()};
+      for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
+           key != previous.keys.end() && key->a == a && key->b == b; ++key) {
+        const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
+        kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
+      }
     }
     reduce(manifold_, S::dim, std::span<const KeptPoint>(kept_), reduction_);
   }
@@ -137,7 +116,6 @@ class alignas(64) FoundContacts {
   Contacts<S> contacts_, scratch_;
   std::vector<std::uint32_t> order_;
   std::size_t touching_ = 0;
-  std::size_t cursor_ = 0;  // in the contacts of the step before
 };
 
 }  // namespace moreau::detail
