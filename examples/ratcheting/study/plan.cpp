@@ -65,11 +65,11 @@ std::string name_of(const Parameters& p, const Parameters& base, double usual_du
   return name;
 }
 
-/// One second as in the paper, five periods where that is longer. In the plan "settled" it is said of
-/// each case.
+/// One second as in the paper, five periods where that is longer. In the plan "settled" each case has
+/// its own.
 double duration_at(const std::string& plan, double frequency) {
   if (plan == "small") return 0.6;
-  if (plan == "settled") return 0;
+  if (plan == "settled") return 1;
   return std::max(1.0, 5 / frequency);
 }
 
@@ -246,7 +246,7 @@ std::string jammed_name(const Parameters& p) {
   start.box_ratio = p.box_ratio;
   start.size_scale = p.size_scale;
   start.duration = 0.35;
-  return name_of(start, baseline("settled", p.shape, p.seed), 0);
+  return name_of(start, baseline("settled", p.shape, p.seed), duration_at("settled", 5));
 }
 
 /// Adds `periods` periods from the jammed state of a sample, after a hold at fmax. Adds the run that
