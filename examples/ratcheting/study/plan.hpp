@@ -16,8 +16,8 @@ using ratcheting::Parameters;
 /// One run of `ratcheting`. Its name says what differs from the paper's defaults, so that two cases
 /// of one name are one case.
 struct Case {
-  std::size_t number = 0;      ///< from 1, in the order in which they run
-  std::string name;            ///< of its folder
+  std::size_t number = 0;  ///< from 1, in the order in which they run
+  std::string name;        ///< of its folder
   /// All of the run's. `from` is the name of the case whose checkpoint the run starts from.
   Parameters parameters;
   std::set<std::string> sets;  ///< the series that it belongs to

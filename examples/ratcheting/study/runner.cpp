@@ -151,8 +151,9 @@ class Runner {
       std::printf("case %zu %s: another study runs it\n", c.number, c.name.c_str());
       return;
     }
-    if (!again_.contains(c.name) && is_done(options_.places, RunTable::read(options_.places.table()),
-                                            c)) {  // by another study, since the table was read
+    if (!again_.contains(c.name) &&
+        is_done(options_.places, RunTable::read(options_.places.table()),
+                c)) {  // by another study, since the table was read
       ++summary_.skipped;
       cost_left_ -= cost_of(c);
       return;
@@ -165,8 +166,8 @@ class Runner {
     const fs::path packing =
         options_.places.output / "packings" / (packing_name(c.parameters) + ".snapshot");
     std::vector<std::string> list = arguments(c.parameters);
-    list.insert(list.end(), {"--snapshots", "0", "--no-pictures", "--no-plots", "--output",
-                             folder.string()});
+    list.insert(list.end(),
+                {"--snapshots", "0", "--no-pictures", "--no-plots", "--output", folder.string()});
     if (const fs::path start = start_of(options_.places, c); !start.empty())
       list.insert(list.end(), {"--from", start.string()});
     else

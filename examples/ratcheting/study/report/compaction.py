@@ -8,7 +8,7 @@ The periods of a run are taken together in groups 1, 2, 3-4, 5-8, ... The errors
 jackknife over the runs, because the groups of a run are not independent."""
 import math
 
-from runs import ANY, COMPLIANT, SHAPES, least_squares, select, strain, unjammed_time
+from runs import ANY, CASE, COMPLIANT, SHAPES, least_squares, line, select, strain, unjammed_time
 
 UNIT = 0.01  # [s]
 SET_ASIDE = 3  # the sample whose runs are predicted, not fitted
@@ -33,7 +33,7 @@ def loading_runs(runs, shape, method="contact-dynamics"):
     if method == "compliant":
         wanted = COMPLIANT | wanted
     found = [run for run in select(runs, shape, **wanted)
-             if run["parameters"]["fmax"] >= 1000 and run["parameters"]["duration"] <= 5]
+             if run["parameters"]["fmax"] >= CASE["fmax"] / 6 and run["parameters"]["duration"] <= 5]
     # A long run repeats the first second of a short one.
     keys = {}
     for run in found:
@@ -57,8 +57,11 @@ class Law:
         by_run = [points([run]) for run in self.runs]
         everything = [p for part in by_run for p in part]
         self.count, self.run_count = len(everything), len(self.runs)
-        if len(everything) < 8:
-            self.a = self.p = self.b = math.nan
+        self.fitted = len(everything) >= 8 and len({p[0] for p in everything}) > 2 and \
+            len({p[1] for p in everything}) > 1
+        if not self.fitted:
+            self.a = self.p = self.b = self.scatter = self.share = self.share_error = math.nan
+            self.errors = [math.nan] * 3
             return
         self.a, self.p, self.b = self.fit(everything)
         self.scatter = self.deviation(everything)
@@ -97,12 +100,19 @@ class Prediction:
         aside = [r for r in runs if r["parameters"]["seed"] == SET_ASIDE]
         data = points(aside)
         self.runs = len(aside)
-        if not data or not math.isfinite(self.law.a):
+        if not data or not self.law.fitted:
             self.bias = self.rms = math.nan
             return
         residuals = self.law.residuals(data)
         self.bias = sum(residuals) / len(residuals)
         self.rms = math.sqrt(sum(v * v for v in residuals) / len(residuals))
+
+
+def local_power(runs, shape, law, shortest):
+    """The fit of the strain, times n^b, over t_u above `shortest` [s]: a, power, its error, scatter."""
+    data = [(x, y + law.b * n) for x, n, y in points(loading_runs(runs, shape))
+            if x > math.log(shortest / UNIT)]
+    return line([x for x, _ in data], [y for _, y in data]) if len(data) > 3 else (math.nan,) * 4
 
 
 def laws(runs, method="contact-dynamics"):

@@ -6,6 +6,8 @@ import itertools
 import math
 import subprocess
 
+import plots
+
 LIGHT = (0.35, -0.75, 0.56)
 EYE = (-0.5, -0.78, 0.38)  # direction from the origin to the viewer
 
@@ -102,6 +104,8 @@ class Drawing:
         self.front.append(self.project(point, at))
 
     def write(self, path):
+        if plots.WANTED and path.stem not in plots.WANTED:
+            return
         data = [f"{x} {y}" for x, y in self.front] or ["-9 -9"]
         self.commands += [f"set output '{path}'", "$p << EOD", *data, "EOD",
                           "plot $p with points pt 7 ps 1.1 lc rgb '#b3261e'"]
@@ -167,6 +171,10 @@ def grain_shapes(grains, path):
 
 def snapshot(picture, path):
     """The picture of a packing with the force and the displacement of the wall."""
+    text = ("Packing of 400 polyhedra, compressed by the wall. The wall with blue edges moves along x, outward "
+            "positive; the force f pushes it inward. The runs have 1200 grains.")
+    if plots.WANTED and path.stem not in plots.WANTED:
+        return text
     commands = [
         "set terminal pngcairo size 900, 750 font 'DejaVu Sans,15'", f"set output '{path}'",
         "unset tics", "unset border", "unset key", "set lmargin 0", "set rmargin 0", "set tmargin 0",
@@ -177,5 +185,4 @@ def snapshot(picture, path):
         "set label 'x' at 950, 50 tc rgb '#1f5fa8' front font ',20'",
         f"plot '{picture}' binary filetype=png with rgbimage"]
     subprocess.run(["gnuplot"], input="\n".join(commands) + "\n", text=True, check=True)
-    return ("Packing of polyhedra after the preparation. The wall with blue edges moves along x, outward "
-            "positive; the force f pushes it inward.")
+    return text

@@ -4,12 +4,16 @@ import math
 
 import compaction
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
-from runs import (ANY, COMPLIANT, SHAPES, TITLE, Estimate, constant, finite, over_samples,
-                  scaled_load, select, series, strain, thrust_ratio, unjammed_time)
+from runs import (ANY, CASE, COMPLIANT, SHAPES, TITLE, Estimate, constant, over_samples,
+                  power, scaled_load, select, series, shapes_of, strain, thrust_ratio)
 
 RIGID_TEXT = "rigid contacts, QM/16 at 1e-4"
 COMPLIANT_TEXT = "k = 1e8 N/m, residual 1e-5"
-SPREAD = {"polyhedron": 0.97, "polygon": 0.99, "sphere": 1.01, "disk": 1.03}
+SPREAD = {"polyhedron": 0.94, "polygon": 0.98, "sphere": 1.02, "disk": 1.06}
+
+
+class Missing(Exception):
+    """The runs that a figure shows are not in the table."""
 
 
 def course(runs, shape):
@@ -26,8 +30,9 @@ def contacts_of(run):
 
 
 def caption(run, what):
-    n = run["parameters"]["grains"]
-    return f"{what} N = {n}, ν = 5 Hz, fmax = 6 kN, sample 1; {contacts_of(run)}."
+    p = run["parameters"]
+    return (f"{what} N = {p['grains']}, ν = 5 Hz, fmax = {p['fmax'] / 1000:g} kN, sample 1; "
+            f"{contacts_of(run)}.")
 
 
 def by_value(runs, parameter, value, factor=1.0):
@@ -42,12 +47,29 @@ def by_value(runs, parameter, value, factor=1.0):
     return rows
 
 
+def jamming(runs):
+    """Runs whose largest force jams the packing: above 3.5 times the weight of polyhedra."""
+    return [run for run in runs if run["parameters"]["fmax"] >= CASE["fmax"] / 6]
+
+
 def columns(run, table, *names):
     return list(zip(*(run["tables"][table][name] for name in names)))
 
 
 def every_course(runs):
-    return [(shape, course(runs, shape)) for shape in SHAPES if course(runs, shape)]
+    """The shapes that have a run with tables, and these runs."""
+    found = [(shape, course(runs, shape)) for shape in SHAPES if course(runs, shape)]
+    if not found:
+        raise Missing
+    return found
+
+
+def every_shape(runs):
+    """The shapes that have runs over the frequency."""
+    found = shapes_of(runs)
+    if not found:
+        raise Missing
+    return found
 
 
 def x_t(runs, path):
@@ -60,7 +82,7 @@ def x_t(runs, path):
         panel = Panel("", "t  [s]", "f  [kN]" if len(panels) == len(found) else "")
         panel.curve([(t, 1e-3 * f) for t, f in columns(run, "wall", "t", "f")], GREY)
         panels.append(panel)
-    draw(path, panels, 2, len(found), 1500, 620, "0.05, 0.99, 0.1, 0.93", "0.04, 0.06")
+    draw(path, panels, 2, len(found), 1500, 620, "0.055, 0.99, 0.1, 0.93", "0.04, 0.06")
     return caption(found[0][1], "Displacement x of the wall (above) and driving force f (below).")
 
 
@@ -76,26 +98,27 @@ def period_of(run, number):
 def one_period(runs, path):
     panels, found, number = [], every_course(runs), 1
     for shape, run in found:
-        panel = Panel(TITLE[shape], "time since the maximum of f / period",
-                      "x − x_j  [mm]" if not panels else "", ["set key top left"])
+        panel = Panel(TITLE[shape], "time since f = fmax / period",
+                      "x − x_j  [mm]" if not panels else "", ["set key off"])
         rows = period_of(run, number)
         panel.curve([(r[0], 1e3 * r[1]) for r in rows], COLOR[shape])
         nu, start = run["parameters"]["frequency"], run["periods"]["t_start"][number]
         at = {name: (run["periods"][key][number] - start) * nu
               for name, key in (("a", "t_onset"), ("b", "t_peak"))}
         marks = [(t, 1e3 * min(rows, key=lambda r: abs(r[0] - t))[1]) for t in at.values()]
-        panel.points(marks, BLACK, 6, "a: starts, b: turns back")
+        panel.points(marks, BLACK, 6)
         panel.commands += ['set arrow from 0.5, graph 0 to 0.5, graph 1 nohead dt 3 lc rgb "#7a7a7a"',
                            "set xrange [0:1]"]
         panels.append(panel)
-    draw(path, panels, 1, len(found), 1500, 420, "0.05, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(found[0][1], "The second period after the filling; f is smallest at the dotted line.")
+    draw(path, panels, 1, len(found), 1500, 420, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(found[0][1], "The second period after the filling. Circles: the wall starts, and turns back. f is "
+                   "smallest at the dotted line.")
 
 
 def field(runs, path, table, names, unit, what):
     panels, found = [], [(s, r) for s, r in every_course(runs) if table in r["tables"]]
     if not found:
-        return None
+        raise Missing
     for shape, run in found:
         rows = [r for r in columns(run, table, "x", "z", *names, "grains") if r[4] > 0]
         longest = max(math.hypot(r[2], r[3]) for r in rows)
@@ -141,9 +164,9 @@ def f_g_x(runs, path):
                         f"period {number + 1}", 1.2)
         panel.commands += ["set yrange [0:6]", "set xrange [-2.6:1.1]"]
         panels.append(panel)
-    draw(path, panels, 1, len(found), 1500, 460, "0.045, 0.99, 0.14, 0.89", "0.04, 0.1")
+    draw(path, panels, 1, len(found), 1500, 460, "0.05, 0.99, 0.14, 0.89", "0.04, 0.1")
     return caption(found[0][1], "Force of the grains on the wall over its displacement, four periods. "
-                   "The wall moves out along the lower branch and in along the upper one; jammed, "
+                   "The wall moves outward along the lower branch and in along the upper one; jammed, "
                    "it bears up to fmax, 8 to 22 mg, above the frame.")
 
 
@@ -184,7 +207,7 @@ def rho_t(runs, path):
             panel.curve([(t, rho - rows[0][1]) for t, rho in rows], color,
                         f"{title}, ρ(0) = {rows[0][1]:.3f}")
         panels.append(panel)
-    draw(path, panels, 1, len(found), 1500, 430, "0.05, 0.99, 0.15, 0.89", "0.045, 0.1")
+    draw(path, panels, 1, len(found), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
     return caption(found[0][1], "Change of the solid fraction.")
 
 
@@ -205,14 +228,14 @@ def rho_x(runs, path):
             panel.curve([(r[0] / peak, 1e4 * (r[k] - rows[0][k])) for r in rows], color, title)
         panels.append(panel)
         del p
-    draw(path, panels, 1, len(found), 1500, 430, "0.05, 0.99, 0.15, 0.89", "0.045, 0.1")
+    draw(path, panels, 1, len(found), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
     return caption(found[0][1], "Solid fraction over the displacement of the wall in the second period: "
                    "from (0, 0) to the right end in extension, then to the left in contraction.")
 
 
 def phase_portrait(runs, path):
     panels = []
-    for shape in SHAPES:
+    for shape in every_shape(runs):
         panel = Panel(TITLE[shape], "(x − x_j) ν²  [mm/s²]", "v ν  [mm/s²]" if not panels else "",
                       ["set key top left"])
         for nu, color, dash in ((5.0, COLOR[shape], 1), (10.0, BLACK, 2)):
@@ -225,9 +248,9 @@ def phase_portrait(runs, path):
             panel.curve([(1e3 * x * nu * nu, 1e3 * v * nu) for x, v in mean], color,
                         f"{nu:g} Hz", 1.8, dash)
         panels.append(panel)
-    draw(path, panels, 1, 4, 1500, 430, "0.055, 0.99, 0.15, 0.89", "0.05, 0.1")
+    draw(path, panels, 1, len(panels), 1500, 430, "0.065, 0.99, 0.15, 0.89", "0.05, 0.1")
     return ("Phase portraits of the wall, scaled by the frequency as in the paper: means over the periods "
-            f"of three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}. The way out collapses; the way back "
+            f"of three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}. Extension collapses; contraction "
             "ends where the strain of the period puts it.")
 
 
@@ -243,7 +266,7 @@ def dx_v_frequency(runs, path):
               Panel("the same over ν^{−1}", "ν  [Hz]", "v_{max} ν  / value at 10 Hz",
                     ["set logscale x", "set yrange [0:1.6]", "set key bottom right",
                      "set xrange [0.8:75]"])]
-    for shape in SHAPES:
+    for shape in every_shape(runs):
         found = series(runs, shape, "frequency")
         shift = SPREAD[shape]
         rows = [(x * shift, y, e) for x, y, e in
@@ -255,7 +278,7 @@ def dx_v_frequency(runs, path):
         rows = [(x * shift, y, e) for x, y, e in by_value(found, "frequency", constant)]
         panels[2].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
         rows = by_value(found, "frequency", lambda r: r["v_max"] * r["parameters"]["frequency"])
-        ten = [y for x, y, _ in rows if x == 10][0]
+        ten = next((y for x, y, _ in rows if x == 10), rows[0][1])
         panels[3].bars([(x * shift, y / ten, e / ten) for x, y, e in rows], COLOR[shape],
                        POINT[shape], TITLE[shape])
     panels[0].function("0.6 * (x / 5)**-2", GREY, "ν^{−2}")
@@ -266,7 +289,7 @@ def dx_v_frequency(runs, path):
     draw(path, panels, 2, 2, 1400, 1000)
     return ("Excursion without drift and largest inward speed over the frequency; below, both multiplied by "
             "the paper's powers. Bars: standard error over three samples (1 Hz: one sample). N = 1200, "
-            f"fmax = 6 kN, m_w = m/2; {RIGID_TEXT}. Symbols are shifted by 1 to 3 % in ν.")
+            f"fmax = 6 kN, m_w = m/2; {RIGID_TEXT}. Symbols are shifted by 2 to 6 % in ν.")
 
 
 def dx_loads(runs, path):
@@ -276,14 +299,13 @@ def dx_loads(runs, path):
                     ["set xrange [0:22]", "set yrange [0.5:1.5]"]),
               Panel("", "m_w / m", "Δx (m + m_w) / value at m/2",
                     ["set logscale x", "set xrange [0.07:6]", "set yrange [0.5:1.5]"])]
-    cases = (("fmax", lambda r: r["dx_active"] * r["parameters"]["fmax"], 6000.0, 1e-3),
+    cases = (("fmax", lambda r: r["dx_active"] * r["parameters"]["fmax"], CASE["fmax"], 1e-3),
              ("gravity", lambda r: r["dx_active"] / r["parameters"]["gravity"] ** 2, 9.81, 1),
              ("wall_mass_ratio", lambda r: r["dx_active"] * (r["mass"] + r["wall_mass"]), 0.5, 1))
     for panel, (parameter, value, base, unit) in zip(panels, cases):
-        for shape in SHAPES:
-            rows = by_value([r for r in series(runs, shape, parameter, frequency=5.0)
-                             if r["parameters"]["fmax"] >= 1000], parameter, value)
-            middle = [y for x, y, _ in rows if x == base][0]
+        for shape in every_shape(runs):
+            rows = by_value(jamming(series(runs, shape, parameter, frequency=5.0)), parameter, value)
+            middle = next((y for x, y, _ in rows if x == base), math.nan)
             shift = SPREAD[shape]
             panel.bars([(x * unit * shift, y / middle, e / middle) for x, y, e in rows],
                        COLOR[shape], POINT[shape], TITLE[shape])
@@ -291,7 +313,7 @@ def dx_loads(runs, path):
     draw(path, panels, 1, 3, 1500, 480, "0.055, 0.99, 0.14, 0.95", "0.06, 0.1")
     return ("Excursion without drift at 5 Hz over force, gravity and mass of the wall, multiplied by the "
             "paper's powers: a horizontal line is the paper's law. Bars: standard error over three "
-            f"samples. N = 1200; {RIGID_TEXT}. Symbols are shifted by 1 to 3 %.")
+            f"samples. N = 1200; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
 def master(runs, path):
@@ -301,22 +323,20 @@ def master(runs, path):
                  ("wall_mass_ratio", {"frequency": 5.0}, 13, "m_w"))
     colors = ("#1f5fa8", "#b3261e", "#2e7d4f", "#d07a00")
     for near in (False, True):
-        for shape in SHAPES:
+        for shape in every_shape(runs):
             panel = Panel(TITLE[shape] + (", near the origin" if near else ""),
                           "(mg)² / [(m + m_w) fmax ν²]  [mm]",
-                          "Δx  [mm]" if shape == SHAPES[0] else "",
+                          "Δx  [mm]" if len(panels) % 4 == 0 else "",
                           ["set key top left"])
             top = 0
             for (parameter, wanted, symbol, title), color in zip(series_of, colors):
                 found = {}
-                for run in series(runs, shape, parameter, **wanted):
+                for run in jamming(series(runs, shape, parameter, **wanted)):
                     found.setdefault(run["parameters"][parameter], []).append(run)
                 rows = []
                 for group in found.values():
                     load, e = Estimate([scaled_load(r) for r in group]), over_samples(
                         group, lambda r: r["dx_active"])
-                    if group[0]["parameters"]["fmax"] < 1000:
-                        continue  # never jams
                     rows.append((1e3 * load.mean, 1e3 * e.mean, 1e3 * e.error))
                 if near:
                     rows = [r for r in rows if r[0] <= 4]
@@ -326,10 +346,12 @@ def master(runs, path):
             panel.function(f"{c:.4f} * x", BLACK, f"C = {c:.3f}", 1)
             panel.function(f"{0.01 if shape in ('polyhedron', 'sphere') else 0.05} * x", GREY,
                            "paper")
-            panel.commands += ([f"set xrange [0:{1.08 * top:.4g}]"] if near else
+            if near and top == 0:
+                panel.curves.clear()
+            panel.commands += ([f"set xrange [0:{1.08 * top or 1:.4g}]"] if near else
                                ["set logscale xy", "set format '10^{%L}'"])
             panels.append(panel)
-    draw(path, panels, 2, 4, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
+    draw(path, panels, 2, len(panels) // 2, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
     return ("Excursion without drift over the scaled load, all values of ν, fmax, g and m_w: means and "
             f"standard errors of three samples. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
             "the origin on linear axes (the paper's inset).")
@@ -338,10 +360,10 @@ def master(runs, path):
 def compaction_rate(runs, path):
     panels = []
     fitted = compaction.laws(runs)
-    for shape in SHAPES:
+    for shape in every_shape(runs):
         panel = Panel(TITLE[shape], "ν  [Hz]", "rate  [1e-3/s]" if not panels else "",
                       ["set logscale x", "set yrange [0:*]", "set xrange [0.8:75]",
-                       "set key off" if panels else "set key bottom right", "set offsets 0, 0, graph 0.05, 0"])
+                       "set key off" if panels else "set key bottom right"])
         found = series(runs, shape, "frequency")
         rows = [(x * 0.98, y, e) for x, y, e in
                 by_value(found, "frequency", lambda r: r["parameters"]["frequency"] *
@@ -352,20 +374,22 @@ def compaction_rate(runs, path):
                          first_second, 1e3)]
         panel.bars(rows, GREY, 6, "one second")
         law = fitted[shape]
+        thrust = over_samples(found, lambda r: (r["thrust"] or math.nan)).mean
+        panels.append(panel)
+        if not law.fitted:
+            continue
         for n, color, title in ((4, COLOR[shape], "law"), (None, GREY, None)):
             points = []
             for k in range(60):
                 nu = 1 * (65 / 1) ** (k / 59)
-                thrust = over_samples(found, lambda r: (r["thrust"] or math.nan)).mean
-                t_u = math.acos(1 - 2 * thrust / 6000) / (math.pi * nu)
+                t_u = math.acos(1 - 2 * thrust / CASE["fmax"]) / (math.pi * nu)
                 count = n or round(nu * 0.85 - 0.5) if n or nu >= 4 else 0
                 if not count:
                     continue
                 mean = sum(law.strain(t_u, i + 1) for i in range(count)) / count
                 points.append((nu, 1e3 * nu * mean))
             panel.curve(points, color, title, 1.2, 2)
-        panels.append(panel)
-    draw(path, panels, 1, 4, 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
+    draw(path, panels, 1, len(panels), 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
     return ("Compaction rate, ν × strain per period, over the first four jammed periods and over the first "
             "second of the force. Broken lines: the law of equation 2 with the mean thrust. Bars: standard "
             f"error over three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
@@ -382,7 +406,10 @@ def first_second(run):
 def compaction_law(runs, path):
     panels = []
     fitted = compaction.laws(runs)
-    for shape in SHAPES:
+    shapes = [shape for shape in every_shape(runs) if fitted[shape].fitted]
+    if not shapes:
+        raise Missing
+    for shape in shapes:
         law = fitted[shape]
         panel = Panel(TITLE[shape], "t_u  [ms]", "strain of a period × n^b" if not panels else "",
                       ["set logscale xy", "set xrange [0.8:200]", "set yrange [2e-5:3e-2]",
@@ -395,9 +422,9 @@ def compaction_law(runs, path):
         panel.function(f"{law.share:.6g} * (x / 10)**{law.p:.4f}", GREY,
                        f"t_u^{{{law.p:.2f}}}", 1)
         panels.append(panel)
-    for shape in SHAPES:
+    for shape in shapes:
         law = fitted[shape]
-        panel = Panel("", "period n", "strain of a period / fit at n = 1" if shape == SHAPES[0]
+        panel = Panel("", "period n", "strain of a period / fit at n = 1" if shape == shapes[0]
                       else "", ["set logscale xy", "set xrange [0.8:70]", "set yrange [0.02:4]",
                                 "set key bottom left"])
         for nu, color, symbol in ((5.0, "#d07a00", 7), (10.0, "#2e7d4f", 5), (20.0, "#1f5fa8", 9),
@@ -411,7 +438,7 @@ def compaction_law(runs, path):
                        color, symbol, f"{nu:g} Hz")
         panel.function(f"x**{-law.b:.4f}", GREY, f"n^{{−{law.b:.2f}}}", 1)
         panels.append(panel)
-    draw(path, panels, 2, 4, 1600, 860, "0.055, 0.99, 0.08, 0.95", "0.035, 0.12")
+    draw(path, panels, 2, len(shapes), 1600, 860, "0.055, 0.99, 0.08, 0.95", "0.035, 0.12")
     return ("Strain of a period. Above: over the time t_u during which f is below the thrust of the grains, "
             "times n^b; all ν, fmax, g, m_w, boxes and lid forces. Below: over the number n of the period, "
             "over the fit at n = 1, at four frequencies; bars: standard error over three samples. "
@@ -438,6 +465,8 @@ def box(runs, path):
               Panel("solid fraction of the box at the start", "H / L", "ρ",
                     ["set xrange [0.35:1.8]", "set key bottom right"])]
     values = (constant, thrust_ratio, lambda r: r["rho_box_initial"])
+    if not box_runs(runs, "polyhedron"):
+        raise Missing
     for shape, text in (("polyhedron", "polyhedra"), ("polygon", "polygons")):
         for method, symbol in (("contact-dynamics", 6), ("compliant", 7)):
             found = {}
@@ -459,7 +488,7 @@ def box(runs, path):
     panels[0].function("0.01", "#1f5fa8", "paper, 3D")
     panels[0].function("0.05", "#b3261e", "paper, 2D")
     panels[2].function("0.50", "#1f5fa8", "paper")
-    draw(path, panels, 1, 3, 1500, 480, "0.05, 0.99, 0.14, 0.89", "0.05, 0.1")
+    draw(path, panels, 1, 3, 1500, 480, "0.062, 0.99, 0.14, 0.89", "0.06, 0.1")
     return ("Prefactor C (excursion without drift), mean force of the grains on the outward-moving wall, and "
             "initial solid fraction of the whole box, over its shape. 5 Hz, fmax = 6 kN, N = 1200. Filled: "
             f"{COMPLIANT_TEXT}; open: {RIGID_TEXT}. Bars: standard error where there are three samples.")
@@ -473,13 +502,50 @@ def rise(run):
 def force_rise(runs, path):
     panel = Panel("", "m_w / m", "rise of f_g over the excursion / mean f_g",
                   ["set logscale x", "set xrange [0.07:6]", "set yrange [0:4]"])
-    for shape in SHAPES:
+    for shape in every_shape(runs):
         rows = by_value(series(runs, shape, "wall_mass_ratio", frequency=5.0), "wall_mass_ratio", rise)
+        if len(rows) < 2:
+            raise Missing
         panel.bars([(x * SPREAD[shape], y, e) for x, y, e in rows], COLOR[shape], POINT[shape],
                    TITLE[shape])
     draw(path, [panel], 1, 1, 760, 480, "0.1, 0.98, 0.13, 0.96")
     return ("Rise of f_g while the wall moves out, over the mass of the wall. Bars: standard error over three "
-            f"samples. N = 1200, ν = 5 Hz, fmax = 6 kN; {RIGID_TEXT}. Symbols are shifted by 1 to 3 %.")
+            f"samples. N = 1200, ν = 5 Hz, fmax = 6 kN; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
+
+
+def speeds(runs, shape):
+    """Pairs: way back over excursion, 1 + (x_j - x_j') / dx; largest inward speed over excursion times
+    frequency. One of each run, means over its first eight periods."""
+    found = []
+    for run in compaction.loading_runs(runs, shape):
+        periods, nu = run["periods"], run["parameters"]["frequency"]
+        n = min(8, len(periods["x_j"]))
+        if n == 0:
+            continue
+        dx = sum(periods["dx_active"][:n]) / n
+        net = strain(run, 0, n) * run["length"]
+        if dx > 0 and net > 0:
+            found.append((1 + net / dx, sum(periods["v_max_passive"][:n]) / n / (dx * nu)))
+    return found
+
+
+def way_back(runs, path):
+    panels = []
+    for shape in every_shape(runs):
+        panel = Panel(TITLE[shape], "way back / excursion", "v_{max} / (Δx ν)" if not panels else "",
+                      ["set logscale xy", "set xrange [1:40]", "set yrange [8:300]",
+                       "set key bottom right"])
+        rows = speeds(runs, shape)
+        panel.points(rows, COLOR[shape], POINT[shape], None, 0.8)
+        c, b, _, _ = power(rows)
+        if math.isfinite(b):
+            panel.function(f"{c:.4f} * x**{b:.4f}", GREY, f"power {b:.2f}", 1)
+        panels.append(panel)
+    draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return ("Largest inward speed over excursion times frequency, and the way back, Δx + x_j − x_j′, over the "
+            "excursion. One point for each run over ν, fmax, g, m_w, box and lid force, means over its first "
+            f"eight periods; three samples. N = 1200; {RIGID_TEXT}. If v_max scaled as Δx ν, the points would "
+            "lie on a horizontal line.")
 
 
 def long_course(runs, path):
@@ -487,6 +553,8 @@ def long_course(runs, path):
     panels = []
     for shape in ("polyhedron", "polygon"):
         found = [r for r in runs if r["parameters"]["shape"] == shape and "long" in r["tables"]]
+        if not found:
+            raise Missing
         panel = Panel(TITLE[shape], "period n", "ρ − ρ(first maximum of f)" if not panels else "",
                       ["set logscale x", "set key top left"])
         for run in found:
@@ -497,7 +565,7 @@ def long_course(runs, path):
                              GREY if k == 2 else COLOR[shape], 6 if rigid else 7,
                              f"{title}, {'rigid' if rigid else 'compliant'}", 0.9)
         panels.append(panel)
-    draw(path, panels, 1, 2, 1200, 430, "0.07, 0.99, 0.15, 0.89", "0.07, 0.1")
+    draw(path, panels, 1, 2, 1200, 430, "0.085, 0.98, 0.15, 0.89", "0.075, 0.1")
     return ("Solid fraction at the maxima of f. ν = 20 Hz, fmax = 6 kN, N = 1200, one sample; "
             f"{RIGID_TEXT} (open) or {COMPLIANT_TEXT} (filled).")
 
@@ -514,6 +582,7 @@ FIGURES = (
     ("rho_t", "Solid fraction over time (paper, fig. 9)", rho_t),
     ("rho_x", "Solid fraction over displacement (paper, fig. 10)", rho_x),
     ("phase_portrait", "Phase portraits (paper, fig. 11)", phase_portrait),
+    ("way_back", "Speed and way back", way_back),
     ("dx_v_frequency", "Excursion and speed over frequency (paper, fig. 12)", dx_v_frequency),
     ("dx_loads", "Excursion over force, gravity and wall (paper, figs. 13, 14)", dx_loads),
     ("master", "Excursion over the scaled load (paper, fig. 15)", master),

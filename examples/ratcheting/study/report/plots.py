@@ -55,9 +55,14 @@ class Panel:
                                         else ["set multiplot next"])
 
 
+WANTED = set()  # names of the figures that draw() writes; empty: all
+
+
 def draw(path, panels, rows, columns, width=1500, height=1000, margins="0.07, 0.98, 0.08, 0.95",
          spacing="0.08, 0.13"):
-    """Writes a PNG file with the panels in rows."""
+    """Writes a PNG file with the panels in rows, if its name is wanted."""
+    if WANTED and path.stem not in WANTED:
+        return
     script = [f'set terminal pngcairo size {width}, {height} font "DejaVu Sans,13" rounded',
               f'set output "{path}"', "set encoding utf8", 'set border lw 0.8 lc rgb "#444444"',
               'set tics nomirror tc rgb "#444444" font ",12"', "set bars 0.6",

@@ -4,6 +4,7 @@
 A run is the dictionary of its line in runs.jsonl. All quantities are in SI units."""
 import json
 import math
+from collections import Counter
 
 SHAPES = ("polyhedron", "polygon", "sphere", "disk")
 TITLE = {"polyhedron": "3D, polyhedra", "polygon": "2D, polygons", "sphere": "3D, spheres",
@@ -23,8 +24,20 @@ ANY = object()
 
 
 def read(path):
+    """The runs of a table. If none has the paper's number of grains, as in the plan `small`, the case
+    that select() demands becomes the most frequent one."""
     with open(path, encoding="utf8") as file:
-        return [json.loads(line) for line in file]
+        runs = [json.loads(line) for line in file]
+    if runs and not any(run["parameters"]["grains"] == CASE["grains"] for run in runs):
+        for known, keys in ((CASE, ("grains", "fmax")), (RIGID, ("step",))):
+            for key in keys:
+                known[key] = Counter(run["parameters"][key] for run in runs).most_common(1)[0][0]
+    return runs
+
+
+def shapes_of(runs):
+    """The shapes that have runs over the frequency."""
+    return [shape for shape in SHAPES if series(runs, shape, "frequency")]
 
 
 def select(runs, shape, **wanted):
@@ -76,11 +89,9 @@ def number(value, error=math.nan, digits=2):
     if not math.isfinite(value):
         return "–"
     if not math.isfinite(error) or error == 0:
-        return f"{value:.{digits + 1}g}"
-    places = 1 - math.floor(math.log10(abs(error)))
-    if abs(error) >= 10:
-        places = 0
-    return f"{value:.{max(places, 0)}f} ± {error:.{max(places, 0)}f}"
+        return f"{value:.{digits + 1}g}".replace("-", "−")
+    places = max(1 - math.floor(math.log10(abs(error))), 0)
+    return f"{value:.{places}f} ± {error:.{places}f}".replace("-", "−")
 
 
 def over_samples(runs, value):

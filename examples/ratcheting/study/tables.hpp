@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The tables and the report of a study. Wall clock stands in files of its own, so that all others
-// are the same bytes whenever the same cases are done.
+// The tables of a study. Wall clock stands in files of its own, so that all others are the same bytes
+// whenever the same cases are done. Figures and report are written by report/write.py.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "plan.hpp"
 #include "result.hpp"
-#include "summary.hpp"
 
 namespace study {
 
@@ -20,10 +18,9 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
 /// know is taken from the wall_clock.csv that is there.
 void write_wall_clock(const std::filesystem::path& folder, const std::vector<Result>& results);
 
-/// report.md, with the figures of draw_figures.
-/// @param plan_name of all cases, done or not
-void write_report(const std::filesystem::path& folder, const std::string& plan_name,
-                  const std::vector<Case>& plan, const std::vector<Result>& results,
-                  const std::vector<ShapeSummary>& shapes);
+/// remaining-NAME.md: runs, steps and estimated core-hours of each series that are not done.
+/// @param name of the plan
+void write_remaining(const std::filesystem::path& folder, const std::string& name,
+                     const std::vector<Case>& plan, const std::vector<Result>& results);
 
 }  // namespace study
