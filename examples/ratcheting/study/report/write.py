@@ -75,8 +75,8 @@ def method(runs):
         "[Details and options](../README.md).", "",
         "**Contacts.** Contact dynamics with a step of 0.2 ms. Two sets of runs: *rigid* contacts, solved to 1e-4 of "
         "LMGC90's test QM/16, and *compliant* contacts, a spring of k = 1e8 N/m in series with the contact law, solved "
-        "to a residual of 1e-5 ([page](../../guide/compliant-contacts.md)). With rigid contacts the jammed wall drifts "
-        "by the tolerance. With compliant contacts it moves by the elastic rebound instead. Both are left out of the "
+        "to a residual of 1e-5 ([page](../../guide/compliant-contacts.md)). With rigid contacts the jammed wall drifts, "
+        "the more the wider the tolerance. With compliant contacts it moves by the elastic rebound instead. Both are left out of the "
         "excursion: it is measured from where the falling force equals the weight of the grains.", "",
         "**Quantities.** x_j, x_j′: positions at two successive maxima of f. Excursion Δx: from where f = mg to the "
         "largest x of a period. Drift: motion of the jammed wall before. Strain of a period: (x_j − x_j′)/L. "
@@ -299,15 +299,16 @@ def compaction_section(runs, laws, aside):
 def remaining(folder):
     """What the batch runner said of the runs that are not done."""
     lines = ["## 6. What is not run", ""]
-    for name, text in (("settled", "Compliant contacts (`--plan settled`). The series are described in the "
+    for name, text in (("settled", "Compliant contacts (`--plan settled`), without the preparations. The series are described in the "
                                    "[plan](../study/README.md#the-plan)."),
                        ("paper", "Rigid contacts (`--plan paper`):")):
         path = folder / f"remaining-{name}.md"
         if path.exists():
-            lines += [text, "", path.read_text(encoding="utf8").strip(), ""]
+            rows = path.read_text(encoding="utf8").strip().splitlines()
+            lines += [text, "", *(row for row in rows if " | 0 of " not in row), ""]
     return lines + [
         "Not in the plans: shapes from sphere to ballast with other vertices, flatness and friction; concave "
-        "grains; the wall moved quasi-statically; the wall on the left.", ""]
+        "grains; the wall moved quasi-statically. (The wall on the left is the mirror image.)", ""]
 
 
 def report(runs, folder, figures):
