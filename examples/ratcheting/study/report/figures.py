@@ -216,7 +216,7 @@ def rho_x(runs, path):
     for shape, run in found:
         p = run["parameters"]
         panel = Panel(TITLE[shape], "(x − x_j) / Δx_{max}", "ρ − ρ_j  [1e-4]" if not panels else "",
-                      ["set key bottom left"])
+                      ["set key bottom left", "set xtics 0.5"])
         packing = columns(run, "packing", "t", "rho_inner", "rho_box")
         wall = columns(run, "wall", "t", "x")
         start, finish = run["periods"]["t_start"][1], run["periods"]["t_finish"][1]
@@ -383,10 +383,13 @@ def compaction_rate(runs, path):
             for k in range(60):
                 nu = 1 * (65 / 1) ** (k / 59)
                 t_u = math.acos(1 - 2 * thrust / CASE["fmax"]) / (math.pi * nu)
-                count = n or round(nu * 0.85 - 0.5) if n or nu >= 4 else 0
-                if not count:
+                # A second has 0.85 ν − 0.75 periods between its first and its last maximum of f.
+                count = n or 0.85 * nu - 0.75
+                if count < 2:
                     continue
-                mean = sum(law.strain(t_u, i + 1) for i in range(count)) / count
+                whole = int(count)
+                mean = (sum(law.strain(t_u, i + 1) for i in range(whole)) +
+                        (count - whole) * law.strain(t_u, whole + 1)) / count
                 points.append((nu, 1e3 * nu * mean))
             panel.curve(points, color, title, 1.2, 2)
     draw(path, panels, 1, len(panels), 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
