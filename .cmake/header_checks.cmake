@@ -11,6 +11,9 @@ endif()
 if(NOT TARGET moreau_picture)
   list(FILTER headers EXCLUDE REGEX "moreau/io/(render_packing|write_picture|detail/rendering/.*)\\.hpp")
 endif()
+if(NOT TARGET moreau_mesh)
+  list(REMOVE_ITEM headers moreau/io/read_mesh.hpp)
+endif()
 set(units "")
 set(together "int main() {}\n")
 foreach(header IN LISTS headers)
@@ -25,7 +28,8 @@ file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
 # header that leans on Eigen is spared; what it would be warned about, "together" is.
 add_library(moreau_headers OBJECT ${units})
 target_link_libraries(moreau_headers PUBLIC moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
-                                            $<TARGET_NAME_IF_EXISTS:moreau_picture>)
+                                            $<TARGET_NAME_IF_EXISTS:moreau_picture>
+                                            $<TARGET_NAME_IF_EXISTS:moreau_mesh>)
 target_compile_options(moreau_headers PUBLIC -O0 -g0 PRIVATE -w)
 target_precompile_headers(moreau_headers PRIVATE <Eigen/Geometry>)
 foreach(header IN LISTS headers)
@@ -42,7 +46,8 @@ target_link_libraries(moreau_headers_link PRIVATE moreau_headers)
 add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cpp)
 target_link_libraries(moreau_headers_together PRIVATE moreau_development
                                               $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
-                                              $<TARGET_NAME_IF_EXISTS:moreau_picture>)
+                                              $<TARGET_NAME_IF_EXISTS:moreau_picture>
+                                              $<TARGET_NAME_IF_EXISTS:moreau_mesh>)
 target_compile_options(moreau_headers_together PRIVATE -O0 -g0)
 
 add_test(NAME source.headers COMMAND ${PROJECT_SOURCE_DIR}/.ci/check_headers)

@@ -23,13 +23,20 @@ static_assert(sizeof(BodyId) == 8);
 TEST_CASE("an id keeps its index, its order and its text") {
   constexpr BodyId third(std::size_t{3});
   static_assert(third.index() == 3);
-  CHECK(BodyId().index() == 0);
   CHECK(third == BodyId(std::size_t{3}));
   CHECK(third != BodyId(std::size_t{4}));
   CHECK(third < BodyId(std::size_t{4}));
   std::ostringstream text;
   text << MaterialId(std::size_t{7});
   CHECK(text.str() == "7");
+}
+
+TEST_CASE("a default id is the id of no item") {
+  CHECK(BodyId() != BodyId(std::size_t{0}));
+  CHECK(MaterialId() != MaterialId(std::size_t{0}));
+  std::ostringstream text;
+  text << BodyId() << ' ' << ShapeId();
+  CHECK(text.str() == "none none");
 }
 
 }  // namespace

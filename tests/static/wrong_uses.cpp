@@ -7,7 +7,7 @@
 //
 // | use | message |
 // |---|---|
-// | 1-4, 6, 11-22, 25-27, 38, 39 | use of deleted function 'Components<N, T>::Components(WrongNumber ...) [with WrongNumber = {int, int}; int N = 3; T = double]' |
+// | 1-4, 6, 11-22, 25-27, 38, 39, 41-43 | use of deleted function 'Components<N, T>::Components(WrongNumber ...) [with WrongNumber = {int, int}; int N = 3; T = double]' |
 // | 7-9, 31, 32 | use of deleted function 'Components<N, T>::Components(..) [with WrongVector = Eigen::Matrix<double, 2, 1>; int N = 3; T = double]' |
 // | 5, 10 | cannot convert 'double' to 'const Components<3, double>&' |
 // | 23 | no matching function for call to 'CylinderWall<Space<3, double> >::CylinderWall(double, double)' |
@@ -73,6 +73,10 @@ TAKEN(moreau::Pose<S>{{0, 0, 0}, rotation}, moreau::Pose<R>{{0, 0}}, moreau::Pos
 REFUSED(16, moreau::Pose<S>{{0, 0}, rotation});
 REFUSED(17, moreau::Pose<S>{{0, 0}});
 REFUSED(18, pose.to_body({0, 0}));
+TAKEN(pose.position = {0, 0, 0}, pose.position = vector, pose.position += vector);
+REFUSED(41, pose.position = {0, 0});
+REFUSED(42, pose.position = {});
+REFUSED(43, box.lower = {0, 0});
 TAKEN(moreau::Aabb<S>{{0, 0, 0}, {1, 1, 1}}, box.contains({0, 0, 0}));
 REFUSED(19, moreau::Aabb<S>{{0, 0}, {1, 1}});
 REFUSED(20, box.contains({0, 0}));

@@ -40,9 +40,9 @@ struct SourceOptions {
   /// The box that contains the new grains, world axes [m]; along every axis at least as long as the
   /// circumdiameter of each shape.
   Aabb<S> region;
-  std::vector<ShapeId> shapes;         ///< drawn at random, each with the same probability
-  typename S::Scalar density = 0;      ///< [kg/m^3], in the plane [kg/m^2], > 0
-  MaterialId material = MaterialId();  ///< of the surface
+  std::vector<ShapeId> shapes;          ///< drawn at random, each with the same probability
+  typename S::Scalar density = 0;       ///< [kg/m^3], in the plane [kg/m^2], > 0
+  MaterialId material = MaterialId(0);  ///< of the surface
   typename S::Vector velocity = S::Vector::Zero();  ///< of new grains, world axes [m/s]
   /// Grains per second [1/s], > 0; infinite: as many as find room.
   double rate = std::numeric_limits<double>::infinity();

@@ -18,9 +18,9 @@ struct Aabb {
   using Vector = typename S::Vector;
 
   /// Smallest coordinates [m].
-  Vector lower = Vector::Constant(std::numeric_limits<Scalar>::infinity());
+  VectorArgument<S> lower = Vector::Constant(std::numeric_limits<Scalar>::infinity());
   /// Largest coordinates [m].
-  Vector upper = Vector::Constant(-std::numeric_limits<Scalar>::infinity());
+  VectorArgument<S> upper = Vector::Constant(-std::numeric_limits<Scalar>::infinity());
 
   Aabb() = default;  ///< An empty box. After calls of merge(), it is the bounding box of the merged
                      ///< points.

@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <ostream>
 #include <tuple>
 
@@ -16,9 +17,10 @@ namespace moreau {
 /// value.
 template <class Tag>
 struct Id {
-  std::uint32_t value = 0;  ///< counted from 0
+  /// Counted from 0; the largest number for the id of no item.
+  std::uint32_t value = std::numeric_limits<std::uint32_t>::max();
 
-  constexpr Id() = default;  ///< the id of the first item
+  constexpr Id() = default;  ///< the id of no item: functions refuse it
   /// Id of the item with this index, < 2^32.
   /// @throws std::invalid_argument for an index of 2^32 or more
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {
@@ -29,7 +31,9 @@ struct Id {
   constexpr std::size_t index() const { return value; }
   auto serialized_members() { return std::tie(value); }  ///< see core/serialize.hpp
   friend constexpr auto operator<=>(const Id&, const Id&) = default;
-  friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
+  friend std::ostream& operator<<(std::ostream& out, Id id) {
+    return id == Id() ? out << "none" : out << id.value;
+  }
 };
 
 /// Id of a grain or wall. Its index is the position of the body in the arrays of Bodies. The index
@@ -40,7 +44,7 @@ struct BodyId : Id<struct BodyTag> {
   /// index without a body.
   std::uint32_t generation = 0;
 
-  constexpr BodyId() = default;  ///< the id of the first body
+  constexpr BodyId() = default;  ///< the id of no body: functions refuse it
   /// Id of the first body that has this index, < 2^32. BodyAccess::body_id() gives the id of the
   /// present body.
   /// @throws std::invalid_argument for an index of 2^32 or more
@@ -49,7 +53,7 @@ struct BodyId : Id<struct BodyTag> {
   auto serialized_members() { return std::tie(value, generation); }  ///< see core/serialize.hpp
   friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
   friend std::ostream& operator<<(std::ostream& out, BodyId id) {
-    out << id.value;
+    out << static_cast<const Id&>(id);
     if (id.generation > 0) out << " (generation " << id.generation << ')';
     return out;
   }

@@ -16,7 +16,9 @@ struct Pose {
   using Vector = typename S::Vector;
   using Rotation = typename S::Rotation;
 
-  Vector position = Vector::Zero();   ///< position of the centre of mass, world axes [m]
+  /// Position of the centre of mass, world axes [m]. An assignment of a wrong number of components,
+  /// like `position = {0, 0}` in space, does not compile.
+  VectorArgument<S> position = Vector::Zero();
   Rotation rotation = S::identity();  ///< from body to world axes
 
   Pose() = default;  ///< at the world's origin, not rotated

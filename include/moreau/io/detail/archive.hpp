@@ -94,7 +94,7 @@ auto members(X& x) {
 template <class X>
 concept Number = std::is_arithmetic_v<X> || std::is_enum_v<X>;
 template <class X>
-concept EigenArray = std::derived_from<X, Eigen::PlainObjectBase<X>>;
+concept EigenArray = std::derived_from<X, Eigen::PlainObjectBase<typename X::PlainObject>>;
 /// A random number generator, whose state the standard library writes as text.
 template <class X>
 concept RandomEngine = std::uniform_random_bit_generator<X> && requires(X x, std::stringstream s) {

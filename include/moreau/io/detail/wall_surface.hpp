@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -61,7 +62,8 @@ std::vector<typename S::Vector> corners_of(const Aabb<S>& box) {
 /// The least and the largest coordinate of points along a direction, counted from `origin`.
 template <class Vector>
 std::pair<typename Vector::Scalar, typename Vector::Scalar> range_along(
-    const Vector& direction, const Vector& origin, const std::vector<Vector>& points) {
+    const Vector& direction, const std::type_identity_t<Vector>& origin,
+    const std::vector<Vector>& points) {
   auto range = std::pair(direction.dot(points[0] - origin), direction.dot(points[0] - origin));
   for (const Vector& x : points) {
     range.first = std::min(range.first, direction.dot(x - origin));
@@ -74,7 +76,8 @@ std::pair<typename Vector::Scalar, typename Vector::Scalar> range_along(
 /// (Sutherland-Hodgman).
 template <class Vector>
 std::vector<Vector> clipped(const std::vector<Vector>& face, const Vector& normal,
-                            const Vector& point, typename Vector::Scalar tolerance) {
+                            const std::type_identity_t<Vector>& point,
+                            typename Vector::Scalar tolerance) {
   std::vector<Vector> inside;
   for (std::size_t k = 0; k < face.size(); ++k) {
     const Vector &a = face[k], &b = face[(k + 1) % face.size()];

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace moreau::detail {
+
+/// The numbers 0 .. n - 1, divided into sets that can be united. Source: R. E. Tarjan, J. van
+/// Leeuwen, J. ACM 31 (1984): path halving.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  /// The smallest number of the set of i.
+  std::uint32_t find(std::size_t i) {
+    auto k = static_cast<std::uint32_t>(i);
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void unite(std::size_t i, std::size_t j) {
+    std::uint32_t a = find(i), b = find(j);
+    if (b < a) std::swap(a, b);
+    parent_[b] = a;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace moreau::detail

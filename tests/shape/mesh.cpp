@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "moreau/sample/concave_mesh.hpp"
+#include "moreau/shape/check_mesh.hpp"
+#include "moreau/shape/convex_of_mesh.hpp"
+#include "moreau/shape/facet_mesh.hpp"
+#include "moreau/shape/regular_shape.hpp"
+#include "moreau/shape/repair_mesh.hpp"
+#include "moreau/shape/simplify_hull.hpp"
+
+#include "shape/message_of.hpp"
+
+namespace {
+
+using namespace moreau;
+using Plane = Space<2, double>;
+using Volume = Space<3, double>;
+
+/// A cube of edge 1 with a corner at the origin, in the plane a square.
+FacetMesh<Volume> cube(Volume = {}) {
+  return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+          {{0, 2, 1},
+           {0, 3, 2},
+           {4, 5, 6},
+           {4, 6, 7},
+           {0, 1, 5},
+           {0, 5, 4},
+           {1, 2, 6},
+           {1, 6, 5},
+           {2, 3, 7},
+           {2, 7, 6},
+           {3, 0, 4},
+           {3, 4, 7}}};
+}
+FacetMesh<Plane> cube(Plane) {
+  return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+}
+
+/// Appends a mesh, moved.
+template <class S>
+void append(FacetMesh<S>& mesh, const FacetMesh<S>& other, const typename S::Vector& by) {
+  const auto first = std::uint32_t(mesh.vertices.size());
+  for (const auto& x : other.vertices) mesh.vertices.push_back(x + by);
+  for (auto facet : other.facets) {
+    for (auto& v : facet) v += first;
+    mesh.facets.push_back(facet);
+  }
+}
+
+/// Every facet with corners of its own, as in an STL file.
+template <class S>
+FacetMesh<S> soup(const FacetMesh<S>& mesh) {
+  FacetMesh<S> parted;
+  for (const auto& facet : mesh.facets) {
+    auto& own = parted.facets.emplace_back();
+    for (std::size_t k = 0; k < facet.size(); ++k) {
+      own[k] = std::uint32_t(parted.vertices.size());
+      parted.vertices.push_back(mesh.vertices[facet[k]]);
+    }
+  }
+  return parted;
+}
+
+template <class S>
+std::string fault(const FacetMesh<S>& mesh) {
+  const auto found = find_solid_fault(mesh);
+  return found ? std::string(name(found->defect)) + ": " + found->message : "none";
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("mass properties of a mesh are those of its polytope", S, Plane, Volume) {
+  const auto far = typename S::Vector(S::Vector::Constant(1000));
+  FacetMesh<S> mesh;
+  append(mesh, cube(S{}), far);
+  CHECK(fault(mesh) == "none");
+  const auto whole = mass_properties(mesh, 2.0);
+  const auto polytope = convex_of_mesh(mesh);
+  const auto exact = polytope.mass_properties(2.0);
+  CHECK(whole.mass == doctest::Approx(2).epsilon(1e-12));
+  CHECK((whole.center - far - S::Vector::Constant(0.5)).norm() < 1e-12);
+  CHECK((whole.inertia - exact.inertia).norm() < 1e-12);
+  CHECK(polytope.vertex_count() == std::size_t(1) << S::dim);
+}
+
+TEST_CASE_TEMPLATE("a closed surface in every form", S, Plane, Volume) {
+  CHECK(fault(pebble_mesh<S>(0.01, 5, 1)) == "none");
+  CHECK(fault(tetrapod_mesh<S>(0.02, 0.006)) == "none");
+  CHECK(fault(ballast_mesh<S>(0.02, 3, 7)) == "none");
+  CHECK(volume_of(pebble_mesh<S>(1, 0, 1, 5)) ==
+        doctest::Approx(S::dim == 2 ? 3.14159 : 4.18879).epsilon(1e-2));
+}
+
+TEST_CASE("faults of a mesh in space name the triangle") {
+  const FacetMesh<Volume> good = cube();
+  FacetMesh<Volume> mesh = good;
+  mesh.facets.clear();
+  CHECK(fault(mesh) == "empty: triangles = 0 must be at least 1");
+
+  mesh = good;
+  mesh.facets.resize(3);
+  CHECK(fault(mesh) == "empty: triangles = 3 must be at least 4 to bound a solid");
+
+  mesh = good;
+  mesh.vertices[4][1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(fault(mesh) == "not_finite: vertex 4 = (0, nan, 1) of triangle 2 must be finite");
+
+  mesh = good;
+  mesh.facets[5] = {0, 5, 8};
+  CHECK(fault(mesh) ==
+        "out_of_range: triangle 5 = (0, 5, 8) must have corners below 8, the number of vertices");
+
+  mesh = good;
+  mesh.facets[5] = {0, 5, 0};
+  CHECK(fault(mesh) == "degenerate: triangle 5 = (0, 5, 0) must have different corners");
+
+  mesh = good;
+  mesh.vertices.push_back({0.5, 0.5, 0});
+  mesh.facets[1] = {0, 8, 2};
+  CHECK(fault(mesh) == "degenerate: triangle 1 = (0, 8, 2) must have an area that is not 0");
+
+  mesh = good;
+  mesh.facets.pop_back();
+  CHECK(
+      fault(mesh) ==
+      "open: triangle 3 = (4, 6, 7) must have a neighbour at its edge (4, 7): the surface is open");
+
+  mesh = good;
+  mesh.vertices.push_back({2, 2, 2});
+  mesh.facets.push_back({0, 1, 8});
+  CHECK(fault(mesh) ==
+        "non_manifold: triangle 12 = (0, 1, 8) must not share the edge (0, 1) with triangle 0 and "
+        "triangle 4: the surface is not a manifold");
+
+  mesh = good;
+  std::swap(mesh.facets[3][0], mesh.facets[3][1]);
+  CHECK(fault(mesh).substr(0, 10) == "unoriented");
+  CHECK(fault(mesh).find("triangle 3 = (6, 4, 7)") != std::string::npos);
+
+  mesh = good;
+  append(mesh, good, {3, 0, 0});
+  CHECK(fault(mesh) ==
+        "several_pieces: triangle 12 = (8, 10, 9) must be connected to triangle 0: the mesh has "
+        "several pieces");
+
+  mesh = good;
+  for (auto& facet : mesh.facets) std::swap(facet[0], facet[1]);
+  CHECK(fault(mesh) ==
+        "inside_out: volume = -1 m^3 must be positive: triangle 0 = (2, 0, 1) and all others are "
+        "inside out");
+
+  mesh = good;  // two cubes that touch at a corner
+  append(mesh, good, {1, 1, 1});
+  weld(mesh, 1e-9);
+  CHECK(fault(mesh).substr(0, 12) == "non_manifold");
+  CHECK(fault(mesh).find("only at the vertex 6") != std::string::npos);
+}
+
+TEST_CASE("faults of a mesh in the plane name the segment") {
+  const FacetMesh<Plane> good = cube(Plane{});
+  FacetMesh<Plane> mesh = good;
+  mesh.facets[2] = {2, 2};
+  CHECK(fault(mesh) == "degenerate: segment 2 = (2, 2) must have different corners");
+  mesh = good;
+  mesh.facets.pop_back();
+  CHECK(fault(mesh) ==
+        "open: segment 0 = (0, 1) must have a neighbour at its end (0): the surface is open");
+  mesh = good;
+  mesh.vertices.push_back({2, 2});
+  mesh.facets.push_back({1, 4});
+  CHECK(fault(mesh) ==
+        "non_manifold: segment 4 = (1, 4) must not share the end (1) with segment 0 and segment 1: "
+        "the surface is not a manifold");
+  mesh = good;
+  mesh.facets[1] = {2, 1};
+  CHECK(fault(mesh).substr(0, 10) == "unoriented");
+  mesh = good;
+  for (auto& facet : mesh.facets) std::swap(facet[0], facet[1]);
+  CHECK(fault(mesh) ==
+        "inside_out: volume = -1 m^2 must be positive: segment 0 = (1, 0) and all others are "
+        "inside out");
+}
+
+TEST_CASE_TEMPLATE("a surface may be open, a solid not", S, Plane, Volume) {
+  FacetMesh<S> mesh = cube(S{});
+  mesh.facets.pop_back();
+  CHECK_NOTHROW(require_surface(mesh, "test"));
+  CHECK(message_of([&] { require_solid(mesh, "test"); }).substr(0, 6) == "test: ");
+}
+
+TEST_CASE_TEMPLATE("weld joins what lies within the tolerance", S, Plane, Volume) {
+  FacetMesh<S> mesh = soup(cube(S{}));
+  CHECK(fault(mesh).substr(0, 5) == "open:");
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += 2) mesh.vertices[v][0] += 1e-5;
+  FacetMesh<S> tight = mesh;
+  weld(tight, 1e-6);
+  CHECK(fault(tight).substr(0, 5) == "open:");
+  const WeldReport report = weld(mesh, 1e-4);
+  CHECK(report.merged_vertices + (std::size_t(1) << S::dim) ==
+        cube(S{}).facets.size() * std::size_t(S::dim));
+  CHECK(report.removed_facets == 0);
+  CHECK(fault(mesh) == "none");
+  FacetMesh<S> coarse = cube(S{});
+  CHECK(weld(coarse, 1.0).removed_facets > 0);
+  CHECK(message_of([&] { weld(mesh, -1.0); }) == "weld: tolerance = -1 must be finite and >= 0");
+}
+
+TEST_CASE_TEMPLATE("orient turns facets, and pieces inside out", S, Plane, Volume) {
+  FacetMesh<S> mesh = cube(S{});
+  append(mesh, cube(S{}), typename S::Vector(3 * S::Vector::UnitX()));
+  const FacetMesh<S> good = mesh;
+  for (std::size_t f : {std::size_t(1), std::size_t(2)})
+    std::swap(mesh.facets[f][0], mesh.facets[f][1]);
+  for (std::size_t f = good.facets.size() / 2; f < good.facets.size(); ++f)
+    std::swap(mesh.facets[f][0], mesh.facets[f][1]);
+  CHECK(orient(mesh) == 2 + good.facets.size() / 2);
+  for (std::size_t f = 0; f < good.facets.size(); ++f)
+    CHECK(area_vector(corners_of(mesh, f)).dot(area_vector(corners_of(good, f))) > 0);
+  const auto pieces = pieces_of(mesh);
+  REQUIRE(pieces.size() == 2);
+  for (const auto& piece : pieces) CHECK(fault(piece) == "none");
+}
+
+TEST_CASE("a Moebius strip can not be oriented") {
+  FacetMesh<Volume> strip;
+  constexpr int count = 8;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * 3.14159265358979 * k / count, tilt = angle / 2;
+    for (const double side : {-0.3, 0.3})
+      strip.vertices.push_back({(1 + side * std::cos(tilt)) * std::cos(angle),
+                                (1 + side * std::cos(tilt)) * std::sin(angle),
+                                side * std::sin(tilt)});
+  }
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t a = 2 * k, b = a + 1;
+    const std::uint32_t c = k + 1 < count ? a + 2 : 1, d = k + 1 < count ? b + 2 : 0;
+    strip.facets.push_back({a, c, d});
+    strip.facets.push_back({a, d, b});
+  }
+  CHECK(message_of([&] { orient(strip); }).find("must have two sides") != std::string::npos);
+}
+
+TEST_CASE("repeated facets are dropped on request") {
+  FacetMesh<Volume> mesh = cube();
+  mesh.facets.push_back({1, 0, 2});
+  CHECK(fault(mesh).substr(0, 12) == "non_manifold");
+  CHECK(drop_repeated_facets(mesh) == 1);
+  CHECK(fault(mesh) == "none");
+}
+
+TEST_CASE_TEMPLATE("a concave mesh is refused with its depth, its hull is given by name", S, Plane,
+                   Volume) {
+  FacetMesh<S> mesh = cube(S{});
+  // A dent: the first facet is divided at a point that is moved inwards by 0.2.
+  const typename S::Matrix corners = corners_of(mesh, 0);
+  const typename S::Vector out = area_vector(corners).normalized();
+  const auto dent = std::uint32_t(mesh.vertices.size());
+  mesh.vertices.push_back(corners.rowwise().mean() - 0.2 * out);
+  const auto first = mesh.facets[0];
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    auto part = first;
+    part[k] = dent;
+    if (k == 0)
+      mesh.facets[0] = part;
+    else
+      mesh.facets.push_back(part);
+  }
+  REQUIRE(fault(mesh) == "none");
+  const std::string message = message_of([&] { convex_of_mesh(mesh); });
+  CHECK(message.substr(0, 35) == "convex_of_mesh: concavity = 0.2 m a");
+  CHECK(message.find("call hull_of_mesh()") != std::string::npos);
+  const auto hull = hull_of_mesh(mesh);
+  CHECK(hull.volume() == doctest::Approx(1));
+  CHECK(worst_concavity(mesh, hull).depth == doctest::Approx(0.2));
+}
+
+TEST_CASE("a convex mesh whose corners lie on the hull may still be concave") {
+  FacetMesh<Volume> mesh = cube();
+  mesh.vertices[6] = {1, 1, 0.7};  // the top is not plane: one diagonal is convex, one concave
+  const std::string first = message_of([&] { convex_of_mesh(mesh); });
+  mesh.facets[2] = {4, 5, 7};
+  mesh.facets[3] = {5, 6, 7};
+  const std::string second = message_of([&] { convex_of_mesh(mesh); });
+  CHECK((first == "nothing thrown") != (second == "nothing thrown"));
+}
+
+TEST_CASE_TEMPLATE("a hull with fewer vertices loses the least volume", S, Plane, Volume) {
+  const auto hull = hull_of_mesh(pebble_mesh<S>(0.02, 0, 1, 3));
+  double last = 0;
+  for (const std::size_t n : {std::size_t(48), std::size_t(24), std::size_t(S::dim + 1)}) {
+    const auto fewer = simplify_hull(hull, n);
+    CHECK(fewer.shape.vertex_count() == n);
+    CHECK(fewer.volume_error == doctest::Approx(1 - fewer.shape.volume() / hull.volume()));
+    CHECK(fewer.volume_error > last);
+    last = fewer.volume_error;
+  }
+  CHECK(simplify_hull(hull, 24).volume_error < 0.4);
+  const auto same = simplify_hull(hull, 100000);
+  CHECK(same.volume_error == 0);
+  CHECK(same.shape.vertex_count() == hull.vertex_count());
+  CHECK(message_of([&] { simplify_hull(hull, 2); }).substr(0, 17) == "simplify_hull: n ");
+}
+
+TEST_CASE("a corner that is nearly flat is removed first") {
+  std::vector<Volume::Vector> points;
+  for (const auto& x : cube().vertices) points.push_back(x);
+  points.push_back({0.5, 0.5, 1.01});
+  const auto fewer = simplify_hull(Polyhedron<>(points), 8);
+  CHECK(fewer.shape.volume() == doctest::Approx(1));
+  CHECK(fewer.volume_error == doctest::Approx(0.01 / 3).epsilon(0.02));
+}
