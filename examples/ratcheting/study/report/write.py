@@ -51,8 +51,8 @@ def abstract(runs, laws):
         "We repeat the simulations of Azéma, Radjai, Peyroux, Richefeu and Saussine "
         "([arXiv 0711.1081](https://arxiv.org/abs/0711.1081)): 1200 grains in a box, one of whose walls is "
         "pushed by a harmonic force. We use polyhedra and spheres in space, polygons and disks in the plane. "
-        "The excursion of the wall follows the paper's law, Δx = C m/(m + m_w) · mg/fmax · g/ν², over five "
-        f"decades. But C is not a material constant. It is {c3.text()} for polyhedra and {c2.text()} for "
+        "The excursion of the wall follows the paper's law, Δx = C m/(m + m_w) · mg/fmax · g/ν², over more than three "
+        f"decades of load. But C is not a material constant. It is {c3.text()} for polyhedra and {c2.text()} for "
         "polygons in boxes as high as long, where the paper has 0.01 and 0.05, and it depends on the shape of "
         "the box through the thrust of the grains." + where +
         " The compaction does not follow the excursion, as the paper assumes. The strain of the n-th period goes "
@@ -168,7 +168,7 @@ def excursion_section(runs):
              "A wall of mass m_w that carries the grains βm and is pushed out by a constant thrust F has the excursion "
              "Δx = 0.228 F²/[(m_w + βm) fmax ν²] for F ≪ fmax, so (equation 1) "
              "C = 0.228 (F/mg)² (m + m_w)/(m_w + βm). All published exponents follow from it, and C does not belong to "
-             "the material.", ""]
+             "the material. F and β both fall with the excursion (figure), so the exponents depart a little from the paper's.", ""]
     rows = []
     for shape in SHAPES:
         c, scatter, n = ten.line_scatter(runs, shape)
