@@ -32,7 +32,6 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
-#include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"

@@ -22,6 +22,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -60,7 +61,7 @@ namespace moreau {
 /// is not of this simulation or of a grain that was removed, a value that is not finite, and the
 /// cases in their comments. The simulation is then unchanged.
 template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
-          class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
+          class Broad = CellGrid<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
 class Simulation : public BodyControl<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
@@ -320,14 +321,18 @@ class Simulation : public BodyControl<ShapeT> {
 
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
-  void detect(StepReport& report) {
+  /// @param clock started before the prediction
+  void detect(StepReport& report, StepReport::StageClock clock = {}) {
     const std::span<const Pose<S>> poses(assembly_.bodies().pose);
     std::swap(contacts_, previous_);
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
+    report.ms_place = clock.lap();
     detector_.find_pairs(lengths());
+    report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
     assign_laws(assembly_.bodies(), materials_, contacts_);
+    report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
@@ -358,6 +363,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
       assembly_.bodies(), gravity_,    materials_, previous_,
       contacts_,          grain_size_, step,       lengths().margin};
   const auto start = Clock::now();
+  StepReport::StageClock clock;
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {
@@ -368,7 +374,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
-  detect(report);
+  detect(report, clock);
   const auto detected = Clock::now();
   if constexpr (set_valued) {
     dynamics_.advance(context, report);
