@@ -66,6 +66,9 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--fmin", p.fmin, "minimum of the force on the wall [N]")->check(not_negative);
   app.add_option("--gravity", p.gravity, "acceleration of gravity [m/s^2]")->check(not_negative);
   app.add_option("--density", p.density, "density of the grains [kg/m^3]")->check(positive);
+  app.add_option("--friction", p.friction,
+                 "coefficient of friction of grains with grains and with horizontal walls")
+      ->check(not_negative);
   app.add_option("--wall-mass-ratio", p.wall_mass_ratio, "mass of the wall / mass of all grains")
       ->check(positive);
   app.add_option("--duration", p.duration,

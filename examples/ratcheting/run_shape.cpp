@@ -312,6 +312,7 @@ int run(const Parameters& asked) {
   json.stage("vibrate", watch.lap());
   recorder.sync();
   recorder.passive_field().write(p.output);
+  recorder.displacement_field().write(p.output);
   write_events(p.output, find_periods(recorder.samples(), p, experiment.mass() * p.gravity));
   json.write(p, experiment, recorder, done < total);
   if (p.plots) plot(p.output);
