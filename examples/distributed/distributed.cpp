@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <moreau/detect/broad/cell_grid.hpp>
 #include <moreau/distributed/distributed_simulation.hpp>
 #include <moreau/distributed/write_pieces.hpp>
 #include <moreau/io/snapshot.hpp>
@@ -22,7 +21,7 @@ namespace {
 using Shape = moreau::Polyhedron<double>;  // or moreau::Polygon, moreau::Ball, moreau::Disk
 using S = moreau::SpaceOf<Shape>;
 using Law = moreau::Compliant<>;
-using World = moreau::Simulation<Shape, Law, moreau::MoreauJean, moreau::CellGrid<S>>;
+using World = moreau::Simulation<Shape, Law>;
 constexpr double size = 0.02, step = 2e-4;  // [m], [s]
 
 /// Cubes with random rotations on a lattice, above the floor of a box.

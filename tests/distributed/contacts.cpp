@@ -43,8 +43,11 @@ World random_balls(std::uint64_t seed, std::size_t count) {
 template <class World>
 std::vector<ContactKey> all_keys(DistributedSimulation<World>& packing) {
   std::vector<ContactKey> keys;
-  for (const ContactKey& key : packing.local().contacts().keys)
-    keys.push_back({packing.id(BodyId(key.a)).value, packing.id(BodyId(key.b)).value, key.feature});
+  for (ContactKey key : packing.local().contacts().keys) {
+    key.a = packing.id(BodyId(key.a)).value;
+    key.b = packing.id(BodyId(key.b)).value;
+    keys.push_back(key);
+  }
   std::string bytes(reinterpret_cast<const char*>(keys.data()), keys.size() * sizeof(ContactKey));
   std::vector<ContactKey> all;
   for (const std::string& part : packing.processes().gather(std::move(bytes))) {

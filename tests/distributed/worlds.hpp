@@ -36,7 +36,7 @@ using SoftPolyhedra = Simulation<Polyhedron<>, Soft>;
 /// With the solver that has the same bits for any number of processes.
 template <class ShapeT, class Law>
 using Ordered =
-    Simulation<ShapeT, Law, MoreauJean, SweepAndPrune<SpaceOf<ShapeT>>, ReproducibleGaussSeidel>;
+    Simulation<ShapeT, Law, MoreauJean, CellGrid<SpaceOf<ShapeT>>, ReproducibleGaussSeidel>;
 using OrderedPolygons = Ordered<Polygon<>, Rigid>;
 using OrderedSoftPolyhedra = Ordered<Polyhedron<>, Soft>;
 

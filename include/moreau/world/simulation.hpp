@@ -22,6 +22,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -45,7 +46,7 @@ namespace moreau {
 /// Grains and walls in contact, advanced step by step. SI units; in the plane, masses, forces and
 /// energies are per length if densities are.
 ///
-/// @tparam ShapeT     shape of the grains, convex; its space is that of the simulation
+/// @tparam ShapeT     shape of the grains, convex or a Compound; its space is that of the simulation
 /// @tparam Law        contact law between two materials, set-valued or regularized
 /// @tparam Integrator of impulses for a set-valued law, of forces for a regularized law
 /// @tparam Broad      broad phase
@@ -59,8 +60,8 @@ namespace moreau {
 /// Functions throw std::invalid_argument, which names function, argument and value, for an id that
 /// is not of this simulation or of a grain that was removed, a value that is not finite, and the
 /// cases in their comments. The simulation is then unchanged.
-template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
-          class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
+template <GrainShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
+          class Broad = CellGrid<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
 class Simulation : public BodyControl<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
@@ -320,14 +321,18 @@ class Simulation : public BodyControl<ShapeT> {
 
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
-  void detect(StepReport& report) {
+  /// @param clock started before the prediction
+  void detect(StepReport& report, StepReport::StageClock clock = {}) {
     const std::span<const Pose<S>> poses(assembly_.bodies().pose);
     std::swap(contacts_, previous_);
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
+    report.ms_place = clock.lap();
     detector_.find_pairs(lengths());
+    report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
     assign_laws(assembly_.bodies(), materials_, contacts_);
+    report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
@@ -349,7 +354,7 @@ class Simulation : public BodyControl<ShapeT> {
 
 // step() is defined outside of the class, so that it is not inline. A program can then instantiate it
 // in one source file and declare it `extern template` in the others (moreau/instances).
-template <ConvexShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");
@@ -358,6 +363,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
       assembly_.bodies(), gravity_,    materials_, previous_,
       contacts_,          grain_size_, step,       lengths().margin};
   const auto start = Clock::now();
+  StepReport::StageClock clock;
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {
@@ -368,7 +374,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
-  detect(report);
+  detect(report, clock);
   const auto detected = Clock::now();
   if constexpr (set_valued) {
     dynamics_.advance(context, report);

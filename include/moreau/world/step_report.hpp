@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <utility>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -39,7 +40,13 @@ struct StepReport {
   SolveReport solve;                   ///< how well the contact problem was solved
   OverlapCorrectionReport correction;  ///< results of the overlap correction
   double ms_detect = 0;                ///< time for prediction and detection [ms]
+  double ms_place = 0;                 ///< part of it: prediction, placing the shapes [ms]
+  double ms_pairs = 0;                 ///< part of it: candidate pairs, with the broad phase [ms]
+  double ms_collide = 0;               ///< part of it: contact points of the pairs [ms]
   double ms_solve = 0;                 ///< for the contact problem, assembly and correction [ms]
+  double ms_assemble = 0;              ///< part of it: free velocities, operator, warm start [ms]
+  double ms_correct = 0;               ///< part of it: overlap correction [ms]
+  double ms_contacts = 0;              ///< part of it: the solver of the contact problem [ms]
   double ms_total = 0;                 ///< for the whole step [ms]
 
   /// Fills the times of the two parts of the step.
@@ -49,6 +56,19 @@ struct StepReport {
     ms_solve = rest.count();
     ms_total = ms_detect + ms_solve;
   }
+  /// Measures the stages of a step, one after the other.
+  class StageClock {
+   public:
+    /// Milliseconds since the last call, or since the clock was made.
+    double lap() {
+      const auto before = std::exchange(last_, Clock::now());
+      return std::chrono::duration<double, std::milli>(last_ - before).count();
+    }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last_ = Clock::now();
+  };
   /// Fills the overlaps from the gaps of the contacts [m].
   template <class S>
   void measure_overlaps(const Contacts<S>& contacts) {

@@ -21,7 +21,13 @@ inline void reduce(StepReport& report, Communicator& processes) {
                               &report.correction.largest_shift,
                               &report.ms_detect,
                               &report.ms_solve,
-                              &report.ms_total};
+                              &report.ms_total,
+                              &report.ms_place,
+                              &report.ms_pairs,
+                              &report.ms_collide,
+                              &report.ms_assemble,
+                              &report.ms_correct,
+                              &report.ms_contacts};
   double depth = report.mean_overlap * double(report.overlapping);
   double added[std::size(counts) + std::size(sums) + 1], largest[std::size(extremes)];
   double* next = added;

@@ -80,7 +80,7 @@ struct WorldParts {
     fat.clear();
     pairs.clear();
     shifts.clear();
-    caches.clear();
+    caches = {};
   }
   /// Computes what depends on the members, after they were set.
   void finish(World& world) {
@@ -140,7 +140,9 @@ struct ContactList {
     contacts.points.push_back(from.points[c]);
     contacts.points.back().a = a;
     contacts.points.back().b = b;
-    contacts.keys.push_back({a, b, from.keys[c].feature});
+    contacts.keys.push_back(from.keys[c]);
+    contacts.keys.back().a = a;
+    contacts.keys.back().b = b;
     contacts.classes.push_back(from.classes[c]);
     contacts.impulses.push_back(from.impulses[c]);
     if (!from_energies.empty()) energies.push_back(from_energies[c]);

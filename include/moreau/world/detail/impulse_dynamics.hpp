@@ -368,15 +368,19 @@ class ImpulseDynamics {
 template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context,
                                                           StepReport& report) {
+  StepReport::StageClock clock;
   free_velocities(context);
   if (shared_)
     split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
   assemble(context);
   report.warm_started = warm_start(context);
   choose_variants(context);
+  report.ms_assemble = clock.lap();
   report.correction = correct_overlaps(context);
+  report.ms_correct = clock.lap();
   report.approach = double(offset_velocities(context) * context.step / context.margin);
   solve(context, report);
+  report.ms_contacts = clock.lap();
   velocities_after();
   measure_dissipation(context, report);
   const std::span<const Twist> after(after_);
