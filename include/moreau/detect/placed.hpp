@@ -168,6 +168,12 @@ class Placement<HalfSpace<S>> {
   const Vector& center() const { return center_; }  ///< a point of the plane, world axes [m]
   const Vector& normal() const { return normal_; }  ///< unit, pointing out of the solid, world axes
   Scalar offset() const { return normal_.dot(center_); }  ///< normal . x on the plane [m]
+  /// Whether a box comes as near to the solid as the margin [m], world axes.
+  bool reaches(const Aabb<S>& box, Scalar margin) const {
+    const Vector center = (box.lower + box.upper) / 2 - center_;
+    const Vector half = (box.upper - box.lower) / 2;
+    return normal_.dot(center) - normal_.cwiseAbs().dot(half) <= margin;
+  }
 
  private:
   Vector center_ = Vector::Zero();

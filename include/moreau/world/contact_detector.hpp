@@ -39,6 +39,7 @@
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/detail/pair_caches.hpp"
+#include "moreau/world/detail/pair_filter.hpp"
 #include "moreau/world/tolerances.hpp"
 
 namespace moreau {
@@ -123,6 +124,9 @@ class ContactDetector {
   /// Sets which points of a contact between faces are used, from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
+  /// Examines only the pairs for which keeps(a, b) of the indices of their bodies is true, from the next
+  /// find_pairs() on.
+  void set_filter(const auto& keeps) { filter_.set(keeps), stale_ = true; }
   /// Makes the list of the pairs of grains whose boxes are closer than margin + 2 skin along every
   /// axis, sorted by the numbers of the bodies. It keeps the list of an earlier call as long as no
   /// box has moved by the skin since. Call place() before.
@@ -211,12 +215,6 @@ class ContactDetector {
     return *image;
   }
 
-  static bool reaches(const Aabb<S>& box, const Placed<HalfSpace<S>>& wall, Scalar margin) {
-    const Vector center = (box.lower + box.upper) / 2 - wall.center();
-    const Vector half = (box.upper - box.lower) / 2;
-    return wall.normal().dot(center) - wall.normal().cwiseAbs().dot(half) <= margin;
-  }
-
   /// The first pair whose first grain is k or a later one.
   std::size_t first_pair(std::size_t k) const {
     const auto before = [](const IndexPair& pair, std::size_t grain) { return pair.first < grain; };
@@ -240,7 +238,7 @@ class ContactDetector {
   void detect_in_cylinders(std::size_t k, Scalar margin, detail::FoundContacts<S>& found) {
     const Grain& a = grains_[k];
     for (const auto& wall : cylinders_)
-      if (wall.placed.reaches(boxes_[k], margin))
+      if (wall.placed.reaches(boxes_[k], margin) && !filter_.leaves_out(a.body, wall.body))
         found.add_each(a, wall, [&](auto&& add) {
           return collide_each(a.placed, wall.placed, margin, found.manifold(), add);
         });
@@ -254,6 +252,7 @@ class ContactDetector {
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
+  detail::PairFilter filter_;
   PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
@@ -334,6 +333,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
     broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
   else
     images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
+  filter_.erase(grains_, pairs_, shifts_);
   caches_.renew(pairs_, old_pairs_, shifts_, grains_, reach + lengths.skin);
 }
 
@@ -367,7 +367,9 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::siz
     const Grain& a = grains_[k];
     const Aabb<S> reach = boxes_[k].inflated(margin);
     const bool prescribed = bodies.is_prescribed(a.body.index());
-    const auto ignores = [&](BodyId b) { return prescribed && bodies.is_prescribed(b.index()); };
+    const auto ignores = [&](BodyId b) {
+      return (prescribed && bodies.is_prescribed(b.index())) || filter_.leaves_out(a.body, b);
+    };
     for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
       const std::size_t second = pairs_[p].second;
       const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
@@ -382,7 +384,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::siz
       });
     }
     for (const auto& wall : walls_) {
-      if (!reaches(boxes_[k], wall.placed, margin) || ignores(wall.body)) continue;
+      if (!wall.placed.reaches(boxes_[k], margin) || ignores(wall.body)) continue;
       found.add(a, wall, previous, [&](auto&& add) {
         return collide_parts(a.placed, wall.placed, margin, manifold, add);
       });
