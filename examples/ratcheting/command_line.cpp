@@ -55,9 +55,12 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       "ratcheting"};
   app.set_version_flag("--version", MOREAU_VERSION_STRING);
   app.option_defaults()->always_capture_default();
-  app.add_option("--shape", p.shape,
-                 "shape of the grains; polygon and disk are simulated in the plane")
-      ->check(CLI::IsMember({"polyhedron", "polygon", "sphere", "disk"}));
+  app.add_option(
+         "--shape", p.shape,
+         "shape of the grains; polygon, disk and compound_polygon are simulated in the plane; "
+         "a compound has four parts and is concave")
+      ->check(CLI::IsMember(
+          {"polyhedron", "polygon", "sphere", "disk", "compound", "compound_polygon"}));
   app.add_option("--grains", p.grains, "number of grains")->check(CLI::Range(4, 1000000));
   app.add_option("--frequency", p.frequency, "frequency of the force [Hz]")->check(positive);
   app.add_option("--fmax", p.fmax, "maximum of the force on the wall [N]")->check(positive);

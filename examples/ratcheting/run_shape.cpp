@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
@@ -40,6 +41,8 @@ using polyhedron = moreau::Polyhedron<double>;
 using polygon = moreau::Polygon<double>;
 using sphere = moreau::Ball<>;
 using disk = moreau::Disk<>;
+using compound = moreau::Compound<moreau::Polyhedron<double>>;
+using compound_polygon = moreau::Compound<moreau::Polygon<double>>;
 }  // namespace shapes
 
 /// The methods, under the names of --method.

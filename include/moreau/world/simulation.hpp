@@ -46,7 +46,7 @@ namespace moreau {
 /// Grains and walls in contact, advanced step by step. SI units; in the plane, masses, forces and
 /// energies are per length if densities are.
 ///
-/// @tparam ShapeT     shape of the grains, convex; its space is that of the simulation
+/// @tparam ShapeT     shape of the grains, convex or a Compound; its space is that of the simulation
 /// @tparam Law        contact law between two materials, set-valued or regularized
 /// @tparam Integrator of impulses for a set-valued law, of forces for a regularized law
 /// @tparam Broad      broad phase
@@ -60,7 +60,7 @@ namespace moreau {
 /// Functions throw std::invalid_argument, which names function, argument and value, for an id that
 /// is not of this simulation or of a grain that was removed, a value that is not finite, and the
 /// cases in their comments. The simulation is then unchanged.
-template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
+template <GrainShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
           class Broad = CellGrid<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
 class Simulation : public BodyControl<ShapeT> {
@@ -225,6 +225,8 @@ class Simulation : public BodyControl<ShapeT> {
   }
   /// Sets the solver from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
+  /// Sets the integrator, with its options, from the next step on.
+  void set_integrator(const Integrator& integrator) { dynamics_.set_integrator(integrator); }
   /// Sets how overlaps are corrected, from the next step on.
   /// @throws std::invalid_argument for options out of range; see OverlapCorrection
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
@@ -354,7 +356,7 @@ class Simulation : public BodyControl<ShapeT> {
 
 // step() is defined outside of the class, so that it is not inline. A program can then instantiate it
 // in one source file and declare it `extern template` in the others (moreau/instances).
-template <ConvexShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");

@@ -21,8 +21,9 @@ struct StepReport {
   /// Largest approach velocity of the contacts that were found, before the step, x step / detection
   /// margin [-]. Above 1, surfaces can come within the margin and overlap in one step. 0 under a regularized law.
   double approach = 0;
-  double max_overlap = 0;   ///< deepest point as detected, >= 0 [m]
-  double mean_overlap = 0;  ///< mean depth of the points with gap < 0, >= 0 [m]
+  std::size_t overlapping = 0;  ///< points with gap < 0 as detected
+  double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]
+  double mean_overlap = 0;      ///< mean depth of the points with gap < 0, >= 0 [m]
   /// Energy that the contact impulses and couples took from the bodies [J], without elastic_work;
   /// < 0 if they gave energy, as the springs of a regularized law do. With compliant contacts the
   /// value of a single step can be negative by h/2 F . (change of velocity) for each force F; these
@@ -71,7 +72,7 @@ struct StepReport {
   /// Fills the overlaps from the gaps of the contacts [m].
   template <class S>
   void measure_overlaps(const Contacts<S>& contacts) {
-    std::size_t overlapping = 0;
+    overlapping = 0;
     for (const Contact<S>& contact : contacts.points) {
       if (!(contact.gap < 0)) continue;
       max_overlap = std::max(max_overlap, -double(contact.gap));

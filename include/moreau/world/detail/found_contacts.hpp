@@ -31,16 +31,18 @@ class alignas(64) FoundContacts {
   Manifold<S>& manifold() { return manifold_; }       ///< of the present pair, for collide()
   std::size_t touching() const { return touching_; }  ///< pairs with a contact
 
-  /// Adds the contact of a pair: the points of the manifold, reduced to D if asked for.
+  /// Adds the contact of a pair: the points of each manifold, reduced to D if asked for.
   /// @param a,b      body and placed shape of each side
   /// @param previous contacts of the step before; its points are kept first
-  void add(const auto& a, const auto& b, const Contacts<S>& previous) {
-    if (few_) keep_few(a.body.value, b.body.value, previous);
-    add_all(a, b);
-    ++touching_;
+  /// @param collide_each calls its argument for each manifold, returns whether there was one
+  void add(const auto& a, const auto& b, const Contacts<S>& previous, auto&& collide_each) {
+    touching_ += collide_each([&] {
+      if (few_) keep_few(a.body.value, b.body.value, previous);
+      add_all(a, b);
+    });
   }
   /// Adds a contact of several manifolds, each as it is.
-  /// @param collide_each calls its argument for each manifold, returns the number of contacts
+  /// @param collide_each as for add()
   void add_each(const auto& a, const auto& b, auto&& collide_each) {
     touching_ += collide_each([&] { add_all(a, b); });
   }
@@ -91,17 +93,18 @@ class alignas(64) FoundContacts {
       contacts_.points.push_back({a.body.value, b.body.value, 0, point.gap, frame,
                                   point.position - a.placed.center(),
                                   point.position - b.placed.center()});
-      contacts_.keys.push_back({a.body.value, b.body.value, point.feature});
+      contacts_.keys.push_back(
+          {a.body.value, b.body.value, point.feature, manifold_.part_a, manifold_.part_b});
       contacts_.classes.push_back(manifold_.contact_class);
     }
   }
-  /// Reduces the manifold to D points, if possible those of the step before.
+  /// Reduces the manifold of two parts to D points, if possible those of the step before.
   void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
-      const ContactKey from{a, b, FeatureKey()};
+      const ContactKey from{a, b, FeatureKey(), manifold_.part_a, manifold_.part_b};
       for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
-           key != previous.keys.end() && key->a == a && key->b == b; ++key) {
+           key != previous.keys.end() && key->is_of_parts_of(from); ++key) {
         const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
         kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
       }
