@@ -179,8 +179,10 @@ class Run {
   void draw(const std::string& name) {
 #ifndef MOREAU_WITHOUT_PNG
     const auto begin = Clock::now();
+    // The walls have the lowest numbers.
+    const std::size_t first = avalanche_.simulation.grains()[0].index();
     const auto color = [&](moreau::BodyId grain) {
-      return moreau::rendering::speed_color(avalanche_.progress.layer[grain.index()] / 7.0);
+      return moreau::rendering::speed_color(avalanche_.progress.layer[grain.index() - first] / 7.0);
     };
     moreau::write_picture(options_.output / (name + ".png"), avalanche_.simulation, color,
                           {.width = 1400, .height = 800, .azimuth = 20, .elevation = 18});
@@ -241,6 +243,10 @@ bool run(const Options& options) {
 
 /// Returns 0 when the run has ended, 3 when it stopped before, 2 for wrong arguments.
 int main(int count, char** arguments) {
+  if (count == 2 && std::string(arguments[1]) == "--help") {
+    std::fputs(usage, stdout);
+    return 0;
+  }
   if (count < 2) {
     std::fputs(usage, stderr);
     return 2;

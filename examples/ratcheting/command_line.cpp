@@ -2,6 +2,7 @@
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -66,6 +67,16 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--fmin", p.fmin, "minimum of the force on the wall [N]")->check(not_negative);
   app.add_option("--gravity", p.gravity, "acceleration of gravity [m/s^2]")->check(not_negative);
   app.add_option("--density", p.density, "density of the grains [kg/m^3]")->check(positive);
+  app.add_option(
+         "--fewest-vertices", p.fewest_vertices,
+         "only polyhedra (8 to 37) or polygons (5 to 7) with at least so many vertices; 0: all")
+      ->check(CLI::Range(0, 37));
+  app.add_option("--most-vertices", p.most_vertices,
+                 "only polyhedra or polygons with at most so many vertices; 0: all")
+      ->check(CLI::Range(0, 37));
+  app.add_option("--flatness", p.flatness,
+                 "factor by which one axis of all polyhedra or polygons is shortened")
+      ->check(CLI::Range(0.1, 1.0));
   app.add_option("--friction", p.friction,
                  "coefficient of friction of grains with grains and with horizontal walls")
       ->check(not_negative);
@@ -186,6 +197,11 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   app.add_option("--hold", p.hold,
                  "time at fmax before the harmonic force begins at a maximum, for --from [s]")
       ->check(not_negative);
+  app.add_option(
+         "--wall-speed", p.wall_speed,
+         "outward speed at which the wall is moved after the hold of --from, in place of the "
+         "harmonic force [m/s]; 0: the force")
+      ->check(not_negative);
   app.add_option("--output", p.output,
                  "folder of the results, created if missing; files in it are overwritten");
 
@@ -202,6 +218,19 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   }
   if (p.fmin > p.fmax) {
     std::cerr << "--fmin: " << p.fmin << " must not exceed --fmax " << p.fmax << '\n';
+    exit_status = 2;
+    return std::nullopt;
+  }
+  if (p.wall_speed > 0 && p.from.empty()) {
+    std::cerr << "--wall-speed: needs --from\n";
+    exit_status = 2;
+    return std::nullopt;
+  }
+  const int fewest = p.shape == "polygon" ? 5 : 8, most = p.shape == "polygon" ? 7 : 37;
+  if (p.fewest_vertices > most ||
+      (p.most_vertices > 0 && p.most_vertices < std::max(fewest, p.fewest_vertices))) {
+    std::cerr << "--fewest-vertices, --most-vertices: no " << p.shape << " has "
+              << p.fewest_vertices << " to " << p.most_vertices << " vertices\n";
     exit_status = 2;
     return std::nullopt;
   }

@@ -139,6 +139,11 @@ class Experiment {
   /// One step under f at the middle of the step.
   moreau::StepReport vibrate() {
     if constexpr (Method::solves) change_stiffness();
+    if (parameters_.wall_speed > 0 && time() > parameters_.begin() + parameters_.hold) {
+      simulation_.set_wall_mass(wall_, std::numeric_limits<double>::infinity());
+      simulation_.set_velocity(wall_, parameters_.wall_speed * Vector::UnitX());
+      return simulation_.step(parameters_.step);
+    }
     const double f = parameters_.force(time() + parameters_.step / 2);
     simulation_.set_force(wall_, -f * Vector::UnitX());
     return simulation_.step(parameters_.step);

@@ -31,6 +31,9 @@ struct Parameters {
   double box_length = 0;    ///< L = W [m]; 0: from the sample's volume
   double lid_force = 10;    ///< / (m 9.81 m/s^2)
   double lid_raise = 0.01;  ///< [m]
+  int fewest_vertices = 0;  ///< of a polyhedron or polygon; 0: no limit
+  int most_vertices = 0;    ///< of a polyhedron or polygon; 0: no limit
+  double flatness = 1;      ///< factor on one axis of all polyhedra and polygons
   double friction = 0.4;  ///< of grains with grains and horizontal walls; vertical walls have none
   std::string method = "contact-dynamics";  ///< or compliant or springs
   double stiffness = 1e7;                   ///< of springs and of compliant contacts, normal [N/m]
@@ -67,6 +70,9 @@ struct Parameters {
   std::string output = "ratcheting-output";
   /// Checkpoint of another run, to start from in place of a packing. Empty: none.
   std::string from;
+  /// Outward speed at which the wall is moved after the hold, in place of the harmonic force [m/s].
+  /// 0: the force.
+  double wall_speed = 0;
   double hold = 0.05;  ///< time at fmax before the harmonic force of such a run begins [s]
 
   double first_maximum() const { return 0.75 / frequency; }  ///< time of the first f = fmax [s]

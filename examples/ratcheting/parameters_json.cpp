@@ -42,6 +42,10 @@ Json to_json(const Parameters& p) {
   // The default is left out, as in the runs that were made before there was a choice.
   if (p.solver != Parameters{}.solver) json["solver"] = p.solver;
   if (p.cold_sweeps > 0) json["cold_sweeps"] = p.cold_sweeps;
+  if (p.fewest_vertices > 0) json["fewest_vertices"] = p.fewest_vertices;
+  if (p.most_vertices > 0) json["most_vertices"] = p.most_vertices;
+  if (p.flatness != Parameters{}.flatness) json["flatness"] = p.flatness;
+  if (p.wall_speed > 0) json["wall_speed"] = p.wall_speed;
   if (!p.from.empty()) {
     json["from"] = p.from;
     json["hold"] = p.hold;

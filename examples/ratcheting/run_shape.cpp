@@ -155,7 +155,8 @@ constexpr const char* later[] = {"frequency",
                                  "cold_start",
                                  "order",
                                  "from",
-                                 "hold"};
+                                 "hold",
+                                 "wall_speed"};
 
 /// The parameters that determine the packing, as a text.
 std::string packing_identity(const Parameters& p) {

@@ -45,10 +45,34 @@ struct Grains {
   double volume = 0;                ///< sum [m^3], in the plane [m^2]
 };
 
+/// A random shape with the circumradius 1, with the flatness and the number of vertices that the
+/// parameters ask for.
+template <class Shape>
+Shape draw_shape(const Parameters& p, std::mt19937_64& random) {
+  if constexpr (requires(const Shape& shape) { shape.vertices(); }) {
+    for (;;) {
+      Shape shape = moreau::Ballast<Shape>::draw(random);
+      const int count = int(shape.vertices().rows());
+      if (count < p.fewest_vertices || (p.most_vertices > 0 && count > p.most_vertices)) continue;
+      if (p.flatness == 1) return shape;
+      std::vector<typename Shape::Vector> points;
+      for (Eigen::Index k = 0; k < shape.vertices().rows(); ++k) {
+        points.emplace_back(shape.vertices().row(k).transpose());
+        points.back()[0] *= p.flatness;
+      }
+      const Shape flat(points);
+      return flat.scaled(1 / flat.circumradius());
+    }
+  } else {
+    return moreau::Ballast<Shape>::draw(random);
+  }
+}
+
 /// Grains of the sizes 2.5, 3.75 and 5 cm (50, 34 and 16 % by number), of 30 different shapes.
 template <class Shape>
 Grains<Shape> make_grains(const Parameters& p, std::mt19937_64& random) {
-  const std::vector<Shape> bases = moreau::ballast_shapes<Shape>(30, random);
+  std::vector<Shape> bases;
+  for (int k = 0; k < 30; ++k) bases.push_back(draw_shape<Shape>(p, random));
   const moreau::SizeDistribution distribution = moreau::SizeDistribution::azema2008();
   const std::vector<double> sizes = distribution.sample(p.grains, random);
   Grains<Shape> grains;

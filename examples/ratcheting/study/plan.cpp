@@ -43,6 +43,13 @@ const std::vector<Option>& options() {
       {"--tolerance", "tol", "", [](const Parameters& p) { return p.tolerance; }},
       {"--stiffness", "k", "", [](const Parameters& p) { return p.stiffness; }, true},
       {"--max-sweeps", "sweeps", "", [](const Parameters& p) { return double(p.max_sweeps); }},
+      {"--friction", "mu", "", [](const Parameters& p) { return p.friction; }, true},
+      {"--flatness", "flat", "", [](const Parameters& p) { return p.flatness; }, true},
+      {"--fewest-vertices", "from", "vertices",
+       [](const Parameters& p) { return double(p.fewest_vertices); }, true},
+      {"--most-vertices", "to", "vertices",
+       [](const Parameters& p) { return double(p.most_vertices); }, true},
+      {"--wall-speed", "pulled", "", [](const Parameters& p) { return p.wall_speed; }},
       {"--duration", "T", "s", [](const Parameters& p) { return p.duration; }},
       {"--grains", "N", "", [](const Parameters& p) { return double(p.grains); }, true}};
   return all;
@@ -334,6 +341,27 @@ std::vector<Case> settled_plan() {
   for (const std::size_t seed : {1u, 2u, 3u})
     for (const double fmax : {2000.0, 4000.0, 10000.0})
       for (const double ratio : {0.42, 0.5}) box(seed, ratio, 1, fmax);
+  // 4. The wall moved slowly outward: the thrust without inertia.
+  for (const Names& shapes : {planar, solid})
+    for (const std::size_t seed : {1u, 2u, 3u})
+      for (const char* shape : shapes)
+        add_jammed(plan, "static", shape, seed, 4, [](Parameters& p) {
+          p.frequency = 5;
+          p.wall_speed = 2e-3;
+        });
+  // 6. From round to angular and flat grains, and their friction; spheres are in `course`.
+  const auto form = [&](const std::function<void(Parameters&)>& change) {
+    for (const std::size_t seed : {1u, 2u, 3u})
+      plan.add("form", "polyhedron", seed, [&](Parameters& p) {
+        change(p);
+        p.duration = 0.96;
+      });
+  };
+  form([](Parameters& p) { p.fewest_vertices = 30; });
+  form([](Parameters& p) { p.most_vertices = 12; });
+  for (const double flatness : {0.7, 0.5, 0.4}) form([&](Parameters& p) { p.flatness = flatness; });
+  for (const double friction : {0.1, 0.2, 0.7, 1.0})
+    form([&](Parameters& p) { p.friction = friction; });
   // 5. A thousand periods.
   for (const char* shape : {"polygon", "polyhedron"})
     add_jammed(plan, "thousand", shape, 1, 1000, [](Parameters& p) {

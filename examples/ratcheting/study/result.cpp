@@ -310,6 +310,8 @@ Result measure(const std::filesystem::path& folder, const Case& c) {
     add_packing(run, r);
     add_field(folder, r);
   }
+  if (c.sets.contains("static"))
+    r.tables.emplace_back("wall", columns_of(run.wall, {"t", "x", "f_g"}, 5));
   if (c.sets.contains("long") || c.sets.contains("thousand")) add_long(run.packing, r);
   return r;
 }

@@ -8,7 +8,7 @@ For F << fmax: dx = 0.228 F^2 / (M fmax nu^2), the paper's equation 4 with
 C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
 import math
 
-from runs import ANY, select
+from runs import ANY, COMPLIANT, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
@@ -58,6 +58,22 @@ class Prediction:
 
     def all(self):
         return [ratio for ratios in self.ratios.values() for ratio in ratios]
+
+
+def static_thrust(run):
+    """Mean force of the grains on a wall that moves slowly outward, over 1 mm from where it has fallen to
+    half of their weight, over the weight."""
+    table, weight = run["tables"]["wall"], run["weight"]
+    rows = list(zip(table["x"], table["f_g"]))
+    start = next((k for k, (_, f_g) in enumerate(rows) if f_g < weight / 2), None)
+    if start is None:
+        return math.nan
+    forces = [f_g for x, f_g in rows[start:] if x - rows[start][0] <= 1e-3]
+    return sum(forces) / len(forces) / weight
+
+
+def static_runs(runs, shape):
+    return select(runs, shape, frequency=5.0, wall_speed=2e-3, jammed=True, **COMPLIANT)
 
 
 def mean_and_scatter(ratios):

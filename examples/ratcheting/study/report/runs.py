@@ -20,6 +20,8 @@ CASE = {"grains": 1200, "fmax": 6000.0, "fmin": 0.0, "gravity": 9.81, "wall_mass
 RIGID = {"method": "contact-dynamics", "step": 2e-4, "tolerance": 1e-4, "max_sweeps": 5000,
          "overlap_correction": True}
 COMPLIANT = {"method": "compliant", "step": 2e-4, "tolerance": 1e-5, "stiffness": 1e8}
+# Parameters that a line has only if they are not these.
+DEFAULT = {"wall_speed": 0, "flatness": 1.0, "fewest_vertices": 0, "most_vertices": 0}
 ANY = object()
 
 
@@ -43,15 +45,13 @@ def shapes_of(runs):
 def select(runs, shape, **wanted):
     """The runs of a shape with the paper's parameters but for `wanted`; ANY leaves one open. Without a
     method: rigid contacts."""
-    if wanted.get("method") != "compliant":
-        conditions = CASE | RIGID | wanted
-    else:
-        conditions = CASE | COMPLIANT | wanted
+    contacts = COMPLIANT if wanted.get("method") == "compliant" else RIGID
+    conditions = DEFAULT | CASE | contacts | wanted
     jammed = conditions.pop("jammed", ANY)
     return [run for run in runs
             if run["parameters"]["shape"] == shape and
             (jammed is ANY or jammed == ("from" in run["parameters"])) and
-            all(value is ANY or run["parameters"][key] == value
+            all(value is ANY or run["parameters"].get(key, DEFAULT.get(key)) == value
                 for key, value in conditions.items())]
 
 
