@@ -192,6 +192,16 @@ class Source {
       const Vector radial = S::spin(axis, S::spin(axis, grain.center - pose.position));
       if (radial.norm() + grain.radius > cylinder.shape.radius()) return true;
     }
+    for (const auto& mesh : simulation.mesh_walls()) {
+      const Vector center = simulation.pose(mesh.body).to_body(grain.center);
+      bool overlaps = false;
+      mesh.shape.tree().query(Aabb<S>(center, center).inflated(grain.radius), [&](std::size_t f) {
+        const auto& side = mesh.shape.side(f);
+        const auto height = side.normal.dot(center) - mesh.shape.offset(side.face);
+        overlaps = overlaps || std::abs(height) < grain.radius;
+      });
+      if (overlaps) return true;
+    }
     return false;
   }
 

@@ -147,11 +147,7 @@ class Simulation : public BodyControl<ShapeT> {
     cell().require_along(normal, self);
     const typename S::Rotation rotation(S::contact_frame(normal));
     const Pose<S> pose{point, S::normalized(rotation)};
-    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
-    assembly_.set_wall(body);
-    detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
-    if constexpr (!set_valued) dynamics_.forget();
-    return body;
+    return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
   }
   /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
   /// fixed, or moving with the velocities of set_velocity and set_spin, e.g.
@@ -174,12 +170,20 @@ class Simulation : public BodyControl<ShapeT> {
     cell().require_around(axis, self);
     Pose<S> pose;
     pose.position = point;
-    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
-    const CylinderWall<S> shape(axis, radius);
-    assembly_.set_cylinder(body, shape);
-    detector_.add_wall(body, shape);
-    if constexpr (!set_valued) dynamics_.forget();
-    return body;
+    return add_wall_of(CylinderWall<S>(axis, radius), pose, material, self);
+  }
+
+  /// Adds a wall of triangles, in the plane of segments, given in its own frame [m] and placed at `pose`.
+  /// It is fixed, or moves with set_velocity() and set_spin(). mesh_walls() lists it. The mesh may be open.
+  /// @throws std::invalid_argument for a mesh that is not a surface (shape/check_mesh.hpp), a bad pose,
+  ///         an unknown material, a cell with a periodic axis
+  BodyId add_mesh_wall(const FacetMesh<S>& mesh, const Pose<S>& pose = {},
+                       WallSides sides = WallSides::outside,
+                       MaterialId material = MaterialId(0)) requires MeshCollidable<ShapeT> {
+    constexpr const char* self = "Simulation::add_mesh_wall";
+    assembly_.require_pose(pose, self);
+    require(cell().is_open(), self, "cell", "(periodic)", "must be open: walls have no images");
+    return add_wall_of(MeshWall<S>(mesh, sides, self), pose, material, self);
   }
 
   /// Makes an axis periodic. Poses are not wrapped: displacements are differences of positions, and
@@ -189,10 +193,12 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  ///         a wall across the axis, or a cell not longer than two of the widest grain with margin
+  ///         a wall across the axis, a mesh wall, or a cell not longer than two of the widest grain with margin
   ///         and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper) {
     constexpr const char* self = "Simulation::set_periodic";
+    require(assembly_.meshes().empty(), self, "axis", axis,
+            "must be open: a mesh wall has no images");
     PeriodicCell<S> cell = detector_.cell();
     cell.set(axis, lower, upper, self);
     detector_.place_walls(assembly_.bodies().pose);
@@ -288,6 +294,15 @@ class Simulation : public BodyControl<ShapeT> {
             "must be finite and > 0");
     tolerances.check("Simulation");
     if constexpr (CompliantLaw<Law, S>) detector_.keep_points(ContactPoints::all);
+  }
+
+  BodyId add_wall_of(const auto& shape, const Pose<S>& pose, MaterialId material,
+                     const char* function) {
+    const BodyId body = assembly_.add_body(pose, material, materials_.count(), function);
+    assembly_.set_wall(body, shape);
+    detector_.add_wall(body, shape);
+    if constexpr (!set_valued) dynamics_.forget();
+    return body;
   }
 
   friend struct SerializationAccess;

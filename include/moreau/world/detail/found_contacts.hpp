@@ -35,7 +35,7 @@ class alignas(64) FoundContacts {
   /// @param a,b      body and placed shape of each side
   /// @param previous contacts of the step before; its points are kept first
   void add(const auto& a, const auto& b, const Contacts<S>& previous) {
-    if (few_) keep_few(a.body.value, b.body.value, previous);
+    if (few_) keep_few(a.body.value, b.body.value, previous, [](FeatureKey) { return true; });
     add_all(a, b);
     ++touching_;
   }
@@ -44,6 +44,20 @@ class alignas(64) FoundContacts {
   void add_each(const auto& a, const auto& b, auto&& collide_each) {
     touching_ += collide_each([&] { add_all(a, b); });
   }
+
+  /// Adds the points on one face of a mesh wall, reduced to D if asked for.
+  /// @param face number of the face, the b of the feature keys of its points
+  void add_face(const auto& a, const auto& b, std::uint32_t face, const Contacts<S>& previous) {
+    if (few_)
+      keep_few(a.body.value, b.body.value, previous, [&](FeatureKey key) {
+        return key.kind() == vertex_on_face(S{}) && key.b() == face;
+      });
+    add_all(a, b);
+  }
+  /// Adds points as they are.
+  void add_points(const auto& a, const auto& b) { add_all(a, b); }
+  /// Counts a pair, if it has a contact.
+  void count(bool touches) { touching_ += touches; }
 
   /// Sorts by key: the id of a wall may be lower than that of a grain.
   void sort() {
@@ -96,12 +110,14 @@ class alignas(64) FoundContacts {
     }
   }
   /// Reduces the manifold to D points, if possible those of the step before.
-  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
+  /// @param counts function: key of a point of the step before -> whether it was of this manifold
+  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous, const auto& counts) {
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
       const ContactKey from{a, b, FeatureKey()};
       for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
            key != previous.keys.end() && key->a == a && key->b == b; ++key) {
+        if (!counts(key->feature)) continue;
         const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
         kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
       }
