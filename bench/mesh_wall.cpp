@@ -92,13 +92,16 @@ std::vector<Placed<Grain>> grains_on(const MeshWall<S>& wall, std::vector<Grain>
 
 std::size_t within_margin(const Placed<Grain>& grain, const MeshWall<S>& wall) {
   std::size_t count = 0;
-  wall.tree().query(grain.bounding_box().inflated(margin), [&](std::uint32_t f) {
-    const S::Matrix corners = corners_of(wall.mesh(), f);
-    const Vector middle = corners.rowwise().mean();
-    const Triangle triangle{corners.colwise() - middle};
-    const Placed<Triangle> placed(triangle, {middle, S::identity()});
-    count += detail::ConvexPair<Grain, Triangle>(grain, placed).distance(margin).gap <= margin;
-  });
+  const Aabb<S> around = grain.bounding_box().inflated(margin);
+  wall.tree().query([&](const Aabb<S>& box) { return box.overlaps(around); },
+                    [&](std::uint32_t k) {
+                      const S::Matrix& corners = wall.side(k).corners;
+                      const Vector middle = corners.rowwise().mean();
+                      const Triangle triangle{corners.colwise() - middle};
+                      const Placed<Triangle> placed(triangle, {middle, S::identity()});
+                      const detail::ConvexPair<Grain, Triangle> pair(grain, placed);
+                      count += pair.distance(margin).gap <= margin;
+                    });
   return count;
 }
 

@@ -194,12 +194,14 @@ class Source {
     }
     for (const auto& mesh : simulation.mesh_walls()) {
       const Vector center = simulation.pose(mesh.body).to_body(grain.center);
+      const Aabb<S> around = Aabb<S>(center, center).inflated(grain.radius);
       bool overlaps = false;
-      mesh.shape.tree().query(Aabb<S>(center, center).inflated(grain.radius), [&](std::size_t f) {
-        const auto& side = mesh.shape.side(f);
-        const auto height = side.normal.dot(center) - mesh.shape.offset(side.face);
-        overlaps = overlaps || std::abs(height) < grain.radius;
-      });
+      mesh.shape.tree().query([&](const Aabb<S>& box) { return box.overlaps(around); },
+                              [&](std::size_t k) {
+                                const auto& side = mesh.shape.side(k);
+                                const auto height = side.normal.dot(center) - side.offset;
+                                overlaps = overlaps || std::abs(height) < grain.radius;
+                              });
       if (overlaps) return true;
     }
     return false;

@@ -49,10 +49,12 @@ class MeshWall {
   using Facet = typename FacetMesh<S>::Facet;
   static constexpr std::uint32_t none = ~0U;
 
-  /// A facet with what collision tests need of it.
+  /// A facet with what collision tests need of it. All facets of a face have the same plane.
   struct Side {
-    Vector normal;       ///< unit, to the outside
-    std::uint32_t face;  ///< the lowest number of the facets in its face, which has the plane
+    Matrix corners;      ///< as columns [m]
+    Vector normal;       ///< of the face, unit, to the outside
+    Scalar offset;       ///< of the face: normal . x of the points x of its plane [m]
+    std::uint32_t face;  ///< lowest number of the facets of the face, in the order of the mesh
     /// For each ridge (number k lies opposite corner k): unit vector in the facet, away from the ridge
     /// to the inside, and its product with the points of the ridge [m].
     std::array<Vector, std::size_t(S::dim)> inward;
@@ -89,10 +91,9 @@ class MeshWall {
 
   /// Number of facets: with two sides, twice that of the mesh.
   std::size_t size() const { return facets_.size(); }
-  const Facet& facet(std::size_t f) const { return facets_[f]; }     ///< its corners
-  const Side& side(std::size_t f) const { return facet_sides_[f]; }  ///< f < size()
-  /// normal . x of the points x of the plane of a face [m]. `face` is a Side::face.
-  Scalar offset(std::uint32_t face) const { return offsets_[face]; }
+  /// The facets in the order of tree(): k < size().
+  const Side& side(std::size_t k) const { return facet_sides_[k]; }
+  const Facet& facet(std::size_t k) const { return facets_[k]; }           ///< corners of side(k)
   const Vector& vertex(std::size_t v) const { return mesh_.vertices[v]; }  ///< [m]
   std::size_t ridge_count() const { return ridges_.size(); }               ///< of convex ridges
   const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }
@@ -108,7 +109,7 @@ class MeshWall {
     }
     return true;
   }
-  /// The boxes of the facets [m].
+  /// The boxes of the facets [m]. A query gives the places k of side().
   const detail::BoxTree<S>& tree() const { return tree_; }
 
  private:
@@ -125,6 +126,7 @@ class MeshWall {
   void join_faces(const std::vector<Ridge<S>>& ridges);
   void set_ridges(const std::vector<Ridge<S>>& ridges);
   void set_rings();
+  void sort_by_place();
   /// The height of the corner of facet g that is not on the ridge above the plane of facet f [m].
   Scalar height_above(const Ridge<S>& ridge, std::uint32_t f) const {
     const Vector& corner = mesh_.vertices[facets_[ridge.facet][ridge.corner]];
@@ -135,7 +137,6 @@ class MeshWall {
   WallSides sides_ = WallSides::outside;
   std::vector<Facet> facets_;
   std::vector<Side> facet_sides_;
-  std::vector<Scalar> offsets_;
   std::vector<ConvexRidge> ridges_;
   std::vector<unsigned char> is_tip_;
   std::vector<std::uint32_t> ring_, ring_begin_;  ///< the neighbours of each vertex
@@ -160,23 +161,39 @@ void MeshWall<S>::build() {
   join_faces(ridges);
   set_ridges(ridges);
   set_rings();
+  sort_by_place();
+}
+
+/// Makes the tree, and brings the facets into its order: those near each other are near in memory.
+template <EuclideanSpace S>
+void MeshWall<S>::sort_by_place() {
   std::vector<Aabb<S>> boxes(facets_.size());
   for (std::size_t f = 0; f < facets_.size(); ++f)
     for (const std::uint32_t v : facets_[f]) boxes[f].merge(mesh_.vertices[v]);
   tree_ = detail::BoxTree<S>(boxes);
+  const auto facets = facets_;
+  const auto sides = facet_sides_;
+  std::vector<std::uint32_t> place(facets.size());
+  for (std::uint32_t k = 0; k < facets.size(); ++k) {
+    facets_[k] = facets[tree_.order()[k]];
+    facet_sides_[k] = sides[tree_.order()[k]];
+    place[tree_.order()[k]] = k;
+  }
+  for (ConvexRidge& ridge : ridges_)
+    for (std::uint32_t& f : ridge.facet) f = place[f];
 }
 
 template <EuclideanSpace S>
 void MeshWall<S>::set_sides() {
   const FacetMesh<S> all{mesh_.vertices, facets_};
   facet_sides_.resize(facets_.size());
-  offsets_.resize(facets_.size());
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const Matrix corners = corners_of(all, f);
     Side& side = facet_sides_[f];
     side.normal = area_vector(corners).normalized();
     side.face = std::uint32_t(f);
-    offsets_[f] = side.normal.dot(corners.rowwise().mean());
+    side.corners = corners;
+    side.offset = side.normal.dot(corners.rowwise().mean());
     for (int k = 0; k < S::dim; ++k) {
       // The direction to corner k, without its components along the ridge opposite to it.
       const Vector on_ridge = corners.col((k + 1) % S::dim);
@@ -218,11 +235,12 @@ void MeshWall<S>::join_faces(const std::vector<Ridge<S>>& ridges) {
         bool is_flat = facet_sides_[g].normal.dot(facet_sides_[seed].normal) > 0;
         for (const std::uint32_t v : facets_[g])
           is_flat = is_flat && std::abs(facet_sides_[seed].normal.dot(mesh_.vertices[v]) -
-                                        offsets_[seed]) <= flat_;
+                                        facet_sides_[seed].offset) <= flat_;
         if (!is_flat) continue;
         is_done[g] = 1;
         facet_sides_[g].face = seed;
         facet_sides_[g].normal = facet_sides_[seed].normal;
+        facet_sides_[g].offset = facet_sides_[seed].offset;
         open.push_back(g);
       }
     }

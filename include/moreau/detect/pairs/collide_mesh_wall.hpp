@@ -64,10 +64,41 @@ concept MeshCollidable = detail::touches_mesh<ShapeT>;
 struct MeshScratch {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> facets;  ///< (face, facet)
   std::vector<std::uint32_t> ridges;
+  std::vector<std::uint32_t> low;                             ///< vertices of the shape
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
 };
 
 namespace detail {
+
+/// The point of a segment nearest to the origin.
+/// @param corners as columns [m]
+template <std::floating_point T>
+Eigen::Matrix<T, 2, 1> nearest_on_facet(const Eigen::Matrix<T, 2, 2>& corners) {
+  const Eigen::Matrix<T, 2, 1> from = corners.col(0), along = corners.col(1) - from;
+  return from + std::clamp(-from.dot(along) / along.squaredNorm(), T(0), T(1)) * along;
+}
+/// The point of a triangle nearest to the origin. Source: C. Ericson, Real-time collision detection
+/// (2005), section 5.1.5: the region of the triangle follows from six products.
+/// @param corners as columns [m]
+template <std::floating_point T>
+Eigen::Matrix<T, 3, 1> nearest_on_facet(const Eigen::Matrix<T, 3, 3>& corners) {
+  using Vector = Eigen::Matrix<T, 3, 1>;
+  const Vector a = corners.col(0), b = corners.col(1), c = corners.col(2), ab = b - a, ac = c - a;
+  const T a1 = -ab.dot(a), a2 = -ac.dot(a);
+  if (a1 <= 0 && a2 <= 0) return a;
+  const T b1 = -ab.dot(b), b2 = -ac.dot(b);
+  if (b1 >= 0 && b2 <= b1) return b;
+  const T in_c = a1 * b2 - b1 * a2;
+  if (in_c <= 0 && a1 >= 0 && b1 <= 0) return a + a1 / (a1 - b1) * ab;
+  const T c1 = -ab.dot(c), c2 = -ac.dot(c);
+  if (c2 >= 0 && c1 <= c2) return c;
+  const T in_b = c1 * a2 - a1 * c2;
+  if (in_b <= 0 && a2 >= 0 && c2 <= 0) return a + a2 / (a2 - c2) * ac;
+  const T in_a = b1 * c2 - c1 * b2;
+  if (in_a <= 0 && b2 >= b1 && c1 >= c2) return b + (b2 - b1) / ((b2 - b1) + (c1 - c2)) * (c - b);
+  const T all = in_a + in_b + in_c;
+  return a + in_b / all * ab + in_c / all * ac;
+}
 
 template <class ShapeT>
 class MeshCollision {
@@ -97,7 +128,13 @@ class MeshCollision {
     scratch_.facets.clear();
     scratch_.ridges.clear();
     scratch_.tips.clear();
-    wall_.tree().query(box.inflated(margin_ - radius_), [&](std::uint32_t f) { consider(f); });
+    const Aabb<S> around = box.inflated(margin_ - radius_);
+    wall_.tree().query(
+        [&](const Aabb<S>& node) {
+          return node.overlaps(around) &&
+                 is_within(node.lower.cwiseMax(center_.cwiseMin(node.upper)) - center_);
+        },
+        [&](std::uint32_t k) { consider(k); });
     std::sort(scratch_.facets.begin(), scratch_.facets.end());
     unique(scratch_.ridges);
     unique(scratch_.tips);
@@ -140,30 +177,38 @@ class MeshCollision {
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
   /// Height of the centre above the plane of a facet [m].
-  T height(const typename Wall::Side& side) const {
-    return side.normal.dot(center_) - wall_.offset(side.face);
+  T height(const typename Wall::Side& side) const { return side.normal.dot(center_) - side.offset; }
+  /// Whether a convex set, of which `nearest` is the point nearest to the centre, may be within the
+  /// margin: the plane through this point, perpendicular to its direction, separates the set.
+  /// @param nearest relative to the centre [m]
+  bool is_within(const Vector& nearest) {
+    const T distance = nearest.norm();
+    if (!(distance > margin_)) return true;
+    const Vector d = nearest / distance;
+    if (d != last_direction_) {  // above a flat floor it is often the same
+      last_direction_ = d;
+      last_reach_ = core_.reach(d);
+    }
+    return distance - last_reach_ <= margin_;
   }
-  /// Takes a facet if the shape is in front of it and not beyond its plane or one of its ridges.
-  void consider(std::uint32_t f) {
-    const auto& side = wall_.side(f);
-    const T above = height(side);
-    if (!(above > 0) || above - core_.reach(-side.normal) > margin_) return;
-    for (std::size_t k = 0; k < side.inward.size(); ++k)
-      if (side.inward[k].dot(center_) + core_.reach(side.inward[k]) <
-          side.inward_offset[k] - margin_)
-        return;
-    scratch_.facets.emplace_back(side.face, f);
+  /// Takes a facet if the shape is in front of it and near it.
+  void consider(std::uint32_t k) {
+    const auto& side = wall_.side(k);
+    if (!(height(side) > 0)) return;
+    if (!is_within(nearest_on_facet(typename S::Matrix(side.corners.colwise() - center_)))) return;
+    scratch_.facets.emplace_back(side.face, k);
     for (const std::uint32_t r : side.ridge)
       if (r != Wall::none) scratch_.ridges.push_back(r);
-    for (const std::uint32_t v : wall_.facet(f))
-      if (wall_.is_tip(v)) scratch_.tips.emplace_back(v, f);
+    for (const std::uint32_t v : wall_.facet(k))
+      if (wall_.is_tip(v)) scratch_.tips.emplace_back(v, k);
   }
 
   /// The points above one face: above the facets begin .. end - 1 of the list.
   bool touch_face(std::size_t begin, std::size_t end) {
     const std::uint32_t face = scratch_.facets[begin].first;
-    const Vector normal = -wall_.side(face).normal;  // into the wall
-    const T above = height(wall_.side(face)), gap = above - core_.reach(normal);
+    const auto& plane = wall_.side(scratch_.facets[begin].second);
+    const Vector normal = -plane.normal;  // into the wall
+    const T above = height(plane), gap = above - core_.reach(normal);
     out_.start(normal, gap);
     // A shape that passes below the plane of the face stands beside it.
     const bool is_beside = gap < -margin_;
@@ -196,7 +241,7 @@ class MeshCollision {
       const auto& other = wall_.side(pair[0] == f ? pair[1] : pair[0]);
       if (pair[0] == pair[1] || other.normal.dot(side.normal) < T(-0.99)) continue;  // a rim
       if (!(height(other) > 0)) continue;  // the shape does not touch this facet
-      if (other.normal.dot(x) - wall_.offset(other.face) > gap + near_) return false;
+      if (other.normal.dot(x) - other.offset > gap + near_) return false;
     }
     return true;
   }
@@ -209,49 +254,66 @@ class MeshCollision {
     const auto& ridge = wall_.ridge(r);
     const Vector from = wall_.vertex(ridge.vertices[0]) - center_;
     const Vector along = wall_.vertex(ridge.vertices[1]) - center_ - from;
-    const T height_of_ridge = ridge.middle.dot(from);
-    if (-core_.reach(-ridge.middle) - height_of_ridge > margin_) return;
-    const T length = along.norm();
-    const Vector unit = along / length;
-    const auto is_in_cone = [&](const Vector& d) {
-      return d.dot(ridge.beyond[0]) >= -aligned && d.dot(ridge.beyond[1]) >= -aligned;
+    const T length2 = along.squaredNorm();
+    const T part = std::clamp(-from.dot(along) / length2, T(0), T(1));
+    if (!is_within(from + part * along)) return;
+    // The points of a contact lie within the margin above the ridge, along the middle of its cone. An
+    // edge through such a point has an end there or below.
+    const T lowest = -ridge.middle.dot(from) - margin_;
+    scratch_.low.clear();
+    core_.for_each_above(-ridge.middle, lowest,
+                         [&](std::uint32_t v) { scratch_.low.push_back(v); });
+    const auto is_low = [&](std::uint32_t v) {
+      return -ridge.middle.dot(core_.vertex(v)) >= lowest;
     };
-    core_.for_each_edge([&](std::uint32_t e, const Vector& p, const Vector& q) {
-      const T low = std::min(ridge.middle.dot(p), ridge.middle.dot(q)) - height_of_ridge;
-      if (low > margin_) return;
-      const T one = unit.dot(p - from), two = unit.dot(q - from);
-      if (std::max(one, two) < 0 || std::min(one, two) > length) return;
-      const Vector edge = q - p, across = edge.cross(along), apart = from - p;
-      const T across2 = across.squaredNorm();
-      if (!(across2 > T(1e-8) * edge.squaredNorm() * length * length)) return;
-      const T on_edge = apart.cross(along).dot(across) / across2;
-      const T on_ridge = apart.cross(edge).dot(across) / across2;
-      if (!(on_edge >= 0 && on_edge <= 1 && on_ridge >= 0 && on_ridge <= 1)) return;
-      Vector d = across / std::sqrt(across2);
-      if (!is_in_cone(d)) d = -d;
-      if (!is_in_cone(d)) return;
-      const T gap = d.dot(p - from);
-      if (!is_near(gap) || !is_lowest(p, d)) return;
-      add(d, gap, Vector(p + on_edge * edge), FeatureKey(FeatureKey::Kind::edge_edge, e, r));
-    });
-    core_.for_each_above(-ridge.middle, -height_of_ridge - margin_, [&](std::uint32_t v) {
-      const Vector x = core_.vertex(v), apart = x - from;
-      const T part = unit.dot(apart);
-      if (!(part > 0 && part < length)) return;
-      const Vector away = apart - part * unit;
-      const T gap = away.norm();
-      if (!(gap > near_ && gap <= margin_)) return;
-      const Vector d = away / gap;
-      // Strictly between the facets: above a facet the vertex touches the facet.
-      if (!(d.dot(ridge.beyond[0]) > aligned && d.dot(ridge.beyond[1]) > aligned)) return;
-      if (is_lowest(x, d)) add(d, gap, x, FeatureKey(FeatureKey::Kind::vertex_edge, v, r));
-    });
+    for (const std::uint32_t v : scratch_.low) {
+      core_.for_each_edge_at(v, [&](std::uint32_t e, std::uint32_t other) {
+        if (other > v || !is_low(other)) cross_ridge(r, e, v, other, from, along, add);
+      });
+      touch_ridge(r, v, from, along, length2, add);
+    }
+  }
+  bool is_in_cone(std::uint32_t r, const Vector& d, T tolerance) const {
+    const auto& beyond = wall_.ridge(r).beyond;
+    return d.dot(beyond[0]) >= tolerance && d.dot(beyond[1]) >= tolerance;
+  }
+  /// The contact of an edge, from vertex v to vertex w, with a ridge.
+  template <class Add>
+  void cross_ridge(std::uint32_t r, std::uint32_t e, std::uint32_t v, std::uint32_t w,
+                   const Vector& from, const Vector& along, const Add& add) {
+    const Vector p = core_.vertex(v), edge = core_.vertex(w) - p;
+    const Vector across = edge.cross(along), apart = from - p;
+    const T across2 = across.squaredNorm();
+    if (!(across2 > T(1e-8) * edge.squaredNorm() * along.squaredNorm())) return;
+    const T on_edge = apart.cross(along).dot(across), on_ridge = apart.cross(edge).dot(across);
+    if (!(on_edge >= 0 && on_edge <= across2 && on_ridge >= 0 && on_ridge <= across2)) return;
+    Vector d = across / std::sqrt(across2);
+    if (!is_in_cone(r, d, -aligned)) d = -d;
+    const T gap = -d.dot(apart);
+    if (!is_in_cone(r, d, -aligned) || !is_near(gap) || !is_lowest(p, d)) return;
+    add(d, gap, Vector(p + on_edge / across2 * edge),
+        FeatureKey(FeatureKey::Kind::edge_edge, e, r));
+  }
+  /// The contact of vertex v with a ridge, if it is nearest to the ridge: strictly between the facets,
+  /// because above a facet it touches the facet.
+  template <class Add>
+  void touch_ridge(std::uint32_t r, std::uint32_t v, const Vector& from, const Vector& along,
+                   T length2, const Add& add) {
+    const Vector x = core_.vertex(v), apart = x - from;
+    const T part = apart.dot(along) / length2;
+    if (!(part > 0 && part < 1)) return;
+    const Vector away = apart - part * along;
+    const T gap = away.norm();
+    if (!(gap > near_ && gap <= margin_)) return;
+    const Vector d = away / gap;
+    if (is_in_cone(r, d, aligned) && is_lowest(x, d))
+      add(d, gap, x, FeatureKey(FeatureKey::Kind::vertex_edge, v, r));
   }
   template <class Add>
   void touch_tip(std::size_t first, const Add& add) {
     const std::uint32_t v = scratch_.tips[first].first;
     const Vector x = wall_.vertex(v) - center_;
-    if (x.norm() > core_.size() + margin_) return;
+    if (!is_within(x)) return;
     const auto found = core_.distance(x);
     if (!is_near(found.distance)) return;
     const Vector d = -found.outward;
@@ -284,6 +346,8 @@ class MeshCollision {
   const T radius_, margin_, rounding_, near_;
   MeshScratch& scratch_;
   Manifold<S>& out_;
+  Vector last_direction_ = Vector::Zero();  ///< of is_within()
+  T last_reach_ = 0;
 };
 
 /// Collides the core of a shape, with the radius around it.

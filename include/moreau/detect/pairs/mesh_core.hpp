@@ -48,13 +48,14 @@ class MeshCore {
   void for_each_above(const Vector& direction, T lowest, const Use& use) const {
     shape_.vertices().for_each_above(direction, lowest, use);
   }
-  /// Calls use(e, from, to) for each edge that is not a face.
+  /// Calls use(e, w) for each edge e at vertex v that is not a face; w is its other end.
   template <class Use>
-  void for_each_edge(const Use& use) const {
+  void for_each_edge_at(std::uint32_t v, const Use& use) const {
     if constexpr (requires { shape_.shape().edges(); }) {
-      std::uint32_t e = 0;
-      for (const auto& edge : shape_.shape().edges())
-        use(e++, vertex(edge.vertex[0]), vertex(edge.vertex[1]));
+      for (const std::uint32_t e : shape_.shape().vertex_edges(v)) {
+        const auto& ends = shape_.shape().edges()[e].vertex;
+        use(e, ends[0] == v ? ends[1] : ends[0]);
+      }
     }
   }
   CoreDistance<S> distance(const Vector& x) const {
@@ -84,7 +85,7 @@ class MeshCore<BallIn<S>> {
     if (lowest <= 0) use(0U);
   }
   template <class Use>
-  void for_each_edge(const Use&) const {}
+  void for_each_edge_at(std::uint32_t, const Use&) const {}
   CoreDistance<S> distance(const Vector& x) const {
     const T distance = x.norm();
     return {distance, distance > 0 ? Vector(x / distance) : Vector(Vector::UnitX()),
@@ -114,8 +115,8 @@ class MeshCore<Segment<S>> {
       if (direction.dot(vertex(v)) >= lowest) use(v);
   }
   template <class Use>
-  void for_each_edge(const Use& use) const {
-    use(0U, vertex(0), vertex(1));
+  void for_each_edge_at(std::uint32_t v, const Use& use) const {
+    use(0U, 1 - v);
   }
   CoreDistance<S> distance(const Vector& x) const {
     const Vector half = shape_.half();

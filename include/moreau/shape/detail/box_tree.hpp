@@ -27,9 +27,13 @@ class BoxTree {
   /// Around all boxes; empty without boxes.
   Aabb<S> bounds() const { return nodes_.empty() ? Aabb<S>{} : nodes_[0].box; }
 
-  /// Calls use(index) for each box that overlaps `box`, and perhaps for others near it.
-  template <class Use>
-  void query(const Aabb<S>& box, const Use& use) const {
+  /// The boxes in the order of the tree: neighbours stand near each other.
+  std::span<const std::uint32_t> order() const { return order_; }
+
+  /// Calls use(k) for the places k in order() of boxes that may be wanted.
+  /// @param is_wanted function: box around boxes -> whether one of them may be wanted
+  template <class IsWanted, class Use>
+  void query(const IsWanted& is_wanted, const Use& use) const {
     if (nodes_.empty()) return;
     // The tree halves: 64 levels are more than 2^32 boxes need.
     std::array<std::uint32_t, 64> open;
@@ -38,12 +42,12 @@ class BoxTree {
     while (count > 0) {
       const std::uint32_t at = open[--count];
       const Node& node = nodes_[at];
-      if (!node.box.overlaps(box)) continue;
+      if (!is_wanted(node.box)) continue;
       if (node.right != 0) {
         open[count++] = node.right;
         open[count++] = at + 1;
       } else {
-        for (std::uint32_t k = node.begin; k < node.end; ++k) use(order_[k]);
+        for (std::uint32_t k = node.begin; k < node.end; ++k) use(k);
       }
     }
   }
