@@ -16,6 +16,9 @@ if(NOT TARGET moreau_mesh)
 endif()
 set(units "")
 set(together "int main() {}\n")
+if(NOT TARGET moreau_distributed)
+  list(FILTER headers EXCLUDE REGEX "moreau/distributed/.*\\.hpp")
+endif()
 foreach(header IN LISTS headers)
   set(include "#include \"${header}\"\n")
   file(CONFIGURE OUTPUT ${generated}/${header}.cpp CONTENT "${include}${include}" @ONLY)
@@ -29,7 +32,8 @@ file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
 add_library(moreau_headers OBJECT ${units})
 target_link_libraries(moreau_headers PUBLIC moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                             $<TARGET_NAME_IF_EXISTS:moreau_picture>
-                                            $<TARGET_NAME_IF_EXISTS:moreau_mesh>)
+                                            $<TARGET_NAME_IF_EXISTS:moreau_mesh>
+                                            $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
 target_compile_options(moreau_headers PUBLIC -O0 -g0 PRIVATE -w)
 target_precompile_headers(moreau_headers PRIVATE <Eigen/Geometry>)
 foreach(header IN LISTS headers)
@@ -47,7 +51,8 @@ add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cp
 target_link_libraries(moreau_headers_together PRIVATE moreau_development
                                               $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                               $<TARGET_NAME_IF_EXISTS:moreau_picture>
-                                              $<TARGET_NAME_IF_EXISTS:moreau_mesh>)
+                                              $<TARGET_NAME_IF_EXISTS:moreau_mesh>
+                                              $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
 target_compile_options(moreau_headers_together PRIVATE -O0 -g0)
 
 add_test(NAME source.headers COMMAND ${PROJECT_SOURCE_DIR}/.ci/check_headers)

@@ -26,7 +26,7 @@ class Packing {
  public:
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
-  using World = Simulation<ShapeT, Law, MoreauJean, SweepAndPrune<S>, Solver>;
+  using World = Simulation<ShapeT, Law, MoreauJean, CellGrid<S>, Solver>;
   static constexpr int up = S::dim - 1;
 
   Packing(std::size_t count, const Law& law, const Solver& solver = Solver{})

@@ -1,29 +1,52 @@
 // SPDX-License-Identifier: MIT
-// The time of a step on 1, 2, .. threads: packings of N grains under a lid whose force changes by a
-// few percent per step, to residual 1e-3. Blocks of steps with each number of threads take turns, so
-// that a busy machine disturbs all alike. Prints medians, and how much faster two loops on two
-// threads are than one after the other: without two free cores the times say nothing.
+// Time per grain and step, stage by stage, and memory per grain, over the number of grains and of
+// threads. A periodic tile of 1200 grains under a loaded lid is prepared once, stored in the folder,
+// and repeated side by side: all packings have the same contacts per grain. Every step takes the
+// same number of sweeps. scaling.sh runs it and plots the table.
 //
-//   bench_scaling SHAPE THREADS N...     SHAPE is polygon or polyhedron
-//   bench_scaling polyhedron 2 1200 4800
+//   bench_scaling SHAPE TILES THREADS [ORDER [SWEEPS [FOLDER]]]
+//
+//   SHAPE   polyhedron, sphere, polygon or disk
+//   TILES   number of tiles of 1200 grains, e.g. 1, 9, 81
+//   THREADS most threads; blocks of steps on 1, 2, .. threads take turns
+//   ORDER   of the grains in memory: curve (default) or random
+//   SWEEPS  per step, default 40
+//
+// Prints a line of scaling.csv for each number of threads. The last column is how much faster two loops
+// of arithmetic are on the threads than one after the other: without free cores the times of several
+// threads say nothing.
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include "moreau/core/thread_team.hpp"
 #include "moreau/moreau.hpp"
 
-#include "packing.hpp"
+#include "tiles.hpp"
 
 namespace {
 
 using namespace moreau;
+using Law = SignoriniCoulomb<>;
+
+constexpr std::size_t tile_size = 1200;
+
+struct Arguments {
+  std::string shape;
+  int tiles, threads;
+  std::string order = "curve";
+  int sweeps = 40;
+  std::filesystem::path folder = ".";
+};
 
 /// Seconds that a loop of arithmetic takes on each of some threads at once.
 double spin(int threads) {
@@ -41,77 +64,145 @@ double spin(int threads) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Resident memory of the process [bytes].
+double memory() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * double(sysconf(_SC_PAGESIZE));
+}
+
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
-struct Times {
-  std::vector<double> total, detect, solve;  // of the steps [ms]
-};
+/// The stages of a step, as scaling.csv names them.
+constexpr std::array<const char*, 8> stages{"place",   "pairs",    "collide", "assemble",
+                                            "correct", "contacts", "rest",    "total"};
+std::array<double, 8> times_of(const StepReport& report) {
+  const double rest = report.ms_solve - report.ms_assemble - report.ms_correct - report.ms_contacts;
+  return {report.ms_place,
+          report.ms_pairs,
+          report.ms_collide,
+          report.ms_assemble,
+          report.ms_correct,
+          report.ms_contacts,
+          rest,
+          report.ms_total};
+}
+
+ColouredGaussSeidel fixed_sweeps(int sweeps) {
+  ColouredOptions options;
+  options.tolerance = 1e-12;  // never met
+  options.max_sweeps = options.check_interval = sweeps;
+  return ColouredGaussSeidel(options);
+}
+ColouredGaussSeidel to_residual(double tolerance) {
+  ColouredOptions options;
+  options.tolerance = tolerance;
+  return ColouredGaussSeidel(options);
+}
+
+/// A nearly square arrangement of this many tiles.
+template <class S>
+std::array<int, std::size_t{S::dim}> arrangement(int tiles) {
+  std::array<int, std::size_t{S::dim}> counts;
+  counts.fill(1);
+  counts[0] = tiles;
+  if (S::dim == 3) {
+    int side = static_cast<int>(std::sqrt(double(tiles)));
+    while (tiles % side != 0) --side;
+    counts = {};
+    counts.fill(1);
+    counts[0] = tiles / side;
+    counts[1] = side;
+  }
+  return counts;
+}
 
 template <class ShapeT>
-void run(int most, std::size_t count) {
-  ColouredOptions options;
-  options.tolerance = 1e-3;
-  using Law = SignoriniCoulomb<>;
-  bench::Packing<ShapeT, Law, ColouredGaussSeidel> packing(count, Law(0.4),
-                                                           ColouredGaussSeidel(options));
-  packing.world.set_team(ThreadTeam(most));
-  packing.compress();
+void run(const Arguments& given) {
+  using Tiles = bench::Tiles<ShapeT, Law, ColouredGaussSeidel>;
+  using S = typename Tiles::S;
+  const Law law(0.4);
+  const double before = memory();
+  const Tiles tile(tile_size, law, to_residual(1e-3), given.folder / (given.shape + ".tile"));
+  const double tile_memory = memory() - before;
+  Tiles packing(tile, arrangement<S>(given.tiles),
+                {given.order == "random" ? bench::Order::random : bench::Order::curve}, law,
+                fixed_sweeps(given.sweeps));
+  const auto grains = double(packing.world.grain_count());
+  packing.world.set_team(ThreadTeam(given.threads));
+  packing.settle(30);
+  const double bytes = (memory() - before - tile_memory) / grains;
+
   std::vector<Team> teams;
-  for (int threads = 1; threads <= most; ++threads) teams.push_back(ThreadTeam(threads));
-  std::vector<Times> times(teams.size());
-  constexpr int rounds = 20, steps = 10;
-  double points = 0, sweeps = 0, free = 0;
+  for (int threads = 1; threads <= given.threads; ++threads) teams.push_back(ThreadTeam(threads));
+  std::vector<std::array<std::vector<double>, stages.size()>> times(teams.size());
+  // As many steps that a median of a small packing has no noise.
+  const int rounds = given.tiles < 4 ? 12 : 4, steps = given.tiles < 4 ? 8 : 4;
+  double points = 0, free = 0;
   int done = 0;
   for (int round = 0; round < rounds; ++round) {
-    free += spin(1) / spin(most) / rounds;
+    free += spin(1) * double(given.threads) / spin(given.threads) / rounds;
     for (std::size_t t = 0; t < teams.size(); ++t) {
       packing.world.set_team(teams[t]);
       for (int k = 0; k < steps; ++k) {
-        packing.load(1 + 0.5 * std::sin(0.1 * done++));
-        const StepReport report = packing.world.step(bench::packing_step);
+        packing.load(1 + 0.05 * std::sin(0.3 * done++));
+        const StepReport report = packing.world.step(Tiles::step);
         points += double(report.points);
-        sweeps += report.solve.sweeps;
         if (round == 0) continue;  // the team learns what is faster
-        times[t].total.push_back(report.ms_total);
-        times[t].detect.push_back(report.ms_detect);
-        times[t].solve.push_back(report.ms_solve);
+        const auto all = times_of(report);
+        for (std::size_t s = 0; s < stages.size(); ++s) times[t][s].push_back(all[s]);
       }
     }
   }
-  const double alone = median(times[0].total);
-  for (std::size_t t = 0; t < times.size(); ++t)
-    std::printf("| %zu | %.0f | %.0f | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", count,
-                points / done, sweeps / done, t + 1, median(times[t].total),
-                median(times[t].detect), median(times[t].solve), alone / median(times[t].total),
-                median(times[0].detect) / median(times[t].detect), free);
-  std::fflush(stdout);
+  // A broad phase in every step, as in a flow.
+  std::vector<double> broad;
+  packing.world.set_team(teams[0]);
+  const auto& cell = packing.world.cell();
+  for (int k = 0; k < 4; ++k) {
+    packing.world.set_periodic(0, cell.lower()[0], cell.lower()[0] + cell.length()[0]);
+    broad.push_back(packing.world.step(Tiles::step).ms_pairs);
+  }
+  // Sweeps that a tolerance takes.
+  packing.world.set_solver(to_residual(1e-3));
+  double sweeps = 0;
+  for (int k = 0; k < 4; ++k) {
+    packing.load(1 + 0.05 * std::sin(0.3 * done++));
+    sweeps += packing.world.step(Tiles::step).solve.sweeps / 4.0;
+  }
+
+  for (std::size_t t = 0; t < times.size(); ++t) {
+    std::printf("%s,%s,%.0f,%.2f,%d,%zu", given.shape.c_str(), given.order.c_str(), grains,
+                points / done / grains, given.sweeps, t + 1);
+    for (const auto& stage : times[t]) std::printf(",%.3f", 1e3 * median(stage) / grains);
+    std::printf(",%.3f,%.0f,%.0f,%.2f\n", 1e3 * median(broad) / grains, bytes, sweeps, free);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: %s polygon|polyhedron THREADS N...\n", argv[0]);
+    std::printf("shape,order,grains,points per grain,sweeps,threads");
+    for (const char* stage : stages) std::printf(",%s [us]", stage);
+    std::printf(",broad phase [us],bytes per grain,sweeps to 1e-3,cores free\n");
+    return argc == 1 ? 0 : 2;
+  }
+  Arguments given{argv[1], std::stoi(argv[2]), std::stoi(argv[3])};
+  if (argc > 4) given.order = argv[4];
+  if (argc > 5) given.sweeps = std::stoi(argv[5]);
+  if (argc > 6) given.folder = argv[6];
+  if (given.shape == "polyhedron")
+    run<Polyhedron<double>>(given);
+  else if (given.shape == "sphere")
+    run<Ball<double>>(given);
+  else if (given.shape == "polygon")
+    run<Polygon<double>>(given);
+  else if (given.shape == "disk")
+    run<Disk<double>>(given);
+  else
     return 2;
-  }
-  const std::string shape = argv[1];
-  const int threads = std::stoi(argv[2]);
-  std::printf(
-      "| N | points | sweeps | threads | step [ms] | detection | solve | faster | detection faster "
-      "| "
-      "cores free |\n|---|---|---|---|---|---|---|---|---|---|\n");
-  for (int k = 3; k < argc; ++k) {
-    const std::size_t count = std::stoul(argv[k]);
-    if (shape == "polygon")
-      run<Polygon<double>>(threads, count);
-    else if (shape == "polyhedron")
-      run<Polyhedron<double>>(threads, count);
-    else {
-      std::fprintf(stderr, "%s: no such shape\n", shape.c_str());
-      return 2;
-    }
-  }
 }

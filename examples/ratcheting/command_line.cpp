@@ -54,15 +54,21 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       "ratcheting"};
   app.set_version_flag("--version", MOREAU_VERSION_STRING);
   app.option_defaults()->always_capture_default();
-  app.add_option("--shape", p.shape,
-                 "shape of the grains; polygon and disk are simulated in the plane")
-      ->check(CLI::IsMember({"polyhedron", "polygon", "sphere", "disk"}));
+  app.add_option(
+         "--shape", p.shape,
+         "shape of the grains; polygon, disk and compound_polygon are simulated in the plane; "
+         "a compound has four parts and is concave")
+      ->check(CLI::IsMember(
+          {"polyhedron", "polygon", "sphere", "disk", "compound", "compound_polygon"}));
   app.add_option("--grains", p.grains, "number of grains")->check(CLI::Range(4, 1000000));
   app.add_option("--frequency", p.frequency, "frequency of the force [Hz]")->check(positive);
   app.add_option("--fmax", p.fmax, "maximum of the force on the wall [N]")->check(positive);
   app.add_option("--fmin", p.fmin, "minimum of the force on the wall [N]")->check(not_negative);
   app.add_option("--gravity", p.gravity, "acceleration of gravity [m/s^2]")->check(not_negative);
   app.add_option("--density", p.density, "density of the grains [kg/m^3]")->check(positive);
+  app.add_option("--friction", p.friction,
+                 "coefficient of friction of grains with grains and with horizontal walls")
+      ->check(not_negative);
   app.add_option("--wall-mass-ratio", p.wall_mass_ratio, "mass of the wall / mass of all grains")
       ->check(positive);
   app.add_option("--duration", p.duration,

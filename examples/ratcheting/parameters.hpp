@@ -15,7 +15,7 @@
 namespace ratcheting {
 
 struct Parameters {
-  std::string shape = "polyhedron";  ///< polyhedron, polygon, sphere or disk
+  std::string shape = "polyhedron";  ///< one of those that --help lists
   std::size_t grains = 1200;
   double frequency = 5;          ///< nu [Hz]
   double fmax = 6000;            ///< [N]

@@ -17,6 +17,7 @@
 #include "moreau/measure/stress.hpp"
 #include "moreau/measure/velocity_field.hpp"
 
+#include "displacement_field.hpp"
 #include "experiment.hpp"
 #include "parameters.hpp"
 #include "passive_field.hpp"
@@ -52,8 +53,9 @@ class Recorder {
         folder_(p.output),
         wall_(file("wall.csv"), {"t", "f", "x", "v", "f_g"}, 1, record.sizes[0]),
         packing_(file("packing.csv"),
-                 {"t", "rho_inner", "rho_box", "kinetic_energy", "contacts", "coordination"}, 1,
-                 record.sizes[1]),
+                 {"t", "rho_inner", "rho_box", "kinetic_energy", "contacts", "coordination",
+                  "rho_to_wall", "rho_to_lid", "rho_moving"},
+                 1, record.sizes[1]),
         state_(file("state.csv"), {"t", "x", "stress_xx", "stress_zz", "roll", "roll_strength"}, 1,
                record.sizes[2]),
         solver_(file("solver.csv"),
@@ -91,6 +93,7 @@ class Recorder {
     samples_.push_back(sample);
     totals_.add(report, shift, total);
     passive_field_.look(parameters_, experiment_);
+    displacement_field_.look(parameters_, experiment_);
     wall_.row(sample.t, sample.f, sample.x, sample.v, sample.f_g);
     solver_.row(step, report.pairs, report.points, report.solve.sweeps, report.solve.residual,
                 report.max_overlap, report.mean_overlap, report.ms_detect, report.ms_solve,
@@ -121,7 +124,8 @@ class Recorder {
                                 stress(0, 0), stress(up, up), roll.angular_velocity,
                                 roll.strength});
     packing_.row(experiment_.time(), inner, whole, experiment_.kinetic_energy(),
-                 simulation.contacts().size(), coordination.neighbours);
+                 simulation.contacts().size(), coordination.neighbours, rho_to_wall(), rho_to_lid(),
+                 rho_moving());
     state_.row(experiment_.time(), experiment_.displacement(), stress(0, 0), stress(up, up),
                roll.angular_velocity, roll.strength);
   }
@@ -155,8 +159,29 @@ class Recorder {
   const std::vector<PackingSample>& packing_samples() const { return packing_samples_; }
   const SolverTotals& totals() const { return totals_; }
   const PassiveField<ExperimentT>& passive_field() const { return passive_field_; }
+  const DisplacementField<ExperimentT>& displacement_field() const { return displacement_field_; }
 
  private:
+  // The control volume in other extents: up to the moving wall, up to the lid, and with vertical
+  // faces that move in proportion to their distance from the fixed wall.
+  double rho_to_wall() {
+    moreau::Aabb<S> volume = inner_;
+    volume.upper[0] = experiment_.box().upper[0];
+    return solid_fraction(volume);
+  }
+  double rho_to_lid() {
+    moreau::Aabb<S> volume = inner_;
+    volume.upper[up] = experiment_.height();
+    return solid_fraction(volume);
+  }
+  double rho_moving() {
+    moreau::Aabb<S> volume = inner_;
+    const double stretch = experiment_.box().upper[0] / experiment_.length();
+    volume.lower[0] *= stretch;
+    volume.upper[0] *= stretch;
+    return solid_fraction(volume);
+  }
+
   std::string file(const char* name) const { return (folder_ / name).string(); }
 
   Parameters parameters_;
@@ -170,6 +195,7 @@ class Recorder {
   std::vector<PackingSample> packing_samples_;
   SolverTotals totals_;
   PassiveField<ExperimentT> passive_field_;
+  DisplacementField<ExperimentT> displacement_field_;
 };
 
 }  // namespace ratcheting

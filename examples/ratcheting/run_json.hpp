@@ -78,6 +78,13 @@ class RunJson {
                                 {"strength", roll.strength},
                                 {"agreement", roll.agreement}};
     }
+    if (const auto& field = recorder.displacement_field(); field.periods() > 0) {
+      const auto roll = field.roll();
+      json_["displacement_field"] = {{"periods", field.periods()},
+                                     {"roll_per_period", roll.angular_velocity},
+                                     {"strength", roll.strength},
+                                     {"agreement", roll.agreement}};
+    }
     json_["periods"] = Json::array();
     for (const Period& period : periods) json_["periods"].push_back(to_json(period));
     json_["solver"] = to_json(recorder.totals(), experiment.simulation().grain_size());

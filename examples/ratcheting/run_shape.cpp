@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
@@ -40,6 +41,8 @@ using polyhedron = moreau::Polyhedron<double>;
 using polygon = moreau::Polygon<double>;
 using sphere = moreau::Ball<>;
 using disk = moreau::Disk<>;
+using compound = moreau::Compound<moreau::Polyhedron<double>>;
+using compound_polygon = moreau::Compound<moreau::Polygon<double>>;
 }  // namespace shapes
 
 /// The methods, under the names of --method.
@@ -309,6 +312,7 @@ int run(const Parameters& asked) {
   json.stage("vibrate", watch.lap());
   recorder.sync();
   recorder.passive_field().write(p.output);
+  recorder.displacement_field().write(p.output);
   write_events(p.output, find_periods(recorder.samples(), p, experiment.mass() * p.gravity));
   json.write(p, experiment, recorder, done < total);
   if (p.plots) plot(p.output);

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "moreau/sample/ballast.hpp"
+#include "moreau/sample/compound_ballast.hpp"
 #include "moreau/sample/size_distribution.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
@@ -25,6 +27,10 @@ struct SolidTwin {
 template <class T>
 struct SolidTwin<moreau::Polygon<T>> {
   using type = moreau::Polyhedron<T>;
+};
+template <class T>
+struct SolidTwin<moreau::Compound<moreau::Polygon<T>>> {
+  using type = moreau::Compound<moreau::Polyhedron<T>>;
 };
 template <class T>
 struct SolidTwin<moreau::Disk<T>> {

@@ -5,10 +5,14 @@ The jammed wall moves outward while the force falls. Its displacement since the 
 compared at equal force, at five forces between 0.9 and 0.2 of the largest one, in the first period:
   tolerance  with a tenth of the tolerance
   step       with half the time step
-  stiffness  with 3 k and 10 k, each less the elastic line of its own: the same fall at 0.5 Hz
-All in percent of the first opening displacement at k. The last columns are means of four periods."""
+  stiffness  with 3 k and 10 k, each less the elastic line of its own: the same fall at 1 Hz
+All in percent of the first opening displacement at k. The last columns are means of four periods.
+
+The second table has the opening displacement of four periods, net of the elastic line at the force that
+equals the weight of the grains: mean and standard error over the samples."""
 import csv
 import json
+import math
 import pathlib
 import sys
 
@@ -31,11 +35,13 @@ class Run:
             table = list(csv.reader(file))
         column = table[0].index("sweeps")
         self.sweeps = sum(float(row[column]) for row in table[1:]) / (len(table) - 1)
+        self.weight = document["sample"]["mass"] * document["parameters"]["gravity"]
         step = document["parameters"]["step"]
         start = rows[0][0] - step + HOLD
         fall = [(f, x) for t, f, x in rows if start - 1e-9 <= t <= start + 0.5 / frequency]
         largest, first = fall[0]
         self.line = [self.at(fall, share * largest) - first for share in SHARES]
+        self.to_weight = self.at(fall, self.weight) - first
 
     @staticmethod
     def at(fall, force):
@@ -43,6 +49,35 @@ class Run:
             if f0 >= force >= f1 and f0 > f1:
                 return x0 + (x1 - x0) * (f0 - force) / (f0 - f1)
         raise ValueError(f"no force {force}")
+
+
+def mean_and_error(values):
+    """Mean ± standard error."""
+    mean = sum(values) / len(values)
+    if len(values) == 1:
+        return f"{mean:.3f} (1)"
+    variance = sum((v - mean) ** 2 for v in values) / (len(values) - 1)
+    return f"{mean:.3f} ± {math.sqrt(variance / len(values)):.3f} ({len(values)})"
+
+
+def print_openings(root, run):
+    """Net opening displacements over the samples."""
+    found = {}
+    for start in sorted(root.glob("*-start-soft")):
+        sample = start.name.removesuffix("-start-soft")
+        for frequency in (5, 20):
+            for name in ("k", "3k", "10k"):
+                moved = run(f"{sample}-{frequency}-{name}", frequency)
+                elastic = run(f"{sample}-static-{name}", 1)
+                if moved and elastic:
+                    net = sum(moved.openings) / len(moved.openings) - elastic.to_weight
+                    key = (sample.split("-")[0], frequency)
+                    found.setdefault(key, {}).setdefault(name, []).append(1e3 * net)
+    print("\n| shape | Hz | k [mm] | 3 k [mm] | 10 k [mm] |\n|---|---|---|---|---|")
+    for (shape, frequency), by_name in found.items():
+        cells = [mean_and_error(by_name[name]) if name in by_name else "–"
+                 for name in ("k", "3k", "10k")]
+        print(f"| {shape} | {frequency} | " + " | ".join(cells) + " |")
 
 
 def difference(a, b):
@@ -62,7 +97,7 @@ def main(folder):
     print("|---" * 11 + "|")
     for start in sorted(root.glob("*-start-soft")):
         sample = start.name.removesuffix("-start-soft")
-        elastic = {name: run(f"{sample}-static-{name}", 0.5) for name in ("k", "3k", "10k")}
+        elastic = {name: run(f"{sample}-static-{name}", 1) for name in ("k", "3k", "10k")}
         for frequency in (5, 20):
             names = ("k", "k-tol10", "3k", "10k", "half-step", "rigid")
             runs = {name: run(f"{sample}-{frequency}-{name}", frequency) for name in names}
@@ -92,6 +127,7 @@ def main(folder):
             cells.append(", ".join(f"{name} {r.capped}" for name, r in runs.items()
                                    if r and r.capped) or "0")
             print("| " + " | ".join(cells) + " |")
+    print_openings(root, run)
 
 
 main(sys.argv[1])

@@ -20,6 +20,7 @@
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/capsule.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"

@@ -7,6 +7,7 @@
 #include "allocation/counted_new.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
+#include "world/compound_box.hpp"
 
 TEST_CASE("every form of new is counted") {
   struct alignas(128) Wide {
@@ -38,6 +39,16 @@ TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau:
   const long before = allocations;
   Eigen::internal::set_is_malloc_allowed(false);
   for (int k = 0; k < rounds(200); ++k) scene.simulation.step(5e-4);
+  Eigen::internal::set_is_malloc_allowed(true);
+  CHECK(allocations == before);
+}
+
+TEST_CASE_TEMPLATE("nor do compound grains", Part, moreau::Polyhedron<>, moreau::Polygon<>) {
+  scenes::CompoundBox<Part> box(std::size_t(rounds(12)), true);
+  box.run(1500);
+  const long before = allocations;
+  Eigen::internal::set_is_malloc_allowed(false);
+  box.run(rounds(200));
   Eigen::internal::set_is_malloc_allowed(true);
   CHECK(allocations == before);
 }

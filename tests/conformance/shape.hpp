@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The requirements of the library on every convex shape. A shape is tested by one line:
+// The requirements of the library on every convex shape, and on grains of parts (check_grain()). A
+// shape is tested by one line:
 //     TEST_CASE("my shape") { conformance::check_shape(MyShape(..)); }
 #pragma once
 
@@ -215,10 +216,36 @@ void check_members(const ShapeT& shape, const std::vector<typename ShapeT::Space
                    close * its.mass);
     expect_at_most("inertia at twice the size", (its.inertia - 4 * of_mass * mass.inertia).norm(),
                    close * its.inertia.norm());
-    expect_at_most("support at twice the size",
-                   (twice.support(points[0]) - 2 * shape.support(points[0])).norm(),
-                   2 * close * size);
+    if constexpr (moreau::ConvexShape<ShapeT>)
+      expect_at_most("support at twice the size",
+                     (twice.support(points[0]) - 2 * shape.support(points[0])).norm(),
+                     2 * close * size);
   }
+}
+
+/// Runs the checks that apply to a grain of parts.
+template <moreau::CompoundShape ShapeT>
+void check_grain(const ShapeT& grain) {
+  using S = typename ShapeT::Space;
+  std::mt19937_64 random(1);
+  const moreau::Aabb<S> box = grain.bounding_box({});
+  const double size = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
+  check_mass(grain, size);
+  std::vector<typename S::Vector> points;
+  for (const auto& part : grain.parts())
+    for (int i = 0; i < 100; ++i)
+      points.push_back(part.pose(part.shape.support(random_direction<S>(random))));
+  for (int i = 0; i < 10; ++i) {
+    const auto pose = i == 0 ? moreau::Pose<S>{} : random_pose<S>(random);
+    const double limit = rounding<ShapeT>() * (size + 1);
+    const auto around = grain.bounding_box(pose);
+    for (const auto& x : points)
+      expect_at_most(
+          "a point from the box",
+          std::max((around.lower - pose(x)).maxCoeff(), (pose(x) - around.upper).maxCoeff()),
+          limit);
+  }
+  check_members(grain, points, size);
 }
 
 /// Checks that bounding_box() returns the smallest box. All shapes of the library do; a shape of a

@@ -39,11 +39,10 @@ std::vector<Point<SpaceOf<ShapeT>>> points_of(const Placed<ShapeT>& shape,
   std::vector<Point<S>> points;
   Manifold<S> manifold;
   MeshScratch scratch;
-  const auto add = [&] {
+  const auto add = [&](std::uint32_t) {
     for (const auto& point : manifold.points) points.push_back({point, manifold.normal});
   };
-  const bool touch = collide_each(
-      shape, wall, margin, scratch, manifold, [&](std::uint32_t) { add(); }, add);
+  const bool touch = collide_each(shape, wall, margin, scratch, manifold, add);
   CHECK(touch == !points.empty());
   return points;
 }

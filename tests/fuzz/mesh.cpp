@@ -90,7 +90,7 @@ void check_contacts(const ShapeT& shape, const MeshWall<SpaceOf<ShapeT>>& wall, 
     const typename S::Vector at = side.corners.rowwise().mean() + 0.1 * size * side.normal;
     const Placed<ShapeT> placed(shape, {at, S::exp(S::Angular::Constant(0.3 * double(k)))});
     std::vector<FeatureKey> keys;
-    const auto check = [&] {
+    const auto check = [&](std::uint32_t) {
       hold(std::abs(manifold.normal.norm() - 1) < 1e-9, "the normal of a contact is unit");
       for (const auto& point : manifold.points) {
         hold(std::isfinite(point.gap) && point.gap <= margin * (1 + 1e-9),
@@ -99,8 +99,7 @@ void check_contacts(const ShapeT& shape, const MeshWall<SpaceOf<ShapeT>>& wall, 
         keys.push_back(point.feature);
       }
     };
-    collide_each(
-        placed, wall, margin, scratch, manifold, [&](std::uint32_t) { check(); }, check);
+    collide_each(placed, wall, margin, scratch, manifold, check);
     std::sort(keys.begin(), keys.end());
     hold(std::adjacent_find(keys.begin(), keys.end()) == keys.end(), "keys of contacts differ");
   }

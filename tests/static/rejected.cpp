@@ -135,6 +135,24 @@ using Simulation = moreau::Simulation<Ball, moreau::SignoriniCoulomb<double>>;
 Simulation* simulation;
 #endif  // simulation_of_leaking_support
 
+#ifdef compound_in_a_one_of
+// Grains that are a ball or a compound. A compound of parts that are balls or polyhedra can be both.
+// expect: shape.support\(direction\)
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/compound.hpp"
+#include "moreau/shape/one_of.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/world/simulation.hpp"
+
+using moreau::Ball, moreau::Compound, moreau::OneOf, moreau::Polyhedron;
+using Wrong = OneOf<Ball<>, Compound<Polyhedron<>>>;
+using Right = Compound<OneOf<Ball<>, Polyhedron<>>>;
+
+using Simulation = moreau::Simulation<EITHER(Wrong, Right), moreau::SignoriniCoulomb<double>>;
+Simulation* simulation;
+#endif  // compound_in_a_one_of
+
 #ifdef broad_phase_of_another_space
 // A broad phase for the plane in a simulation of balls in space.
 // expect: Broad is no BroadPhase in the space of the shape

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Which shape models which concept, for both dimensions and scalars.
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
@@ -32,6 +34,21 @@ static_assert(Shape<archetypes::Minimal<moreau::Space<3, float>>>);
 static_assert(ConvexShape<archetypes::MinimalConvex<moreau::Space<2>>>);
 static_assert(ConvexShape<archetypes::MinimalConvex<moreau::Space<3>>>);
 static_assert(!Polytope<archetypes::MinimalConvex<moreau::Space<3>>>);
+
+// A simulation takes convex shapes, and compounds of convex shapes.
+using moreau::Compound;
+using moreau::CompoundShape;
+using moreau::GrainShape;
+static_assert(GrainShape<moreau::Ball<>> && !CompoundShape<moreau::Ball<>>);
+static_assert(GrainShape<archetypes::MinimalConvex<moreau::Space<3>>>);
+static_assert(!GrainShape<archetypes::Minimal<moreau::Space<2>>>);
+static_assert(GrainShape<Compound<moreau::Polyhedron<>>> &&
+              CompoundShape<Compound<moreau::Polyhedron<>>> &&
+              !ConvexShape<Compound<moreau::Polyhedron<>>>);
+static_assert(std::same_as<moreau::PartOf<Compound<moreau::Disk<>>>, moreau::Disk<>> &&
+              std::same_as<moreau::PartOf<moreau::Disk<>>, moreau::Disk<>>);
+static_assert(Shape<moreau::OneOf<moreau::Ball<>, Compound<moreau::Ball<>>>> &&
+              !GrainShape<moreau::OneOf<moreau::Ball<>, Compound<moreau::Ball<>>>>);
 
 /// Returns an Eigen expression, which refers to an object that may no longer exist when it is
 /// evaluated.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../periods.hpp"
-#include "power_law.hpp"
+#include "line.hpp"
 #include "table.hpp"
 
 namespace study {

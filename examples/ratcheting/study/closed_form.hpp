@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opening displacement of the wall under a constant thrust of the grains, and its speed inward.
+// Opening displacement of the wall under a constant thrust of the grains.
 //
 // With f = f0 + f1 (1 - cos w t), f0 = fmin, f1 = (fmax - fmin)/2, t from the minimum of f, and a
 // constant thrust f_a, the wall of moving mass M starts at -t0, where f falls to f_a,
@@ -13,9 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
-
-#include "power_law.hpp"
 
 namespace study {
 
@@ -75,51 +72,6 @@ inline double sine_displacement(const Push& p, double beta) {
   if (p.thrust >= (p.fmin + p.fmax) / 2) return std::numeric_limits<double>::infinity();
   const Flight flight(p);
   return flight.way(flight.turn()) / p.moving_mass(beta);
-}
-
-/// The thrust that gives this opening displacement [N]. The thrust of the push is not used.
-inline double thrust_of_displacement(Push p, double displacement, double beta) {
-  return Flight::crossing(p.fmin, (p.fmin + p.fmax) / 2, [&](double thrust) {
-    p.thrust = thrust;
-    return displacement - sine_displacement(p, beta);
-  });
-}
-
-/// Speed of the returning wall [m/s] at this distance inward of its start, if only the thrust acts
-/// against the force; the largest speed of the motion if the wall does not get there.
-/// @param inward  of the start [m], >= 0
-inline double returning_speed(const Push& p, double inward, double beta) {
-  const Flight flight(p);
-  const double mass = p.moving_mass(beta), period = 2 * std::numbers::pi / flight.omega;
-  const double t = Flight::crossing(flight.turn(), period - flight.t0,
-                                    [&](double at) { return flight.way(at) / mass + inward; });
-  return -flight.momentum(t) / mass;
-}
-
-/// Force, masses and thrust of a run, and its measured displacement.
-struct Pushed {
-  Push push;
-  double displacement;
-};
-
-/// The beta in [0, 2] for which the predicted displacements deviate least from the measured ones,
-/// and the remaining deviation. beta is the only parameter.
-struct MovingShare {
-  double beta = std::nan("");
-  Proportion measured_over_predicted;
-};
-
-inline MovingShare fit_moving_share(const std::vector<Pushed>& runs) {
-  MovingShare best;
-  for (int k = 0; k <= 400 && !runs.empty(); ++k) {
-    const double beta = 0.005 * k;
-    std::vector<Point> points;
-    for (const Pushed& run : runs)
-      points.push_back({sine_displacement(run.push, beta), run.displacement});
-    const Proportion fit = fit_proportion(points);
-    if (k == 0 || fit.deviation < best.measured_over_predicted.deviation) best = {beta, fit};
-  }
-  return best;
 }
 
 }  // namespace study

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Runs a plan of cases, draws the figures and writes the report.
+// Runs a plan of cases and writes the tables of their results; report/write.py writes the report.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -10,11 +11,10 @@
 #include <vector>
 
 #include "../command_line.hpp"
-#include "figures.hpp"
 #include "plan.hpp"
-#include "report.hpp"
 #include "runner.hpp"
 #include "store.hpp"
+#include "tables.hpp"
 
 namespace {
 
@@ -23,10 +23,9 @@ namespace fs = std::filesystem;
 struct Options {
   std::string plan = "paper";
   study::Selection selection;
-  std::vector<std::string> figures;
-  bool list = false, report_only = false, no_report = false;
+  bool list = false, report_only = false, no_report = false, no_figures = false;
   std::size_t jobs = std::max(1u, std::thread::hardware_concurrency());
-  std::string output = "ratcheting-study", results, program, plots = STUDY_PLOTS;
+  std::string output = "ratcheting-study", results, program, writer = STUDY_WRITER;
 
   study::Places places() const { return {output, results}; }
 };
@@ -41,29 +40,34 @@ void list_cases(const std::vector<study::Case>& cases, const study::Places& plac
   }
 }
 
-/// Sets of the figures that are asked for, if no sets are.
-void add_sets_of_figures(Options& o) {
-  for (const study::Figure& figure : study::figures())
-    if (std::find(o.figures.begin(), o.figures.end(), figure.name) != o.figures.end())
-      o.selection.sets.insert(o.selection.sets.end(), figure.sets.begin(), figure.sets.end());
+/// Draws the figures and, of plans with all series, writes report.md, by report/write.py.
+/// @returns whether it ran without an error
+bool write_report(const Options& o) {
+  const std::string only = o.plan == "small" ? " --figures-only" : "";
+  const std::string command = "python3 '" + o.writer + "' '" + o.results + "'" + only;
+  return std::system(command.c_str()) == 0;
 }
 
 /// @returns whether all that is kept was read
 bool report(const Options& o, const std::vector<study::Case>& plan) {
   const fs::path folder = o.results;
   fs::create_directories(folder);
-  const auto [results, unread] = study::read_results(o.places(), plan);
-  std::vector<study::ShapeSummary> shapes;
-  for (const char* shape : {"polyhedron", "polygon", "sphere", "disk"})
-    shapes.push_back(study::summarize(results, shape));
-  study::write_figure_data(folder, results, shapes);
-  const auto missing = study::draw_figures(folder, o.plots, results, o.figures);
-  for (const std::string& figure : missing) std::printf("not drawn: %s\n", figure.c_str());
+  // The plans "paper" and "settled" share a table of runs.
+  std::vector<study::Case> all = plan;
+  if (o.plan != "small")
+    for (study::Case& c : study::make_plan(o.plan == "paper" ? "settled" : "paper"))
+      all.push_back(std::move(c));
+  const auto [results, unread] = study::read_results(o.places(), all);
   study::write_cases(folder, results);
   study::write_wall_clock(folder, results);
-  study::write_report(folder, o.plan, plan, results, shapes);
-  std::printf("%zu of %zu cases are done; report and figures: %s\n", results.size(), plan.size(),
-              (folder / "report.md").c_str());
+  if (o.plan != "small")
+    for (const char* name : {"paper", "settled"})
+      study::write_remaining(folder, name, study::make_plan(name), results);
+  std::printf("%zu of %zu cases are done; tables: %s\n", results.size(), all.size(),
+              folder.c_str());
+  std::fflush(stdout);
+  const bool written = o.no_figures || write_report(o);
+  if (!written) std::printf("no report: it needs python3 and gnuplot\n");
   return unread == 0;
 }
 
@@ -74,7 +78,6 @@ int run(Options& o) {
       !(s.sets.empty() && s.shapes.empty() && s.seeds.empty() && s.numbers.empty()))
     throw std::invalid_argument(
         "--report-only: --set, --shape, --seed and --case choose what runs; the report is of all");
-  add_sets_of_figures(o);
   const std::vector<study::Case> cases = study::select(plan, o.selection);
   if (o.list) {
     list_cases(cases, o.places());
@@ -101,7 +104,9 @@ int run(Options& o) {
 void add_options(CLI::App& app, Options& o) {
   app.option_defaults()->always_capture_default();
   app.add_option("--plan", o.plan,
-                 "paper: the whole study; small: few grains, takes about a minute")
+                 "paper: the whole study with rigid contacts; settled: with compliant contacts, "
+                 "from jammed "
+                 "states; small: few grains, takes about a minute")
       ->check(CLI::IsMember(study::plan_names()));
   app.add_option("--set", o.selection.sets,
                  "run only the cases of these series, e.g. frequencies, fmax");
@@ -111,14 +116,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--case", o.selection.numbers,
                  "run only the cases of these numbers and write no report, for job arrays")
       ->check(CLI::Range(1, 100000));
-  std::vector<std::string> names;
-  for (const study::Figure& figure : study::figures()) names.emplace_back(figure.name);
-  app.add_option("--figure", o.figures,
-                 "run only the series that these figures need, and draw only these figures")
-      ->check(CLI::IsMember(names));
   app.add_flag("--list", o.list, "list number, state, name and series of the cases, and exit");
   app.add_flag("--report-only", o.report_only, "run no case; write tables, figures and report");
   app.add_flag("--no-report", o.no_report, "write no tables, figures and report");
+  app.add_flag("--no-figures", o.no_figures, "write tables, but no figures and no report.md");
   app.add_option("--jobs", o.jobs, "number of cases that run at the same time")
       ->check(CLI::Range(1, 1024))
       ->default_str("all cores");
@@ -129,8 +130,8 @@ void add_options(CLI::App& app, Options& o) {
       "this folder alone. Default: OUTPUT/results");
   app.add_option("--program", o.program,
                  "program that runs a case. Default: ratcheting in the folder of this program");
-  app.add_option("--plots", o.plots, "folder of the gnuplot scripts of the figures")
-      ->default_str("examples/ratcheting/study/plots");
+  app.add_option("--writer", o.writer, "script that draws the figures and writes report.md")
+      ->default_str("examples/ratcheting/study/report/write.py");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -40,6 +41,8 @@ const std::vector<Option>& options() {
       {"--lid-raise", "raise", "m", [](const Parameters& p) { return p.lid_raise; }},
       {"--step", "h", "s", [](const Parameters& p) { return p.step; }},
       {"--tolerance", "tol", "", [](const Parameters& p) { return p.tolerance; }},
+      {"--stiffness", "k", "", [](const Parameters& p) { return p.stiffness; }, true},
+      {"--max-sweeps", "sweeps", "", [](const Parameters& p) { return double(p.max_sweeps); }},
       {"--duration", "T", "s", [](const Parameters& p) { return p.duration; }},
       {"--grains", "N", "", [](const Parameters& p) { return double(p.grains); }, true}};
   return all;
@@ -56,12 +59,18 @@ std::string name_of(const Parameters& p, const Parameters& base, double usual_du
   }
   if (p.size_reading != base.size_reading) name += "-circumradius";
   if (p.correction != base.correction) name += "-uncorrected";
+  // The runs of the plan "settled" share their table with those of the plan "paper".
+  if (p.method == "compliant") name += "-compliant";
+  if (!p.from.empty()) name += "-jammed";
   return name;
 }
 
-/// One second as in the paper, five periods where that is longer.
+/// One second as in the paper, five periods where that is longer. In the plan "settled" each case has
+/// its own.
 double duration_at(const std::string& plan, double frequency) {
-  return plan == "small" ? 0.6 : std::max(1.0, 5 / frequency);
+  if (plan == "small") return 0.6;
+  if (plan == "settled") return 1;
+  return std::max(1.0, 5 / frequency);
 }
 
 /// Collects cases; one that is asked for twice is there once, in both sets.
@@ -231,6 +240,122 @@ std::vector<Case> paper_plan() {
   return std::move(plan).cases();
 }
 
+/// The name of the run whose checkpoint is the jammed state of a sample, as its case's name.
+std::string jammed_name(const Parameters& p) {
+  Parameters start = baseline("settled", p.shape, p.seed);
+  start.box_ratio = p.box_ratio;
+  start.size_scale = p.size_scale;
+  start.duration = 0.35;
+  return name_of(start, baseline("settled", p.shape, p.seed), duration_at("settled", 5));
+}
+
+/// Adds `periods` periods from the jammed state of a sample, after a hold at fmax. Adds the run that
+/// makes the state, too.
+void add_jammed(Builder& plan, const char* set, const char* shape, std::size_t seed, int periods,
+                const std::function<void(Parameters&)>& change) {
+  plan.add("jammed", shape, seed, [&](Parameters& p) {
+    Parameters changed = p;
+    change(changed);
+    p.box_ratio = changed.box_ratio;
+    p.size_scale = changed.size_scale;
+    p.duration = 0.35;  // to the second maximum of the force
+    p.checkpoint_every = 1750;
+  });
+  plan.add(set, shape, seed, [&](Parameters& p) {
+    change(p);
+    p.from = jammed_name(p);
+    // In whole steps.
+    p.duration = std::round((p.hold + periods / p.frequency) / p.step) / std::round(1 / p.step);
+  });
+}
+
+// The study at converged settings: compliant contacts, four periods from one jammed state of each
+// sample. The cheapest and most telling cases come first.
+std::vector<Case> settled_plan() {
+  Builder plan("settled");
+  const Names planar{"polygon", "disk"}, solid{"sphere", "polyhedron"};
+  const auto with = [](double Parameters::*field, double value) {
+    return [=](Parameters& p) { p.*field = value; };
+  };
+  // The paper's case from the filling on, and the flat box in which the paper's C is found.
+  const auto course = [&](const Names& shapes, std::size_t seed) {
+    for (const char* shape : shapes)
+      plan.add("course", shape, seed, with(&Parameters::duration, 1));
+  };
+  const auto box = [&](std::size_t seed, double ratio, double size, double fmax) {
+    plan.add("box", "polyhedron", seed, [&](Parameters& p) {
+      p.box_ratio = ratio;
+      p.size_scale = size;
+      p.fmax = fmax;
+      p.duration = 0.56;
+    });
+  };
+  course(planar, 1);
+  course(solid, 1);
+  for (const std::size_t seed : {1u, 2u, 3u}) box(seed, 0.42, 1, 6000);
+  // 1. The same state at all frequencies and three loads; then twenty periods, for the ageing.
+  const auto one_state = [&](const Names& shapes, std::size_t seed, double fmax) {
+    for (const double frequency : {5.0, 20.0, 2.0, 10.0, 60.0, 35.0, 7.0, 15.0, 3.5, 1.0})
+      for (const char* shape : shapes)
+        add_jammed(plan, "one-state", shape, seed, 4, [&](Parameters& p) {
+          p.frequency = frequency;
+          p.fmax = fmax;
+        });
+  };
+  const auto ageing = [&](const Names& shapes, std::size_t seed) {
+    for (const double frequency : {20.0, 5.0})
+      for (const char* shape : shapes)
+        add_jammed(plan, "ageing", shape, seed, 20, with(&Parameters::frequency, frequency));
+  };
+  // 3. Force, gravity and mass of the wall.
+  const auto laws = [&](const Names& shapes, std::size_t seed) {
+    const auto vary = [&](double Parameters::*field, const Numbers& values) {
+      for (const double value : values)
+        for (const char* shape : shapes)
+          add_jammed(plan, "laws", shape, seed, 4, with(field, value));
+    };
+    vary(&Parameters::fmax, {6000, 2000, 4000, 10000});
+    vary(&Parameters::gravity, {2.5, 5, 20});
+    vary(&Parameters::wall_mass_ratio, {0.1, 1, 2, 4});
+  };
+  for (const Names& shapes : {planar, solid}) {
+    for (const std::size_t seed : {2u, 3u}) course(shapes, seed);
+    for (const std::size_t seed : {1u, 2u, 3u}) one_state(shapes, seed, 6000);
+    for (const std::size_t seed : {1u, 2u, 3u}) laws(shapes, seed);
+    for (const std::size_t seed : {1u, 2u, 3u}) ageing(shapes, seed);
+    for (const std::size_t seed : {4u, 5u}) one_state(shapes, seed, 6000);
+    for (const double fmax : {2000.0, 27000.0})
+      for (const std::size_t seed : {1u, 2u, 3u, 4u, 5u}) one_state(shapes, seed, fmax);
+  }
+  // 2. The shape of the box and the size of the grains; the other forces at two flat boxes.
+  for (const std::size_t seed : {1u, 2u, 3u})
+    for (const double size : {1.0, 1.3, 1.5})
+      for (const double ratio : {0.3, 0.42, 0.5, 0.7, 1.0, 1.5}) box(seed, ratio, size, 6000);
+  for (const std::size_t seed : {1u, 2u, 3u})
+    for (const double fmax : {2000.0, 4000.0, 10000.0})
+      for (const double ratio : {0.42, 0.5}) box(seed, ratio, 1, fmax);
+  // 5. A thousand periods.
+  for (const char* shape : {"polygon", "polyhedron"})
+    add_jammed(plan, "thousand", shape, 1, 1000, [](Parameters& p) {
+      p.frequency = 20;
+      p.checkpoint_every = 5000;
+      p.resume = true;
+    });
+  // 7. The method of 2008: rigid contacts, few sweeps to a wide tolerance, overlaps not corrected.
+  for (const double frequency : {5.0, 20.0, 10.0, 2.0, 60.0})
+    for (const char* shape : {"polygon", "polyhedron"})
+      plan.add("method-2008", shape, 1, [&](Parameters& p) {
+        p = Parameters();
+        p.shape = shape;
+        p.frequency = frequency;
+        p.tolerance = 1e-3;
+        p.max_sweeps = 200;
+        p.correction = false;
+        p.duration = std::max(1.0, 5 / frequency);
+      });
+  return std::move(plan).cases();
+}
+
 // Few grains, for a look at the whole in about a minute: no result of it means anything.
 std::vector<Case> small_plan() {
   Builder plan("small");
@@ -262,7 +387,7 @@ void require_known(const std::vector<Case>& plan, const std::vector<Value>& aske
 }  // namespace
 
 std::vector<std::string> plan_names() {
-  return {"paper", "small"};
+  return {"paper", "small", "settled"};
 }
 
 Parameters baseline(const std::string& plan, const std::string& shape, std::size_t seed) {
@@ -274,12 +399,22 @@ Parameters baseline(const std::string& plan, const std::string& shape, std::size
     p.fmax = 500;
     p.step = 5e-4;
   }
+  if (plan == "settled") {
+    p.method = "compliant";
+    p.stiffness = 1e8;
+    p.tolerance = 1e-5;
+    p.stop_test = moreau::StopTest::natural_map;
+    p.max_sweeps = 2000;
+    p.cold_sweeps = 3000;
+    p.correction = false;
+  }
   return p;
 }
 
 std::vector<Case> make_plan(const std::string& name) {
   if (name == "paper") return paper_plan();
   if (name == "small") return small_plan();
+  if (name == "settled") return settled_plan();
   throw std::invalid_argument("--plan: there is no plan " + name);
 }
 
@@ -314,7 +449,19 @@ std::string packing_name(const Parameters& p) {
     if (option.prepares && option.value(p) != option.value(usual))
       name += "-" + std::string(option.mark) + text(option.value(p)) + std::string(option.unit);
   if (p.size_reading != usual.size_reading) name += "-circumradius";
+  if (p.method == "compliant") name += "-compliant";
   return name;
+}
+
+double seconds_of(const Parameters& p) {
+  // Milliseconds of a step of 1200 grains, measured on one core: compliant contacts with k = 1e8 N/m
+  // to 1e-5, rigid contacts by QM/16 to 1e-4.
+  const bool compliant = p.method == "compliant";
+  const double step = p.shape == "polyhedron" ? (compliant ? 13.0 : 23.0)
+                      : p.shape == "sphere"   ? (compliant ? 5.0 : 14.0)
+                      : p.shape == "polygon"  ? (compliant ? 2.4 : 3.3)
+                                              : (compliant ? 1.5 : 2.2);
+  return 1e-3 * step * double(p.grains) / 1200 * (p.duration / p.step);
 }
 
 std::vector<std::string> arguments(const Parameters& p) {
@@ -327,7 +474,13 @@ std::vector<std::string> arguments(const Parameters& p) {
     }
   if (p.size_reading != usual.size_reading)
     list.insert(list.end(), {"--size-reading", "circumradius"});
+  if (p.method != usual.method) list.insert(list.end(), {"--method", p.method});
+  if (p.cold_sweeps != usual.cold_sweeps)
+    list.insert(list.end(), {"--cold-sweeps", std::to_string(p.cold_sweeps)});
   if (!p.correction) list.emplace_back("--no-correction");
+  if (p.checkpoint_every > 0)
+    list.insert(list.end(), {"--checkpoint-every", std::to_string(p.checkpoint_every)});
+  if (p.resume) list.emplace_back("--resume");
   return list;
 }
 

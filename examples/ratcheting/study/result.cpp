@@ -85,8 +85,9 @@ void require_complete(const std::filesystem::path& folder, const Tables& run, co
         fail("wall.csv", std::string("has a value in ") + column + " that is not finite");
   const auto require_time = [&](const Table& table, const char* file) {
     const std::vector<double>& t = table["t"];
-    if (t.empty() || !(std::abs(t.back() - p.duration) < 0.002 * p.duration))
-      fail(file, "does not end at " + std::to_string(p.duration) + " s");
+    const double end = p.begin() + p.duration;
+    if (t.empty() || !(std::abs(t.back() - end) < 0.002 * p.duration))
+      fail(file, "does not end at " + std::to_string(end) + " s");
     if (std::adjacent_find(t.begin(), t.end(), [](double a, double b) { return !(a < b); }) !=
         t.end())
       fail(file, "has times that do not rise");
@@ -161,8 +162,8 @@ double rest_share(const Table& wall, const std::vector<ratcheting::Period>& peri
 void summarize_packing(const Table& packing, Result& r) {
   const Parameters& p = r.c.parameters;
   const auto inner = [&](double t) { return value_at(packing, "rho_inner", t); };
-  r.rho_initial = inner(0);
-  r.rho_0 = inner(std::min(0.2, p.duration));
+  r.rho_initial = inner(p.begin());
+  r.rho_0 = inner(p.from.empty() ? std::min(0.2, p.duration) : p.first_maximum());
   r.rho_final = packing["rho_inner"].back();
   r.box_initial = packing["rho_box"].front();
   r.box_final = packing["rho_box"].back();
@@ -180,8 +181,9 @@ void summarize_packing(const Table& packing, Result& r) {
 
 /// Whether a phase portrait shows the run: 5 and 10 Hz.
 bool is_in_portrait(const Case& c) {
-  const bool in_series = std::any_of(c.sets.begin(), c.sets.end(), [](const std::string& set) {
-    return set == "frequencies" || set == "uncorrected" || set == "fine" || set == "tight";
+  const bool in_series = std::any_of(c.sets.begin(), c.sets.end(), [&](const std::string& set) {
+    return set == "frequencies" || set == "uncorrected" || set == "fine" || set == "tight" ||
+           (set == "one-state" && c.parameters.fmax == 6000);
   });
   return in_series && (c.parameters.frequency == 5 || c.parameters.frequency == 10);
 }
@@ -189,7 +191,8 @@ bool is_in_portrait(const Case& c) {
 /// Whether figures show the trajectory, the fields and the force chains of the run: the first
 /// sample at 5 Hz.
 bool is_baseline(const Case& c) {
-  return c.sets.contains("frequencies") && c.parameters.frequency == 5 && c.parameters.seed == 1;
+  return (c.sets.contains("frequencies") || c.sets.contains("course")) &&
+         c.parameters.frequency == 5 && c.parameters.seed == 1;
 }
 
 /// Some columns, every `every`-th row.
@@ -204,10 +207,25 @@ Columns columns_of(const Table& table, const std::vector<std::string>& names,
   return columns;
 }
 
+void add_packing(const Tables& run, Result& r) {
+  std::vector<std::string> columns{"t", "rho_inner", "rho_box"};
+  if (r.c.parameters.method == "compliant")
+    columns.insert(columns.end(), {"rho_to_wall", "rho_to_lid", "rho_moving"});
+  r.tables.emplace_back("packing", columns_of(run.packing, columns));
+}
+
+/// Adds the mean displacements in a period, if the run has them.
+void add_field(const std::filesystem::path& folder, Result& r) {
+  const std::filesystem::path file = folder / "displacement_field.csv";
+  if (std::filesystem::exists(file))
+    r.tables.emplace_back("displacement_field",
+                          columns_of(Table(file), {"x", "z", "u_x", "u_z", "grains"}));
+}
+
 /// Adds the columns of trajectory, packing, velocity field and force chains.
 void add_course(const std::filesystem::path& folder, const Tables& run, Result& r) {
   r.tables.emplace_back("wall", columns_of(run.wall, {"t", "f", "x", "v", "f_g"}, 2));
-  r.tables.emplace_back("packing", columns_of(run.packing, {"t", "rho_inner", "rho_box"}));
+  add_packing(run, r);
   r.tables.emplace_back("state", columns_of(run.state, {"t", "x", "stress_xx", "stress_zz", "roll",
                                                         "roll_strength"}));
   const auto add_file = [&](const std::string& name, const std::vector<std::string>& columns) {
@@ -216,6 +234,7 @@ void add_course(const std::filesystem::path& folder, const Tables& run, Result& 
       r.tables.emplace_back(name, columns_of(Table(file), columns));
   };
   add_file("velocity_field", {"x", "z", "v_x", "v_z", "grains"});
+  add_field(folder, r);
   for (const char* state : {"chains_active", "chains_jammed"})
     add_file(state, {"x_from", "z_from", "x_to", "z_to", "normal_force"});
 }
@@ -226,7 +245,7 @@ void add_long(const Table& packing, Result& r) {
   const Parameters& p = r.c.parameters;
   Columns columns{{"t", {}}, {"periods", {}}, {"rho_inner", {}}, {"rho_box", {}}};
   double next = 0.75;
-  for (double period = 0.75; period / p.frequency <= p.duration; period += 1) {
+  for (double period = 0.75; period / p.frequency <= p.begin() + p.duration; period += 1) {
     if (period < next) continue;
     next = 1.05 * period;
     const double t = period / p.frequency;
@@ -275,7 +294,8 @@ Result measure(const std::filesystem::path& folder, const Case& c) {
   r.weight = r.mass * c.parameters.gravity;
   for (const auto& entry : json.at("periods")) {
     const ratcheting::Period period = read_period(entry, frequency);
-    if (period.start >= filling_time - 1e-9) r.periods.push_back(period);
+    if (period.start >= filling_time - 1e-9 || !c.parameters.from.empty())
+      r.periods.push_back(period);
   }
   find_active(run.wall, r);
   summarize_wall(r);
@@ -284,8 +304,13 @@ Result measure(const std::filesystem::path& folder, const Case& c) {
   summarize_packing(run.packing, r);
   r.behaviour = behaviour_of(run, r.periods, frequency);
   if (is_in_portrait(c)) r.loop = mean_loop(run.wall, r.periods);
-  if (is_baseline(c)) add_course(folder, run, r);
-  if (c.sets.contains("long")) add_long(run.packing, r);
+  if (is_baseline(c)) {
+    add_course(folder, run, r);
+  } else if (c.sets.contains("course")) {
+    add_packing(run, r);
+    add_field(folder, r);
+  }
+  if (c.sets.contains("long") || c.sets.contains("thousand")) add_long(run.packing, r);
   return r;
 }
 

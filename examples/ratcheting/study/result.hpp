@@ -18,7 +18,7 @@
 namespace study {
 
 /// Periods that begin before this time, the first force maximum of the baseline, are left out,
-/// because the box is still filling [s].
+/// because the box is still filling [s]; not in runs that start from a jammed state.
 constexpr double filling_time = 0.15;
 
 /// The packing at a maximum of the force.

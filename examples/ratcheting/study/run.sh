@@ -20,7 +20,7 @@ cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMORE
   "-DCMAKE_CXX_FLAGS=$instructions" \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF \
   "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" \
-  "-DRATCHETING_METHODS=contact_dynamics;springs" >/dev/null
+  "-DRATCHETING_METHODS=contact_dynamics;compliant" >/dev/null
 echo "building ${targets[*]} in $top/build/study"
 cmake --build "$top/build/study" --target "${targets[@]}"
 [ $# -gt 0 ] || set -- --plan small

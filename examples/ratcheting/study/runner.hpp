@@ -4,7 +4,7 @@
 // The folder of a case is complete or absent: the run writes into NAME.partial, which is renamed
 // when the run has ended without an error; the run is then added to the table of the runs
 // (store.hpp). So the study can be stopped at any time, also by kill -9, and continued later. The
-// processes end with the study. Each case has a lock, so that two studies with one output folder,
+// processes end with the study. A case that starts from a checkpoint waits for the case that makes it. Each case has a lock, so that two studies with one output folder,
 // such as the tasks of a job array, do not run the same case.
 #pragma once
 

@@ -23,9 +23,13 @@ namespace {
 /// A parameter that the run does not know is one that came later: it had its default.
 bool has_parameters(const Json& had, const Case& c) {
   const Json usual = ratcheting::to_json(Parameters{}), wanted = ratcheting::to_json(c.parameters);
-  for (const auto& [key, value] : wanted.items())
+  for (const auto& [key, value] : wanted.items()) {
+    if (key == "from") continue;
     if (value != (had.contains(key) ? had[key] : usual[key])) return false;
-  return true;
+  }
+  // A run tells the checkpoint's path, a case the name of the case that made it.
+  const fs::path from = had.value("from", "");
+  return c.parameters.from == from.parent_path().filename().string();
 }
 
 /// Says once of each line and each folder why it does not count.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tables.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -8,9 +10,6 @@
 #include <utility>
 
 #include "moreau/io/output_file.hpp"
-
-#include "report.hpp"
-#include "verdicts.hpp"
 
 namespace study {
 
@@ -33,6 +32,13 @@ class CsvLine {
  private:
   std::string line_;
 };
+
+/// To so many significant digits.
+std::string text_of(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
 
 std::string joined(const std::set<std::string>& words) {
   std::string all;
@@ -130,6 +136,39 @@ void write_wall_clock(const std::filesystem::path& folder, const std::vector<Res
     text += "| " + key.first + " | " + key.second + " | " + std::to_string(value.second) + " | " +
             text_of(value.first / 60, 3) + " |\n";
   moreau::write_atomically(folder / "wall_clock.md", text);
+}
+
+void write_remaining(const std::filesystem::path& folder, const std::string& name,
+                     const std::vector<Case>& plan, const std::vector<Result>& results) {
+  std::set<std::string> done;
+  for (const Result& r : results) done.insert(r.c.name);
+  struct Left {
+    std::size_t runs = 0, all = 0;
+    double steps = 0, seconds = 0;
+  };
+  std::map<std::string, Left> of_series;
+  Left whole;
+  for (const Case& c : plan) {
+    const bool missing = !done.contains(c.name);
+    const auto add = [&](Left& left) {
+      ++left.all;
+      if (!missing) return;
+      ++left.runs;
+      left.steps += c.parameters.duration / c.parameters.step;
+      left.seconds += seconds_of(c.parameters);
+    };
+    add(whole);
+    for (const std::string& set : c.sets) add(of_series[set]);
+  }
+  std::string text = "| series | runs not done, of | steps | core-hours |\n|---|---|---|---|\n";
+  const auto row = [&](const std::string& series, const Left& left) {
+    text += "| " + series + " | " + std::to_string(left.runs) + " of " + std::to_string(left.all) +
+            " | " + std::to_string(std::llround(left.steps)) + " | " +
+            text_of(left.seconds / 3600, 2) + " |\n";
+  };
+  for (const auto& [series, left] : of_series) row(series, left);
+  row("all (a run in several series counts once)", whole);
+  moreau::write_atomically(folder / ("remaining-" + name + ".md"), text);
 }
 
 }  // namespace study

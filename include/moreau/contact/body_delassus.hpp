@@ -116,6 +116,11 @@ class BodyDelassus {
   void clear() { scaled_.assign(scaled_.size(), PaddedTwist::Zero()); }
   /// y = M^1/2 (V - V_free) of a body, D + A entries, world axes [kg^1/2 m/s].
   auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
+  /// The scaled velocities of all bodies, `width` numbers each; they may be changed, if every contact
+  /// sees the same body move.
+  std::span<Scalar> scaled_velocities() {
+    return {scaled_.empty() ? nullptr : scaled_[0].data(), scaled_.size() * std::size_t(width)};
+  }
 
   /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
   static Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,

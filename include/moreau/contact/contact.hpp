@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -30,15 +31,30 @@ struct Contact {
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
 };
 
-/// Identifies a contact point from step to step.
+/// Identifies a contact point from step to step. Keys are ordered by the bodies, then by their parts,
+/// then by the features.
 struct ContactKey {
-  std::uint32_t a;     ///< first body, BodyId::index()
-  std::uint32_t b;     ///< second body
-  FeatureKey feature;  ///< pair of features at the point
-  friend constexpr auto operator<=>(const ContactKey&, const ContactKey&) = default;
+  std::uint32_t a;           ///< first body, BodyId::index()
+  std::uint32_t b;           ///< second body
+  FeatureKey feature;        ///< pair of features of the parts at the point
+  std::uint32_t part_a = 0;  ///< part of a that touches (Compound::parts()); 0 for a convex shape
+  std::uint32_t part_b = 0;  ///< part of b that touches
+
+  friend constexpr bool operator==(const ContactKey&, const ContactKey&) = default;
+  friend constexpr std::strong_ordering operator<=>(const ContactKey& l, const ContactKey& r) {
+    if (const auto order = l.a <=> r.a; order != 0) return order;
+    if (const auto order = l.b <=> r.b; order != 0) return order;
+    if (const auto order = l.part_a <=> r.part_a; order != 0) return order;
+    if (const auto order = l.part_b <=> r.part_b; order != 0) return order;
+    return l.feature <=> r.feature;
+  }
+  /// Whether the key is of the same parts of the same bodies.
+  constexpr bool is_of_parts_of(const ContactKey& other) const {
+    return a == other.a && b == other.b && part_a == other.part_a && part_b == other.part_b;
+  }
 };
 
-/// The contacts of one step: arrays with one entry per point, sorted by (a, b, feature).
+/// The contacts of one step: arrays with one entry per point, sorted by (a, b, parts, feature).
 template <class S>
 struct Contacts {
   std::vector<Contact<S>> points;     ///< geometry and law

@@ -105,6 +105,9 @@ class RollingDelassus {
   void clear() { points_.clear(); }
   /// As BodyDelassus::scaled_velocity.
   auto scaled_velocity(std::size_t body) const { return points_.scaled_velocity(body); }
+  static constexpr int width = BodyDelassus<S>::width;  ///< as BodyDelassus::width
+  /// As BodyDelassus::scaled_velocities.
+  std::span<Scalar> scaled_velocities() { return points_.scaled_velocities(); }
 
  private:
   struct Row {

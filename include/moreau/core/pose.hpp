@@ -31,6 +31,10 @@ struct Pose {
   Vector operator()(const VectorArgument<S>& x_body) const { return position + rotation * x_body; }
   /// Body coordinates [m] of a point given in world coordinates [m].
   Vector to_body(const VectorArgument<S>& x) const { return rotation.inverse() * (x - position); }
+  /// The pose in the world of a frame whose pose in the frame of the body is `part`.
+  Pose operator*(const Pose& part) const {
+    return {(*this)(part.position), Rotation(rotation * part.rotation)};
+  }
   /// Whether all components are finite.
   bool is_finite() const { return all_finite(position) && S::is_finite(rotation); }
 

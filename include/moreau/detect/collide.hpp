@@ -18,6 +18,7 @@
 //   half-spaces                pairs/collide_half_space.hpp
 //   inside of a cylinder       pairs/collide_cylinder_wall.hpp, function collide_each()
 //   OneOf                      pairs/collide_one_of.hpp, which collides the shapes that they hold
+//   Compound                   pairs/collide_compound.hpp, function collide_parts(): its parts
 //   any convex shape           convex/collide_convex.hpp
 //
 // A convex shape of your own needs only a support function. Its contacts then have a single contact
@@ -26,6 +27,7 @@
 #pragma once
 
 #include "moreau/detect/convex/collide_convex.hpp"
+#include "moreau/detect/pairs/collide_compound.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
 #include "moreau/detect/pairs/collide_one_of.hpp"
 #include "moreau/detect/pairs/collide_polytopes.hpp"

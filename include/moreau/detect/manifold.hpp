@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "moreau/core/space.hpp"
@@ -114,6 +115,8 @@ struct Manifold {
   typename S::Vector normal = S::Vector::Zero();             ///< unit, from a to b, world axes
   typename S::Scalar gap = 0;                                ///< signed gap of the pair [m]
   ContactClass contact_class = ContactClass::vertex_vertex;  ///< of the features that touch
+  std::uint32_t part_a = 0;                 ///< for a Compound: the part of a that touches, else 0
+  std::uint32_t part_b = 0;                 ///< for a Compound: the part of b that touches, else 0
   std::vector<ManifoldPoint<S>> points;     ///< points with a gap of at most the margin, sorted by
                                             ///< feature
   std::vector<typename S::Scalar> scratch;  ///< working memory of the function that fills the
@@ -143,6 +146,7 @@ struct Manifold {
   /// Turns the manifold of the pair (a, b) into the manifold of the pair (b, a).
   void swap_sides() {
     normal = -normal;
+    std::swap(part_a, part_b);
     for (auto& point : points) point.feature = point.feature.swapped();
     sort();
   }

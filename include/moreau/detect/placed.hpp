@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "moreau/core/detail/rows.hpp"
 #include "moreau/shape/ball.hpp"
@@ -167,6 +168,12 @@ class Placement<HalfSpace<S>> {
   const Vector& center() const { return center_; }  ///< a point of the plane, world axes [m]
   const Vector& normal() const { return normal_; }  ///< unit, pointing out of the solid, world axes
   Scalar offset() const { return normal_.dot(center_); }  ///< normal . x on the plane [m]
+  /// Whether a box comes as near to the solid as the margin [m], world axes.
+  bool reaches(const Aabb<S>& box, Scalar margin) const {
+    const Vector center = (box.lower + box.upper) / 2 - center_;
+    const Vector half = (box.upper - box.lower) / 2;
+    return normal_.dot(center) - normal_.cwiseAbs().dot(half) <= margin;
+  }
 
  private:
   Vector center_ = Vector::Zero();
@@ -256,6 +263,53 @@ class Placed<Rounded<Core>> {
   Placed<Core> core_;
   Vector center_;
   Scalar radius_;
+};
+
+/// A compound grain at a pose: its placed parts and their boxes.
+template <CompoundShape ShapeT>
+class Placed<ShapeT> {
+ public:
+  using Space = SpaceOf<ShapeT>;
+  using Scalar = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+  using Part = Placed<PartOf<ShapeT>>;
+
+  /// Places the grain at a pose, world axes [m]. The shape must outlive this object.
+  explicit Placed(const ShapeT& shape, const Pose<Space>& pose = {}) { update(shape, pose); }
+
+  /// Places the grain at a pose, world axes [m]. Keeps the memory of the parts. The shape must outlive
+  /// this object.
+  void update(const ShapeT& shape, const Pose<Space>& pose) {
+    shape_ = &shape;
+    center_ = pose.position;
+    box_ = {};
+    boxes_.clear();
+    for (const auto& part : shape.parts()) {
+      const std::size_t k = boxes_.size();
+      if (k < parts_.size())
+        parts_[k].update(part.shape, pose * part.pose);
+      else
+        parts_.emplace_back(part.shape, pose * part.pose);
+      boxes_.push_back(parts_[k].bounding_box());
+      box_.merge(boxes_[k].lower);
+      box_.merge(boxes_[k].upper);
+    }
+  }
+
+  const ShapeT& shape() const { return *shape_; }                    ///< the grain that was placed
+  const Vector& center() const { return center_; }                   ///< world axes [m]
+  std::size_t part_count() const { return boxes_.size(); }           ///< number of parts
+  const Part& part(std::size_t k) const { return parts_[k]; }        ///< part k at its pose
+  const Aabb<Space>& box(std::size_t k) const { return boxes_[k]; }  ///< of part k, world axes [m]
+  /// The bounding box of all parts, world axes [m].
+  const Aabb<Space>& bounding_box() const { return box_; }
+
+ private:
+  const ShapeT* shape_ = nullptr;
+  Vector center_;
+  std::vector<Part> parts_;  // more than part_count() if a grain placed before had more
+  std::vector<Aabb<Space>> boxes_;
+  Aabb<Space> box_;
 };
 
 /// A OneOf shape at a pose: the placed shape that the OneOf holds.

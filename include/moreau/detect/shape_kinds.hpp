@@ -35,9 +35,9 @@ inline constexpr bool is_one_of = false;
 template <class... Shapes>
 inline constexpr bool is_one_of<OneOf<Shapes...>> = true;
 
-/// A shape with narrow-phase functions of its own: neither a Rounded nor a OneOf.
+/// A shape with narrow-phase functions of its own: neither a Rounded nor a OneOf, nor a Compound.
 template <class ShapeT>
-concept Elementary = !is_rounded<ShapeT> && !is_one_of<ShapeT>;
+concept Elementary = !is_rounded<ShapeT> && !is_one_of<ShapeT> && !CompoundShape<ShapeT>;
 
 /// A convex shape of which only the support function is known.
 template <class ShapeT>

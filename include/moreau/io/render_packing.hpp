@@ -22,6 +22,7 @@
 #include "moreau/io/detail/rendering/lighting.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/shape/one_of.hpp"
+#include "moreau/shape/surface_mesh.hpp"
 
 namespace moreau::rendering {
 
@@ -192,6 +193,23 @@ requires(!Polytope<Shape>) void draw_grain(const Shape& shape, const Pose<SpaceO
   drawing.outline(rim, 0.25f * color, 1);
   if constexpr (is_sphere<Shape>)
     drawing.line(pose.position.template cast<double>(), rim[0], 0.45f * color, 1);
+}
+
+/// Draws all parts of a compound grain. The outlines are drawn first: only the outline of the whole
+/// grain remains visible.
+template <CompoundShape Shape>
+void draw_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose, const Color& color,
+                Drawing& drawing) {
+  SurfaceMesh<SpaceOf<Shape>> mesh;
+  SurfaceMesher<SpaceOf<Shape>>(4).mesh(shape, mesh);
+  std::vector<std::vector<Vector2d>> rims;
+  std::size_t corner = 0;
+  for (const std::int32_t end : mesh.ends)
+    for (rims.emplace_back(); corner < static_cast<std::size_t>(end); ++corner)
+      rims.back().push_back(pose(mesh.points[static_cast<std::size_t>(mesh.corners[corner])])
+                                .template cast<double>());
+  for (const auto& rim : rims) drawing.outline(rim, 0.25f * color, 2);
+  for (const auto& rim : rims) drawing.fill(rim, color);
 }
 
 /// Draws the shape that a OneOf holds.

@@ -29,7 +29,7 @@ namespace moreau {
 namespace rendering::detail {
 
 /// Half of the diagonal of a shape's bounding box at rest [m].
-template <ConvexShape Shape>
+template <GrainShape Shape>
 double half_diagonal(const Shape& shape) {
   const auto box = shape.bounding_box(Pose<SpaceOf<Shape>>());
   return double((box.upper - box.lower).norm()) / 2;

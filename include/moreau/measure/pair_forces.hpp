@@ -23,9 +23,10 @@ struct PairForce {
   std::uint32_t a;             ///< index of the first body
   std::uint32_t b;             ///< index of the second body
   std::size_t points;          ///< number of points with normal impulse > 0
-  ContactClass contact_class;  ///< contact class of the pair
-  Vector normal;        ///< unit, from a to b; if the points have different normals (CylinderWall),
-                        ///< their mean weighted by normal force, normalized
+  ContactClass contact_class;  ///< contact class of the pair; if its parts touch in several ways
+                               ///< (Compound), that of the point with the largest normal force
+  Vector normal;        ///< unit, from a to b; if the points have different normals (CylinderWall,
+                        ///< Compound), their mean weighted by normal force, normalized
   Vector lever_a;       ///< from the centre of a to the centre of pressure of the contact [m]
   Vector lever_b;       ///< from the centre of b to the centre of pressure of the contact [m]
   Vector force;         ///< force on b [N]
@@ -41,14 +42,21 @@ void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,
                  std::vector<PairForce<S>>& pairs) {
   require(std::isfinite(step) && step > 0, "pair_forces", "step", step, "must be finite and > 0");
   pairs.clear();
+  typename S::Scalar largest = 0;  // normal force of a point of the present pair
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<S>& contact = contacts.points[c];
     const typename S::Scalar push = contacts.impulses[c][0] / step;
     if (!(push > 0)) continue;
-    if (pairs.empty() || pairs.back().a != contact.a || pairs.back().b != contact.b)
+    if (pairs.empty() || pairs.back().a != contact.a || pairs.back().b != contact.b) {
+      largest = 0;
       pairs.push_back({contact.a, contact.b, 0, contacts.classes[c], S::Vector::Zero(),
                        S::Vector::Zero(), S::Vector::Zero(), S::Vector::Zero(), 0, 0});
+    }
     PairForce<S>& pair = pairs.back();
+    if (push > largest) {
+      largest = push;
+      pair.contact_class = contacts.classes[c];
+    }
     ++pair.points;
     pair.normal += push * contact.frame.col(0);
     pair.lever_a += push * contact.lever_a;

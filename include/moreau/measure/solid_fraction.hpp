@@ -10,6 +10,23 @@
 
 namespace moreau {
 
+/// The volume of that part of a compound grain which lies in a control volume, in the plane the area
+/// [m^D]: the sum over its parts. If parts overlap, the sum is multiplied by the volume of the grain
+/// over that of its parts: exact for a grain that lies in the control volume as a whole, an estimate
+/// for a grain that it cuts.
+/// @param pose            pose of the grain, world axes [m]
+/// @param control_volume  a box in world axes [m]
+/// @param workspace       buffers, which may be reused for the next call
+/// @throws std::invalid_argument if the control volume is empty, inverted or not finite
+template <CompoundShape Shape, class S = SpaceOf<Shape>>
+typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
+                                  const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
+  typename S::Scalar sum = 0;
+  for (const auto& part : shape.parts())
+    sum += clipped_volume(part.shape, pose * part.pose, control_volume, workspace);
+  return sum * shape.volume_share();
+}
+
 /// The solid fraction in a control volume [-]: the volume of the grains inside the control volume
 /// divided by the volume of the control volume. Where two grains overlap, the overlap counts twice.
 /// @param control_volume  world axes [m]. If it reaches beyond the container, the volume outside of

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -16,14 +17,92 @@
 
 namespace moreau {
 
+namespace detail {
+
+/// Spheres above a floor, sorted into vertical columns.
+template <class S>
+class DepositedSpheres {
+ public:
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  static constexpr int up = S::dim - 1;
+
+  /// @param length of the floor along every horizontal axis [m]
+  /// @param widest radius of the largest sphere [m], at most half of the length
+  DepositedSpheres(T length, T widest)
+      : count_(std::max<std::size_t>(
+            1, static_cast<std::size_t>(std::min(length / (2 * widest), T(most_columns))))),
+        width_(length / static_cast<T>(count_)) {
+    std::size_t columns = 1;
+    for (int k = 0; k < up; ++k) columns *= count_;
+    columns_.resize(columns);
+  }
+
+  /// The lowest height of the centre of a sphere that comes down and touches the floor or a sphere
+  /// [m].
+  /// @param x      horizontal position; the last coordinate is not read [m]
+  /// @param radius [m]
+  T height_at(const Vector& x, T radius) const {
+    T height = radius;
+    // Columns are at least as wide as the largest sphere: two spheres that touch lie in the same
+    // column or in neighbours.
+    std::array<std::size_t, std::size_t{up}> from{}, to{}, at{};
+    for (std::size_t k = 0; k < std::size_t{up}; ++k) {
+      const std::size_t column = column_along(x[Eigen::Index(k)]);
+      from[k] = at[k] = column > 0 ? column - 1 : 0;
+      to[k] = std::min(column + 1, count_ - 1);
+    }
+    while (true) {
+      for (const Sphere& sphere : columns_[index(at)]) {
+        const T reach = radius + sphere.radius;
+        if (sphere.center[up] + reach <= height) continue;
+        const T aside = (sphere.center.template head<up>() - x.template head<up>()).squaredNorm();
+        if (aside >= reach * reach) continue;
+        height = std::max(height, sphere.center[up] + std::sqrt(reach * reach - aside));
+      }
+      std::size_t k = 0;
+      for (; k < std::size_t{up} && at[k] == to[k]; ++k) at[k] = from[k];
+      if (k == std::size_t{up}) return height;
+      ++at[k];
+    }
+  }
+  void add(const Vector& center, T radius) {
+    std::array<std::size_t, std::size_t{up}> at{};
+    for (std::size_t k = 0; k < std::size_t{up}; ++k) at[k] = column_along(center[Eigen::Index(k)]);
+    columns_[index(at)].push_back({center, radius});
+  }
+
+ private:
+  static constexpr int most_columns = 1000;  // along one axis
+  struct Sphere {
+    Vector center;
+    T radius;
+  };
+
+  std::size_t column_along(T x) const {
+    return std::min(count_ - 1, static_cast<std::size_t>(std::max(T(0), x / width_)));
+  }
+  std::size_t index(const std::array<std::size_t, std::size_t{up}>& at) const {
+    std::size_t index = 0;
+    for (const std::size_t k : at) index = index * count_ + k;
+    return index;
+  }
+
+  std::size_t count_;  // columns along each horizontal axis
+  T width_;            // of a column [m]
+  std::vector<std::vector<Sphere>> columns_;
+};
+
+}  // namespace detail
+
 /// Poses of grains with the given circumradii in a box with side walls. The last axis points up,
 /// and the floor is at height 0. Along each other axis the box is [0, length]. The circumscribed
 /// spheres of the grains lie in the box and do not overlap. So the grains do not overlap.
 ///
 /// The spheres are placed one by one. For each sphere, 40 random horizontal positions are tried. At
 /// each position the sphere is lowered until it touches the floor or another sphere. The lowest of
-/// these 40 places is taken. The rotations are random. The cost is proportional to the square of
-/// the number of grains.
+/// these 40 places is taken. The rotations are random. The cost is proportional to the number of
+/// grains times the number of layers, if the radii differ little.
 /// @tparam S      the space, e.g. Space<3>
 /// @param radii   radii of the circumscribed spheres, > 0 [m]
 /// @param length  length of the floor, at least the largest diameter [m]
@@ -37,26 +116,25 @@ std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& ra
   constexpr const char* self = "random_deposition";
   constexpr int trials = 40, up = S::dim - 1;
   require(std::isfinite(length), self, "length", length, "must be finite");
-  for (std::size_t i = 0; i < radii.size(); ++i)
+  T widest = 0;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
     require(radii[i] > 0 && 2 * radii[i] <= length, self, "radii[" + std::to_string(i) + "]",
             radii[i], "must be > 0 and at most half of the length");
+    widest = std::max(widest, radii[i]);
+  }
   std::vector<Pose<S>> poses(radii.size());
+  if (radii.empty()) return poses;
+  detail::DepositedSpheres<S> deposited(length, widest);
   std::uniform_real_distribution<T> unit(0, 1);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     typename S::Vector lowest;
     for (int trial = 0; trial < trials; ++trial) {
       typename S::Vector x;
       for (int k = 0; k < up; ++k) x[k] = radii[i] + unit(random) * (length - 2 * radii[i]);
-      x[up] = radii[i];
-      for (std::size_t j = 0; j < i; ++j) {
-        const T reach = radii[i] + radii[j];
-        const T aside =
-            (poses[j].position.template head<up>() - x.template head<up>()).squaredNorm();
-        if (aside >= reach * reach) continue;
-        x[up] = std::max(x[up], poses[j].position[up] + std::sqrt(reach * reach - aside));
-      }
+      x[up] = deposited.height_at(x, radii[i]);
       if (trial == 0 || x[up] < lowest[up]) lowest = x;
     }
+    deposited.add(lowest, radii[i]);
     poses[i].position = lowest;
     poses[i].rotation = random_rotation<S>(random);
   }

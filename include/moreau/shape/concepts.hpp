@@ -56,6 +56,39 @@ concept Polytope = ConvexShape<T> && requires(const T shape) {
   shape.face_offsets();
 };
 
+namespace detail {
+
+template <class T>
+struct PartOf {
+  using type = T;
+};
+template <class T>
+requires requires {
+  typename T::PartShape;
+}
+struct PartOf<T> {
+  using type = typename T::PartShape;
+};
+
+}  // namespace detail
+
+/// The shape of the parts of a grain: T::PartShape for a Compound, T itself for any other shape.
+template <class T>
+using PartOf = typename detail::PartOf<T>::type;
+
+/// A rigid grain of several convex parts, such as Compound<Polyhedron<>> (compound.hpp). Its
+/// function parts() returns a list of objects with the members `shape`, a PartShape, and `pose`,
+/// from the frame of the part to the frame of the grain.
+template <class T>
+concept CompoundShape = Shape<T> && requires(const T shape) {
+  typename T::PartShape;
+  shape.parts();
+};
+
+/// The shape of a grain of a simulation: a convex shape, or a compound of convex shapes.
+template <class T>
+concept GrainShape = Shape<T> && ConvexShape<PartOf<T>>;
+
 // Optional member functions. A shape composed of other shapes has such a function if all its parts
 // have it.
 

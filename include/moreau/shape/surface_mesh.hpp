@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface of a convex shape as points and faces, for files and pictures. The mesh of a polytope
+// The surface of a grain as points and faces, for files and pictures. The mesh of a polytope
 // consists of its vertices and faces. The mesh of any other shape is inscribed: its points are the
 // support points in the directions of the vertices of a fine polyhedron (in the plane a polygon).
 #pragma once
@@ -155,6 +155,21 @@ class SurfaceMesher {
   template <ConvexShape... Shapes>
   void mesh(const OneOf<Shapes...>& shape, SurfaceMesh<S>& out) const {
     shape.visit([&](const auto& held) { mesh(held, out); });
+  }
+  /// The surfaces of all parts of a compound grain, one after the other. What lies inside the grain is
+  /// not cut off.
+  template <CompoundShape ShapeT>
+  void mesh(const ShapeT& shape, SurfaceMesh<S>& out) const {
+    out.clear();
+    SurfaceMesh<S> of_part;
+    for (const auto& part : shape.parts()) {
+      mesh(part.shape, of_part);
+      const auto first = static_cast<std::int32_t>(out.points.size());
+      const auto corner = static_cast<std::int32_t>(out.corners.size());
+      for (const auto& x : of_part.points) out.points.push_back(part.pose(x));
+      for (const std::int32_t k : of_part.corners) out.corners.push_back(first + k);
+      for (const std::int32_t end : of_part.ends) out.ends.push_back(corner + end);
+    }
   }
 
  private:

@@ -23,8 +23,10 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "moreau/core/error.hpp"
@@ -34,6 +36,7 @@
 #include "moreau/solve/coloured/coloured_sweeps.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/stop_test.hpp"
 
@@ -79,6 +82,8 @@ class ColouredGaussSeidel {
   /// Sets the threads that share the work, for a solver that is used by itself: that of a simulation
   /// has the team of the simulation.
   void set_team(const Team& team) { team_ = team; }
+  /// Makes the problem one part of a problem that several processes solve together; null: none.
+  void share_bodies(std::shared_ptr<SharedBodies> shared) { shared_ = std::move(shared); }
 
   /// Solves the contact problem; the arguments are those of NonlinearGaussSeidel::solve. Sizes are
   /// not checked.
@@ -87,7 +92,7 @@ class ColouredGaussSeidel {
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
     using Vector = typename Operator::Vector;
-    detail::drop_if_not_finite(impulses);
+    detail::drop_if_not_finite(impulses, shared_.get());
     const SolveReport first =
         attempt(problem, impulses, workspace.sweeps, options_.max_sweeps, options_.accelerate);
     // Worse than no impulses: the warm start or the acceleration made the sweeps diverge.
@@ -100,7 +105,7 @@ class ColouredGaussSeidel {
     second.sweeps += first.sweeps;
     if (diverged || second.converged || second.residual < first.residual) return second;
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
-    detail::set_impulses<Operator>(problem.delassus, impulses);
+    detail::set_impulses<Operator>(problem.delassus, impulses, shared_.get());
     SolveReport report = first;
     report.sweeps = second.sweeps;
     return report;
@@ -116,10 +121,10 @@ class ColouredGaussSeidel {
                       detail::ColouredSweeps<Operator, Law>& sweeps, int max_sweeps,
                       bool accelerate) const {
     SolveReport report;
-    if (problem.size() == 0) return report;
+    if (detail::sum_over(shared_.get(), double(problem.size())) == 0) return report;
     report.converged = false;
-    detail::set_impulses<Operator>(problem.delassus, impulses);
-    sweeps.start(problem, impulses, accelerate, team_);
+    detail::set_impulses<Operator>(problem.delassus, impulses, shared_.get());
+    sweeps.start(problem, impulses, accelerate, team_, shared_.get());
     // The residual takes a pass over all contacts. It is measured once the change per sweep is
     // below the change at which the residual is expected to meet the tolerance.
     double expected_change = 3 * options_.tolerance;
@@ -185,13 +190,15 @@ class ColouredGaussSeidel {
                std::span<typename Operator::Vector> impulses,
                detail::ColouredSweeps<Operator, Law>& sweeps, SolveReport& report) const {
     sweeps.unpack(impulses);
-    detail::set_impulses<Operator>(problem.delassus, impulses);
+    detail::set_impulses<Operator>(problem.delassus, impulses, shared_.get());
     sweeps.load_velocities(problem.delassus);
-    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_);
+    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_,
+                     shared_.get());
   }
 
   Options options_;
   Team team_;
+  std::shared_ptr<SharedBodies> shared_;
 };
 
 }  // namespace moreau

@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "moreau/solve/shared_bodies.hpp"
+
 namespace moreau {
 
 /// What a ContactSolver solves; the head of this file has the equations. Kept from step to step, so
@@ -39,18 +41,22 @@ namespace detail {
 
 /// Leaves the operator with the velocities of these impulses alone. Velocities that are made of
 /// many small changes carry the rounding of each; these do not.
+/// @param shared bodies that contact problems of other processes share; null: none
 template <class Operator>
-void set_impulses(Operator& delassus, std::span<const typename Operator::Vector> impulses) {
+void set_impulses(Operator& delassus, std::span<const typename Operator::Vector> impulses,
+                  SharedBodies* shared = nullptr) {
   delassus.clear();
   for (std::size_t c = 0; c < delassus.size(); ++c)
     if (!impulses[c].isZero(0)) delassus.apply(c, impulses[c]);
+  if (shared) shared->average(delassus.scaled_velocities(), Operator::width);
 }
 
-/// Sets the warm start to zero if the square of an impulse is not finite.
+/// Sets the warm start to zero if the square of an impulse is not finite, in any process.
 template <class Vector>
-void drop_if_not_finite(std::span<Vector> impulses) {
+void drop_if_not_finite(std::span<Vector> impulses, SharedBodies* shared = nullptr) {
   const auto is_usable = [](const Vector& r) { return std::isfinite(r.squaredNorm()); };
-  if (!std::all_of(impulses.begin(), impulses.end(), is_usable))
+  const bool all_usable = std::all_of(impulses.begin(), impulses.end(), is_usable);
+  if (sum_over(shared, all_usable ? 0 : 1) > 0)
     std::fill(impulses.begin(), impulses.end(), Vector::Zero());
 }
 

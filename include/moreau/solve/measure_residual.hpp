@@ -10,20 +10,38 @@
 #include "moreau/core/team.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 
 namespace detail {
 
+/// What the copies of shared bodies add to the trace of W_cc, beyond the whole bodies.
+template <class Operator>
+double trace_of_copies(const Operator& op, std::size_t c, const SharedBodies& shared) {
+  if constexpr (requires { op.rows_a(c); }) {
+    const auto [a, b] = op.bodies(c);
+    return double(op.rows_a(c).squaredNorm()) * (1 - 1.0 / shared.copies(a)) +
+           double(op.rows_b(c).squaredNorm()) * (1 - 1.0 / shared.copies(b));
+  } else {
+    return 0;
+  }
+}
+
 /// The mean of the diagonal of W, which makes velocities of impulses in residuals [1/kg]; 1 if it is
 /// not positive.
 template <class Operator>
-double mean_diagonal(const Operator& op) {
+double mean_diagonal(const Operator& op, SharedBodies* shared = nullptr) {
   constexpr int rows = Operator::Vector::RowsAtCompileTime;
-  double trace = 0;
+  double sums[] = {0, double(op.size())};
+  double& trace = sums[0];
   for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
-  return trace > 0 ? trace / (double(op.size()) * rows) : 1;
+  if (shared) {
+    for (std::size_t c = 0; c < op.size(); ++c) trace -= trace_of_copies(op, c, *shared);
+    shared->sum(sums);
+  }
+  return trace > 0 ? trace / (sums[1] * rows) : 1;
 }
 
 }  // namespace detail
@@ -46,6 +64,31 @@ struct ResidualSums {
     velocity = std::max(velocity, other.velocity);
     cone = std::max(cone, other.cone);
     complementarity = std::max(complementarity, other.complementarity);
+  }
+  /// Writes the measures that follow from the sums.
+  void write(SolveReport& report) const {
+    report.worst_velocity = velocity;
+    report.worst_cone = cone;
+    report.worst_complementarity = complementarity;
+    report.wrong_sign_dissipation = dissipation;
+    report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
+    // The map has the rounding of r at least: impulses so large that the velocities vanish in it show
+    // nothing else. Beside the map stands the approach velocity, because with large mu the map of an
+    // approach with slip and without impulse is only 1/mu of the approach.
+    const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
+    const double remaining = std::max(map + rounding * rounding * norm, closing);
+    report.relative_approach = approach > 0 ? std::sqrt(remaining / approach) : 0;
+    if (std::isfinite(map) && std::isfinite(norm)) return;
+    report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
+  }
+  /// Makes the sums those of all processes.
+  void add_up(SharedBodies& shared) {
+    double sums[] = {map, norm, approach, closing, dissipation};
+    double extremes[] = {velocity, cone, complementarity};
+    shared.sum(sums);
+    shared.largest(extremes);
+    map = sums[0], norm = sums[1], approach = sums[2], closing = sums[3], dissipation = sums[4];
+    velocity = extremes[0], cone = extremes[1], complementarity = extremes[2];
   }
   /// Adds contact c with impulse r.
   /// @param scale makes velocities of impulses [1/kg]
@@ -84,28 +127,19 @@ struct ResidualSums {
 ///                 worst_complementarity, wrong_sign_dissipation. The first two are infinite if
 ///                 velocities or impulses are not finite. Its other fields are not changed
 /// @param team     threads that share the work; the result does not depend on it
+/// @param shared   bodies shared with contact problems of other processes: the report is then that of
+///                 all contacts together; null: none
 template <class Operator, class Law>
 void measure_residual(const ContactProblem<Operator, Law>& problem,
                       std::span<const typename Operator::Vector> impulses, SolveReport& report,
-                      const Team& team = {}) {
+                      const Team& team = {}, SharedBodies* shared = nullptr) {
   using Sums = detail::ResidualSums<Operator, Law>;
-  const double scale = detail::mean_diagonal(problem.delassus);
-  const Sums sums = detail::sum_of<Sums>(team, problem.size(), [&](Sums& sum, std::size_t c) {
+  const double scale = detail::mean_diagonal(problem.delassus, shared);
+  Sums sums = detail::sum_of<Sums>(team, problem.size(), [&](Sums& sum, std::size_t c) {
     sum.add(problem, c, impulses[c], scale);
   });
-  report.worst_velocity = sums.velocity;
-  report.worst_cone = sums.cone;
-  report.worst_complementarity = sums.complementarity;
-  report.wrong_sign_dissipation = sums.dissipation;
-  report.residual = sums.norm > 0 ? std::sqrt(sums.map / sums.norm) : std::sqrt(sums.map);
-  // The map has the rounding of r at least: impulses so large that the velocities vanish in it show
-  // nothing else. Beside the map stands the approach velocity, because with large mu the map of an
-  // approach with slip and without impulse is only 1/mu of the approach.
-  const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
-  const double remaining = std::max(sums.map + rounding * rounding * sums.norm, sums.closing);
-  report.relative_approach = sums.approach > 0 ? std::sqrt(remaining / sums.approach) : 0;
-  if (std::isfinite(sums.map) && std::isfinite(sums.norm)) return;
-  report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
+  if (shared) sums.add_up(*shared);
+  sums.write(report);
 }
 
 }  // namespace moreau

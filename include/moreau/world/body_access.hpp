@@ -24,7 +24,7 @@ namespace moreau {
 ///       lowest = std::min(lowest, simulation.pose(grain).position[2]);
 ///
 /// @tparam ShapeT shape of the grains
-template <ConvexShape ShapeT>
+template <GrainShape ShapeT>
 class BodyAccess {
  public:
   using S = SpaceOf<ShapeT>;

@@ -26,7 +26,7 @@ namespace moreau {
 ///     simulation.set_velocity(intruder, {0.1, 0});
 ///
 /// @tparam ShapeT shape of the grains
-template <ConvexShape ShapeT>
+template <GrainShape ShapeT>
 class BodyControl : public BodyAccess<ShapeT> {
  public:
   using S = SpaceOf<ShapeT>;

@@ -26,13 +26,11 @@
 #include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/detail/erase_at.hpp"
-#include "moreau/core/detail/merge_join.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
-#include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
@@ -41,6 +39,8 @@
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/detail/mesh_walls.hpp"
+#include "moreau/world/detail/pair_caches.hpp"
+#include "moreau/world/detail/pair_filter.hpp"
 #include "moreau/world/tolerances.hpp"
 
 namespace moreau {
@@ -124,6 +124,9 @@ class ContactDetector {
   /// Sets which points of a contact between faces are used, from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
 
+  /// Examines only the pairs for which keeps(a, b) of the indices of their bodies is true, from the next
+  /// find_pairs() on.
+  void set_filter(const auto& keeps) { filter_.set(keeps), stale_ = true; }
   /// Makes the list of the pairs of grains whose boxes are closer than margin + 2 skin along every
   /// axis, sorted by the numbers of the bodies. It keeps the list of an earlier call as long as no
   /// box has moved by the skin since. Call place() before.
@@ -151,10 +154,10 @@ class ContactDetector {
     widest_ = 0;
     add_all();
     stale_ = stale;
-    bool valid = caches_.size() == pairs_.size();
-    valid = valid && shifts_.size() == (cell_.is_open() ? 0 : pairs_.size());
+    bool valid = shifts_.size() == (cell_.is_open() ? 0 : pairs_.size());
     for (const IndexPair& pair : pairs_)
       valid = valid && pair.first < pair.second && pair.second < grains_.size();
+    valid = valid && caches_.are_valid(pairs_, grains_, stale_);
     require(valid, "ContactDetector", "pairs", pairs_.size(), "must be of grains that exist");
   }
 
@@ -214,12 +217,6 @@ class ContactDetector {
     return *image;
   }
 
-  static bool reaches(const Aabb<S>& box, const Placed<HalfSpace<S>>& wall, Scalar margin) {
-    const Vector center = (box.lower + box.upper) / 2 - wall.center();
-    const Vector half = (box.upper - box.lower) / 2;
-    return wall.normal().dot(center) - wall.normal().cwiseAbs().dot(half) <= margin;
-  }
-
   /// The first pair whose first grain is k or a later one.
   std::size_t first_pair(std::size_t k) const {
     const auto before = [](const IndexPair& pair, std::size_t grain) { return pair.first < grain; };
@@ -237,13 +234,6 @@ class ContactDetector {
     }
     return low;
   }
-  /// Pairs that are in both lists keep their cache. Both lists are sorted.
-  void carry_caches() {
-    caches_.assign(pairs_.size(), PairCache<S>{});
-    merge_join(pairs_, old_pairs_,
-               [&](std::size_t i, std::size_t j) { caches_[i] = old_caches_[j]; });
-  }
-
   /// Finds the contacts of the grains begin .. end - 1 with later grains and with walls.
   void detect_of(std::size_t begin, std::size_t end, Scalar margin, const Bodies<S>& bodies,
                  const Contacts<S>& previous, Member& found);
@@ -257,10 +247,11 @@ class ContactDetector {
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
+  detail::PairFilter filter_;
   PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
-  std::vector<PairCache<S>> caches_, old_caches_;
+  detail::PairCaches<ShapeT> caches_;
   ContactPoints kept_points_ = ContactPoints::few;
   Team team_;
   std::vector<Member> members_;  // of the team
@@ -311,7 +302,8 @@ void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
     return has_gone(pairs_[p].first) || has_gone(pairs_[p].second);
   };
   erase_at(shifts_, pair_has_gone);
-  erase_at(caches_, pair_has_gone);
+  caches_.erase_pairs(pair_has_gone);
+  if (!stale_) caches_.erase_grains(has_gone);
   erase_at(pairs_, pair_has_gone);
   for (IndexPair& pair : pairs_) pair = {number_after_[pair.first], number_after_[pair.second]};
   // The width of all grains that are left: the same as after a restart from a snapshot.
@@ -324,19 +316,20 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
   const Scalar reach = lengths.margin / 2;
   bool left = stale_ || fat_.size() != boxes_.size();
   for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
-    left = !fat_[k].contains(boxes_[k].inflated(reach));
+    left =
+        !fat_[k].contains(boxes_[k].inflated(reach)) || !caches_.holds(k, grains_[k].placed, reach);
   if (!left) return;
   stale_ = false;
   fat_.resize(boxes_.size());
   for (std::size_t k = 0; k < boxes_.size(); ++k)
     fat_[k] = boxes_[k].inflated(reach + lengths.skin);
   old_pairs_.swap(pairs_);
-  old_caches_.swap(caches_);
   if (cell_.is_open())
     broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
   else
     images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
-  carry_caches();
+  filter_.erase(grains_, pairs_, shifts_);
+  caches_.renew(pairs_, old_pairs_, shifts_, grains_, reach + lengths.skin);
 }
 
 template <class ShapeT, class BroadPhaseT>
@@ -369,7 +362,9 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::siz
     const Grain& a = grains_[k];
     const Aabb<S> reach = boxes_[k].inflated(margin);
     const bool prescribed = bodies.is_prescribed(a.body.index());
-    const auto ignores = [&](BodyId b) { return prescribed && bodies.is_prescribed(b.index()); };
+    const auto ignores = [&](BodyId b) {
+      return (prescribed && bodies.is_prescribed(b.index())) || filter_.leaves_out(a.body, b);
+    };
     for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
       const std::size_t second = pairs_[p].second;
       const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
@@ -379,20 +374,23 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::siz
         continue;
       const Grain& b =
           crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
-      if (collide(a.placed, b.placed, margin, manifold, caches_[p])) found.add(a, b, previous);
+      found.add(a, b, previous, [&](auto&& add) {
+        return caches_.collide_parts(p, a.placed, b.placed, margin, manifold, add);
+      });
     }
     for (const auto& wall : walls_) {
-      if (!reaches(boxes_[k], wall.placed, margin) || ignores(wall.body)) continue;
-      PairCache<S> none;
-      if (collide(a.placed, wall.placed, margin, manifold, none)) found.add(a, wall, previous);
+      if (!wall.placed.reaches(boxes_[k], margin) || ignores(wall.body)) continue;
+      found.add(a, wall, previous, [&](auto&& add) {
+        return collide_parts(a.placed, wall.placed, margin, manifold, add);
+      });
     }
     for (const auto& wall : cylinders_)
-      if (!prescribed && wall.placed.reaches(boxes_[k], margin))
+      if (wall.placed.reaches(boxes_[k], margin) && !ignores(wall.body))
         found.add_each(a, wall, [&](auto&& add) {
           return collide_each(a.placed, wall.placed, margin, manifold, add);
         });
-    meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, previous, found.mesh,
-                   found);
+    meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, filter_, previous,
+                   found.mesh, found);
   }
 }
 

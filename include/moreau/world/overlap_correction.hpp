@@ -23,6 +23,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau {
 
@@ -64,17 +65,19 @@ class OverlapCorrection {
   /// @param contacts   in: gaps; out: gaps after the shift, to first order [m]
   /// @param roots      M^-1/2 of every body, as op was assembled with
   /// @param grain_size length that the slop is relative to [m]
-  /// @returns how many contacts were deeper than the slop; if none, all shifts are zero. Its work
+  /// @param shared     bodies that other processes share; null: none
+  /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are zero. Its work
   ///          and largest_shift are 0: they need the forces
   OverlapCorrectionReport solve(const BodyDelassus<S>& op, std::span<Contact<S>> contacts,
-                                std::span<const MobilityRoot<S>> roots, Scalar grain_size) {
+                                std::span<const MobilityRoot<S>> roots, Scalar grain_size,
+                                SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
     shifts_.assign(roots.size(), S::Twist::Zero());
     if (!options_.enabled) return report;
     const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size;
     for (const Contact<S>& contact : contacts) report.corrected += contact.gap < -slop;
-    if (report.corrected == 0) return report;
-    sweep(op, contacts, roots.size(), slop);
+    if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
+    sweep(op, contacts, roots.size(), slop, shared);
     for (std::size_t i = 0; i < roots.size(); ++i) {
       linear<S>(shifts_[i]) = product(roots[i].linear, linear<S>(scaled_[i]));
       angular<S>(shifts_[i]) = product(roots[i].angular, angular<S>(scaled_[i]));
@@ -100,7 +103,7 @@ class OverlapCorrection {
   }
 
   void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
-             std::size_t body_count, Scalar slop) {
+             std::size_t body_count, Scalar slop, SharedBodies* shared) {
     scaled_.assign(body_count, BodyDelassus<S>::PaddedTwist::Zero());
     moved_.assign(body_count, 0);
     rows_.clear();
@@ -123,7 +126,15 @@ class OverlapCorrection {
         moved_[row.a] = !scaled_[row.a].isZero(0);
         moved_[row.b] = !scaled_[row.b].isZero(0);
       }
+      if (shared) average(*shared);
     }
+  }
+
+  void average(SharedBodies& shared) {
+    constexpr std::size_t width = BodyDelassus<S>::width;
+    shared.average(std::span(scaled_.empty() ? nullptr : scaled_[0].data(), scaled_.size() * width),
+                   width);
+    for (std::size_t i = 0; i < scaled_.size(); ++i) moved_[i] = !scaled_[i].isZero(0);
   }
 
   /// A contact in the sweeps.

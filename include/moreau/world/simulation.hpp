@@ -22,6 +22,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -45,7 +46,7 @@ namespace moreau {
 /// Grains and walls in contact, advanced step by step. SI units; in the plane, masses, forces and
 /// energies are per length if densities are.
 ///
-/// @tparam ShapeT     shape of the grains, convex; its space is that of the simulation
+/// @tparam ShapeT     shape of the grains, convex or a Compound; its space is that of the simulation
 /// @tparam Law        contact law between two materials, set-valued or regularized
 /// @tparam Integrator of impulses for a set-valued law, of forces for a regularized law
 /// @tparam Broad      broad phase
@@ -59,8 +60,8 @@ namespace moreau {
 /// Functions throw std::invalid_argument, which names function, argument and value, for an id that
 /// is not of this simulation or of a grain that was removed, a value that is not finite, and the
 /// cases in their comments. The simulation is then unchanged.
-template <ConvexShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
-          class Broad = SweepAndPrune<SpaceOf<ShapeT>>,
+template <GrainShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
+          class Broad = CellGrid<SpaceOf<ShapeT>>,
           class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
 class Simulation : public BodyControl<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
@@ -145,8 +146,7 @@ class Simulation : public BodyControl<ShapeT> {
     require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
     require(all_finite(point), self, "point", point, "must be finite");
     cell().require_along(normal, self);
-    const typename S::Rotation rotation(S::contact_frame(normal));
-    const Pose<S> pose{point, S::normalized(rotation)};
+    const Pose<S> pose{point, S::normalized(typename S::Rotation(S::contact_frame(normal)))};
     return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
   }
   /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
@@ -168,15 +168,13 @@ class Simulation : public BodyControl<ShapeT> {
     require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
     require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
     cell().require_around(axis, self);
-    Pose<S> pose;
-    pose.position = point;
-    return add_wall_of(CylinderWall<S>(axis, radius), pose, material, self);
+    return add_wall_of(CylinderWall<S>(axis, radius), Pose<S>(point), material, self);
   }
 
-  /// Adds a wall of triangles, in the plane of segments, given in its own frame [m] and placed at `pose`.
-  /// It is fixed, or moves with set_velocity() and set_spin(). mesh_walls() lists it. The mesh may be open.
+  /// Adds a wall of triangles [m], in the plane of segments, in the frame `pose`: fixed, or moving with
+  /// set_velocity() and set_spin(). mesh_walls() lists it.
   /// @throws std::invalid_argument for a mesh that is not a surface (shape/check_mesh.hpp), a bad pose,
-  ///         an unknown material, a cell with a periodic axis
+  ///         an unknown material, a periodic cell
   BodyId add_mesh_wall(const FacetMesh<S>& mesh, const Pose<S>& pose = {},
                        WallSides sides = WallSides::outside,
                        MaterialId material = MaterialId(0)) requires MeshCollidable<ShapeT> {
@@ -193,12 +191,11 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  ///         a wall across the axis, a mesh wall, or a cell not longer than two of the widest grain with margin
-  ///         and skins: a pair could touch through two images
+  ///         a wall across the axis, a mesh wall, or a cell not longer than two of the widest grain
+  ///         with margin and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper) {
     constexpr const char* self = "Simulation::set_periodic";
-    require(assembly_.meshes().empty(), self, "axis", axis,
-            "must be open: a mesh wall has no images");
+    require(assembly_.meshes().empty(), self, "axis", axis, "must be open, with mesh walls");
     PeriodicCell<S> cell = detector_.cell();
     cell.set(axis, lower, upper, self);
     detector_.place_walls(assembly_.bodies().pose);
@@ -299,12 +296,10 @@ class Simulation : public BodyControl<ShapeT> {
   BodyId add_wall_of(const auto& shape, const Pose<S>& pose, MaterialId material,
                      const char* function) {
     const BodyId body = assembly_.add_body(pose, material, materials_.count(), function);
-    assembly_.set_wall(body, shape);
-    detector_.add_wall(body, shape);
+    assembly_.set_wall(body, shape), detector_.add_wall(body, shape);
     if constexpr (!set_valued) dynamics_.forget();
     return body;
   }
-
   friend struct SerializationAccess;
   auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
@@ -335,14 +330,18 @@ class Simulation : public BodyControl<ShapeT> {
 
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
-  void detect(StepReport& report) {
+  /// @param clock started before the prediction
+  void detect(StepReport& report, StepReport::StageClock clock = {}) {
     const std::span<const Pose<S>> poses(assembly_.bodies().pose);
     std::swap(contacts_, previous_);
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
+    report.ms_place = clock.lap();
     detector_.find_pairs(lengths());
+    report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
     assign_laws(assembly_.bodies(), materials_, contacts_);
+    report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
@@ -364,7 +363,7 @@ class Simulation : public BodyControl<ShapeT> {
 
 // step() is defined outside of the class, so that it is not inline. A program can then instantiate it
 // in one source file and declare it `extern template` in the others (moreau/instances).
-template <ConvexShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");
@@ -373,6 +372,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
       assembly_.bodies(), gravity_,    materials_, previous_,
       contacts_,          grain_size_, step,       lengths().margin};
   const auto start = Clock::now();
+  StepReport::StageClock clock;
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {
@@ -383,7 +383,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
-  detect(report);
+  detect(report, clock);
   const auto detected = Clock::now();
   if constexpr (set_valued) {
     dynamics_.advance(context, report);

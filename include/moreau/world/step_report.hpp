@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <utility>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -20,8 +21,9 @@ struct StepReport {
   /// Largest approach velocity of the contacts that were found, before the step, x step / detection
   /// margin [-]. Above 1, surfaces can come within the margin and overlap in one step. 0 under a regularized law.
   double approach = 0;
-  double max_overlap = 0;   ///< deepest point as detected, >= 0 [m]
-  double mean_overlap = 0;  ///< mean depth of the points with gap < 0, >= 0 [m]
+  std::size_t overlapping = 0;  ///< points with gap < 0 as detected
+  double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]
+  double mean_overlap = 0;      ///< mean depth of the points with gap < 0, >= 0 [m]
   /// Energy that the contact impulses and couples took from the bodies [J], without elastic_work;
   /// < 0 if they gave energy, as the springs of a regularized law do. With compliant contacts the
   /// value of a single step can be negative by h/2 F . (change of velocity) for each force F; these
@@ -38,7 +40,13 @@ struct StepReport {
   SolveReport solve;                   ///< how well the contact problem was solved
   OverlapCorrectionReport correction;  ///< results of the overlap correction
   double ms_detect = 0;                ///< time for prediction and detection [ms]
+  double ms_place = 0;                 ///< part of it: prediction, placing the shapes [ms]
+  double ms_pairs = 0;                 ///< part of it: candidate pairs, with the broad phase [ms]
+  double ms_collide = 0;               ///< part of it: contact points of the pairs [ms]
   double ms_solve = 0;                 ///< for the contact problem, assembly and correction [ms]
+  double ms_assemble = 0;              ///< part of it: free velocities, operator, warm start [ms]
+  double ms_correct = 0;               ///< part of it: overlap correction [ms]
+  double ms_contacts = 0;              ///< part of it: the solver of the contact problem [ms]
   double ms_total = 0;                 ///< for the whole step [ms]
 
   /// Fills the times of the two parts of the step.
@@ -48,10 +56,23 @@ struct StepReport {
     ms_solve = rest.count();
     ms_total = ms_detect + ms_solve;
   }
+  /// Measures the stages of a step, one after the other.
+  class StageClock {
+   public:
+    /// Milliseconds since the last call, or since the clock was made.
+    double lap() {
+      const auto before = std::exchange(last_, Clock::now());
+      return std::chrono::duration<double, std::milli>(last_ - before).count();
+    }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last_ = Clock::now();
+  };
   /// Fills the overlaps from the gaps of the contacts [m].
   template <class S>
   void measure_overlaps(const Contacts<S>& contacts) {
-    std::size_t overlapping = 0;
+    overlapping = 0;
     for (const Contact<S>& contact : contacts.points) {
       if (!(contact.gap < 0)) continue;
       max_overlap = std::max(max_overlap, -double(contact.gap));

@@ -76,14 +76,15 @@ std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now) {
 /// @returns how many contacts handed their impulse over
 template <class S>
 std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now) {
-  const auto by_pair = [](const ContactKey& l, const ContactKey& r) {
-    return std::pair(l.a, l.b) < std::pair(r.a, r.b);
-  };
+  const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
   std::size_t count = 0;
+  auto first = now.keys.begin();  // the first contact of the pair; pairs are in ascending order
   for (std::size_t j = 0; j < before.size(); ++j) {
     if (before.impulses[j].isZero(0)) continue;
     const ContactKey& key = before.keys[j];
-    const auto [first, last] = std::equal_range(now.keys.begin(), now.keys.end(), key, by_pair);
+    while (first != now.keys.end() && pair_of(*first) < pair_of(key)) ++first;
+    auto last = first;
+    while (last != now.keys.end() && pair_of(*last) == pair_of(key)) ++last;
     if (first == last || std::binary_search(first, last, key)) continue;
     const auto distance = [&](auto it) {
       return (now.points[std::size_t(it - now.keys.begin())].lever_a - before.points[j].lever_a)

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 #include "moreau/detect/broad/detail/sort_pairs.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -19,6 +18,9 @@ namespace moreau {
 /// wide as the box. So a box spans at most two cells along each axis, of its own level and of each
 /// coarser level, and boxes of mixed sizes cost no more than boxes of equal size. The cost is O(n)
 /// as long as the number of boxes that overlap one box is bounded.
+///
+/// The boxes are copied in the order of their cells. The cells of a row along the first axis follow
+/// one another in memory, so that the search reads whole rows.
 template <class S>
 class CellGrid {
  public:
@@ -31,17 +33,44 @@ class CellGrid {
     pairs.clear();
     if (boxes.empty()) return;
     choose_levels(boxes);
-    fill_cells(boxes);
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-      for (int level = level_of_[i]; level < levels_; ++level)
-        if (occupied_[static_cast<std::size_t>(level)]) look(i, level, boxes, pairs);
+    sort_into_cells(boxes);
+    std::size_t end = 0;
+    for (int own = 0; own < level_count_; ++own) {
+      const std::size_t begin = end;
+      end += level(own).count;
+      for (std::size_t e = begin; e < end; ++e) {
+        look_in_own(e, level(own), pairs);
+        for (int coarser = own + 1; coarser < level_count_; ++coarser)
+          if (level(coarser).count > 0) look_in_coarser(entries_[e], level(coarser), pairs);
+      }
+    }
     sorter_.sort(pairs, boxes.size());
   }
 
  private:
   static constexpr int max_levels = 24;
-  static constexpr std::uint32_t none = ~0U;
-  using Cell = std::array<std::int32_t, S::dim>;
+  static constexpr std::size_t dim = S::dim;
+  using Cell = std::array<std::int32_t, dim>;
+
+  /// A grid. Cell c is in bucket begin + (c . stride mod 2^n). Cells of a row are in consecutive
+  /// buckets. If the grid has few cells, each has a bucket of its own.
+  struct Level {
+    Scalar width = 0;                         // of the cells [m]
+    std::size_t count = 0;                    // boxes
+    Cell most{};                              // the largest number of a cell along each axis
+    std::array<std::uint32_t, dim> stride{};  // odd, so that rows rarely share buckets
+    std::size_t begin = 0;                    // first bucket
+    std::uint32_t mask = 0;                   // number of buckets - 1
+  };
+  /// A box with its cell.
+  struct Entry {
+    Aabb<S> box;
+    Cell cell;
+    std::uint32_t index;
+  };
+
+  Level& level(int k) { return levels_[static_cast<std::size_t>(k)]; }
+  static Scalar widest(const Aabb<S>& box) { return (box.upper - box.lower).maxCoeff(); }
 
   void choose_levels(std::span<const Aabb<S>> boxes) {
     origin_ = boxes[0].lower;
@@ -61,88 +90,176 @@ class CellGrid {
              std::max(origin_.cwiseAbs().maxCoeff(), far.cwiseAbs().maxCoeff());
     Scalar width = std::max({smallest, largest / Scalar(1024), extent / Scalar(1 << 28)});
     if (!(width > Scalar(0))) width = Scalar(1);
-    levels_ = 0;
+    level_count_ = 0;
     do {
-      width_[static_cast<std::size_t>(levels_++)] = width;
+      level(level_count_) = Level{};
+      level(level_count_++).width = width;
       width *= Scalar(2);
-    } while (width_[static_cast<std::size_t>(levels_ - 1)] < largest && levels_ < max_levels);
+    } while (level(level_count_ - 1).width < largest && level_count_ < max_levels);
   }
-  static Scalar widest(const Aabb<S>& box) { return (box.upper - box.lower).maxCoeff(); }
 
-  void fill_cells(std::span<const Aabb<S>> boxes) {
-    std::size_t buckets = 16;
-    while (buckets < 2 * boxes.size()) buckets *= 2;
-    head_.assign(buckets, none);
-    next_.assign(boxes.size(), none);
+  /// Fills entries_, sorted by bucket: a counting sort.
+  void sort_into_cells(std::span<const Aabb<S>> boxes) {
+    cells_.resize(boxes.size());
     level_of_.resize(boxes.size());
-    cell_of_.resize(boxes.size());
-    occupied_.fill(false);
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-      int level = 0;
-      while (level + 1 < levels_ && width_[static_cast<std::size_t>(level)] < widest(boxes[i]))
-        ++level;
-      level_of_[i] = level;
-      occupied_[static_cast<std::size_t>(level)] = true;
-      cell_of_[i] = cell(boxes[i].lower, level);
-      std::uint32_t& head = head_[bucket(cell_of_[i], level)];
-      next_[i] = std::exchange(head, i);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      int k = 0;
+      while (k + 1 < level_count_ && level(k).width < widest(boxes[i])) ++k;
+      level_of_[i] = static_cast<std::uint8_t>(k);
+      cells_[i] = cell(boxes[i].lower, level(k));
+      ++level(k).count;
+      for (std::size_t axis = 0; axis < dim; ++axis)
+        level(k).most[axis] = std::max(level(k).most[axis], cells_[i][axis]);
     }
+    // Memory for all extents that boxes of this number can have.
+    const std::size_t most = 8 * boxes.size() + 2 * max_levels;
+    begin_.reserve(most);
+    next_.reserve(most);
+    begin_.assign(lay_out_buckets() + 1, 0);
+    for (std::size_t i = 0; i < boxes.size(); ++i) ++begin_[bucket_of(i) + 1];
+    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+    next_.assign(begin_.begin(), begin_.end());
+    entries_.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      entries_[next_[bucket_of(i)]++] = {boxes[i], cells_[i], static_cast<std::uint32_t>(i)};
   }
+  /// @returns the number of all buckets
+  std::size_t lay_out_buckets() {
+    std::size_t total = 0;
+    for (int k = 0; k < level_count_; ++k) {
+      Level& one = level(k);
+      std::uint32_t stride = 1;
+      double cells = 1;
+      for (std::size_t axis = 0; axis < dim; ++axis) {
+        one.stride[axis] = stride;
+        stride *= static_cast<std::uint32_t>(one.most[axis] + 1) | 1U;
+        cells *= double(one.most[axis]) + 1;
+      }
+      const double wanted = std::clamp(cells, 1.0 * double(one.count), 4.0 * double(one.count));
+      std::size_t buckets = 1;
+      while (double(buckets) < wanted) buckets *= 2;
+      one.begin = total;
+      one.mask = static_cast<std::uint32_t>(buckets - 1);
+      total += buckets;
+    }
+    return total;
+  }
+  std::size_t bucket_of(std::size_t i) const { return bucket(cells_[i], levels_[level_of_[i]]); }
 
-  Cell cell(const Vector& x, int level) const {
+  Cell cell(const Vector& x, const Level& level) const {
     Cell c;
-    for (std::size_t k = 0; k < S::dim; ++k) {
+    for (std::size_t k = 0; k < dim; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      c[k] = static_cast<std::int32_t>(
-          std::floor((x[axis] - origin_[axis]) / width_[static_cast<std::size_t>(level)]));
+      c[k] = static_cast<std::int32_t>(std::floor((x[axis] - origin_[axis]) / level.width));
     }
     return c;
   }
-  std::size_t bucket(const Cell& c, int level) const {
-    std::uint64_t hash = static_cast<std::uint64_t>(level);
-    for (const std::int32_t x : c)
-      hash = (hash ^ static_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15ULL;
-    return static_cast<std::size_t>(hash >> 32) & (head_.size() - 1);
+  static std::size_t bucket(const Cell& c, const Level& level) {
+    std::uint32_t sum = 0;
+    for (std::size_t k = 0; k < dim; ++k) sum += static_cast<std::uint32_t>(c[k]) * level.stride[k];
+    return level.begin + (sum & level.mask);
   }
 
-  /// Compares box i with every box j of a level that can overlap it. Box j lies in the cell of its
-  /// lower corner and is at most one cell wide. So the cells to visit begin one cell width below
-  /// the lower corner of box i and end at its upper corner. A pair of boxes of the same level is
-  /// reported once, when box i has the lower index.
-  void look(std::uint32_t i, int level, std::span<const Aabb<S>> boxes,
-            std::vector<IndexPair>& pairs) const {
-    Vector reach = boxes[i].lower;
-    reach.array() -= width_[static_cast<std::size_t>(level)] + slack_;
-    const Cell from = cell(reach, level), to = cell(boxes[i].upper, level);
-    Cell c = from;
-    while (true) {
-      look_into(c, i, level, boxes, pairs);
-      std::size_t k = 0;
-      while (k < S::dim && c[k] == to[k]) {
-        c[k] = from[k];
-        ++k;
+  /// The cells of a level in which a box can lie that overlaps this box. The other box lies in the
+  /// cell of its lower corner and is at most one cell wide. So the cells begin one cell width below
+  /// the lower corner of this box and end at its upper corner.
+  struct Range {
+    Cell from, to;
+  };
+  Range range_of(const Aabb<S>& box, const Level& level) const {
+    Vector reach = box.lower;
+    reach.array() -= level.width + slack_;
+    Range range{cell(reach, level), cell(box.upper, level)};
+    for (std::size_t k = 0; k < dim; ++k) {
+      range.from[k] = std::max(range.from[k], 0);
+      range.to[k] = std::min(range.to[k], level.most[k]);
+    }
+    return range;
+  }
+
+  /// Pairs of entry e with entries of its level. Each pair is reported once: entry e looks only at
+  /// cells behind its own, in the order of the last axis, .., the first axis, and at later entries
+  /// of its own cell.
+  void look_in_own(std::size_t e, const Level& level, std::vector<IndexPair>& pairs) const {
+    const Entry& entry = entries_[e];
+    Range range = range_of(entry.box, level);
+    range.from[dim - 1] = entry.cell[dim - 1];
+    for_each_row(range, [&](const Cell& row) {
+      bool is_own = true;
+      for (std::size_t k = dim; is_own && --k > 0;) {
+        if (row[k] < entry.cell[k]) return;
+        is_own = row[k] == entry.cell[k];
       }
-      if (k == S::dim) return;
+      if (!is_own) return look_into(row, range.from[0], range.to[0], entry, level, pairs);
+      const std::size_t end = begin_[bucket(entry.cell, level) + 1];
+      for (std::size_t other = e + 1; other < end; ++other)
+        if (entries_[other].cell == entry.cell) compare(entry, entries_[other], pairs);
+      if (entry.cell[0] < range.to[0])
+        look_into(row, entry.cell[0] + 1, range.to[0], entry, level, pairs);
+    });
+  }
+  void look_in_coarser(const Entry& entry, const Level& level,
+                       std::vector<IndexPair>& pairs) const {
+    const Range range = range_of(entry.box, level);
+    for_each_row(range, [&](const Cell& row) {
+      look_into(row, range.from[0], range.to[0], entry, level, pairs);
+    });
+  }
+  /// Calls use(cell) for the first cell of every row of a range.
+  template <class Use>
+  static void for_each_row(const Range& range, const Use& use) {
+    for (std::size_t k = 0; k < dim; ++k)
+      if (range.from[k] > range.to[k]) return;
+    Cell c = range.from;
+    while (true) {
+      use(c);
+      std::size_t k = 1;
+      for (; k < dim && c[k] == range.to[k]; ++k) c[k] = range.from[k];
+      if (k == dim) return;
       ++c[k];
     }
   }
-  void look_into(const Cell& c, std::uint32_t i, int level, std::span<const Aabb<S>> boxes,
-                 std::vector<IndexPair>& pairs) const {
-    for (std::uint32_t j = head_[bucket(c, level)]; j != none; j = next_[j]) {
-      if (level_of_[j] != level || cell_of_[j] != c) continue;
-      if (level == level_of_[i] && j <= i) continue;
-      if (boxes[i].overlaps(boxes[j])) pairs.push_back({std::min(i, j), std::max(i, j)});
-    }
+  /// Compares an entry with the boxes of the cells first .. last of a row.
+  void look_into(Cell row, std::int32_t first, std::int32_t last, const Entry& entry,
+                 const Level& level, std::vector<IndexPair>& pairs) const {
+    row[0] = first;
+    const std::size_t from = bucket(row, level) - level.begin;
+    const std::size_t to = from + static_cast<std::size_t>(last - first);
+    const auto look = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t other = begin_[level.begin + begin]; other < begin_[level.begin + end];
+           ++other) {
+        const Entry& that = entries_[other];
+        if (!entry.box.overlaps(that.box)) continue;
+        // Other cells may share the buckets.
+        bool is_here = that.cell[0] >= first && that.cell[0] <= last;
+        for (std::size_t k = 1; k < dim; ++k) is_here = is_here && that.cell[k] == row[k];
+        if (is_here) report(entry, that, pairs);
+      }
+    };
+    const std::size_t buckets = std::size_t{level.mask} + 1;
+    look(from, std::min(to + 1, buckets));
+    if (to < buckets) return;
+    // The row goes on at the first bucket.
+    if (to - from < buckets)
+      look(0, to + 1 - buckets);
+    else
+      look(0, from);
+  }
+  static void compare(const Entry& a, const Entry& b, std::vector<IndexPair>& pairs) {
+    if (a.box.overlaps(b.box)) report(a, b, pairs);
+  }
+  static void report(const Entry& a, const Entry& b, std::vector<IndexPair>& pairs) {
+    pairs.push_back({std::min(a.index, b.index), std::max(a.index, b.index)});
   }
 
   Vector origin_ = Vector::Zero();
   Scalar slack_ = 0;  // bound of the rounding errors of coordinates [m]
-  int levels_ = 0;
-  std::array<Scalar, max_levels> width_{};
-  std::array<bool, max_levels> occupied_{};
-  std::vector<std::uint32_t> head_, next_;
-  std::vector<int> level_of_;
-  std::vector<Cell> cell_of_;
+  int level_count_ = 0;
+  std::array<Level, max_levels> levels_{};
+  std::vector<std::uint8_t> level_of_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> begin_, next_;  // of every bucket in entries_
+  std::vector<Entry> entries_;
   detail::PairSorter sorter_;
 };
 

@@ -31,6 +31,7 @@
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/shape_kinds.hpp"
 #include "moreau/detect/tolerance.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/mesh_wall.hpp"
 
 namespace moreau {
@@ -52,11 +53,13 @@ template <class Core>
 inline constexpr bool touches_mesh<Rounded<Core>> = touches_mesh<Core>;
 template <class... Shapes>
 inline constexpr bool touches_mesh<OneOf<Shapes...>> = (touches_mesh<Shapes> && ...);
+template <class Part>
+inline constexpr bool touches_mesh<Compound<Part>> = touches_mesh<Part>;
 
 }  // namespace detail
 
 /// A shape that can touch a mesh wall: balls, polygons, polyhedra, capsules, rounded shapes of these,
-/// and OneOf of these.
+/// OneOf and Compound of these.
 template <class ShapeT>
 concept MeshCollidable = detail::touches_mesh<ShapeT>;
 
@@ -154,14 +157,14 @@ class MeshCollision {
     }
     return touch;
   }
-  /// Calls use() for each contact at a ridge or a tip, a manifold of one point.
+  /// Calls use(none) for each contact at a ridge or a tip, a manifold of one point.
   template <class Use>
   bool touch_points(const Use& use) {
     bool touch = false;
     const auto add = [&](const Vector& to_shape, T gap, const Vector& x, FeatureKey key) {
       out_.set_single_point(-to_shape, gap, center_ + (x - gap / 2 * to_shape), key);
       finish();
-      use();
+      use(Wall::none);
       touch = true;
     };
     for (const std::uint32_t r : scratch_.ridges) touch_ridge(S{}, r, add);
@@ -351,48 +354,45 @@ class MeshCollision {
 };
 
 /// Collides the core of a shape, with the radius around it.
-template <class ShapeT, class Wall, class T, class UseFace, class UsePoint>
+template <class ShapeT, class Wall, class T, class Use>
 bool collide_core(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin,
                   const Aabb<SpaceOf<ShapeT>>& box, MeshScratch& scratch,
-                  Manifold<SpaceOf<ShapeT>>& out, const UseFace& use_face,
-                  const UsePoint& use_point) {
+                  Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   if constexpr (is_rounded<ShapeT>) {
     return collide_core(a.core(), radius + a.rounding_radius(), wall, margin, box, scratch, out,
-                        use_face, use_point);
+                        use);
   } else if constexpr (is_one_of<ShapeT>) {
     return a.visit([&](const auto& held) {
-      return collide_core(held, radius, wall, margin, box, scratch, out, use_face, use_point);
+      return collide_core(held, radius, wall, margin, box, scratch, out, use);
     });
   } else {
     T thickness = radius;
     if constexpr (is_sphere<ShapeT>) thickness += a.radius();
     MeshCollision<ShapeT> collision(a, thickness, wall, margin, scratch, out);
     collision.find(box);
-    const bool faces = collision.touch_faces(use_face), points = collision.touch_points(use_point);
+    const bool faces = collision.touch_faces(use), points = collision.touch_points(use);
     return faces || points;
   }
 }
 
 }  // namespace detail
 
-/// Computes the contact points of a shape with a mesh wall. Feature keys have the number of a face
-/// (MeshWall::Side::face), a ridge or a vertex of the wall as b.
-/// @param a         placed in the frame of the wall
-/// @param margin    largest gap of a contact point [m], >= 0
-/// @param out       overwritten for each manifold, in the frame of the wall
-/// @param use_face  called with the number of the face when `out` has the points on a face
-/// @param use_point called without arguments when `out` has one point at a ridge or a tip
+/// Computes the contact points of a convex shape with a mesh wall. Feature keys have the number of a
+/// face (MeshWall::Side::face), a ridge or a vertex of the wall as b.
+/// @param a      placed in the frame of the wall
+/// @param margin largest gap of a contact point [m], >= 0
+/// @param out    overwritten for each manifold, in the frame of the wall
+/// @param use    called for each manifold: with the number of a face when `out` has the points on this
+///               face, with MeshWall::none when it has one point at a ridge or a tip
 /// @returns whether there was a contact point
-template <class ShapeT, class UseFace, class UsePoint>
+template <class ShapeT, class Use>
 requires MeshCollidable<ShapeT>
 bool collide_each(const Placed<ShapeT>& a, const MeshWall<SpaceOf<ShapeT>>& wall,
                   typename SpaceOf<ShapeT>::Scalar margin, MeshScratch& scratch,
-                  Manifold<SpaceOf<ShapeT>>& out, const UseFace& use_face,
-                  const UsePoint& use_point) {
+                  Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   MOREAU_ASSERT(margin >= 0);
-  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), scratch, out, use_face,
-                              use_point);
+  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), scratch, out, use);
 }
 
 }  // namespace moreau

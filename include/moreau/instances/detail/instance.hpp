@@ -13,8 +13,8 @@
 /// with the default integrator, broad phase and solver.
 #define MOREAU_WORLD_INSTANCES(SpaceT, PolytopeT)                                             \
   MOREAU_INSTANCE class PolytopeT;                                                            \
-  MOREAU_INSTANCE class ContactDetector<PolytopeT, SweepAndPrune<SpaceT>>;                    \
-  MOREAU_INSTANCE class ContactDetector<BallIn<SpaceT>, SweepAndPrune<SpaceT>>;               \
+  MOREAU_INSTANCE class ContactDetector<PolytopeT, CellGrid<SpaceT>>;                         \
+  MOREAU_INSTANCE class ContactDetector<BallIn<SpaceT>, CellGrid<SpaceT>>;                    \
   MOREAU_INSTANCE class detail::ImpulseDynamics<SpaceT, SignoriniCoulomb<double>, MoreauJean, \
                                                 ColouredGaussSeidel>;                         \
   MOREAU_INSTANCE StepReport Simulation<PolytopeT, SignoriniCoulomb<double>>::step(double);   \

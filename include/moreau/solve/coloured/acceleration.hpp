@@ -13,6 +13,7 @@
 #include "moreau/solve/detail/anderson_mixing.hpp"
 #include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/detail/stagnation_test.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {
 
@@ -36,9 +37,9 @@ class ImpulseMixing {
     anderson_.start(packed_);
   }
   /// Replaces the impulses by their mix; the velocities of the kernel are then to be recomputed.
-  void mix(Kernel& kernel) {
+  void mix(Kernel& kernel, SharedBodies* shared) {
     pack(kernel);
-    anderson_.mix(packed_);
+    anderson_.mix(packed_, shared);
     const T* from = packed_.data();
     for (const std::uint32_t p : points_)
       for (std::size_t d = 0; d < S::dim; ++d, from += W::lanes)

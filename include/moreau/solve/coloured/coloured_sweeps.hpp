@@ -15,6 +15,7 @@
 #include "moreau/solve/coloured/schedule.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/sweep_change.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {
 
@@ -28,8 +29,10 @@ class ColouredSweeps {
   using Impulse = typename Kernel::Impulse;
 
   /// @param problem its operator carries the velocities of the impulses
+  /// @param shared  bodies that contact problems of other processes share; null: none
   void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-             bool accelerate, const Team& team) {
+             bool accelerate, const Team& team, SharedBodies* shared) {
+    shared_ = shared;
     kernel_.start(problem, impulses, team);
     acceleration_ = Acceleration<T>(accelerate);
     all_.assign(kernel_.groups(), [](std::uint32_t) { return true; });
@@ -75,6 +78,7 @@ class ColouredSweeps {
       else
         active_.forward(rank, size, wait, visit);
     });
+    average();
     if (!mixing) update_beta(active_);
   }
   /// An accelerated sweep over all groups; updates the active set.
@@ -86,6 +90,7 @@ class ColouredSweeps {
         kernel_.template visit_all<false>(k, acceleration_.beta());
       });
     });
+    average();
     update_active();
     update_beta(all_);
   }
@@ -99,8 +104,10 @@ class ColouredSweeps {
       all_.forward(rank, size, wait,
                    [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); });
     });
+    average();
     update_active();
-    const SweepChange change = kernel_.measures();
+    SweepChange change = kernel_.measures();
+    if (shared_) change.add_up(*shared_);
     ++mixed_sweeps_;
     if (acceleration_.check(std::sqrt(change.dv2))) {
       mixed_sweeps_ = 0;
@@ -124,7 +131,7 @@ class ColouredSweeps {
   /// Before a sweep while impulses are mixed: mixes them every few sweeps.
   void mix() {
     if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) {
-      mixing_.mix(kernel_);
+      mixing_.mix(kernel_, shared_);
       recompute_velocities();
     }
     kernel_.velocity().settle();
@@ -132,6 +139,7 @@ class ColouredSweeps {
   }
   void recompute_velocities() {
     kernel_.recompute_velocities();
+    average();
     update_active();
   }
   void update_active() {
@@ -142,9 +150,14 @@ class ColouredSweeps {
     });
   }
   void update_beta(const Schedule& visited) {
-    acceleration_.update_beta([&] { return kernel_.squared_change(visited.groups()); });
+    acceleration_.update_beta(
+        [&] { return sum_over(shared_, kernel_.squared_change(visited.groups())); });
+  }
+  void average() {
+    if (shared_) shared_->average(kernel_.velocity().scalars(), kernel_.velocity().width);
   }
 
+  SharedBodies* shared_ = nullptr;
   Kernel kernel_;
   Schedule all_, active_;
   Acceleration<T> acceleration_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "moreau/core/team.hpp"
@@ -25,6 +26,11 @@ class LaneVelocities {
 
   /// Sets all velocities to zero.
   void reset(std::size_t rows) { now_.assign(registers * rows, Values{}); }
+  /// All velocities, `width` numbers per row.
+  std::span<T> scalars() {
+    return {reinterpret_cast<T*>(now_.data()), now_.size() * std::size_t{W::lanes}};
+  }
+  static constexpr std::size_t width = registers * W::lanes;
   void set(std::size_t body, const auto& y) {
     for (int k = 0; k < S::dofs; ++k)
       now_[registers * body + std::size_t(k / W::lanes)][k % W::lanes] = y[k];

@@ -7,6 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+
+#include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {
 
@@ -25,14 +28,16 @@ class AndersonMixing {
     first_ = true;
   }
 
-  /// @param g in: g(x); out: the next x
-  void mix(Vector& g) {
+  /// @param g      in: g(x); out: the next x
+  /// @param shared bodies that contact problems of other processes share: x has a part in each
+  ///               process; null: none
+  void mix(Vector& g, SharedBodies* shared = nullptr) {
     x_ = g - x_;
-    if (!first_) remember(g);
+    if (!first_) remember(g, shared);
     first_ = false;
     last_change_ = x_;
     last_result_ = g;
-    const Weights share = weights();
+    const Weights share = weights(shared);
     for (std::size_t k = 0; k < known_; ++k) g -= T(share[k]) * result_[k];
     x_ = g;
   }
@@ -42,24 +47,32 @@ class AndersonMixing {
   using Weights = std::array<double, memory>;
   using Gram = std::array<Weights, memory>;
 
-  void remember(const Vector& g) {
+  void remember(const Vector& g, SharedBodies* shared) {
     change_[next_] = x_ - last_change_;
     result_[next_] = g - last_result_;
     known_ = std::max(known_, next_ + 1);
-    for (std::size_t k = 0; k < known_; ++k)
-      gram_[k][next_] = gram_[next_][k] = double(change_[k].dot(change_[next_]));
+    const Weights products = products_with(change_[next_], shared);
+    for (std::size_t k = 0; k < known_; ++k) gram_[k][next_] = gram_[next_][k] = products[k];
     next_ = (next_ + 1) % memory;
+  }
+
+  /// The products of a vector with the stored changes.
+  Weights products_with(const Vector& x, SharedBodies* shared) const {
+    Weights products{};
+    for (std::size_t k = 0; k < known_; ++k) products[k] = double(change_[k].dot(x));
+    if (shared) shared->sum(std::span(products).first(known_));
+    return products;
   }
 
   /// Returns the weights w_k that minimize |f - sum_k w_k df_k|^2 + c sum_k (w_k |df_k|)^2, where
   /// f = g(x) - x is the residual of the last iteration, df_k are the stored differences of
   /// residuals of successive iterations, and c is `regularization`.
-  Weights weights() const {
+  Weights weights(SharedBodies* shared) const {
     constexpr double regularization = 1e-10;
-    Weights scale{}, right{};
+    Weights scale{}, right = products_with(last_change_, shared);
     for (std::size_t k = 0; k < known_; ++k) {
       scale[k] = gram_[k][k] > 0 ? 1 / std::sqrt(gram_[k][k]) : 0;
-      right[k] = scale[k] * double(change_[k].dot(last_change_));
+      right[k] *= scale[k];
     }
     Gram scaled{};
     for (std::size_t i = 0; i < known_; ++i)

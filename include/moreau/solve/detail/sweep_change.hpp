@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau::detail {
@@ -43,6 +44,15 @@ struct SweepChange {
     max_dvr2 = std::max(max_dvr2, other.max_dvr2);
     wr2 += other.wr2;
     rwr += other.rwr;
+  }
+
+  /// Makes the measures those of all processes.
+  void add_up(SharedBodies& shared) {
+    double sums[] = {acting, dv2, dvr2, wr2, rwr}, extremes[] = {max_dv2, max_dvr2};
+    shared.sum(sums);
+    shared.largest(extremes);
+    acting = sums[0], dv2 = sums[1], dvr2 = sums[2], wr2 = sums[3], rwr = sums[4];
+    max_dv2 = extremes[0], max_dvr2 = extremes[1];
   }
 
   void write(SolveReport& report) const {

@@ -48,7 +48,7 @@ namespace detail {
 /// Shapes and bodies of a Simulation, numbered in the order in which they are added; a new body takes
 /// the lowest index that a removed grain has left. Its functions throw std::invalid_argument in the
 /// name of the public function that calls them, which they are given.
-template <ConvexShape ShapeT>
+template <GrainShape ShapeT>
 class Assembly {
  public:
   using S = SpaceOf<ShapeT>;

@@ -16,6 +16,7 @@
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -80,12 +81,14 @@ class ContactSprings {
   /// Energy of the springs, their largest compression, and the residual of the law without springs.
   /// @param problem  as solved
   /// @param impulses its solution [N s]
+  /// @param shared   bodies that other processes share: rigid_residual is that of all contacts
   void measure(const StepContext<S, Law>& context, const ContactProblem<Operator, Law>& problem,
-               std::span<const Row> impulses, StepReport& report) {
+               std::span<const Row> impulses, StepReport& report, SharedBodies* shared = nullptr) {
     Energy energy;
     energies_.resize(impulses.size());
-    double map = 0, norm = 0;
-    const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus));
+    double sums[] = {0, 0};
+    auto& [map, norm] = sums;
+    const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus, shared));
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Row& r = impulses[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
@@ -103,6 +106,7 @@ class ContactSprings {
       map += double(natural_map(problem.law(c), u, scaled, scale).squaredNorm());
       norm += double(scaled.squaredNorm());
     }
+    if (shared) shared->sum(sums);
     report.rigid_residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
     report.elastic_energy = energy.total();
     report.elastic_work = energy.total() - energy_.total();

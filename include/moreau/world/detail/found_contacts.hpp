@@ -31,33 +31,21 @@ class alignas(64) FoundContacts {
   Manifold<S>& manifold() { return manifold_; }       ///< of the present pair, for collide()
   std::size_t touching() const { return touching_; }  ///< pairs with a contact
 
-  /// Adds the contact of a pair: the points of the manifold, reduced to D if asked for.
+  /// Adds the contact of a pair: the points of each manifold, reduced to D if asked for.
   /// @param a,b      body and placed shape of each side
   /// @param previous contacts of the step before; its points are kept first
-  void add(const auto& a, const auto& b, const Contacts<S>& previous) {
-    if (few_) keep_few(a.body.value, b.body.value, previous, [](FeatureKey) { return true; });
-    add_all(a, b);
-    ++touching_;
+  /// @param collide_each calls its argument for each manifold, returns whether there was one
+  void add(const auto& a, const auto& b, const Contacts<S>& previous, auto&& collide_each) {
+    touching_ += collide_each([&] {
+      if (few_) keep_few(a.body.value, b.body.value, previous);
+      add_all(a, b);
+    });
   }
   /// Adds a contact of several manifolds, each as it is.
-  /// @param collide_each calls its argument for each manifold, returns the number of contacts
+  /// @param collide_each as for add()
   void add_each(const auto& a, const auto& b, auto&& collide_each) {
     touching_ += collide_each([&] { add_all(a, b); });
   }
-
-  /// Adds the points on one face of a mesh wall, reduced to D if asked for.
-  /// @param face number of the face, the b of the feature keys of its points
-  void add_face(const auto& a, const auto& b, std::uint32_t face, const Contacts<S>& previous) {
-    if (few_)
-      keep_few(a.body.value, b.body.value, previous, [&](FeatureKey key) {
-        return key.kind() == vertex_on_face(S{}) && key.b() == face;
-      });
-    add_all(a, b);
-  }
-  /// Adds points as they are.
-  void add_points(const auto& a, const auto& b) { add_all(a, b); }
-  /// Counts a pair, if it has a contact.
-  void count(bool touches) { touching_ += touches; }
 
   /// Sorts by key: the id of a wall may be lower than that of a grain.
   void sort() {
@@ -105,19 +93,18 @@ class alignas(64) FoundContacts {
       contacts_.points.push_back({a.body.value, b.body.value, 0, point.gap, frame,
                                   point.position - a.placed.center(),
                                   point.position - b.placed.center()});
-      contacts_.keys.push_back({a.body.value, b.body.value, point.feature});
+      contacts_.keys.push_back(
+          {a.body.value, b.body.value, point.feature, manifold_.part_a, manifold_.part_b});
       contacts_.classes.push_back(manifold_.contact_class);
     }
   }
-  /// Reduces the manifold to D points, if possible those of the step before.
-  /// @param counts function: key of a point of the step before -> whether it was of this manifold
-  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous, const auto& counts) {
+  /// Reduces the manifold of two parts to D points, if possible those of the step before.
+  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
-      const ContactKey from{a, b, FeatureKey()};
+      const ContactKey from{a, b, FeatureKey(), manifold_.part_a, manifold_.part_b};
       for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
-           key != previous.keys.end() && key->a == a && key->b == b; ++key) {
-        if (!counts(key->feature)) continue;
+           key != previous.keys.end() && key->is_of_parts_of(from); ++key) {
         const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
         kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
       }

@@ -2,7 +2,8 @@
 // The part of a step around the contacts, for laws that give impulses (contact dynamics):
 //
 //   1. predict the detection configuration; Simulation then detects the contacts and assigns laws
-//   2. free velocities: of every body at the end of the step without contacts, attraction included
+//   2. free velocities: of every body at the end of the step without contacts, attraction included;
+//      bodies that other processes share are split
 //   3. assemble the Delassus operator
 //   4. warm start from the impulses of the step before
 //   5. variants: the law of each contact in this step, where it depends on the impulse before
@@ -18,9 +19,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
@@ -33,6 +36,8 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/detail/split_shared_bodies.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/contact_unknowns.hpp"
 #include "moreau/world/detail/step_context.hpp"
@@ -83,6 +88,12 @@ class ImpulseDynamics {
   void set_solver(const Solver& solver) {
     solver_ = solver;
     set_team(team_);
+    if (shared_) share_bodies(shared_);
+  }
+  /// Makes the bodies part of those of a simulation in several processes; null: all are here.
+  void share_bodies(std::shared_ptr<SharedBodies> shared) {
+    shared_ = std::move(shared);
+    if constexpr (requires { solver_.share_bodies(shared_); }) solver_.share_bodies(shared_);
   }
   /// Sets the threads that share the work.
   void set_team(const Team& team) {
@@ -224,17 +235,19 @@ class ImpulseDynamics {
   }
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
-    OverlapCorrectionReport report = correction_.solve(
-        Unknowns::points(problem_.delassus), context.contacts.points, roots_, context.grain_size);
-    if (report.corrected > 0) shift_bodies(context.bodies, context.gravity, report);
+    OverlapCorrectionReport report =
+        correction_.solve(Unknowns::points(problem_.delassus), context.contacts.points, roots_,
+                          context.grain_size, shared_.get());
+    if (shared_ || report.corrected > 0) shift_bodies(context.bodies, context.gravity, report);
     return report;
   }
   void shift_bodies(Bodies<S>& bodies, const Vector& gravity, OverlapCorrectionReport& report) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Twist& shift = correction_.shifts()[i];
+      if (shared_ && shift.isZero(0)) continue;
       const Vector move = linear<S>(shift);
       const Vector force = linear<S>(bodies.force[i]) + bodies.weight[i] * gravity;
-      report.work += double(force.dot(move));
+      if (!shared_ || shared_->owns(i)) report.work += double(force.dot(move));
       report.largest_shift = std::max(report.largest_shift, double(move.norm()));
       bodies.pose[i].position += move;
       bodies.pose[i].rotation = S::normalized(S::exp(angular<S>(shift)) * bodies.pose[i].rotation);
@@ -270,7 +283,8 @@ class ImpulseDynamics {
     report.solve = solver_.solve(problem_, unknowns_.impulses(context.contacts), workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
-      springs_.measure(context, problem_, unknowns_.impulses(context.contacts), report);
+      springs_.measure(context, problem_, unknowns_.impulses(context.contacts), report,
+                       shared_.get());
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, -1);
     unknowns_.finish(problem_.delassus, context.contacts);
   }
@@ -331,6 +345,7 @@ class ImpulseDynamics {
   }
 
   Team team_;
+  std::shared_ptr<SharedBodies> shared_;
   Solver solver_;
   OverlapCorrection<S> correction_;
   Integrator integrator_;
@@ -343,6 +358,7 @@ class ImpulseDynamics {
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
   std::vector<Twist> free_, after_;            // velocities without and with the impulses
   std::vector<MobilityRoot<S>> roots_;
+  std::vector<unsigned char> touched_;  // by contacts
   // One entry per contact.
   std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
   std::vector<Scalar> pulls_;   // impulse of the attraction, for a law that attracts [N s]
@@ -352,13 +368,19 @@ class ImpulseDynamics {
 template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context,
                                                           StepReport& report) {
+  StepReport::StageClock clock;
   free_velocities(context);
+  if (shared_)
+    split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
   assemble(context);
   report.warm_started = warm_start(context);
   choose_variants(context);
+  report.ms_assemble = clock.lap();
   report.correction = correct_overlaps(context);
+  report.ms_correct = clock.lap();
   report.approach = double(offset_velocities(context) * context.step / context.margin);
   solve(context, report);
+  report.ms_contacts = clock.lap();
   velocities_after();
   measure_dissipation(context, report);
   const std::span<const Twist> after(after_);

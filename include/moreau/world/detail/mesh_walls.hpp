@@ -11,10 +11,12 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/detect/pairs/collide_compound.hpp"
 #include "moreau/detect/pairs/collide_mesh_wall.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/shape/mesh_wall.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
+#include "moreau/world/detail/pair_filter.hpp"
 
 namespace moreau::detail {
 
@@ -56,9 +58,9 @@ class MeshWalls {
   }
   /// Finds the contacts of a grain.
   void detect(const GrainInWorld<ShapeT>& grain, Scalar margin, const Bodies<S>& bodies,
-              const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
+              const PairFilter& filter, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
               FoundContacts<S>& found) const {
-    if (!walls_.empty()) detect_(*this, grain, margin, bodies, previous, buffers, found);
+    if (!walls_.empty()) detect_(*this, grain, margin, bodies, filter, previous, buffers, found);
   }
 
  private:
@@ -80,12 +82,14 @@ class MeshWalls {
     return {center - half, center + half};
   }
   static void detect_all(const MeshWalls& self, const GrainInWorld<ShapeT>& grain, Scalar margin,
-                         const Bodies<S>& bodies, const Contacts<S>& previous,
-                         MeshBuffers<ShapeT>& buffers, FoundContacts<S>& found) {
+                         const Bodies<S>& bodies, const PairFilter& filter,
+                         const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
+                         FoundContacts<S>& found) {
     const std::size_t body = grain.body.index();
     for (const Wall& wall : self.walls_) {
       if (!wall.box.overlaps(grain.box.inflated(margin))) continue;
       if (bodies.is_prescribed(body) && bodies.is_prescribed(wall.body.index())) continue;
+      if (filter.leaves_out(grain.body, wall.body)) continue;
       if constexpr (MeshCollidable<ShapeT>)
         detect_at(grain, bodies.pose[body], wall, margin, previous, buffers, found);
     }
@@ -101,25 +105,28 @@ class MeshWalls {
     else
       buffers.local.emplace(grain.shape, local);
     Manifold<S>& manifold = found.manifold();
-    const auto to_world = [&] {
-      manifold.normal = frame.rotation * manifold.normal;
-      for (auto& point : manifold.points) point.position = frame(point.position);
-    };
-    const auto add_face = [&](std::uint32_t face) {
-      to_world();
-      found.add_face(grain, wall, face, previous);
-    };
-    const auto add_point = [&] {
-      to_world();
-      found.add_points(grain, wall);
-    };
-    found.count(collide_each(*buffers.local, wall.shape, margin, buffers.scratch, manifold,
-                             add_face, add_point));
+    found.add(grain, wall, previous, [&](const auto& add) {
+      bool touches = false;
+      for_each_part(*buffers.local, [&](std::uint32_t part, const auto& placed) {
+        const auto add_in_world = [&](std::uint32_t face) {
+          manifold.normal = frame.rotation * manifold.normal;
+          for (auto& point : manifold.points) point.position = frame(point.position);
+          manifold.part_a = part;
+          manifold.part_b = face;  // so that each face is reduced on its own
+          add();
+        };
+        touches |=
+            collide_each(placed, wall.shape, margin, buffers.scratch, manifold, add_in_world);
+      });
+      return touches;
+    });
+    manifold.part_a = manifold.part_b = 0;
   }
 
   std::vector<Wall> walls_;
   void (*detect_)(const MeshWalls&, const GrainInWorld<ShapeT>&, Scalar, const Bodies<S>&,
-                  const Contacts<S>&, MeshBuffers<ShapeT>&, FoundContacts<S>&) = nullptr;
+                  const PairFilter&, const Contacts<S>&, MeshBuffers<ShapeT>&,
+                  FoundContacts<S>&) = nullptr;
 };
 
 }  // namespace moreau::detail

@@ -21,56 +21,12 @@ namespace moreau::rendering {
 /// The objects of a picture.
 class Scene {
  public:
-  /// Adds a polyhedron of any scalar type.
-  template <Polytope Shape>
+  /// Adds a grain of any shape.
+  template <GrainShape Shape>
   void add_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose, const Color& color) {
-    std::vector<Vector3f> corner;
-    for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
-      corner.push_back(pose(shape.vertices().row(i).transpose()).template cast<float>());
-    for (std::uint32_t f = 0; f < shape.face_count(); ++f) {
-      const auto face = shape.face(f);
-      const Vector3f normal =
-          (pose.rotation * shape.face_normals().row(f).transpose()).template cast<float>();
-      for (std::size_t k = 1; k + 1 < face.size(); ++k)
-        triangles_.push_back({{corner[face[0]], corner[face[k]], corner[face[k + 1]]},
-                              {normal, normal, normal},
-                              object(),
-                              f});
-    }
+    faces_ = 0;
+    add_surface(shape, pose);
     colors_.push_back(color);
-  }
-
-  /// Adds a round body, by its support function.
-  template <ConvexShape Shape>
-  requires(!Polytope<Shape>) void add_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose,
-                                            const Color& color) {
-    using Vector = typename Shape::Vector;
-    constexpr int meridians = 32, parallels = 16;
-    const auto corner = [&](int i, int j) -> std::array<Vector3f, 2> {
-      const float phi = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / meridians;
-      const float theta = std::numbers::pi_v<float> * static_cast<float>(j) / parallels;
-      const Vector3f n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                       std::cos(theta));
-      const Vector direction = n.cast<typename Shape::Space::Scalar>();
-      return {pose(shape.support(direction)).template cast<float>(),
-              (pose.rotation * direction).template cast<float>()};
-    };
-    const auto add = [&](const auto& a, const auto& b, const auto& c) {
-      triangles_.push_back({{a[0], b[0], c[0]}, {a[1], b[1], c[1]}, object(), 0});
-    };
-    for (int i = 0; i < meridians; ++i)
-      for (int j = 0; j < parallels; ++j) {
-        if (j > 0) add(corner(i, j), corner(i, j + 1), corner(i + 1, j));
-        if (j + 1 < parallels) add(corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1));
-      }
-    colors_.push_back(color);
-  }
-
-  /// Adds the shape that a OneOf holds.
-  template <class... Shapes>
-  void add_grain(const OneOf<Shapes...>& shape, const Pose<SpaceOf<OneOf<Shapes...>>>& pose,
-                 const Color& color) {
-    shape.visit([&](const auto& held) { add_grain(held, pose, color); });
   }
 
   /// Adds the ground: a square at the height of `middle` that fades into the background between the
@@ -101,6 +57,63 @@ class Scene {
  private:
   std::uint32_t object() const { return static_cast<std::uint32_t>(colors_.size()); }
 
+  /// A polyhedron of any scalar type.
+  template <Polytope Shape>
+  void add_surface(const Shape& shape, const Pose<SpaceOf<Shape>>& pose) {
+    std::vector<Vector3f> corner;
+    for (Eigen::Index i = 0; i < shape.vertices().rows(); ++i)
+      corner.push_back(pose(shape.vertices().row(i).transpose()).template cast<float>());
+    for (std::uint32_t f = 0; f < shape.face_count(); ++f) {
+      const auto face = shape.face(f);
+      const Vector3f normal =
+          (pose.rotation * shape.face_normals().row(f).transpose()).template cast<float>();
+      for (std::size_t k = 1; k + 1 < face.size(); ++k)
+        triangles_.push_back({{corner[face[0]], corner[face[k]], corner[face[k + 1]]},
+                              {normal, normal, normal},
+                              object(),
+                              faces_});
+      ++faces_;
+    }
+  }
+
+  /// A round body, by its support function.
+  template <ConvexShape Shape>
+  requires(!Polytope<Shape>) void add_surface(const Shape& shape,
+                                              const Pose<SpaceOf<Shape>>& pose) {
+    using Vector = typename Shape::Vector;
+    constexpr int meridians = 32, parallels = 16;
+    const auto corner = [&](int i, int j) -> std::array<Vector3f, 2> {
+      const float phi = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / meridians;
+      const float theta = std::numbers::pi_v<float> * static_cast<float>(j) / parallels;
+      const Vector3f n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                       std::cos(theta));
+      const Vector direction = n.cast<typename Shape::Space::Scalar>();
+      return {pose(shape.support(direction)).template cast<float>(),
+              (pose.rotation * direction).template cast<float>()};
+    };
+    const auto add = [&](const auto& a, const auto& b, const auto& c) {
+      triangles_.push_back({{a[0], b[0], c[0]}, {a[1], b[1], c[1]}, object(), faces_});
+    };
+    for (int i = 0; i < meridians; ++i)
+      for (int j = 0; j < parallels; ++j) {
+        if (j > 0) add(corner(i, j), corner(i, j + 1), corner(i + 1, j));
+        if (j + 1 < parallels) add(corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1));
+      }
+    ++faces_;
+  }
+
+  /// The shape that a OneOf holds.
+  template <class... Shapes>
+  void add_surface(const OneOf<Shapes...>& shape, const Pose<SpaceOf<OneOf<Shapes...>>>& pose) {
+    shape.visit([&](const auto& held) { add_surface(held, pose); });
+  }
+
+  /// All parts of a compound grain.
+  template <CompoundShape Shape>
+  void add_surface(const Shape& shape, const Pose<SpaceOf<Shape>>& pose) {
+    for (const auto& part : shape.parts()) add_surface(part.shape, pose * part.pose);
+  }
+
   struct Ground {
     std::uint32_t object = 0xFFFFFFFFu;
     Vector3f middle = Vector3f::Zero();
@@ -110,6 +123,7 @@ class Scene {
   std::vector<Triangle> triangles_;
   Ground ground_;
   std::vector<Color> colors_;
+  std::uint32_t faces_ = 0;  // of the grain that is being added
 };
 
 }  // namespace moreau::rendering

@@ -1,0 +1,622 @@
+# SPDX-License-Identifier: MIT
+"""The figures of the report."""
+import math
+
+import compaction
+from plots import BLACK, COLOR, GREY, POINT, Panel, draw
+from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, over_samples,
+                  power, scaled_load, select, series, shapes_of, strain, thrust_ratio)
+
+RIGID_TEXT = "rigid contacts, QM/16 at 1e-4"
+COMPLIANT_TEXT = "k = 1e8 N/m, residual 1e-5"
+SPREAD = {"polyhedron": 0.94, "polygon": 0.98, "sphere": 1.02, "disk": 1.06}
+
+
+class Missing(Exception):
+    """The runs that a figure shows are not in the table."""
+
+
+def course(runs, shape):
+    """The run of the first sample at 5 Hz with its tables: with compliant contacts if there is one."""
+    for wanted in (COMPLIANT, {}):
+        for run in select(runs, shape, frequency=5.0, seed=1, jammed=False, **wanted):
+            if "wall" in run["tables"]:
+                return run
+    return None
+
+
+def contacts_of(run):
+    return COMPLIANT_TEXT if run["parameters"]["method"] == "compliant" else RIGID_TEXT
+
+
+def caption(run, what):
+    p = run["parameters"]
+    return (f"{what} N = {p['grains']}, ν = 5 Hz, fmax = {p['fmax'] / 1000:g} kN, sample 1; "
+            f"{contacts_of(run)}.")
+
+
+def by_value(runs, parameter, value, factor=1.0):
+    """Rows parameter, mean over the samples, standard error."""
+    found = {}
+    for run in runs:
+        found.setdefault(run["parameters"][parameter], []).append(run)
+    rows = []
+    for x, group in sorted(found.items()):
+        e = over_samples(group, value)
+        rows.append((x, factor * e.mean, factor * e.error if e.n > 1 else math.nan))
+    return rows
+
+
+def jamming(runs):
+    """Runs whose largest force jams the packing: above 3.5 times the weight of polyhedra."""
+    return [run for run in runs if run["parameters"]["fmax"] >= CASE["fmax"] / 6]
+
+
+def columns(run, table, *names):
+    return list(zip(*(run["tables"][table][name] for name in names)))
+
+
+def every_course(runs):
+    """The shapes that have a run with tables, and these runs."""
+    found = [(shape, course(runs, shape)) for shape in SHAPES if course(runs, shape)]
+    if not found:
+        raise Missing
+    return found
+
+
+def every_shape(runs):
+    """The shapes that have runs over the frequency."""
+    found = shapes_of(runs)
+    if not found:
+        raise Missing
+    return found
+
+
+def x_t(runs, path):
+    panels, found = [], every_course(runs)
+    for shape, run in found:
+        panel = Panel(TITLE[shape], "", "x  [mm]" if not panels else "")
+        panel.curve([(t, 1e3 * x) for t, x in columns(run, "wall", "t", "x")], COLOR[shape])
+        panels.append(panel)
+    for shape, run in found:
+        panel = Panel("", "t  [s]", "f  [kN]" if len(panels) == len(found) else "")
+        panel.curve([(t, 1e-3 * f) for t, f in columns(run, "wall", "t", "f")], GREY)
+        panels.append(panel)
+    draw(path, panels, 2, len(found), 1500, 620, "0.055, 0.99, 0.1, 0.93", "0.04, 0.06")
+    return caption(found[0][1], "Displacement x of the wall (above) and driving force f (below).")
+
+
+def period_of(run, number):
+    """Rows (time since the maximum of f over the period, x - x_j, v, f_g, f) of a period."""
+    start, nu = run["periods"]["t_start"][number], run["parameters"]["frequency"]
+    x_j = run["periods"]["x_j"][number]
+    return [((t - start) * nu, x - x_j, v, f_g, f)
+            for t, x, v, f_g, f in columns(run, "wall", "t", "x", "v", "f_g", "f")
+            if -1e-9 <= (t - start) * nu <= 1 + 1e-9]
+
+
+def one_period(runs, path):
+    panels, found, number = [], every_course(runs), 1
+    for shape, run in found:
+        panel = Panel(TITLE[shape], "time since f = fmax / period",
+                      "x − x_j  [mm]" if not panels else "", ["set key off"])
+        rows = period_of(run, number)
+        panel.curve([(r[0], 1e3 * r[1]) for r in rows], COLOR[shape])
+        nu, start = run["parameters"]["frequency"], run["periods"]["t_start"][number]
+        at = {name: (run["periods"][key][number] - start) * nu
+              for name, key in (("a", "t_onset"), ("b", "t_peak"))}
+        marks = [(t, 1e3 * min(rows, key=lambda r: abs(r[0] - t))[1]) for t in at.values()]
+        panel.points(marks, BLACK, 6)
+        panel.commands += ['set arrow from 0.5, graph 0 to 0.5, graph 1 nohead dt 3 lc rgb "#7a7a7a"',
+                           "set xrange [0:1]"]
+        panels.append(panel)
+    draw(path, panels, 1, len(found), 1500, 420, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(found[0][1], "The second period after the filling. Circles: the wall starts, and turns back. f is "
+                   "smallest at the dotted line.")
+
+
+def field(runs, path, table, names, unit, what):
+    panels, found = [], [(s, r) for s, r in every_course(runs) if table in r["tables"]]
+    if not found:
+        raise Missing
+    for shape, run in found:
+        rows = [r for r in columns(run, table, "x", "z", *names, "grains") if r[4] > 0]
+        longest = max(math.hypot(r[2], r[3]) for r in rows)
+        scale = 0.13 * run["length"] / longest
+        # The displacements are net of their mean, so that a uniform shift does not hide the roll.
+        length, height = run["length"], run["height"]
+        step = 0.1 if length < 0.5 else 0.2
+        panel = Panel(f"{TITLE[shape]}\\nlongest arrow {unit(longest)}", "x  [m]",
+                      "z  [m]" if not panels else "",
+                      ["set size ratio -1", f"set xrange [{-0.03 * length}:{1.03 * length}]",
+                       f"set yrange [{-0.03 * height}:{1.08 * height}]", f"set xtics {step}",
+                       f"set ytics {step}"])
+        panel.add([(x - scale * u / 2, z - scale * w / 2, scale * u, scale * w)
+                   for x, z, u, w, _ in rows], "1:2:3:4",
+                  f'with vectors head filled size graph 0.018, 22 lc rgb "{COLOR[shape]}"')
+        panels.append(panel)
+    draw(path, panels, 1, len(found), 1500, 470, "0.06, 0.99, 0.14, 0.84", "0.05, 0.1")
+    return caption(found[0][1], what)
+
+
+def velocity_field(runs, path):
+    return field(runs, path, "velocity_field", ("v_x", "v_z"), lambda v: f"{1e3 * v:.0f} mm/s",
+                 "Mean velocities in the section at the largest inward speed of the wall, which is on "
+                 "the right.")
+
+
+def displacement_field(runs, path):
+    return field(runs, path, "displacement_field", ("u_x", "u_z"), lambda v: f"{1e3 * v:.2f} mm",
+                 "Mean displacement of the grains from one maximum of f to the next: the convection. "
+                 "The wall is on the right.")
+
+
+def f_g_x(runs, path):
+    panels, found = [], every_course(runs)
+    for shape, run in found:
+        panel = Panel(TITLE[shape], "(x − x_j) / Δx_{max}", "f_g / mg" if not panels else "",
+                      ["set key bottom left"])
+        weight, colors = run["weight"], ("#9db9d9", "#5f8fc4", "#2f66a3", "#16335b")
+        for number in range(min(4, len(run["periods"]["x_j"]))):
+            rows = period_of(run, number)
+            peak = max(r[1] for r in rows)
+            panel.curve([(r[1] / peak, r[3] / weight) for r in rows], colors[number],
+                        f"period {number + 1}", 1.2)
+        panel.commands += ["set yrange [0:6]", "set xrange [-2.6:1.1]"]
+        panels.append(panel)
+    draw(path, panels, 1, len(found), 1500, 460, "0.05, 0.99, 0.14, 0.89", "0.04, 0.1")
+    return caption(found[0][1], "Force of the grains on the wall over its displacement, four periods. "
+                   "The wall moves outward along the lower branch and in along the upper one; jammed, "
+                   "it bears up to fmax, 8 to 22 mg, above the frame.")
+
+
+def force_chains(runs, path):
+    panels, found = [], [(s, r) for s, r in every_course(runs) if "chains_active" in r["tables"]]
+    for state in ("jammed", "active"):
+        for shape, run in found:
+            rows = columns(run, "chains_" + state, "x_from", "z_from", "x_to", "z_to",
+                           "normal_force")
+            unit = sum(r[4] for r in rows) / len(rows)
+            b = run["behaviour"]
+            ratio = b[state + "_xx"] / b[state + "_zz"]
+            length, height = run["length"], run["height"]
+            panel = Panel(f"{TITLE[shape]}, {state}: σ_{{xx}}/σ_{{zz}} = {ratio:.2f}", "", "",
+                          ["set size ratio -1", f"set xrange [{-0.01 * length}:{1.01 * length}]",
+                           f"set yrange [{-0.01 * height}:{1.01 * height}]", "unset tics",
+                           "unset grid"])
+            for k in range(1, 9):
+                part = [(x, z, a - x, c - z) for x, z, a, c, f in rows
+                        if 0.6 * k * unit < f and (f <= 0.6 * (k + 1) * unit or k == 8)]
+                panel.add(part, "1:2:3:4",
+                          f'with vectors nohead lw {0.7 * k} lc rgb "{COLOR[shape]}"')
+            panels.append(panel)
+    draw(path, panels, 2, len(found), 1500, 860, "0.01, 0.99, 0.01, 0.95", "0.01, 0.06")
+    return caption(found[0][1], "Normal forces above 0.6 of their mean, as lines between the centres "
+                   "of grains in the middle quarter of the box; widths relative to the mean of each "
+                   "panel. The wall is on the right.")
+
+
+def rho_t(runs, path):
+    panels, found = [], every_course(runs)
+    for shape, run in found:
+        panel = Panel(TITLE[shape], "t  [s]", "ρ − ρ(0)" if not panels else "",
+                      ["set key bottom right"])
+        for name, color, title in (("rho_inner", COLOR[shape], "inner volume"),
+                                   ("rho_box", GREY, "whole box")):
+            rows = columns(run, "packing", "t", name)
+            panel.curve([(t, rho - rows[0][1]) for t, rho in rows], color,
+                        f"{title}, ρ(0) = {rows[0][1]:.3f}")
+        panels.append(panel)
+    draw(path, panels, 1, len(found), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(found[0][1], "Change of the solid fraction.")
+
+
+def rho_x(runs, path):
+    panels, found = [], every_course(runs)
+    for shape, run in found:
+        p = run["parameters"]
+        panel = Panel(TITLE[shape], "(x − x_j) / Δx_{max}", "ρ − ρ_j  [1e-4]" if not panels else "",
+                      ["set key bottom left", "set xtics 0.5"])
+        packing = columns(run, "packing", "t", "rho_inner", "rho_box")
+        wall = columns(run, "wall", "t", "x")
+        start, finish = run["periods"]["t_start"][1], run["periods"]["t_finish"][1]
+        x_j, peak = run["periods"]["x_j"][1], run["periods"]["dx_max"][1]
+        x_of = {round(t, 4): x for t, x in wall}
+        rows = [(x_of[round(t, 4)] - x_j, inner, box) for t, inner, box in packing
+                if start - 1e-9 <= t <= finish + 1e-9 and round(t, 4) in x_of]
+        for k, color, title in ((1, COLOR[shape], "inner volume"), (2, GREY, "whole box")):
+            panel.curve([(r[0] / peak, 1e4 * (r[k] - rows[0][k])) for r in rows], color, title)
+        panels.append(panel)
+        del p
+    draw(path, panels, 1, len(found), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(found[0][1], "Solid fraction over the displacement of the wall in the second period: "
+                   "from (0, 0) to the right end in extension, then to the left in contraction.")
+
+
+def phase_portrait(runs, path):
+    panels = []
+    for shape in every_shape(runs):
+        panel = Panel(TITLE[shape], "(x − x_j) ν²  [mm/s²]", "v ν  [mm/s²]" if not panels else "",
+                      ["set key top left"])
+        for nu, color, dash in ((5.0, COLOR[shape], 1), (10.0, BLACK, 2)):
+            loops = [run["loop"] for run in select(runs, shape, frequency=nu) if run["loop"]]
+            if not loops:
+                continue
+            n = len(loops)
+            mean = [(sum(loop["x"][k] for loop in loops) / n, sum(loop["v"][k] for loop in loops) / n)
+                    for k in range(len(loops[0]["x"]))]
+            panel.curve([(1e3 * x * nu * nu, 1e3 * v * nu) for x, v in mean], color,
+                        f"{nu:g} Hz", 1.8, dash)
+        panels.append(panel)
+    draw(path, panels, 1, len(panels), 1500, 430, "0.065, 0.99, 0.15, 0.89", "0.05, 0.1")
+    return ("Phase portraits of the wall, scaled by the frequency as in the paper: means over the periods "
+            f"of three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}. Extension collapses; contraction "
+            "ends where the strain of the period puts it.")
+
+
+def dx_v_frequency(runs, path):
+    panels = [Panel("excursion without drift", "ν  [Hz]", "Δx  [mm]",
+                    ["set logscale xy", "set key bottom left",
+                                                                        "set xrange [0.8:75]"]),
+              Panel("largest inward speed", "ν  [Hz]", "v_{max}  [mm/s]",
+                    ["set logscale xy", "set key bottom left", "set xrange [0.8:75]"]),
+              Panel("the same over ν^{−2}: the paper's C", "ν  [Hz]", "C",
+                    ["set logscale x", "set yrange [0:0.07]", "set key bottom right",
+                     "set xrange [0.8:75]"]),
+              Panel("the same over ν^{−1}", "ν  [Hz]", "v_{max} ν  / value at 10 Hz",
+                    ["set logscale x", "set yrange [0:1.6]", "set key bottom right",
+                     "set xrange [0.8:75]"])]
+    for shape in every_shape(runs):
+        found = series(runs, shape, "frequency")
+        shift = SPREAD[shape]
+        rows = [(x * shift, y, e) for x, y, e in
+                by_value(found, "frequency", lambda r: r["dx_active"], 1e3)]
+        panels[0].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
+        rows = [(x * shift, y, e) for x, y, e in
+                by_value(found, "frequency", lambda r: r["v_max"], 1e3)]
+        panels[1].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
+        rows = [(x * shift, y, e) for x, y, e in by_value(found, "frequency", constant)]
+        panels[2].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
+        rows = by_value(found, "frequency", lambda r: r["v_max"] * r["parameters"]["frequency"])
+        ten = next((y for x, y, _ in rows if x == 10), rows[0][1])
+        panels[3].bars([(x * shift, y / ten, e / ten) for x, y, e in rows], COLOR[shape],
+                       POINT[shape], TITLE[shape])
+    panels[0].function("0.6 * (x / 5)**-2", GREY, "ν^{−2}")
+    panels[1].function("130 * (x / 5)**-1", GREY, "ν^{−1}")
+    panels[2].function("0.01", "#1f5fa8", "paper, 3D")
+    panels[2].function("0.05", "#b3261e", "paper, 2D")
+    panels[3].function("1", GREY)
+    draw(path, panels, 2, 2, 1400, 1000)
+    return ("Excursion without drift and largest inward speed over the frequency; below, both multiplied by "
+            "the paper's powers. Bars: standard error over three samples (1 Hz: one sample). N = 1200, "
+            f"fmax = 6 kN, m_w = m/2; {RIGID_TEXT}. Symbols are shifted by 2 to 6 % in ν.")
+
+
+def dx_loads(runs, path):
+    panels = [Panel("", "fmax  [kN]", "Δx fmax / value at 6 kN", ["set xrange [0:11]",
+                                                                   "set yrange [0.5:1.5]"]),
+              Panel("", "g  [m/s²]", "Δx / g²  / value at 9.81 m/s²",
+                    ["set xrange [0:22]", "set yrange [0.5:1.5]"]),
+              Panel("", "m_w / m", "Δx (m + m_w) / value at m/2",
+                    ["set logscale x", "set xrange [0.07:6]", "set yrange [0.5:1.5]"])]
+    cases = (("fmax", lambda r: r["dx_active"] * r["parameters"]["fmax"], CASE["fmax"], 1e-3),
+             ("gravity", lambda r: r["dx_active"] / r["parameters"]["gravity"] ** 2, 9.81, 1),
+             ("wall_mass_ratio", lambda r: r["dx_active"] * (r["mass"] + r["wall_mass"]), 0.5, 1))
+    for panel, (parameter, value, base, unit) in zip(panels, cases):
+        for shape in every_shape(runs):
+            rows = by_value(jamming(series(runs, shape, parameter, frequency=5.0)), parameter, value)
+            middle = next((y for x, y, _ in rows if x == base), math.nan)
+            shift = SPREAD[shape]
+            panel.bars([(x * unit * shift, y / middle, e / middle) for x, y, e in rows],
+                       COLOR[shape], POINT[shape], TITLE[shape])
+        panel.function("1", GREY, "paper")
+    draw(path, panels, 1, 3, 1500, 480, "0.055, 0.99, 0.14, 0.95", "0.06, 0.1")
+    return ("Excursion without drift at 5 Hz over force, gravity and mass of the wall, multiplied by the "
+            "paper's powers: a horizontal line is the paper's law. Bars: standard error over three "
+            f"samples. N = 1200; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
+
+
+def master(runs, path):
+    panels = []
+    series_of = (("frequency", {}, 9, "ν"), ("fmax", {"frequency": 5.0}, 7, "fmax"),
+                 ("gravity", {"frequency": 5.0}, 5, "g"),
+                 ("wall_mass_ratio", {"frequency": 5.0}, 13, "m_w"))
+    colors = ("#1f5fa8", "#b3261e", "#2e7d4f", "#d07a00")
+    for near in (False, True):
+        for shape in every_shape(runs):
+            panel = Panel(TITLE[shape] + (", near the origin" if near else ""),
+                          "(mg)² / [(m + m_w) fmax ν²]  [mm]",
+                          "Δx  [mm]" if len(panels) % 4 == 0 else "",
+                          ["set key top left"])
+            top = 0
+            for (parameter, wanted, symbol, title), color in zip(series_of, colors):
+                found = {}
+                for run in jamming(series(runs, shape, parameter, **wanted)):
+                    found.setdefault(run["parameters"][parameter], []).append(run)
+                rows = []
+                for group in found.values():
+                    load, e = Estimate([scaled_load(r) for r in group]), over_samples(
+                        group, lambda r: r["dx_active"])
+                    rows.append((1e3 * load.mean, 1e3 * e.mean, 1e3 * e.error))
+                if near:
+                    rows = [r for r in rows if r[0] <= 4]
+                panel.bars(rows, color, symbol, title, 0.9)
+                top = max([top] + [r[0] for r in rows])
+            c = over_samples(series(runs, shape, "frequency"), constant).mean
+            panel.function(f"{c:.4f} * x", BLACK, f"C = {c:.3f}", 1)
+            panel.function(f"{0.01 if shape in ('polyhedron', 'sphere') else 0.05} * x", GREY,
+                           "paper")
+            if near and top == 0:
+                panel.curves.clear()
+            panel.commands += ([f"set xrange [0:{1.08 * top or 1:.4g}]"] if near else
+                               ["set logscale xy", "set format '10^{%L}'"])
+            panels.append(panel)
+    draw(path, panels, 2, len(panels) // 2, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
+    return ("Excursion without drift over the scaled load, all values of ν, fmax, g and m_w: means and "
+            f"standard errors of three samples. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
+            "the origin on linear axes (the paper's inset).")
+
+
+def compaction_rate(runs, path):
+    panels = []
+    fitted = compaction.laws(runs)
+    for shape in every_shape(runs):
+        panel = Panel(TITLE[shape], "ν  [Hz]", "rate  [1e-3/s]" if not panels else "",
+                      ["set logscale x", "set yrange [0:*]", "set xrange [0.8:75]",
+                       "set key off" if panels else "set key bottom right"])
+        found = series(runs, shape, "frequency")
+        rows = [(x * 0.98, y, e) for x, y, e in
+                by_value(found, "frequency", lambda r: r["parameters"]["frequency"] *
+                         strain(r, 0, 4), 1e3)]
+        panel.bars(rows, COLOR[shape], 7, "four periods")
+        rows = [(x * 1.02, y, e) for x, y, e in
+                by_value([r for r in found if r["parameters"]["frequency"] >= 2], "frequency",
+                         first_second, 1e3)]
+        panel.bars(rows, GREY, 6, "one second")
+        law = fitted[shape]
+        mean_thrust = over_samples(found, lambda r: (r["thrust"] or math.nan)).mean
+        panels.append(panel)
+        if not law.fitted:
+            continue
+        for n, color, title in ((4, COLOR[shape], "law"), (None, GREY, None)):
+            points = []
+            for k in range(60):
+                nu = 1 * (65 / 1) ** (k / 59)
+                t_u = math.acos(1 - 2 * mean_thrust / CASE["fmax"]) / (math.pi * nu)
+                # A second has 0.85 ν − 0.75 periods between its first and its last maximum of f.
+                count = n or 0.85 * nu - 0.75
+                if count < 2:
+                    continue
+                whole = int(count)
+                mean = (sum(law.strain(t_u, i + 1) for i in range(whole)) +
+                        (count - whole) * law.strain(t_u, whole + 1)) / count
+                points.append((nu, 1e3 * nu * mean))
+            panel.curve(points, color, title, 1.2, 2)
+    draw(path, panels, 1, len(panels), 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
+    return ("Compaction rate, ν × strain per period, over the first four jammed periods and over the first "
+            "second of the force. Broken lines: the law of equation 2 with the mean thrust. Bars: standard "
+            f"error over three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
+
+
+def first_second(run):
+    """Strain rate of the box between the first jammed state and the last one within the first second,
+    the paper's procedure."""
+    times, x = run["jams"]["t"], run["jams"]["x"]
+    last = max([k for k, t in enumerate(times) if t <= 1 + 1e-9] + [1])
+    return (x[0] - x[last]) / run["length"] / (times[last] - times[0])
+
+
+def compaction_law(runs, path):
+    panels = []
+    fitted = compaction.laws(runs)
+    shapes = [shape for shape in every_shape(runs) if fitted[shape].fitted]
+    if not shapes:
+        raise Missing
+    for shape in shapes:
+        law = fitted[shape]
+        panel = Panel(TITLE[shape], "t_u  [ms]", "strain of a period × n^b" if not panels else "",
+                      ["set logscale xy", "set xrange [0.8:200]", "set yrange [2e-5:3e-2]",
+                       "set format y '10^{%L}'", "set key bottom right"])
+        data = [g for run in compaction.loading_runs(runs, shape) for g in compaction.groups(run)]
+        for first, color, symbol, title in ((True, COLOR[shape], 7, "periods 1, 2"),
+                                            (False, BLACK, 6, "periods 3 to 64")):
+            panel.points([(1e3 * t, eps * n ** law.b) for t, n, eps, _ in data
+                          if (n < 2.5) == first and eps > 0], color, symbol, title, 0.55)
+        panel.function(f"{law.share:.6g} * (x / 10)**{law.p:.4f}", GREY,
+                       f"t_u^{{{law.p:.2f}}}", 1)
+        panels.append(panel)
+    for shape in shapes:
+        law = fitted[shape]
+        panel = Panel("", "period n", "strain of a period / fit at n = 1" if shape == shapes[0]
+                      else "", ["set logscale xy", "set xrange [0.8:70]", "set yrange [0.02:4]",
+                                "set key bottom left"])
+        for nu, color, symbol in ((5.0, "#d07a00", 7), (10.0, "#2e7d4f", 5), (20.0, "#1f5fa8", 9),
+                                  (60.0, "#b3261e", 13)):
+            rows = {}
+            for run in series(runs, shape, "frequency"):
+                if run["parameters"]["frequency"] == nu:
+                    for t_u, n, eps, _ in compaction.groups(run):
+                        rows.setdefault(n, []).append(eps / law.strain(t_u, 1))
+            panel.bars([(n, Estimate(v).mean, Estimate(v).error) for n, v in sorted(rows.items())],
+                       color, symbol, f"{nu:g} Hz")
+        panel.function(f"x**{-law.b:.4f}", GREY, f"n^{{−{law.b:.2f}}}", 1)
+        panels.append(panel)
+    draw(path, panels, 2, len(shapes), 1600, 860, "0.055, 0.99, 0.08, 0.95", "0.035, 0.12")
+    return ("Strain of a period. Above: over the time t_u during which f is below the thrust of the grains, "
+            "times n^b; all ν, fmax, g, m_w, boxes and lid forces. Below: over the number n of the period, "
+            "over the fit at n = 1, at four frequencies; bars: standard error over three samples. "
+            f"N = 1200; {RIGID_TEXT}.")
+
+
+def thrust(runs, path):
+    panels = [Panel("thrust", "Δx / d", "F / mg", ["set logscale x", "set format x '10^{%L}'",
+                                                   "set yrange [0:0.6]", "set key bottom left"]),
+              Panel("carried mass", "Δx / d", "β", ["set logscale x", "set format x '10^{%L}'",
+                                                    "set yrange [0:1.2]", "set key off"])]
+    for shape in every_shape(runs):
+        groups = {}
+        for parameter, wanted in (("frequency", {}), ("fmax", {"frequency": 5.0}),
+                                  ("gravity", {"frequency": 5.0})):
+            for run in jamming(series(runs, shape, parameter, **wanted)):
+                groups.setdefault((parameter, run["parameters"][parameter]), []).append(run)
+        for panel, key in zip(panels, ("steady_thrust", "carried_share")):
+            rows = []
+            for group in groups.values():
+                e = over_samples(group, lambda r, key=key: r[key] if r[key] is not None else math.nan)
+                dx = over_samples(group, lambda r: r["dx_active"]).mean
+                rows.append((dx / SMALLEST, e.mean, e.error))
+            panel.bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
+    draw(path, panels, 1, 2, 1200, 480, "0.07, 0.99, 0.14, 0.91", "0.07, 0.1")
+    return ("Thrust and carried mass, fitted to the force on the wall in extension, f_g = F − βm a, over the "
+            "excursion: all ν, fmax and g. Bars: standard error over three samples. N = 1200, m_w = m/2, H/L = 1; "
+            f"{RIGID_TEXT}. Both fall with the excursion. Their ratio F²/(m_w + βm) is nearly constant, hence the "
+            "paper's powers, and falls where the excursion exceeds a hundredth of d, hence the departures.")
+
+
+def box_runs(runs, shape):
+    """Runs at 5 Hz and 6 kN in boxes of all shapes, with grains of all sizes, both sets of contacts."""
+    found = []
+    for wanted in (COMPLIANT, {}):
+        found += select(runs, shape, frequency=5.0, box_ratio=ANY, size_reading=ANY, size_scale=ANY,
+                        jammed=False, **wanted)
+    return found
+
+
+def box(runs, path):
+    panels = [Panel("prefactor", "H / L", "C", ["set logscale xy", "set xrange [0.35:1.8]",
+                                                 "set yrange [0.006:0.12]", "set key bottom right",
+                                                 "set xtics (0.4, 0.5, 0.7, 1, 1.5)"]),
+              Panel("thrust in extension", "H / L", "F / mg",
+                    ["set logscale xy", "set xrange [0.35:1.8]", "set yrange [0.08:0.6]",
+                     "set key bottom right", "set xtics (0.4, 0.5, 0.7, 1, 1.5)",
+                     "set ytics (0.1, 0.2, 0.3, 0.5)"]),
+              Panel("solid fraction of the box at the start", "H / L", "ρ",
+                    ["set xrange [0.35:1.8]", "set key bottom right"])]
+    values = (constant, thrust_ratio, lambda r: r["rho_box_initial"])
+    if not box_runs(runs, "polyhedron"):
+        raise Missing
+    for shape, text in (("polyhedron", "polyhedra"), ("polygon", "polygons")):
+        for method, symbol in (("contact-dynamics", 6), ("compliant", 7)):
+            found = {}
+            for run in box_runs(runs, shape):
+                p = run["parameters"]
+                if p["method"] == method and p["size_reading"] == "circumdiameter" and \
+                        p["size_scale"] == 1:
+                    found.setdefault(p["box_ratio"], []).append(run)
+            for panel, value in zip(panels, values):
+                if shape == "polygon" and panel is panels[2]:
+                    continue
+                rows = []
+                for ratio, group in sorted(found.items()):
+                    e = over_samples(group, value)
+                    rows.append((Estimate([r["height"] / r["length"] for r in group]).mean
+                                 * (1 if shape == "polyhedron" else 1.02), e.mean, e.error))
+                panel.bars(rows, COLOR[shape], symbol + (0 if shape == "polyhedron" else -2),
+                           f"{text}, {'rigid' if method != 'compliant' else 'compliant'}")
+    panels[0].function("0.01", "#1f5fa8", "paper, 3D")
+    panels[0].function("0.05", "#b3261e", "paper, 2D")
+    panels[2].function("0.50", "#1f5fa8", "paper")
+    draw(path, panels, 1, 3, 1500, 480, "0.062, 0.99, 0.14, 0.89", "0.06, 0.1")
+    return ("Prefactor C (excursion without drift), mean force of the grains on the outward-moving wall, and "
+            "initial solid fraction of the whole box, over its shape. 5 Hz, fmax = 6 kN, N = 1200. Filled: "
+            f"{COMPLIANT_TEXT}; open: {RIGID_TEXT}. Bars: standard error where there are three samples.")
+
+
+def rise(run):
+    """By how much f_g rises while the wall moves out, over its mean."""
+    return run["behaviour"]["active_slope"] * run["dx_active"] / run["thrust"]
+
+
+def force_rise(runs, path):
+    panel = Panel("", "m_w / m", "rise of f_g over the excursion / mean f_g",
+                  ["set logscale x", "set xrange [0.07:6]", "set yrange [0:4]"])
+    for shape in every_shape(runs):
+        rows = by_value(series(runs, shape, "wall_mass_ratio", frequency=5.0), "wall_mass_ratio", rise)
+        if len(rows) < 2:
+            raise Missing
+        panel.bars([(x * SPREAD[shape], y, e) for x, y, e in rows], COLOR[shape], POINT[shape],
+                   TITLE[shape])
+    draw(path, [panel], 1, 1, 760, 480, "0.1, 0.98, 0.13, 0.96")
+    return ("Rise of f_g while the wall moves out, over the mass of the wall. Bars: standard error over three "
+            f"samples. N = 1200, ν = 5 Hz, fmax = 6 kN; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
+
+
+def speeds(runs, shape):
+    """Pairs: way back over excursion, 1 + (x_j - x_j') / dx; largest inward speed over excursion times
+    frequency. One of each run, means over its first eight periods."""
+    found = []
+    for run in compaction.loading_runs(runs, shape):
+        periods, nu = run["periods"], run["parameters"]["frequency"]
+        n = min(8, len(periods["x_j"]))
+        if n == 0:
+            continue
+        dx = sum(periods["dx_active"][:n]) / n
+        net = strain(run, 0, n) * run["length"]
+        if dx > 0 and net > 0:
+            found.append((1 + net / dx, sum(periods["v_max_passive"][:n]) / n / (dx * nu)))
+    return found
+
+
+def way_back(runs, path):
+    panels = []
+    for shape in every_shape(runs):
+        panel = Panel(TITLE[shape], "way back / excursion", "v_{max} / (Δx ν)" if not panels else "",
+                      ["set logscale xy", "set xrange [1:40]", "set yrange [8:300]",
+                       "set key bottom right"])
+        rows = speeds(runs, shape)
+        panel.points(rows, COLOR[shape], POINT[shape], None, 0.8)
+        c, b, _, _ = power(rows)
+        if math.isfinite(b):
+            panel.function(f"{c:.4f} * x**{b:.4f}", GREY, f"power {b:.2f}", 1)
+        panels.append(panel)
+    draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return ("Largest inward speed over excursion times frequency, and the way back, Δx + x_j − x_j′, over the "
+            "excursion. One point for each run over ν, fmax, g, m_w, box and lid force, means over its first "
+            f"eight periods; three samples. N = 1200; {RIGID_TEXT}. If v_max scaled as Δx ν, the points would "
+            "lie on a horizontal line.")
+
+
+def long_course(runs, path):
+    """Solid fraction over the number of periods at 20 Hz, the longest run of each shape."""
+    panels = []
+    for shape in ("polyhedron", "polygon"):
+        found = [r for r in runs if r["parameters"]["shape"] == shape and "long" in r["tables"]]
+        if not found:
+            raise Missing
+        panel = Panel(TITLE[shape], "period n", "ρ − ρ(first maximum of f)" if not panels else "",
+                      ["set logscale x", "set key top left"])
+        for run in found:
+            rows = columns(run, "long", "periods", "rho_inner", "rho_box")
+            rigid = run["parameters"]["method"] != "compliant"
+            for k, title in ((1, "inner volume"), (2, "whole box")):
+                panel.points([(r[0] + 0.25, r[k] - rows[0][k]) for r in rows],
+                             GREY if k == 2 else COLOR[shape], 6 if rigid else 7,
+                             f"{title}, {'rigid' if rigid else 'compliant'}", 0.9)
+        panels.append(panel)
+    draw(path, panels, 1, 2, 1200, 430, "0.085, 0.98, 0.15, 0.89", "0.075, 0.1")
+    return ("Solid fraction at the maxima of f. ν = 20 Hz, fmax = 6 kN, N = 1200, one sample; "
+            f"{RIGID_TEXT} (open) or {COMPLIANT_TEXT} (filled).")
+
+
+# Name, title with the paper's number of the figure, function.
+FIGURES = (
+    ("x_t", "Displacement of the wall (paper, fig. 4)", x_t),
+    ("one_period", "One period (paper, fig. 5)", one_period),
+    ("velocity_field", "Velocities in contraction (paper, fig. 6)", velocity_field),
+    ("displacement_field", "Convection", displacement_field),
+    ("f_g_x", "Force of the grains on the wall (paper, fig. 7)", f_g_x),
+    ("force_rise", "Force in extension and mass of the wall", force_rise),
+    ("force_chains", "Force chains (paper, fig. 8)", force_chains),
+    ("rho_t", "Solid fraction over time (paper, fig. 9)", rho_t),
+    ("rho_x", "Solid fraction over displacement (paper, fig. 10)", rho_x),
+    ("phase_portrait", "Phase portraits (paper, fig. 11)", phase_portrait),
+    ("way_back", "Speed and way back", way_back),
+    ("dx_v_frequency", "Excursion and speed over frequency (paper, fig. 12)", dx_v_frequency),
+    ("dx_loads", "Excursion over force, gravity and wall (paper, figs. 13, 14)", dx_loads),
+    ("master", "Excursion over the scaled load (paper, fig. 15)", master),
+    ("thrust", "Thrust and carried mass over the excursion", thrust),
+    ("box", "The prefactor and the shape of the box", box),
+    ("compaction_rate", "Compaction rate over frequency (paper, fig. 16)", compaction_rate),
+    ("compaction_law", "The law of compaction", compaction_law),
+    ("long_course", "Many periods", long_course),
+)

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Pairs with a compound grain. Parts of the two grains collide as convex shapes: each pair of parts
+// that touches has a manifold of its own, whose numbers of parts identify it. (The simulation collides
+// only parts whose boxes are near: world/detail/pair_caches.hpp.)
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "moreau/detect/manifold.hpp"
+#include "moreau/detect/pair_cache.hpp"
+#include "moreau/detect/pairs/collide_cylinder_wall.hpp"
+#include "moreau/detect/placed.hpp"
+#include "moreau/detect/polytope/axis.hpp"
+#include "moreau/detect/shape_kinds.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+
+namespace moreau {
+
+/// A pair of which at least one grain is a compound.
+template <class A, class B>
+concept CompoundPair = CompoundShape<A> || CompoundShape<B>;
+
+/// Calls use(k, part) for each convex part of a placed grain. A convex grain is its own part 0.
+template <class ShapeT, class Use>
+void for_each_part(const Placed<ShapeT>& grain, Use&& use) {
+  if constexpr (CompoundShape<ShapeT>) {
+    for (std::size_t k = 0; k < grain.part_count(); ++k)
+      use(static_cast<std::uint32_t>(k), grain.part(k));
+  } else {
+    use(std::uint32_t{0}, grain);
+  }
+}
+
+namespace detail {
+
+/// Calls use(v) for the vertices v of a feature of a polygon, whose faces are its edges.
+template <std::floating_point T, class Use>
+void for_each_vertex(const Polygon<T>& polygon, FeatureKind kind, std::size_t feature, Use&& use) {
+  use(feature);
+  if (kind == FeatureKind::face) use((feature + 1) % polygon.vertex_count());
+}
+/// Calls use(v) for the vertices v of a feature of a polyhedron.
+template <std::floating_point T, class Use>
+void for_each_vertex(const Polyhedron<T>& polyhedron, FeatureKind kind, std::size_t feature,
+                     Use&& use) {
+  if (kind == FeatureKind::vertex) {
+    use(feature);
+  } else if (kind == FeatureKind::edge) {
+    for (const auto v : polyhedron.edges()[feature].vertex) use(v);
+  } else {
+    for (const auto v : polyhedron.face(feature)) use(v);
+  }
+}
+
+/// Whether a feature of part `part` lies in another part of its grain that reaches beyond it along the
+/// direction, by more than 0.05 of its size. The grain continues there, so the feature cannot make a
+/// contact with this normal.
+/// @param direction unit, out of the part, world axes
+template <CompoundShape ShapeT>
+bool is_inside(const Placed<ShapeT>& grain, std::uint32_t part, FeatureKind kind,
+               std::uint32_t feature, const typename SpaceOf<ShapeT>::Vector& direction) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  const auto& seams = grain.shape().seams();
+  auto others = ~std::uint64_t{0};
+  std::size_t vertex = 0;
+  for_each_vertex(grain.part(part).shape(), kind, feature, [&](std::size_t v) {
+    others &= seams.neighbours_at(part, v);
+    vertex = v;
+  });
+  for (std::size_t bit = 0; others != 0; ++bit, others >>= 1) {
+    if ((others & 1) == 0) continue;
+    const auto& other = grain.part(seams.neighbour(part, bit));
+    const Vector here = grain.part(part).center() - other.center() +
+                        grain.part(part).vertices()[static_cast<std::uint32_t>(vertex)];
+    if (direction.dot(other.support(direction) - here) > T(0.05) * other.radius()) return true;
+  }
+  return false;
+}
+
+/// Whether the normal of a contact of two parts is that of a feature inside one of the grains. Without
+/// this test a grain that slides over the seam between two parts would bump against the edge or face
+/// of the second part. Features are known for pairs of polytopes.
+/// @param cache  of the pair of parts, after the collision
+/// @param normal unit, from a to b, world axes
+template <CompoundShape ShapeT>
+bool is_at_seam(const Placed<ShapeT>& a, std::uint32_t part_a, const Placed<ShapeT>& b,
+                std::uint32_t part_b, const PairCache<SpaceOf<ShapeT>>& cache,
+                const typename SpaceOf<ShapeT>::Vector& normal) {
+  if constexpr (requires {
+                  for_each_vertex(a.part(0).shape(), FeatureKind::face, 0, [](std::size_t) {});
+                }) {
+    const AxisKind kind = cache.kind;
+    if (kind == AxisKind::none || kind == AxisKind::nearest_points) return false;
+    return (kind != AxisKind::face_b &&
+            is_inside(a, part_a, feature_of_a(kind), cache.a, normal)) ||
+           (kind != AxisKind::face_a && is_inside(b, part_b, feature_of_b(kind), cache.b, -normal));
+  } else {
+    return false;
+  }
+}
+
+}  // namespace detail
+
+/// The contacts of all parts of a pair, without caches.
+/// @param margin largest gap of two parts in contact [m], >= 0
+/// @param out    overwritten for each pair of parts in contact
+/// @param use    called without arguments for each pair of parts in contact, when `out` contains its
+///               points, sorted by the parts of a and then of b
+/// @returns whether there was one
+template <class A, class B, class Use>
+bool collide_parts(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,
+                   Manifold<SpaceOf<A>>& out, Use&& use) {
+  bool touch = false;
+  for_each_part(a, [&](std::uint32_t i, const auto& part_a) {
+    for_each_part(b, [&](std::uint32_t j, const auto& part_b) {
+      PairCache<SpaceOf<A>> none;
+      if (!collide(part_a, part_b, margin, out, none)) return;
+      if constexpr (std::same_as<A, B> && CompoundShape<A>)
+        if (detail::is_at_seam(a, i, b, j, none, out.normal)) return;
+      out.part_a = i;
+      out.part_b = j;
+      touch = true;
+      use();
+    });
+  });
+  return touch;
+}
+
+/// The contact points of all parts of a compound grain in a cylinder, as for a convex grain.
+template <CompoundShape ShapeT, class Use>
+bool collide_each(const Placed<ShapeT>& a, const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
+                  typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out,
+                  Use&& use) {
+  bool touch = false;
+  for_each_part(a, [&](std::uint32_t k, const auto& part) {
+    out.part_a = k;
+    out.part_b = 0;
+    touch |= collide_each(part, b, margin, out, use);
+  });
+  return touch;
+}
+
+/// Signed distance of two grains: that of their nearest parts, or, where they overlap, of the parts
+/// that overlap most.
+template <class A, class B>
+requires CompoundPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
+                                                                const Placed<B>& b) {
+  SignedDistance<SpaceOf<A>> nearest;
+  nearest.gap = std::numeric_limits<typename SpaceOf<A>::Scalar>::infinity();
+  for_each_part(a, [&](std::uint32_t, const auto& part_a) {
+    for_each_part(b, [&](std::uint32_t, const auto& part_b) {
+      const auto found = distance(part_a, part_b);
+      if (found.gap < nearest.gap) nearest = found;
+    });
+  });
+  return nearest;
+}
+
+/// Whether two grains have a point in common.
+template <class A, class B>
+requires CompoundPair<A, B>
+bool overlap(const Placed<A>& a, const Placed<B>& b) {
+  bool found = false;
+  for_each_part(a, [&](std::uint32_t, const auto& part_a) {
+    for_each_part(
+        b, [&](std::uint32_t, const auto& part_b) { found = found || overlap(part_a, part_b); });
+  });
+  return found;
+}
+
+}  // namespace moreau

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "moreau/contact/body_delassus.hpp"
+#include "moreau/distributed/detail/ordered_sharing.hpp"
+
+namespace moreau::detail {
+
+/// The contacts of a pair of bodies.
+struct ColouredPair {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t first, last;  ///< contacts first .. last - 1
+  std::uint32_t colour;
+  std::uint32_t wall;  ///< number of the moving wall of the pair, or none
+};
+
+/// Colours of the pairs of bodies that do not depend on the process that has them;
+/// reproducible_gauss_seidel.hpp explains them.
+template <class S>
+class PairColours {
+ public:
+  /// @param op      contacts of one pair of bodies follow one another
+  /// @param sharing null: all bodies are in this process
+  void find(const BodyDelassus<S>& op, OrderedSharing* sharing) {
+    find_pairs(op, sharing);
+    std::vector<std::uint64_t> used(words * op.body_count()), best(op.body_count());
+    std::vector<std::uint32_t> left(pairs_.size());
+    for (std::uint32_t k = 0; k < left.size(); ++k) left[k] = k;
+    while (sum_over(sharing, double(left.size())) > 0) {
+      std::fill(best.begin(), best.end(), 0);
+      for (const std::uint32_t k : left)
+        for (const std::uint32_t body : bodies_[k])
+          if (body != ColouredPair::none) best[body] = std::max(best[body], priority_[k]);
+      if (sharing) sharing->take_largest(best, 1);
+      const auto is_next = [&](std::uint32_t k) {
+        return std::all_of(bodies_[k].begin(), bodies_[k].end(), [&](std::uint32_t body) {
+          return body == ColouredPair::none || best[body] == priority_[k];
+        });
+      };
+      for (const std::uint32_t k : left)
+        if (is_next(k)) colour(k, used);
+      std::erase_if(left, is_next);
+      if (sharing) sharing->unite_bits(used, words);
+    }
+    sort(sharing);
+  }
+
+  std::size_t count() const { return ends_.size(); }  ///< colours
+  /// The pairs of a colour in the order of their bodies.
+  std::span<const ColouredPair> of(std::size_t colour) const {
+    const std::size_t begin = colour == 0 ? 0 : ends_[colour - 1];
+    return std::span(pairs_).subspan(begin, ends_[colour] - begin);
+  }
+  std::span<const std::uint32_t> walls() const { return walls_; }  ///< that move under contacts
+  /// The number of the moving wall at a contact, or ColouredPair::none.
+  std::uint32_t wall_of(std::size_t contact) const { return wall_of_[contact]; }
+
+ private:
+  static constexpr std::size_t words = 4, colours = 64 * words;
+
+  void find_pairs(const BodyDelassus<S>& op, OrderedSharing* sharing) {
+    walls_.clear();
+    if (sharing) walls_ = sharing->moving_walls();
+    pairs_.clear();
+    bodies_.clear();
+    priority_.clear();
+    wall_of_.assign(op.size(), ColouredPair::none);
+    const auto id = [&](std::uint32_t body) { return sharing ? sharing->id(body) : body; };
+    for (std::uint32_t first = 0, last = 0; first < op.size(); first = last) {
+      const std::array<std::uint32_t, 2> pair = op.bodies(first);
+      std::array<bool, 2> moves{};
+      for (last = first; last < op.size() && op.bodies(last) == pair; ++last) {
+        moves[0] = moves[0] || !op.rows_a(last).isZero(0);
+        moves[1] = moves[1] || !op.rows_b(last).isZero(0);
+      }
+      ColouredPair one{first, last, ColouredPair::none, ColouredPair::none};
+      std::array<std::uint32_t, 2> bodies;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto wall = std::find(walls_.begin(), walls_.end(), pair[k]);
+        if (wall != walls_.end()) one.wall = std::uint32_t(wall - walls_.begin());
+        bodies[k] = moves[k] && wall == walls_.end() ? pair[k] : ColouredPair::none;
+      }
+      std::fill(wall_of_.begin() + first, wall_of_.begin() + last, one.wall);
+      pairs_.push_back(one);
+      bodies_.push_back(bodies);
+      priority_.push_back(mixed(std::uint64_t{id(pair[0])} << 32 | id(pair[1])));
+    }
+  }
+  /// A bijection of 64-bit numbers that looks random, never 0 for ids in use (the finalizer of
+  /// SplitMix64: G. L. Steele et al., OOPSLA 2014).
+  static std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15;
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
+    x = (x ^ x >> 27) * 0x94d049bb133111eb;
+    return x ^ x >> 31;
+  }
+  /// Gives a pair the first colour that is free at its bodies.
+  void colour(std::uint32_t k, std::vector<std::uint64_t>& used) {
+    for (std::size_t word = 0; word < words; ++word) {
+      std::uint64_t taken = 0;
+      for (const std::uint32_t body : bodies_[k])
+        if (body != ColouredPair::none) taken |= used[words * body + word];
+      const auto free = std::uint32_t(std::countr_one(taken));
+      if (free == 64) continue;
+      pairs_[k].colour = std::uint32_t(64 * word) + free;
+      for (const std::uint32_t body : bodies_[k])
+        if (body != ColouredPair::none) used[words * body + word] |= std::uint64_t{1} << free;
+      return;
+    }
+    throw std::runtime_error(
+        "ReproducibleGaussSeidel: a grain touches too many grains for 256 colours");
+  }
+  /// Sorts the pairs by colour, and plans the exchange.
+  void sort(OrderedSharing* sharing) {
+    std::vector<PhaseVisit> visits;
+    double most = 0;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      most = std::max(most, double(pairs_[k].colour + 1));
+      for (const std::uint32_t body : bodies_[k])
+        if (body != ColouredPair::none) visits.push_back({pairs_[k].colour, body});
+    }
+    if (sharing) sharing->largest({&most, 1});
+    if (sharing) sharing->plan(visits, std::size_t(most));
+    std::sort(pairs_.begin(), pairs_.end(), [](const ColouredPair& a, const ColouredPair& b) {
+      return a.colour != b.colour ? a.colour < b.colour : a.first < b.first;
+    });
+    ends_.assign(std::size_t(most), 0);
+    for (const ColouredPair& pair : pairs_) ++ends_[pair.colour];
+    for (std::size_t colour = 1; colour < ends_.size(); ++colour)
+      ends_[colour] += ends_[colour - 1];
+  }
+
+  std::vector<ColouredPair> pairs_;
+  std::vector<std::array<std::uint32_t, 2>>
+      bodies_;  // of each pair; none for one that is not coloured
+  std::vector<std::uint64_t> priority_;
+  std::vector<std::size_t> ends_;
+  std::vector<std::uint32_t> walls_, wall_of_;
+};
+
+}  // namespace moreau::detail

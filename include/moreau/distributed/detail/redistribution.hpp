@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: MIT
+// Moves grains and their contacts from process to process, and finds ghosts.
+//
+// A contact of grains a and b in the next steps needs the centre of a within
+//
+//     R_a + R_b + margin + 2 slack
+//
+// of the centre of b now, with the circumradii R and the slack that each centre may move before the
+// next redistribution. Each grain is therefore lent to all owners of the box around its centre with
+// R_b of the widest grain. In a periodic cell the same is done for its images. Poses are not wrapped.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/distributed/communicator.hpp"
+#include "moreau/distributed/detail/ghost_motion.hpp"
+#include "moreau/distributed/detail/rank_topology.hpp"
+#include "moreau/distributed/detail/shape_store.hpp"
+#include "moreau/distributed/detail/whole_simulation.hpp"
+#include "moreau/distributed/detail/world_parts.hpp"
+#include "moreau/distributed/domain_decomposition.hpp"
+#include "moreau/shape/circumradius.hpp"
+
+namespace moreau::detail {
+
+/// @tparam World a Simulation
+template <class World>
+class Redistribution {
+ public:
+  using S = typename World::S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// All arguments must outlive the object.
+  Redistribution(Communicator& processes, DomainDecomposition<S>& decomposition,
+                 RankTopology& topology, World& world)
+      : processes_(processes),
+        decomposition_(decomposition),
+        topology_(topology),
+        world_(world),
+        ids_(topology.ids) {}
+
+  /// Distributes the simulation of rank 0.
+  void begin();
+  /// Before a step: redistributes grains if one of them may move too far in it.
+  /// @param step      h [s]
+  /// @param imbalance work of a rank over the mean above which space is cut anew
+  void update(Scalar step, double imbalance);
+  /// After a step: takes the motion of ghosts from their owners.
+  void refresh_ghosts() { ghost_motion_.refresh(Parts(world_).bodies(), topology_, processes_); }
+  /// The whole simulation, on rank 0.
+  std::optional<World> gather() {
+    return whole_.gather(world_, processes_, topology_, shape_ids_, own_);
+  }
+
+  std::size_t own_grains() const { return own_.size(); }
+  std::size_t ghost_count() const { return world_.grain_count() - own_.size(); }
+  std::size_t count() const { return count_; }
+  std::size_t partitions() const { return partitions_; }
+  std::span<const BodyId> wall_ids() const { return whole_.walls; }
+  BodyId id(std::size_t local) const { return ids_[local]; }
+  /// The body here of a wall or cylinder of the whole simulation.
+  /// @throws std::invalid_argument for another body
+  BodyId local_wall(BodyId wall) const {
+    for (const std::uint32_t i : topology_.walls)
+      if (ids_[i] == wall) return BodyId(i);
+    throw_invalid("DistributedSimulation", "wall", wall, "must be the id of a wall");
+  }
+
+ private:
+  using Parts = WorldParts<World>;
+  using ShapeT = std::remove_cvref_t<decltype(std::declval<World&>().shape_of_grain(0))>;
+  using Grains = BodyList<S>;
+  using ContactsOnTheWay = ContactsOf<World>;
+
+  std::size_t ranks() const { return std::size_t(processes_.size()); }
+  void redistribute(Scalar slack, double imbalance);
+  void cut_if_uneven(double imbalance);
+  /// Sends grains and contacts to the new owners.
+  void migrate(Grains& grains, ContactsOnTheWay& contacts);
+  /// Lends grains to the ranks that need them as ghosts.
+  /// @param lent out: ids of the grains that each rank gets
+  /// @returns the ghosts from each rank
+  std::vector<Grains> lend(Grains& grains, Scalar slack, std::vector<std::vector<BodyId>>& lent);
+  void assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
+                const std::vector<std::vector<BodyId>>& lent);
+  void take_contacts(ContactsOnTheWay& contacts);
+
+  /// The ranks that need a grain at x.
+  void find_ranks(const Vector& x, Scalar reach, std::vector<int>& found);
+  Vector wrapped(const Vector& x) const { return world_.cell().wrap(x); }
+  /// The local index of a body of the whole simulation; `none` if it is not here.
+  std::uint32_t local_index(std::uint32_t global) const {
+    const auto found =
+        std::lower_bound(ids_.begin(), ids_.end(), global,
+                         [](const BodyId& id, std::uint32_t value) { return id.value < value; });
+    return found != ids_.end() && found->value == global ? std::uint32_t(found - ids_.begin())
+                                                         : none;
+  }
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  Communicator& processes_;
+  DomainDecomposition<S>& decomposition_;
+  RankTopology& topology_;
+  World& world_;
+
+  std::vector<BodyId>& ids_;              // of the whole simulation, one per body here, ascending
+  std::vector<std::uint32_t> shape_ids_;  // of the whole simulation, one per shape here
+  std::vector<std::uint32_t> own_;        // bodies here that are grains of this rank
+  std::vector<Vector> reference_;         // where they were at the last redistribution
+  Scalar slack_ = 0;                      // how far they may move from there
+  std::size_t count_ = 0, partitions_ = 0;
+  ShapeStore<ShapeT> shapes_;  // during a redistribution
+  WholeSimulation<World> whole_;
+  GhostMotion<S> ghost_motion_;
+  std::vector<int> ranks_of_image_;
+};
+
+template <class World>
+void Redistribution<World>::begin() {
+  std::string settings;
+  if (processes_.rank() == 0) {
+    World empty = world_;
+    const std::vector<BodyId> all(empty.grains().begin(), empty.grains().end());
+    empty.remove_grains(all);
+    Parts(empty).shapes().clear();
+    settings = packed(empty);
+  }
+  processes_.broadcast(settings);
+  if (processes_.rank() != 0) unpack(settings, world_);
+  Parts parts(world_);
+  Bodies<S>& bodies = parts.bodies();
+  ids_ = bodies.id;
+  topology_.rank = processes_.rank();
+  topology_.owner.assign(bodies.size(), 0);
+  topology_.ghosts.assign(ranks(), {});
+  topology_.lent.assign(ranks(), {});
+  topology_.walls.clear();
+  whole_.remember(world_, processes_);
+  for (const auto* list : {&whole_.walls, &whole_.cylinders})
+    for (const BodyId wall : *list) {
+      topology_.owner[wall.index()] = RankTopology::everywhere;
+      topology_.walls.push_back(wall.value);
+    }
+  std::sort(topology_.walls.begin(), topology_.walls.end());
+  for (const auto& grain : parts.grains()) own_.push_back(grain.body.value);
+  for (std::uint32_t k = 0; k < parts.shapes().size(); ++k) shape_ids_.push_back(k);
+  redistribute(0, 1);
+}
+
+template <class World>
+void Redistribution<World>::update(Scalar step, double imbalance) {
+  const Bodies<S>& bodies = world_.bodies();
+  double values[] = {0, 0};  // way since the last time with this step, way in this step
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    const std::size_t i = own_[k];
+    const double way = double(step * linear<S>(bodies.velocity[i]).norm());
+    values[0] = std::max(values[0], way + double((bodies.pose[i].position - reference_[k]).norm()));
+    values[1] = std::max(values[1], way);
+  }
+  processes_.largest(std::span(values));
+  if (values[0] <= double(slack_)) return;
+  Parts parts(world_);
+  const Scalar skin = parts.tolerances().lengths(world_.grain_size()).skin;
+  redistribute(std::max(skin, 2 * Scalar(values[1])), imbalance);
+}
+
+template <class World>
+void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
+  Parts parts(world_);
+  ++count_;
+  cut_if_uneven(imbalance);
+  shapes_.take(shape_ids_, parts.shapes());
+  Grains walls, grains;
+  for (const std::uint32_t i : topology_.walls) walls.add(parts.bodies(), i, ids_[i], ShapeId());
+  ContactsOnTheWay contacts;
+  migrate(grains, contacts);
+  std::vector<std::vector<BodyId>> lent(ranks());
+  std::vector<Grains> ghosts = lend(grains, slack, lent);
+  assemble(grains, ghosts, walls, lent);
+  take_contacts(contacts);
+  parts.finish(world_);
+  slack_ = slack;
+}
+
+template <class World>
+void Redistribution<World>::cut_if_uneven(double imbalance) {
+  const Bodies<S>& bodies = world_.bodies();
+  std::vector<float> work(bodies.size(), 1);
+  for (const Contact<S>& contact : world_.contacts().points) {
+    work[contact.a] += 0.5f;
+    work[contact.b] += 0.5f;
+  }
+  std::vector<WeightedPoint<S>> points;
+  double total = 0;
+  for (const std::uint32_t i : own_) {
+    points.push_back({wrapped(bodies.pose[i].position), work[i]});
+    total += double(work[i]);
+  }
+  const double mean = processes_.sum(total) / double(ranks());
+  if (mean == 0 || processes_.largest(total) <= imbalance * mean) return;
+  decomposition_.partition(points);
+  ++partitions_;
+}
+
+template <class World>
+void Redistribution<World>::migrate(Grains& grains, ContactsOnTheWay& contacts) {
+  Parts parts(world_);
+  Bodies<S>& bodies = parts.bodies();
+  std::vector<int> owner(bodies.size(), RankTopology::everywhere);
+  std::vector<std::uint32_t> shape(bodies.size(), 0);
+  for (const auto& grain : parts.grains()) {
+    owner[grain.body.index()] =
+        decomposition_.owner(wrapped(bodies.pose[grain.body.index()].position));
+    shape[grain.body.index()] = shape_ids_[grain.shape.index()];
+  }
+  std::vector<Grains> leaving(ranks());
+  std::vector<ContactsOnTheWay> leaving_contacts(ranks());
+  for (const std::uint32_t i : own_)
+    leaving[std::size_t(owner[i])].add(bodies, i, ids_[i], ShapeId(shape[i]));
+  const Contacts<S>& all = parts.contacts();
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const std::uint32_t a = all.points[c].a, b = all.points[c].b;
+    const int to = RankTopology::owner_of_contact(owner[a], owner[b]);
+    leaving_contacts[std::size_t(to)].add(all, parts.energies(), c, ids_[a].value, ids_[b].value);
+  }
+  std::vector<std::string> out;
+  for (std::size_t rank = 0; rank < ranks(); ++rank)
+    out.push_back(leaving[rank].size() + leaving_contacts[rank].contacts.size() == 0
+                      ? std::string()
+                      : packed(leaving[rank], leaving_contacts[rank]));
+  const std::vector<std::string> in = processes_.exchange(std::move(out));
+  std::vector<Grains> from(ranks());
+  for (std::size_t rank = 0; rank < ranks(); ++rank) {
+    if (in[rank].empty()) continue;
+    ContactsOnTheWay more;
+    unpack(in[rank], from[rank], more);
+    grains.add_all(from[rank]);
+    contacts.add_all(more);
+  }
+  contacts.sort();
+  shapes_.fetch(from, processes_);
+}
+
+template <class World>
+std::vector<typename Redistribution<World>::Grains> Redistribution<World>::lend(
+    Grains& grains, Scalar slack, std::vector<std::vector<BodyId>>& lent) {
+  std::vector<Scalar> radius;
+  for (const ShapeId shape : grains.shapes) radius.push_back(circumradius(shapes_[shape]));
+  double widest = 0;
+  for (const Scalar r : radius) widest = std::max(widest, double(r));
+  widest = processes_.largest(widest);
+  Parts parts(world_);
+  const Scalar around =
+      Scalar(widest) + parts.tolerances().lengths(world_.grain_size()).margin + 2 * slack;
+  std::vector<Grains> out(ranks());
+  std::vector<int> found;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    find_ranks(wrapped(grains.bodies.pose[k].position), radius[k] + around, found);
+    for (const int rank : found) {
+      if (rank == processes_.rank()) continue;
+      out[std::size_t(rank)].add(grains.bodies, k, grains.bodies.id[k], grains.shapes[k]);
+      lent[std::size_t(rank)].push_back(grains.bodies.id[k]);
+    }
+  }
+  for (std::vector<BodyId>& list : lent) std::sort(list.begin(), list.end());
+  std::vector<std::string> bytes;
+  for (Grains& one : out) bytes.push_back(one.size() == 0 ? std::string() : packed(one));
+  const std::vector<std::string> in = processes_.exchange(std::move(bytes));
+  std::vector<Grains> ghosts(ranks());
+  for (std::size_t rank = 0; rank < ranks(); ++rank)
+    if (!in[rank].empty()) unpack(in[rank], ghosts[rank]);
+  shapes_.fetch(ghosts, processes_);
+  return ghosts;
+}
+
+template <class World>
+void Redistribution<World>::find_ranks(const Vector& x, Scalar reach, std::vector<int>& found) {
+  found.clear();
+  const PeriodicCell<S>& cell = world_.cell();
+  const Vector half = Vector::Constant(reach);
+  // All combinations of -1, 0, 1 cell along the axes.
+  int images = 1;
+  for (int axis = 0; axis < S::dim; ++axis) images *= 3;
+  for (int image = 0; image < images; ++image) {
+    Vector center = x;
+    bool exists = true;
+    for (int axis = 0, code = image; axis < S::dim; ++axis, code /= 3) {
+      const int shift = code % 3 - 1;
+      exists = exists && (shift == 0 || cell.is_periodic(axis));
+      center[axis] += Scalar(shift) * cell.length()[axis];
+    }
+    if (!exists) continue;
+    decomposition_.owners({center - half, center + half}, ranks_of_image_);
+    found.insert(found.end(), ranks_of_image_.begin(), ranks_of_image_.end());
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
+template <class World>
+void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
+                                     const std::vector<std::vector<BodyId>>& lent) {
+  struct Entry {
+    BodyId id;
+    Grains* list;
+    std::size_t number;
+    int owner;
+  };
+  std::vector<Entry> entries;
+  const auto add = [&](Grains& list, int owner) {
+    for (std::size_t k = 0; k < list.size(); ++k)
+      entries.push_back({list.bodies.id[k], &list, k, owner});
+  };
+  add(grains, processes_.rank());
+  for (std::size_t rank = 0; rank < ranks(); ++rank) add(ghosts[rank], int(rank));
+  add(walls, RankTopology::everywhere);
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.id < b.id; });
+
+  Parts parts(world_);
+  Bodies<S> bodies;
+  ids_.clear();
+  own_.clear();
+  reference_.clear();
+  topology_.owner.clear();
+  topology_.walls.clear();
+  for (auto& list : topology_.ghosts) list.clear();
+  parts.grains().clear();
+  parts.shapes().clear();
+  shape_ids_.clear();
+  std::map<std::uint32_t, ShapeId> here;  // shapes by id
+  for (const Entry& entry : entries) {
+    const auto i = static_cast<std::uint32_t>(bodies.size());
+    append(bodies, entry.list->bodies, entry.number);
+    bodies.id.back() = BodyId(i);
+    ids_.push_back(entry.id);
+    topology_.owner.push_back(entry.owner);
+    if (entry.owner == RankTopology::everywhere) {
+      topology_.walls.push_back(i);
+      continue;
+    }
+    const std::uint32_t shape = entry.list->shapes[entry.number].value;
+    const auto [known, is_new] = here.emplace(shape, ShapeId(shape_ids_.size()));
+    if (is_new) {
+      parts.shapes().push_back(std::move(shapes_[ShapeId(shape)]));
+      shape_ids_.push_back(shape);
+    }
+    parts.grains().push_back({BodyId(i), known->second});
+    if (entry.owner == processes_.rank()) {
+      own_.push_back(i);
+      reference_.push_back(bodies.pose[i].position);
+    } else {
+      topology_.ghosts[std::size_t(entry.owner)].push_back(i);
+    }
+  }
+  shapes_.clear();
+  for (std::size_t rank = 0; rank < ranks(); ++rank) {
+    topology_.lent[rank].clear();
+    for (const BodyId id : lent[rank]) topology_.lent[rank].push_back(local_index(id.value));
+  }
+  for (std::size_t k = 0; k < whole_.walls.size(); ++k)
+    parts.walls()[k] = BodyId(local_index(whole_.walls[k].value));
+  for (std::size_t k = 0; k < whole_.cylinders.size(); ++k)
+    parts.cylinders()[k].body = BodyId(local_index(whole_.cylinders[k].value));
+  parts.bodies() = std::move(bodies);
+}
+
+template <class World>
+void Redistribution<World>::take_contacts(ContactsOnTheWay& contacts) {
+  ContactsOnTheWay here;
+  for (std::size_t c = 0; c < contacts.contacts.size(); ++c) {
+    const ContactKey& key = contacts.contacts.keys[c];
+    const std::uint32_t a = local_index(key.a), b = local_index(key.b);
+    // A grain that is not a ghost is too far away for a contact in the next step.
+    if (a != none && b != none) here.add(contacts.contacts, contacts.energies, c, a, b);
+  }
+  Parts parts(world_);
+  parts.contacts() = std::move(here.contacts);
+  if constexpr (Parts::has_springs) parts.spring_energies() = std::move(here.energies);
+}
+
+}  // namespace moreau::detail

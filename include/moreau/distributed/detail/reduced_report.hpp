@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "moreau/distributed/communicator.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau::detail {
+
+/// Makes the report of each process that of all together. The report of the solver is so already.
+inline void reduce(StepReport& report, Communicator& processes) {
+  std::size_t* const counts[] = {&report.candidate_pairs, &report.pairs,
+                                 &report.points,          &report.warm_started,
+                                 &report.overlapping,     &report.correction.corrected};
+  double* const sums[] = {&report.dissipation,    &report.friction,     &report.rolling,
+                          &report.elastic_energy, &report.elastic_work, &report.correction.work};
+  double* const extremes[] = {&report.approach,
+                              &report.max_overlap,
+                              &report.max_elastic_overlap,
+                              &report.correction.largest_shift,
+                              &report.ms_detect,
+                              &report.ms_solve,
+                              &report.ms_total,
+                              &report.ms_place,
+                              &report.ms_pairs,
+                              &report.ms_collide,
+                              &report.ms_assemble,
+                              &report.ms_correct,
+                              &report.ms_contacts};
+  double depth = report.mean_overlap * double(report.overlapping);
+  double added[std::size(counts) + std::size(sums) + 1], largest[std::size(extremes)];
+  double* next = added;
+  for (const std::size_t* count : counts) *next++ = double(*count);
+  for (const double* sum : sums) *next++ = *sum;
+  *next = depth;
+  next = largest;
+  for (const double* extreme : extremes) *next++ = *extreme;
+  processes.sum(std::span(added));
+  processes.largest(std::span(largest));
+  next = added;
+  for (std::size_t* count : counts) *count = std::size_t(*next++);
+  for (double* sum : sums) *sum = *next++;
+  depth = *next;
+  report.mean_overlap = report.overlapping > 0 ? depth / double(report.overlapping) : 0;
+  next = largest;
+  for (double* extreme : extremes) *extreme = *next++;
+}
+
+}  // namespace moreau::detail

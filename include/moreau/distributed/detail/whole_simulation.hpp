@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/ids.hpp"
+#include "moreau/distributed/communicator.hpp"
+#include "moreau/distributed/detail/rank_topology.hpp"
+#include "moreau/distributed/detail/world_parts.hpp"
+
+namespace moreau::detail {
+
+/// What the contacts of a simulation are on their way.
+template <class World>
+using ContactsOf = ContactList<typename World::S,
+                               std::remove_cv_t<typename decltype(std::declval<WorldParts<World>&>()
+                                                                      .energies())::element_type>>;
+
+/// Makes the whole simulation of the parts of all processes. Rank 0 keeps what they do not have: all
+/// shapes, and the places of removed bodies.
+template <class World>
+class WholeSimulation {
+ public:
+  using S = typename World::S;
+
+  std::vector<BodyId> walls, cylinders;  ///< in the order in which they were added
+
+  /// Notes what gather() needs.
+  /// @param world on rank 0 the whole simulation, on the others its walls
+  void remember(World& world, const Communicator& processes) {
+    Parts parts(world);
+    for (const BodyId wall : parts.walls()) walls.push_back(wall);
+    for (const auto& cylinder : parts.cylinders()) cylinders.push_back(cylinder.body);
+    if (processes.rank() != 0) return;
+    shapes_ = parts.shapes();
+    Bodies<S>& bodies = parts.bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (!bodies.exists(i)) removed_.add(bodies, i, bodies.id[i], ShapeId());
+  }
+  /// @param world     the part of this process
+  /// @param shape_ids of the whole simulation, one per shape of the part
+  /// @param own       bodies of the part that are grains of this process
+  /// @returns the whole simulation, on rank 0
+  std::optional<World> gather(World& world, Communicator& processes, const RankTopology& topology,
+                              const std::vector<std::uint32_t>& shape_ids,
+                              const std::vector<std::uint32_t>& own);
+
+ private:
+  using Parts = WorldParts<World>;
+  using ShapeT = std::remove_cvref_t<decltype(std::declval<World&>().shape_of_grain(0))>;
+
+  static std::string packed_part(World& world, const RankTopology& topology,
+                                 const std::vector<std::uint32_t>& shape_ids,
+                                 const std::vector<std::uint32_t>& own);
+  /// Replaces bodies and shapes of a copy of a part.
+  /// @param list   grains, then all other bodies
+  /// @param grains how many are grains
+  void set_bodies(Parts& whole, BodyList<S>& list, std::size_t grains) const;
+
+  std::deque<ShapeT> shapes_;
+  BodyList<S> removed_;
+};
+
+template <class World>
+std::string WholeSimulation<World>::packed_part(World& world, const RankTopology& topology,
+                                                const std::vector<std::uint32_t>& shape_ids,
+                                                const std::vector<std::uint32_t>& own) {
+  Parts parts(world);
+  std::vector<std::uint32_t> shape(parts.bodies().size(), 0);
+  for (const auto& grain : parts.grains())
+    shape[grain.body.index()] = shape_ids[grain.shape.index()];
+  BodyList<S> grains;
+  for (const std::uint32_t i : own)
+    grains.add(parts.bodies(), i, topology.ids[i], ShapeId(shape[i]));
+  ContactsOf<World> contacts;
+  const Contacts<S>& all = parts.contacts();
+  for (std::size_t c = 0; c < all.size(); ++c)
+    contacts.add(all, parts.energies(), c, topology.ids[all.points[c].a].value,
+                 topology.ids[all.points[c].b].value);
+  return packed(grains, contacts);
+}
+
+template <class World>
+void WholeSimulation<World>::set_bodies(Parts& whole, BodyList<S>& list, std::size_t grains) const {
+  std::vector<std::size_t> order(list.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[list.bodies.id[k].index()] = k;
+  whole.shapes() = shapes_;
+  whole.grains().clear();
+  Bodies<S> bodies;
+  for (const std::size_t k : order) {
+    append(bodies, list.bodies, k);
+    if (k < grains) whole.grains().push_back({list.bodies.id[k], list.shapes[k]});
+  }
+  whole.bodies() = std::move(bodies);
+  std::copy(walls.begin(), walls.end(), whole.walls().begin());
+  for (std::size_t k = 0; k < cylinders.size(); ++k) whole.cylinders()[k].body = cylinders[k];
+}
+
+template <class World>
+std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& processes,
+                                                    const RankTopology& topology,
+                                                    const std::vector<std::uint32_t>& shape_ids,
+                                                    const std::vector<std::uint32_t>& own) {
+  const std::vector<std::string> in =
+      processes.gather(packed_part(world, topology, shape_ids, own));
+  if (processes.rank() != 0) return std::nullopt;
+  BodyList<S> list;
+  ContactsOf<World> contacts;
+  for (const std::string& bytes : in) {
+    BodyList<S> grains;
+    ContactsOf<World> more;
+    unpack(bytes, grains, more);
+    list.add_all(grains);
+    contacts.add_all(more);
+  }
+  contacts.sort();
+  const std::size_t grains = list.size();
+  Parts here(world);
+  for (const std::uint32_t i : topology.walls)
+    list.add(here.bodies(), i, topology.ids[i], ShapeId());
+  BodyList<S> removed = removed_;
+  list.add_all(removed);
+
+  World result = world;
+  Parts whole(result);
+  whole.dynamics().share_bodies(nullptr);
+  whole.detector().set_filter(std::function<bool(std::uint32_t, std::uint32_t)>());
+  set_bodies(whole, list, grains);
+  whole.contacts() = std::move(contacts.contacts);
+  if constexpr (Parts::has_springs) whole.spring_energies() = std::move(contacts.energies);
+  whole.finish(result);
+  return result;
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// What a detector keeps of the pairs of its list: a cache for each pair of convex grains, and for each
+// pair of compound grains the list of their parts that are near, with a cache for each pair of parts.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/core/detail/merge_join.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/detect/broad_phase.hpp"
+#include "moreau/detect/collide.hpp"
+
+namespace moreau::detail {
+
+/// The caches of pairs of convex grains.
+template <class ShapeT>
+class PairCaches {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+
+  /// The list of pairs is new: pairs that are in both lists keep their cache. Both lists are sorted.
+  /// The other arguments are for compound grains.
+  void renew(const std::vector<IndexPair>& pairs, const std::vector<IndexPair>& old_pairs,
+             const auto&, const auto&, Scalar) {
+    old_.swap(caches_);
+    caches_.assign(pairs.size(), PairCache<S>{});
+    merge_join(pairs, old_pairs, [&](std::size_t i, std::size_t j) { caches_[i] = old_[j]; });
+  }
+  /// Whether the parts of grain k are where renew() left them. A convex grain has no parts.
+  static constexpr bool holds(std::size_t, const auto&, Scalar) { return true; }
+  /// Erases the caches of pairs p with is_gone(p).
+  void erase_pairs(const auto& is_gone) { erase_at(caches_, is_gone); }
+  /// Forgets grains k with is_gone(k).
+  static void erase_grains(const auto&) {}
+  /// Whether the caches, read from a file, are those of the pairs.
+  bool are_valid(const std::vector<IndexPair>& pairs, const auto&, bool) const {
+    return caches_.size() == pairs.size();
+  }
+
+  /// Collides pair p.
+  /// @param use called if the pair is in contact, when `out` contains its points
+  /// @returns whether it is
+  bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Placed<ShapeT>& b, Scalar margin,
+                     Manifold<S>& out, auto&& use) {
+    if (!collide(a, b, margin, out, caches_[p])) return false;
+    use();
+    return true;
+  }
+
+ private:
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(caches_); }
+
+  std::vector<PairCache<S>> caches_, old_;  // one per pair of the list
+};
+
+/// The near parts and the caches of pairs of compound grains.
+template <CompoundShape ShapeT>
+class PairCaches<ShapeT> {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// The list of pairs is new: lists the parts of each pair whose boxes are closer than twice `reach`,
+  /// sorted. Pairs of parts that were listed before keep their cache.
+  /// @param shifts of the second grain of each pair; empty in an open cell
+  /// @param grains with their placed shapes
+  /// @param reach  [m]
+  void renew(const std::vector<IndexPair>& pairs, const std::vector<IndexPair>& old_pairs,
+             const std::vector<Vector>& shifts, const auto& grains, Scalar reach) {
+    inflate_boxes(grains, reach);
+    old_parts_.swap(parts_);
+    old_ends_.swap(ends_);
+    old_.swap(caches_);
+    parts_.clear();
+    ends_.clear();
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      list_parts(pairs[p], shifts.empty() ? Vector(Vector::Zero()) : shifts[p]);
+      ends_.push_back(parts_.size());
+    }
+    caches_.assign(parts_.size(), PairCache<S>{});
+    merge_join(pairs, old_pairs, [&](std::size_t p, std::size_t q) {
+      const std::size_t from = begin(ends_, p), old_from = begin(old_ends_, q);
+      const std::span<const IndexPair> now(parts_.data() + from, ends_[p] - from);
+      const std::span<const IndexPair> old(old_parts_.data() + old_from, old_ends_[q] - old_from);
+      merge_join(now, old,
+                 [&](std::size_t i, std::size_t j) { caches_[from + i] = old_[old_from + j]; });
+    });
+  }
+  /// Whether the boxes of the parts of grain k, inflated by `reach` [m], lie in those that renew() was
+  /// given.
+  bool holds(std::size_t k, const Placed<ShapeT>& grain, Scalar reach) const {
+    const std::size_t first = begin(box_ends_, k);
+    for (std::size_t i = 0; i < grain.part_count(); ++i)
+      if (!boxes_[first + i].contains(grain.box(i).inflated(reach))) return false;
+    return true;
+  }
+  /// Erases the caches of pairs p with is_gone(p).
+  void erase_pairs(const auto& is_gone) {
+    erase_blocks(ends_, is_gone, [&](const auto& part_is_gone) {
+      erase_at(parts_, part_is_gone);
+      erase_at(caches_, part_is_gone);
+    });
+  }
+  /// Forgets the boxes of grains k with is_gone(k).
+  void erase_grains(const auto& is_gone) {
+    erase_blocks(box_ends_, is_gone,
+                 [&](const auto& part_is_gone) { erase_at(boxes_, part_is_gone); });
+  }
+  /// Whether lists and caches, read from a file, are those of the pairs.
+  /// @param is_stale whether renew() comes before the next use
+  bool are_valid(const std::vector<IndexPair>& pairs, const auto& grains, bool is_stale) const {
+    if (caches_.size() != parts_.size() || !are_ends(ends_, pairs.size(), parts_.size()))
+      return false;
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      for (std::size_t k = begin(ends_, p); k < ends_[p]; ++k)
+        if (parts_[k].first >= grains[pairs[p].first].placed.part_count() ||
+            parts_[k].second >= grains[pairs[p].second].placed.part_count())
+          return false;
+    if (is_stale) return true;
+    if (!are_ends(box_ends_, grains.size(), boxes_.size())) return false;
+    for (std::size_t k = 0; k < grains.size(); ++k)
+      if (box_ends_[k] - begin(box_ends_, k) != grains[k].placed.part_count()) return false;
+    return true;
+  }
+
+  /// Collides the near parts of pair p.
+  /// @param use called for each pair of parts in contact, when `out` contains its points
+  /// @returns whether there was one
+  bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Placed<ShapeT>& b, Scalar margin,
+                     Manifold<S>& out, auto&& use) {
+    bool touch = false;
+    for (std::size_t k = begin(ends_, p); k < ends_[p]; ++k) {
+      const auto [i, j] = parts_[k];
+      if (!a.box(i).inflated(margin).overlaps(b.box(j)) ||
+          !collide(a.part(i), b.part(j), margin, out, caches_[k]) ||
+          is_at_seam(a, i, b, j, caches_[k], out.normal))
+        continue;
+      out.part_a = i;
+      out.part_b = j;
+      touch = true;
+      use();
+    }
+    return touch;
+  }
+
+ private:
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(parts_, ends_, caches_, boxes_, box_ends_); }
+
+  static std::size_t begin(const std::vector<std::uint64_t>& ends, std::size_t block) {
+    return block == 0 ? 0 : ends[block - 1];
+  }
+  static bool are_ends(const std::vector<std::uint64_t>& ends, std::size_t blocks,
+                       std::size_t items) {
+    return ends.size() == blocks && std::is_sorted(ends.begin(), ends.end()) &&
+           (ends.empty() ? 0 : ends.back()) == items;
+  }
+  /// Erases blocks of items.
+  /// @param ends  one past the last item of each block
+  /// @param erase is given a function: item -> whether it is erased
+  void erase_blocks(std::vector<std::uint64_t>& ends, const auto& is_gone, const auto& erase) {
+    gone_.clear();
+    for (std::size_t block = 0; block < ends.size(); ++block)
+      gone_.resize(ends[block], is_gone(block) ? 1 : 0);
+    erase([&](std::size_t item) { return gone_[item] != 0; });
+    std::uint64_t end = 0;
+    for (std::size_t block = 0, from = 0; block < ends.size(); ++block) {
+      const std::size_t to = ends[block];
+      if (!is_gone(block)) end += to - from;
+      from = to;
+      ends[block] = end;
+    }
+    erase_at(ends, is_gone);
+  }
+
+  void inflate_boxes(const auto& grains, Scalar reach) {
+    boxes_.clear();
+    box_ends_.clear();
+    for (const auto& grain : grains) {
+      for (std::size_t k = 0; k < grain.placed.part_count(); ++k)
+        boxes_.push_back(grain.placed.box(k).inflated(reach));
+      box_ends_.push_back(boxes_.size());
+    }
+  }
+  /// Lists the near parts of a pair.
+  void list_parts(const IndexPair& pair, const Vector& shift) {
+    const std::size_t first = begin(box_ends_, pair.first), second = begin(box_ends_, pair.second);
+    for (std::size_t i = first; i < box_ends_[pair.first]; ++i) {
+      Aabb<S> box = boxes_[i];
+      box.lower -= shift;
+      box.upper -= shift;
+      for (std::size_t j = second; j < box_ends_[pair.second]; ++j)
+        if (box.overlaps(boxes_[j]))
+          parts_.push_back({std::uint32_t(i - first), std::uint32_t(j - second)});
+    }
+  }
+
+  std::vector<IndexPair> parts_, old_parts_;    // near parts of all pairs, sorted for each pair
+  std::vector<std::uint64_t> ends_, old_ends_;  // of each pair: one past its last element of parts_
+  std::vector<PairCache<S>> caches_, old_;      // one per element of parts_
+  std::vector<Aabb<S>> boxes_;                  // of the parts of all grains, inflated
+  std::vector<std::uint64_t> box_ends_;  // of each grain: one past its last element of boxes_
+  std::vector<unsigned char> gone_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A program of which one process fails in a step: all end, after one message.
+#include <cstdio>
+#include <stdexcept>
+
+#include "moreau/distributed/distributed_simulation.hpp"
+#include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+
+namespace {
+
+using namespace moreau;
+
+/// Fails in rank 1.
+struct Failing : MoreauJean {
+  template <class S>
+  void predict_configuration(Bodies<S>& bodies, std::span<typename S::Angular> momentum,
+                             typename S::Scalar step) const {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 1) throw std::runtime_error("this rank fails on purpose");
+    MoreauJean::predict_configuration(bodies, momentum, step);
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const MpiSession mpi(argc, argv);
+  using Law = SignoriniCoulomb<>;
+  using World = Simulation<Ball<>, Law, Failing>;
+  World world(0.02, Materials<Law>(1, Law(0.3)));
+  const ShapeId shape = world.add_shape(Ball<>(0.01));
+  for (int k = 0; k < 9; ++k)
+    world.add_grain(shape, {{0.03 * k, 0, 0}, Space<3>::Rotation::Identity()}, 2700);
+  DistributedSimulation<World> packing(MPI_COMM_WORLD, world);
+  packing.step(1e-3);
+  std::puts("goes on");
+}

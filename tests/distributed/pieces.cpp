@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Files for ParaView: one per process, and an index that names them.
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "moreau/distributed/write_pieces.hpp"
+
+#include "distributed/worlds.hpp"
+
+using namespace distributed_test;
+
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+/// The number after the first `name="`.
+int number_after(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find(name + "=\"");
+  return at == text.npos ? -1 : std::atoi(text.c_str() + at + name.size() + 2);
+}
+
+}  // namespace
+
+TEST_CASE("Each process writes its grains and contacts") {
+  std::string folder = "pieces-" + std::to_string(ranks());
+  if (rank() == 0) std::filesystem::create_directory(folder);
+  const auto build = [] { return box_of_grains<Balls>(60); };
+  DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>(build));
+  StepReport report;
+  for (int k = 0; k < 200; ++k) report = packing.step(step);
+  write_pieces(std::filesystem::path(folder) / "run", packing, step);
+  if (rank() == 0) {
+    int grains = 0, contacts = 0;
+    for (int other = 0; other < ranks(); ++other) {
+      const std::string end = "_" + std::to_string(other) + ".vtp";
+      grains += number_after(content(folder + "/run_grains" + end), "NumberOfPoints");
+      contacts += number_after(content(folder + "/run_contacts" + end), "NumberOfLines");
+      CHECK(content(folder + "/run_grains.pvtp").find("\"run_grains" + end) != std::string::npos);
+      CHECK(content(folder + "/run_contacts.pvtp").find("\"run_contacts" + end) !=
+            std::string::npos);
+    }
+    CHECK(grains == 60);
+    CHECK(contacts == int(report.points));
+    std::filesystem::remove_all(folder);
+  }
+  CHECK_THROWS_AS(write_pieces("a&b", packing), std::invalid_argument);
+}

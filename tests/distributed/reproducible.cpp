@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// ReproducibleGaussSeidel: the same bits for any number of processes.
+#include <doctest/doctest.h>
+
+#include "moreau/distributed/reproducible_gauss_seidel.hpp"
+#include "moreau/io/detail/crc64.hpp"
+#include "moreau/io/snapshot.hpp"
+
+#include "distributed/worlds.hpp"
+
+using namespace distributed_test;
+
+namespace {
+
+/// The hash of the state after some steps over all ranks below `count`, or on this rank alone.
+/// Redistributes on the way, and once goes through a snapshot with another number of processes.
+template <class World>
+std::uint64_t hash_after(const std::string& start, int count, int steps, bool restarts) {
+  std::string bytes = start;
+  for (int part = 0; part < (restarts ? 2 : 1); ++part) {
+    const int size = part == 0 ? count : std::max(1, count - 1);
+    MPI_Comm some = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, rank() < size ? 0 : MPI_UNDEFINED, 0, &some);
+    if (some != MPI_COMM_NULL) {
+      World world = empty_world<World>();
+      if (rank() == 0) restore_snapshot(bytes, world);
+      {
+        DistributedSimulation<World> packing(some, std::move(world));
+        const int share = restarts ? steps / 2 : steps;
+        for (int k = 0; k < share; ++k) CHECK(packing.step(step).solve.converged);
+        if (size > 1) CHECK(packing.distribution().redistributions > 2);
+        if (const std::optional<World> whole = packing.gather()) bytes = snapshot(*whole);
+      }
+      MPI_Comm_free(&some);
+    }
+  }
+  return crc64(bytes);
+}
+
+template <class World>
+void check_bits(const std::string& start, int steps) {
+  const std::uint64_t alone = hash_after<World>(start, 1, steps, false);
+  for (int count = 2; count <= ranks(); ++count) {
+    const std::uint64_t hash = hash_after<World>(start, count, steps, false);
+    if (rank() == 0) CHECK(hash == alone);
+  }
+  const std::uint64_t restarted = hash_after<World>(start, ranks(), steps, true);
+  if (rank() == 0) CHECK(restarted == alone);
+}
+
+}  // namespace
+
+TEST_CASE("The state has the same bits for any number of processes") {
+  check_bits<OrderedPolygons>(snapshot(box_of_grains<OrderedPolygons>(80)), 240);
+  check_bits<OrderedSoftPolyhedra>(snapshot(box_of_grains<OrderedSoftPolyhedra>(60)), 200);
+}
+
+TEST_CASE("The residual on one rank is below the tolerance") {
+  using World = OrderedPolygons;
+  DistributedSimulation<World> packing(
+      MPI_COMM_WORLD, rank() == 0 ? box_of_grains<World>(80) : empty_world<World>());
+  for (int k = 1; k <= 240; ++k) {
+    const bool checks = k % 20 == 0;
+    std::optional<World> before;
+    if (checks) before = packing.gather();
+    const StepReport report = packing.step(step);
+    CHECK(report.solve.converged);
+    if (!checks) continue;
+    const std::optional<World> after = packing.gather();
+    if (!after) continue;
+    const SolveReport measured = measured_on_one_rank(*before, *after);
+    CHECK(measured.residual <= 1e-6);
+    CHECK(measured.residual == doctest::Approx(report.solve.residual).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("Exact sums do not depend on the order, and are rounded once") {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> part(-1, 1), exponent(-300, 300);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<double> terms;
+    for (int k = 0; k < 200; ++k) terms.push_back(part(random) * std::pow(10, exponent(random)));
+    for (int k = 0; k < 100; ++k) terms.push_back(-terms[std::size_t(k)]);
+    detail::ExactSum one, two;
+    for (const double x : terms) one.add(x);
+    std::shuffle(terms.begin(), terms.end(), random);
+    for (const double x : terms) two.add(x);
+    CHECK(one.value() == two.value());
+  }
+  detail::ExactSum sum;
+  for (const double x : {1e300, 1.0, -1e300, 1e-310, 3 * 5e-324}) sum.add(x);
+  CHECK(sum.value() == 1);
+  sum.add(-1);
+  CHECK(sum.value() == 1e-310 + 3 * 5e-324);
+  sum.add(std::numeric_limits<double>::infinity());
+  CHECK(std::isnan(sum.value()));
+}

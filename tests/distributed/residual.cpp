@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The solution of several processes solves the contact problem of one.
+#include <cmath>
+#include <doctest/doctest.h>
+
+#include "distributed/worlds.hpp"
+
+using namespace distributed_test;
+
+namespace {
+
+/// Steps a scene. Every tenth step, the residual is measured on one rank, and the momentum of all
+/// grains is compared with the impulses of gravity and walls.
+template <class World>
+void check_steps(std::size_t count, double tolerance, int steps) {
+  using Vector = typename World::S::Vector;
+  const auto build = [&] { return box_of_grains<World>(count, tolerance); };
+  DistributedSimulation<World> packing(MPI_COMM_WORLD, on_first_rank<World>(build));
+  std::optional<World> before = packing.gather();
+  for (int k = 1; k <= steps; ++k) {
+    const bool checks = k % 10 == 0;
+    if (checks) before = packing.gather();
+    const StepReport report = packing.step(step);
+    CHECK(report.solve.converged);
+    CHECK(report.solve.residual <= tolerance);
+    if (!checks) continue;
+    Vector from_walls = Vector::Zero();
+    for (const BodyId wall : packing.walls()) from_walls -= packing.contact_impulse(wall);
+    const std::optional<World> after = packing.gather();
+    if (!after) continue;
+    const SolveReport measured = measured_on_one_rank(*before, *after);
+    CHECK(measured.residual <= tolerance);
+    CHECK(measured.residual == doctest::Approx(report.solve.residual).epsilon(1e-3));
+    CHECK(report.points == after->contacts().size());
+    Vector change = Vector::Zero();
+    double all = 0;
+    for (const BodyId grain : after->grains()) {
+      const double mass = after->bodies().weight[grain.index()];
+      change += mass * (after->velocity(grain) - before->velocity(grain) - step * after->gravity());
+      all += mass * after->velocity(grain).norm();
+    }
+    for (const auto& impulse : after->contacts().impulses) all += impulse.norm();
+    CHECK((change - from_walls).norm() <= 1e-10 * all);
+  }
+  // The scene is a packing by now.
+  CHECK(packing.step(step).pairs > count);
+}
+
+}  // namespace
+
+TEST_CASE("The residual on one rank is below the tolerance, and momentum is balanced") {
+  check_steps<Polygons>(100, 1e-4, 300);
+  check_steps<Polygons>(100, 1e-6, 300);
+  check_steps<Balls>(150, 1e-6, 250);
+  check_steps<SoftPolyhedra>(80, 1e-4, 250);
+  check_steps<SoftPolyhedra>(80, 1e-6, 250);
+}
+
+TEST_CASE("Overlaps across processes are corrected as in one process") {
+  // Rows of balls that overlap by a hundredth of their size.
+  Balls rows = empty_world<Balls>();
+  rows.set_correction({});
+  const ShapeId shape = rows.add_shape(regular_shape<Ball<>>(size));
+  for (int k = 0; k < 60; ++k)
+    rows.add_grain(shape, Pose<Space<3>>({0.99 * size * (k % 20), 2 * size * (k / 20), 0}), 2700);
+  Balls alone = rows;
+  DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>([&] { return rows; }));
+  StepReport report, reference;
+  for (int k = 0; k < 200; ++k) {
+    report = packing.step(step);
+    reference = alone.step(step);
+    if (k == 0) CHECK(report.correction.corrected == 57);
+    if (k == 0) CHECK(report.correction.corrected == reference.correction.corrected);
+    CHECK(report.max_overlap <= 0.0101 * size);
+  }
+  // The slop of the correction is left, and about as much is left in one process.
+  CHECK(report.max_overlap <= 4e-4 * size);
+  CHECK(report.max_overlap <= 1.5 * reference.max_overlap + 1e-5 * size);
+  const std::optional<Balls> whole = packing.gather();
+  if (!whole) return;
+  Space<3>::Vector center = Space<3>::Vector::Zero();
+  for (const BodyId grain : whole->grains())
+    center += (whole->pose(grain).position - rows.pose(grain).position) / 60;
+  CHECK(center.norm() <= 1e-12);
+}

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""The statistics of the study's report, applied to data with known results, and the report of the
+repository, which must be what its table of runs gives. Argument: the top folder."""
+import math
+import pathlib
+import random
+import shutil
+import sys
+import tempfile
+import unittest
+
+TOP = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
+STUDY = TOP / "examples/ratcheting"
+sys.path.insert(0, str(STUDY / "study/report"))
+
+import compaction  # noqa: E402
+import excursion  # noqa: E402
+import plots  # noqa: E402
+import runs  # noqa: E402
+import write  # noqa: E402
+
+
+def made_up(seed, frequency, thrust=80.0, count=16):
+    """A run of polyhedra whose strains follow 0.002 (t_u / 10 ms)^0.9 n^-0.5."""
+    parameters = runs.CASE | runs.RIGID | {
+        "shape": "polyhedron", "seed": seed, "frequency": frequency, "duration": 1.0}
+    run = {"name": f"s{seed}-{frequency}", "parameters": parameters, "thrust": thrust, "length": 0.3}
+    t_u, x, before, after = runs.unjammed_time(run), 0.0, [], []
+    for n in range(1, count + 1):
+        before.append(x)
+        x -= 0.3 * 0.002 * (t_u / 0.01) ** 0.9 * n ** -0.5
+        after.append(x)
+    run["periods"] = {"x_j": before, "x_j_after": after}
+    return run
+
+
+class Statistics(unittest.TestCase):
+    def test_power_law(self):
+        c, b, error, scatter = runs.power([(x, 0.0115 * x ** -2) for x in (1, 2, 5, 10, 60)])
+        self.assertAlmostEqual(c, 0.0115)
+        self.assertAlmostEqual(b, -2)
+        self.assertLess(error + scatter, 1e-12)
+        rng = random.Random(7)
+        noisy = runs.power([(x, x ** -2 * math.exp(rng.gauss(0, 0.1))) for x in range(1, 41)])
+        self.assertLess(abs(noisy[1] + 2), 3 * noisy[2])
+        self.assertTrue(math.isnan(runs.power([(1, 2), (2, 3)])[0]))
+        self.assertTrue(math.isnan(runs.power([(1, 2), (2, -3), (3, None)])[0]))
+
+    def test_error_of_a_slope_is_that_of_the_textbook(self):
+        a, b, error, _ = runs.line([0, 1, 2, 3], [1, 3, 2, 5])
+        self.assertAlmostEqual(a, 1.1)
+        self.assertAlmostEqual(b, 1.1)
+        self.assertAlmostEqual(error, math.sqrt(2.7 / 2 / 5))
+
+    def test_estimate_and_its_text(self):
+        e = runs.Estimate([1, 2, 3, None, math.nan])
+        self.assertEqual((e.n, e.mean), (3, 2))
+        self.assertAlmostEqual(e.error, 1 / math.sqrt(3))
+        self.assertEqual(e.text(), "2.00 ± 0.58")
+        self.assertEqual(runs.number(-0.0123, 0.0004), "−0.01230 ± 0.00040")
+        self.assertEqual(runs.number(1234.5, 27), "1234 ± 27")
+        self.assertEqual(runs.number(math.nan), "–")
+
+    def test_least_squares(self):
+        rows = [(1, x, x * x) for x in range(5)]
+        found = runs.least_squares(rows, [3 - x + 0.5 * x * x for x in range(5)])
+        for value, expected in zip(found, (3, -1, 0.5)):
+            self.assertAlmostEqual(value, expected)
+
+
+class Physics(unittest.TestCase):
+    def test_excursion_of_a_weak_thrust_is_that_of_the_parabola(self):
+        x = excursion.displacement(6.0, 20.0, 6000.0, 5.0)
+        self.assertAlmostEqual(x / (9 / (4 * math.pi ** 2) * 36 / (20 * 6000 * 25)), 1, places=2)
+        # 12 percent more at a quarter of the largest force.
+        x = excursion.displacement(1500.0, 20.0, 6000.0, 5.0)
+        self.assertAlmostEqual(x / (9 / (4 * math.pi ** 2) * 1500 ** 2 / (20 * 6000 * 25)), 1.12,
+                               delta=0.01)
+
+    def test_time_below_the_thrust(self):
+        run = made_up(1, 5.0, 3000.0)
+        self.assertAlmostEqual(runs.unjammed_time(run), 0.1)
+
+    def test_law_of_compaction_is_found(self):
+        table = [made_up(seed, nu) for seed in (1, 2, 3) for nu in (2.0, 5.0, 10.0, 20.0, 60.0)]
+        law = compaction.Law(compaction.loading_runs(table, "polyhedron"))
+        self.assertEqual(law.run_count, 15)
+        self.assertAlmostEqual(law.p, 0.9, places=6)
+        # The strain of a group of periods is that of its middle to some percent.
+        self.assertAlmostEqual(law.b, 0.5, delta=0.02)
+        self.assertAlmostEqual(law.share, 0.002, delta=1e-4)
+        aside = compaction.Prediction(compaction.loading_runs(table, "polyhedron"))
+        self.assertEqual(aside.runs, 5)
+        self.assertLess(aside.rms, 0.05)
+
+
+class Report(unittest.TestCase):
+    def test_report_of_the_repository(self):
+        results = STUDY / "results"
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder)
+            for name in ("grains.csv", "remaining-paper.md", "remaining-settled.md"):
+                shutil.copy(results / name, copy)
+            plots.WANTED.add("none")
+            table = runs.read(results / "runs.jsonl")
+            write.report(table, copy, write.draw_all(table, copy))
+            text = (copy / "report.md").read_text(encoding="utf8")
+        self.assertEqual(text, (results / "report.md").read_text(encoding="utf8"),
+                         "write it anew by report/write.py")
+        for line in text.splitlines():
+            if line.startswith("![") and "](figures/" in line:
+                name = line[line.index("](") + 2:-1]
+                self.assertTrue((results / name).exists(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
