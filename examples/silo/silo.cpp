@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Discharge of a silo through a funnel that is a mesh wall: a cone of triangles in space, two lines of
-// segments in the plane. The program fills the silo, opens the outlet, and measures the rate of
+// Discharge of concave ballast from a silo through a funnel that is a mesh wall: a cone of triangles in
+// space, two lines of segments in the plane. The program fills the silo, opens the outlet, and measures the rate of
 // discharge for three outlets. It prints the constant C of Beverloo's law,
 //
 //     W = C rho sqrt(g) (D - k d)^(dim - 1/2),   k = 1.4,
@@ -21,8 +21,9 @@
 
 #include "moreau/boundary/sink.hpp"
 #include "moreau/io/write_picture.hpp"
-#include "moreau/sample/ballast.hpp"
+#include "moreau/sample/compound_ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"
+#include "moreau/shape/compound.hpp"
 
 using Law = moreau::SignoriniCoulomb<double>;
 
@@ -174,6 +175,7 @@ void run(const char* name, int grains, double radius, const std::vector<double>&
 
 int main(int argc, char** argv) {
   const int grains = argc > 1 ? std::atoi(argv[1]) : 500;
-  run<moreau::Polygon<double>>("polygons", grains, 0.15, {0.10, 0.13, 0.16});
-  run<moreau::Polyhedron<double>>("polyhedra", grains, 0.07, {0.08, 0.095, 0.11});
+  // Or moreau::Polygon<double>, moreau::Polyhedron<double>: convex ballast.
+  run<moreau::Compound<moreau::Polygon<double>>>("plane", grains, 0.15, {0.10, 0.13, 0.16});
+  run<moreau::Compound<moreau::Polyhedron<double>>>("space", grains, 0.07, {0.08, 0.095, 0.11});
 }

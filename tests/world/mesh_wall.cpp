@@ -12,6 +12,7 @@
 #include "moreau/io/snapshot.hpp"
 #include "moreau/moreau.hpp"
 #include "moreau/sample/concave_mesh.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/facet_mesh.hpp"
 
 #include "io/temporary_folder.hpp"
@@ -96,11 +97,23 @@ Rounded<Polyhedron<>> grain() {
   return Rounded<Polyhedron<>>(cuboid<Polyhedron<>>({0.016, 0.011, 0.006}), 0.004);
 }
 
+template <>
+Compound<Polyhedron<>> grain() {
+  return Compound<Polyhedron<>>({{grain<Polyhedron<>>(), {{-0.02, 0, 0}}},
+                                 {grain<Polyhedron<>>(), {{0.02, 0, 0}}},
+                                 {grain<Polyhedron<>>(), {{0, 0.03, 0}}}});
+}
+template <>
+Compound<Polygon<>> grain() {
+  return Compound<Polygon<>>(
+      {{grain<Polygon<>>(), {{-0.02, 0}}}, {grain<Polygon<>>(), {{0.02, 0}}}});
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("a grain that slides over a tessellated floor moves as over a half-space",
                    ShapeT, Polyhedron<>, Polygon<>, Ball<>, Disk<>, Capsule<>,
-                   Rounded<Polyhedron<>>) {
+                   Rounded<Polyhedron<>>, Compound<Polyhedron<>>, Compound<Polygon<>>) {
   using S = SpaceOf<ShapeT>;
   const auto up = typename S::Vector(S::Vector::Unit(S::dim - 1));
   auto on_plane = world<ShapeT>(0.02), on_mesh = world<ShapeT>(0.02);
