@@ -8,21 +8,24 @@
 #   bench/run.sh --output FOLDER          into another folder
 #   bench/run.sh --shape HEADER TYPE      also a shape of your own: see examples/guide/timing.md
 #   bench/run.sh --filter REGEX           only benchmarks whose name matches, e.g. '^own|^balls'
+#   bench/run.sh --no-peers               without the other libraries, even if they are installed
 #   bench/run.sh --install-peers          installs the other libraries first (Debian)
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
-output=bench-output filter=. header="" type="" peers=no
+output=bench-output filter=. header="" type="" peers=yes install=no
 while [ $# -gt 0 ]; do
   case $1 in
     --output) output=$2 && shift 2 ;;
     --shape) header=$(realpath "$2") type=$3 && shift 3 ;;
     --filter) filter=$2 && shift 2 ;;
-    --install-peers) peers=yes && shift ;;
-    *) sed -n '3,11s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+    --no-peers) peers=no && shift ;;
+    --install-peers) install=yes && shift ;;
+    *) sed -n '3,12s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
   esac
 done
-"$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3 gnuplot-nox
-[ $peers = no ] || "$top/.ci/require" libfcl-dev libccd-dev libbullet-dev libbox2d-dev
+"$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3
+command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
+[ $install = no ] || "$top/.ci/require" libfcl-dev libccd-dev libbullet-dev libbox2d-dev
 build=$top/build/bench
 cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON -DMOREAU_BENCH_PEERS=ON \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_EXAMPLES=OFF -DMOREAU_BUILD_BENCHES=ON \
@@ -31,7 +34,9 @@ cmake --build "$build" --target bench_narrow_phase
 mkdir -p "$output"
 "$build/bench/bench_narrow_phase" --benchmark_filter="$filter" --benchmark_min_time=0.05 \
   --benchmark_out="$output/narrow_phase.json" --benchmark_out_format=json >"$output/narrow_phase.log"
-if ninja -C "$build" -t query bench_peers >/dev/null 2>&1; then
+if [ $peers = no ]; then
+  rm -f "$output/peers.txt"
+elif ninja -C "$build" -t query bench_peers >/dev/null 2>&1; then
   cmake --build "$build" --target bench_peers
   "$build/bench/peers/bench_peers" | tee "$output/peers.txt"
 else

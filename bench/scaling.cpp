@@ -134,14 +134,14 @@ void run(const Arguments& given) {
                 fixed_sweeps(given.sweeps));
   const auto grains = double(packing.world.grain_count());
   packing.world.set_team(ThreadTeam(given.threads));
-  packing.settle(30);
+  const bool is_small = given.tiles < 4;
+  packing.settle(is_small ? 30 : 10);
   const double bytes = (memory() - before - tile_memory) / grains;
 
   std::vector<Team> teams;
   for (int threads = 1; threads <= given.threads; ++threads) teams.push_back(ThreadTeam(threads));
   std::vector<std::array<std::vector<double>, stages.size()>> times(teams.size());
-  // As many steps that a median of a small packing has no noise.
-  const int rounds = given.tiles < 4 ? 12 : 4, steps = given.tiles < 4 ? 8 : 4;
+  const int rounds = is_small ? 12 : 4, steps = is_small ? 8 : 3;
   double points = 0, free = 0;
   int done = 0;
   for (int round = 0; round < rounds; ++round) {
@@ -162,16 +162,16 @@ void run(const Arguments& given) {
   std::vector<double> broad;
   packing.world.set_team(teams[0]);
   const auto& cell = packing.world.cell();
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 3; ++k) {
     packing.world.set_periodic(0, cell.lower()[0], cell.lower()[0] + cell.length()[0]);
     broad.push_back(packing.world.step(Tiles::step).ms_pairs);
   }
   // Sweeps that a tolerance takes.
   packing.world.set_solver(to_residual(1e-3));
   double sweeps = 0;
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 3; ++k) {
     packing.load(1 + 0.05 * std::sin(0.3 * done++));
-    sweeps += packing.world.step(Tiles::step).solve.sweeps / 4.0;
+    sweeps += packing.world.step(Tiles::step).solve.sweeps / 3.0;
   }
 
   for (std::size_t t = 0; t < times.size(); ++t) {

@@ -9,7 +9,8 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-scaling-output} shapes=${2:-polyhedron sphere} tiles=${3:-1 9 18 81} threads=${4:-2}
-"$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3 gnuplot-nox
+"$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3
+command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
 build=$top/build/bench
 cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_EXAMPLES=OFF -DMOREAU_BUILD_BENCHES=ON >/dev/null

@@ -179,8 +179,10 @@ class Run {
   void draw(const std::string& name) {
 #ifndef MOREAU_WITHOUT_PNG
     const auto begin = Clock::now();
+    // The walls have the lowest numbers.
+    const std::size_t first = avalanche_.simulation.grains()[0].index();
     const auto color = [&](moreau::BodyId grain) {
-      return moreau::rendering::speed_color(avalanche_.progress.layer[grain.index()] / 7.0);
+      return moreau::rendering::speed_color(avalanche_.progress.layer[grain.index() - first] / 7.0);
     };
     moreau::write_picture(options_.output / (name + ".png"), avalanche_.simulation, color,
                           {.width = 1400, .height = 800, .azimuth = 20, .elevation = 18});

@@ -20,7 +20,7 @@ int main() {
   const moreau::Placed<Shape> below(die);
   moreau::Placed<Shape> above(die);
 
-  // One cache per pair saves time. It changes no bit of the answers.
+  // One cache per pair saves time. For these shapes it changes no bit of the answers.
   moreau::PairCache<S> cache;
   moreau::Manifold<S> manifold;
 

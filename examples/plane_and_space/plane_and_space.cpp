@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <moreau/moreau.hpp>
 #include <random>
 #include <sstream>
@@ -191,7 +192,8 @@ void run(const std::string& name, std::size_t count, const Series& series,
     }
     const double mean = sum / n;
     const double variance = std::max(0.0, (square - n * mean * mean) / std::max(1.0, n - 1));
-    const double error = std::sqrt(variance / n);
+    // One sample says nothing of the error.
+    const double error = n > 1 ? std::sqrt(variance / n) : std::numeric_limits<double>::quiet_NaN();
     std::cout << name << ", a = " << aspect << ": run-out " << mean << " +- " << error
               << ", end after " << duration << " s; " << unsolved << " of " << steps
               << " steps not solved" << std::endl;

@@ -6,7 +6,8 @@
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../.." && pwd)
 case " $* " in *" --help "* | *" -h "*) exec cat "$here/help.txt" ;; esac
-"$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev libpng-dev gnuplot-nox
+"$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev libpng-dev
+command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
 # Builds only the shapes and methods that were asked for, now or before: each takes as long again.
 # wanted OPTION DEFAULT VARIABLE ARGUMENTS: the values of the option, with those of the last build
 wanted() {

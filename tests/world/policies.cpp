@@ -27,6 +27,19 @@ TEST_CASE(
   conformance::world<Choice>(BallIn<S>(0.005f), SignoriniCoulomb<float>(0.4f), 0.01f);
 }
 
+TEST_CASE("the integrator can be replaced during a run") {
+  Simulation<Disk<double>, SignoriniCoulomb<double>> simulation(
+      0.01, Materials<SignoriniCoulomb<double>>(1));
+  const BodyId grain =
+      simulation.add_grain(simulation.add_shape(Disk<double>(0.005)), Pose<Space<2>>(), 2700);
+  simulation.set_gravity({0, -10});
+  simulation.step(1e-3);  // theta = 1/2: g h^2/2
+  CHECK(simulation.pose(grain).position.y() == doctest::Approx(-0.5e-5));
+  simulation.set_integrator(MoreauJean(1));  // theta = 1
+  simulation.step(1e-3);                     // 2 g h^2
+  CHECK(simulation.pose(grain).position.y() == doctest::Approx(-2.5e-5));
+}
+
 TEST_CASE("frictionless disks") {
   conformance::world(Disk<double>(0.005), Frictionless<>(), 0.01);
 }

@@ -10,7 +10,8 @@ case " $* " in
   *" --help "* | *" -h "*) exec cat "$here/help.txt" ;;
   *" --report-only "* | *" --list "*) targets=(ratcheting_study) ;;
 esac
-"$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev gnuplot-nox
+"$top/.ci/require" g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev
+command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
 # The same instructions on all machines that have them: a run then has the same bits.
 instructions=-march=native
 if g++ -march=x86-64-v3 -E - </dev/null >/dev/null 2>&1 && grep -qw avx2 /proc/cpuinfo; then

@@ -47,7 +47,13 @@ struct SerializationAccess {
   /// A default-constructed object, to be overwritten by reading.
   template <class X>
   static X blank() {
-    return X();
+    constexpr bool default_constructible = requires {
+      X();
+    };
+    static_assert(default_constructible,
+                  "a class that is read from a snapshot needs a default constructor, which may be "
+                  "private");
+    if constexpr (default_constructible) return X();
   }
 
  private:

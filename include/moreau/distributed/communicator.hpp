@@ -26,6 +26,7 @@ namespace moreau {
 /// the beginning of main().
 class MpiSession {
  public:
+  /// @param argc,argv the arguments of main(); MPI can take its own options out of them
   MpiSession(int& argc, char**& argv) {
     int runs = 0;
     MPI_Initialized(&runs);
@@ -50,6 +51,7 @@ struct Traffic {
   std::uint64_t collectives = 0;  ///< sums, largest values, broadcasts
   double seconds = 0;  ///< in messages and operations, with the time of waiting for others
 
+  /// What was sent since `before`.
   Traffic operator-(const Traffic& before) const {
     return {messages - before.messages, bytes - before.bytes, collectives - before.collectives,
             seconds - before.seconds};
@@ -70,9 +72,9 @@ class Communicator {
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
 
-  int rank() const { return rank_; }  ///< of this process, 0 .. size() - 1
-  int size() const { return size_; }  ///< number of processes
-  MPI_Comm handle() const { return handle_; }
+  int rank() const { return rank_; }                   ///< of this process, 0 .. size() - 1
+  int size() const { return size_; }                   ///< number of processes
+  MPI_Comm handle() const { return handle_; }          ///< for functions of MPI
   const Traffic& traffic() const { return traffic_; }  ///< since the construction
 
   /// Replaces each value by its sum over all processes.

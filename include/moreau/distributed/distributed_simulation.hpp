@@ -75,9 +75,11 @@ struct DistributionReport {
 template <class World>
 class DistributedSimulation;
 
+/// The DistributedSimulation of a Simulation; the comment above describes it.
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver>
 class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> {
  public:
+  /// The part of one process.
   using World = Simulation<ShapeT, Law, Integrator, Broad, Solver>;
   using S = typename World::S;
   using Scalar = typename S::Scalar;
@@ -146,19 +148,28 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   }
   std::span<const BodyId> walls() const { return redistribution_.wall_ids(); }  ///< half-spaces
 
-  /// The functions of BodyControl and BodyAccess for walls.
-  /// @throws std::invalid_argument as the functions of Simulation do
+  // The functions of BodyControl and BodyAccess for walls. They throw std::invalid_argument as the
+  // functions of Simulation do.
+
+  /// Pose of a wall, world axes [m].
   const Pose<S>& pose(BodyId wall) const { return world_.pose(local(wall)); }
+  /// Velocity of a wall, world axes [m/s].
   Vector velocity(BodyId wall) const { return world_.velocity(local(wall)); }
+  /// Sets the pose of a wall, world axes [m].
   void set_pose(BodyId wall, const Pose<S>& pose) { world_.set_pose(local(wall), pose); }
+  /// Sets the velocity of a wall, world axes [m/s].
   void set_velocity(BodyId wall, const VectorArgument<S>& velocity) {
     world_.set_velocity(local(wall), velocity);
   }
+  /// Sets the angular velocity of a wall, world axes [rad/s].
   void set_spin(BodyId wall, const AngularArgument<S>& spin) { world_.set_spin(local(wall), spin); }
+  /// Sets the force on a wall with a mass, world axes [N].
   void set_force(BodyId wall, const VectorArgument<S>& force) {
     world_.set_force(local(wall), force);
   }
+  /// Gives a wall a mass [kg] along its normal.
   void set_wall_mass(BodyId wall, Scalar mass) { world_.set_wall_mass(local(wall), mass); }
+  /// Sets the acceleration of gravity on grains, world axes [m/s^2].
   void set_gravity(const VectorArgument<S>& gravity) { world_.set_gravity(gravity); }
   /// Sum of the impulses that a wall received from all contacts in the last step, world axes [N s].
   Vector contact_impulse(BodyId wall) {
@@ -174,11 +185,12 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   BodyId id(BodyId local) const { return redistribution_.id(local.index()); }
   /// Whether a body of local() is counted in this process: its own grains, and on rank 0 the walls.
   bool owns(BodyId local) const { return sharing_->owns(local.index()); }
+  /// How the grains are distributed.
   DistributionReport distribution() const {
     return {redistribution_.own_grains(), redistribution_.ghost_count(), sharing_->shared_grains(),
             redistribution_.count(), redistribution_.partitions()};
   }
-  Communicator& processes() { return processes_; }
+  Communicator& processes() { return processes_; }  ///< that share the simulation
   /// Messages of this process so far.
   const Traffic& traffic() const { return processes_.traffic(); }
 

@@ -29,8 +29,8 @@ namespace moreau {
 /// A group or object of a file.
 template <std::floating_point T = double>
 struct MeshGroup {
-  std::string name;  ///< as the file has it; empty in a file without names
-  TriangleMesh<T> mesh;
+  std::string name;      ///< as the file has it; empty in a file without names
+  TriangleMesh<T> mesh;  ///< its triangles
 };
 
 namespace detail {

@@ -14,10 +14,7 @@ namespace moreau {
 /// [m^D]: the sum over its parts. If parts overlap, the sum is multiplied by the volume of the grain
 /// over that of its parts: exact for a grain that lies in the control volume as a whole, an estimate
 /// for a grain that it cuts.
-/// @param pose            pose of the grain, world axes [m]
-/// @param control_volume  a box in world axes [m]
-/// @param workspace       buffers, which may be reused for the next call
-/// @throws std::invalid_argument if the control volume is empty, inverted or not finite
+/// Arguments and exceptions are those of clipped_volume of a polytope (measure/clip.hpp).
 template <CompoundShape Shape, class S = SpaceOf<Shape>>
 typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
                                   const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {

@@ -56,18 +56,17 @@ namespace detail {
 template <class S, class Random>
 typename S::Vector even_direction(Random& random) {
   std::normal_distribution<double> normal;
-  typename S::Vector x;
-  do {
+  typename S::Vector x = S::Vector::Zero();
+  while (x.norm() <= typename S::Scalar(1e-3))
     for (auto& coordinate : x) coordinate = static_cast<typename S::Scalar>(normal(random));
-  } while (!(x.norm() > typename S::Scalar(1e-3)));
   return x.normalized();
 }
 
 /// The D + 1 directions from the centre of a regular simplex to its corners.
 template <class S>
-std::array<typename S::Vector, std::size_t(S::dim + 1)> simplex_directions() {
+std::array<typename S::Vector, S::dim + 1> simplex_directions() {
   using T = typename S::Scalar;
-  std::array<typename S::Vector, std::size_t(S::dim + 1)> corners;
+  std::array<typename S::Vector, S::dim + 1> corners;
   for (auto& corner : corners) corner.setZero();
   for (int i = 0; i < S::dim; ++i) {
     auto& own = corners[std::size_t(i)];

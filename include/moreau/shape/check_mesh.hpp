@@ -50,7 +50,7 @@ constexpr const char* name(MeshDefect defect) {
 
 /// The first fault of a mesh.
 struct MeshFault {
-  MeshDefect defect;
+  MeshDefect defect;      ///< what is wrong
   std::size_t facet = 0;  ///< where it was found
   std::string message;    ///< names the facet, with its corners, and the requirement
 };

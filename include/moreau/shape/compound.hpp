@@ -48,7 +48,7 @@ concept KnowsInput = Polytope<T> && requires(const T shape) {
 template <ConvexShape ShapeT>
 class Compound {
  public:
-  using PartShape = ShapeT;
+  using PartShape = ShapeT;  ///< shape of the parts
   using Space = SpaceOf<ShapeT>;
   using Scalar = typename Space::Scalar;
   using Vector = typename Space::Vector;

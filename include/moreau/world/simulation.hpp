@@ -227,6 +227,8 @@ class Simulation : public BodyControl<ShapeT> {
   }
   /// Sets the solver from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
+  /// Sets the integrator, with its options, from the next step on.
+  void set_integrator(const Integrator& integrator) { dynamics_.set_integrator(integrator); }
   /// Sets how overlaps are corrected, from the next step on.
   /// @throws std::invalid_argument for options out of range; see OverlapCorrection
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {

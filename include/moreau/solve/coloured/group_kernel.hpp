@@ -38,6 +38,7 @@ class GroupKernel {
   void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team) {
     groups_.build(problem, impulses, team);
+    is_large_ = groups_.rows() * sizeof(BodyLanes) / W::lanes > near_cache;
     changes_.assign(groups_.pairs.size(), Values{});
     load_velocities(problem.delassus);
     for (Pairs& group : groups_.pairs) update_active(group);
@@ -93,6 +94,18 @@ class GroupKernel {
  private:
   using BodyLanes = typename LaneVelocities<S, W>::BodyLanes;
 
+  /// Groups between the present one and that whose velocities are loaded into the cache: more than
+  /// memory takes to answer. The groups of a colour are visited in their order, but their bodies lie
+  /// anywhere.
+  static constexpr std::uint32_t ahead = 4;
+  /// Velocities that the processor's own cache holds are not loaded ahead [bytes].
+  static constexpr std::size_t near_cache = std::size_t{1} << 18;
+  void prefetch_from(std::uint32_t number) const {
+    if (!is_large_ || number >= groups_.pairs.size()) return;
+    velocity_.prefetch(groups_.pairs[number].a);
+    velocity_.prefetch(groups_.pairs[number].b);
+  }
+
   /// Adds what the impulses of a group do to its bodies.
   void apply(const Pairs& group) {
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
@@ -138,6 +151,7 @@ class GroupKernel {
   /// Solves the first `count` contacts of each pair in the group, one after the other.
   template <bool Measure>
   void visit(std::uint32_t number, std::uint32_t count, T extrapolation) {
+    prefetch_from(number + ahead);
     const Pairs& group = groups_.pairs[number];
     Values change2{};
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
@@ -196,6 +210,7 @@ class GroupKernel {
 
   Groups groups_;
   LaneVelocities<S, W> velocity_;
+  bool is_large_ = false;  // whether prefetch_from() does anything
   // One entry per group.
   std::vector<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
   std::vector<SweepChange> measures_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,27 @@
 #include "moreau/solve/coloured/contact_groups.hpp"
 
 namespace moreau::detail {
+
+/// Allocates whole cache lines, so that the row of a body lies on one line, not on two.
+template <class X>
+struct CacheLineAllocator {
+  using value_type = X;
+  static constexpr std::align_val_t line{64};
+
+  CacheLineAllocator() = default;
+  template <class Y>
+  CacheLineAllocator(const CacheLineAllocator<Y>&) {}  // NOLINT(google-explicit-constructor)
+  X* allocate(std::size_t count) {
+    return static_cast<X*>(::operator new(count * sizeof(X), line));
+  }
+  void deallocate(X* memory, std::size_t count) {
+    ::operator delete(memory, count * sizeof(X), line);
+  }
+  template <class Y>
+  bool operator==(const CacheLineAllocator<Y>&) const {
+    return true;
+  }
+};
 
 /// Scaled velocities y of all bodies, one row per body, read and written for one body per SIMD lane
 /// at once.
@@ -48,6 +70,10 @@ class LaneVelocities {
     }
   }
 
+  /// Begins to load the velocities of some bodies into the cache.
+  void prefetch(const Bodies& bodies) const {
+    for (const std::uint32_t body : bodies) __builtin_prefetch(&now_[registers * body]);
+  }
   BodyLanes gather(const Bodies& bodies) const {
     BodyLanes y;
     for (std::size_t k = 0; k < registers; ++k) {
@@ -88,7 +114,7 @@ class LaneVelocities {
     }
   }
 
-  std::vector<Values> now_, before_;
+  std::vector<Values, CacheLineAllocator<Values>> now_, before_;
 };
 
 }  // namespace moreau::detail

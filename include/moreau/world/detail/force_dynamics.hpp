@@ -38,6 +38,7 @@ class ForceDynamics {
   using Twist = typename S::Twist;
 
   explicit ForceDynamics(const Integrator& integrator = Integrator{}) : integrator_(integrator) {}
+  void set_integrator(const Integrator& integrator) { integrator_ = integrator; }
 
   /// Whether the forces belong to the present configuration.
   bool is_ready(std::size_t bodies) const { return loads_.size() == bodies; }

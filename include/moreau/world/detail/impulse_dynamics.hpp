@@ -100,6 +100,7 @@ class ImpulseDynamics {
     team_ = team;
     if constexpr (requires { solver_.set_team(team); }) solver_.set_team(team);
   }
+  void set_integrator(const Integrator& integrator) { integrator_ = integrator; }
   void set_correction(const OverlapCorrectionOptions& options) {
     correction_ = OverlapCorrection<S>(checked(options));
   }
