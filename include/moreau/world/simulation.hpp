@@ -173,8 +173,7 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Adds a wall of triangles [m], in the plane of segments, in the frame `pose`: fixed, or moving with
   /// set_velocity() and set_spin(). mesh_walls() lists it.
-  /// @throws std::invalid_argument for a mesh that is not a surface (shape/check_mesh.hpp), a bad pose,
-  ///         an unknown material, a periodic cell
+  /// @throws std::invalid_argument for a faulty mesh, pose or material, or a periodic cell
   BodyId add_mesh_wall(const FacetMesh<S>& mesh, const Pose<S>& pose = {},
                        WallSides sides = WallSides::outside,
                        MaterialId material = MaterialId(0)) requires MeshCollidable<ShapeT> {
@@ -183,7 +182,6 @@ class Simulation : public BodyControl<ShapeT> {
     require(cell().is_open(), self, "cell", "(periodic)", "must be open: walls have no images");
     return add_wall_of(MeshWall<S>(mesh, sides, self), pose, material, self);
   }
-
   /// Makes an axis periodic. Poses are not wrapped: displacements are differences of positions, and
   /// cell().wrap() gives the place of a point in the cell. Call it again for another axis or other
   /// bounds; infinite bounds open the axis. A change of length moves grains that have left the cell

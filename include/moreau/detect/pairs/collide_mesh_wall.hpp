@@ -185,8 +185,10 @@ class MeshCollision {
   /// margin: the plane through this point, perpendicular to its direction, separates the set.
   /// @param nearest relative to the centre [m]
   bool is_within(const Vector& nearest) {
-    const T distance = nearest.norm();
-    if (!(distance > margin_)) return true;
+    const T distance2 = nearest.squaredNorm(), farthest = core_.size() + margin_;
+    if (distance2 > farthest * farthest) return false;
+    if (!(distance2 > margin_ * margin_)) return true;
+    const T distance = std::sqrt(distance2);
     const Vector d = nearest / distance;
     if (d != last_direction_) {  // above a flat floor it is often the same
       last_direction_ = d;
@@ -317,7 +319,7 @@ class MeshCollision {
     const std::uint32_t v = scratch_.tips[first].first;
     const Vector x = wall_.vertex(v) - center_;
     if (!is_within(x)) return;
-    const auto found = core_.distance(x);
+    const auto found = core_.distance(x, margin_);
     if (!is_near(found.distance)) return;
     const Vector d = -found.outward;
     if (!wall_.is_top(v, d, aligned)) return;

@@ -58,7 +58,10 @@ class MeshCore {
       }
     }
   }
-  CoreDistance<S> distance(const Vector& x) const {
+  /// If the distance exceeds the margin, any distance that exceeds it.
+  CoreDistance<S> distance(const Vector& x, T margin) const {
+    const auto highest = highest_face(shape_, x);
+    if (highest.value > margin) return {highest.value, Vector::Zero(), FeatureKey()};
     const auto found = point_distance(shape_, x, size());
     return {found.distance, found.outward, found.feature.swapped()};
   }
@@ -86,7 +89,7 @@ class MeshCore<BallIn<S>> {
   }
   template <class Use>
   void for_each_edge_at(std::uint32_t, const Use&) const {}
-  CoreDistance<S> distance(const Vector& x) const {
+  CoreDistance<S> distance(const Vector& x, T) const {
     const T distance = x.norm();
     return {distance, distance > 0 ? Vector(x / distance) : Vector(Vector::UnitX()),
             FeatureKey(FeatureKey::Kind::vertex_vertex, 0, 0)};
@@ -118,7 +121,7 @@ class MeshCore<Segment<S>> {
   void for_each_edge_at(std::uint32_t v, const Use& use) const {
     use(0U, 1 - v);
   }
-  CoreDistance<S> distance(const Vector& x) const {
+  CoreDistance<S> distance(const Vector& x, T) const {
     const Vector half = shape_.half();
     const T along = std::clamp(x.dot(half) / half.squaredNorm(), T(-1), T(1));
     const Vector apart = x - along * half;

@@ -53,7 +53,7 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::uint32_t leaf = 2;  ///< boxes of a leaf
+  static constexpr std::uint32_t leaf = 4;  ///< boxes of a leaf
   /// The first child of an inner node follows it.
   struct Node {
     Aabb<S> box;
