@@ -38,6 +38,7 @@
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
+#include "moreau/world/detail/mesh_walls.hpp"
 #include "moreau/world/detail/pair_caches.hpp"
 #include "moreau/world/detail/pair_filter.hpp"
 #include "moreau/world/tolerances.hpp"
@@ -65,20 +66,19 @@ class ContactDetector {
   /// Adds a grain; the shape must outlive the detector. Grains are numbered in the order of their
   /// bodies.
   void add_grain(BodyId body, const ShapeT& shape);
-  /// Removes grains; the list of the other pairs and their caches stay as they are.
-  /// @param is_removed one entry per body
+  /// Removes grains, those of the bodies for which is_removed is not 0; keeps the other pairs.
   void remove_grains(std::span<const unsigned char> is_removed);
-  /// Adds a plane wall; the shape, in body coordinates, is copied.
+  /// Adds a wall: a plane, a cylinder around the grains, or a mesh. The shape, in body coordinates, is
+  /// copied.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
-    walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
+    walls_.push_back({body, shape, Placed(shape)});
   }
-  /// Adds a cylinder around the grains; the shape, in body coordinates, is copied.
   void add_wall(BodyId body, const CylinderWall<S>& shape) {
-    cylinders_.push_back({body, shape, Placed<CylinderWall<S>>(shape)});
+    cylinders_.push_back({body, shape, Placed(shape)});
   }
+  void add_wall(BodyId body, const MeshWall<S>& shape) { meshes_.add(body, shape); }
   /// Sets the cell; the next find_pairs() finds all pairs anew. Walls are checked where the last
   /// place_walls() put them.
-  /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the cell is too short for the
   ///         grains, or a wall bounds a periodic axis
   void set_cell(const PeriodicCell<S>& cell, const DetectionLengths<Scalar>& lengths,
@@ -112,11 +112,11 @@ class ContactDetector {
     });
     place_walls(poses);
   }
-  /// Moves the walls to the poses of their bodies.
-  /// @param poses one per body
+  /// Moves the walls to the poses of their bodies, one per body.
   void place_walls(std::span<const Pose<S>> poses) {
     for (auto& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
     for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
+    meshes_.place(poses);
   }
 
   /// Sets the threads that share the work.
@@ -150,6 +150,7 @@ class ContactDetector {
     grains_.clear();
     walls_.clear();
     cylinders_.clear();
+    meshes_.clear();
     widest_ = 0;
     add_all();
     stale_ = stale;
@@ -200,6 +201,7 @@ class ContactDetector {
   /// What a member of the team finds, and its buffers.
   struct Member : detail::FoundContacts<S> {
     std::optional<Grain> image;  // the second grain of a pair across a periodic boundary
+    detail::MeshBuffers<ShapeT> mesh;
   };
 
   /// The image of a grain, moved by a shift from the pose of its body.
@@ -235,20 +237,13 @@ class ContactDetector {
   /// Finds the contacts of the grains begin .. end - 1 with later grains and with walls.
   void detect_of(std::size_t begin, std::size_t end, Scalar margin, const Bodies<S>& bodies,
                  const Contacts<S>& previous, Member& found);
-  void detect_in_cylinders(std::size_t k, Scalar margin, detail::FoundContacts<S>& found) {
-    const Grain& a = grains_[k];
-    for (const auto& wall : cylinders_)
-      if (wall.placed.reaches(boxes_[k], margin) && !filter_.leaves_out(a.body, wall.body))
-        found.add_each(a, wall, [&](auto&& add) {
-          return collide_each(a.placed, wall.placed, margin, found.manifold(), add);
-        });
-  }
 
   std::vector<Grain> grains_;  // ascending by body
   std::vector<Grain> spare_;   // of removed grains; what they have allocated is used again
   std::vector<std::uint32_t> number_after_;  // of each grain, in remove_grains()
   std::vector<Wall<HalfSpace<S>>> walls_;
   std::vector<Wall<CylinderWall<S>>> cylinders_;
+  detail::MeshWalls<ShapeT> meshes_;
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
@@ -389,7 +384,13 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::siz
         return collide_parts(a.placed, wall.placed, margin, manifold, add);
       });
     }
-    if (!cylinders_.empty() && !prescribed) detect_in_cylinders(k, margin, found);
+    for (const auto& wall : cylinders_)
+      if (wall.placed.reaches(boxes_[k], margin) && !ignores(wall.body))
+        found.add_each(a, wall, [&](auto&& add) {
+          return collide_each(a.placed, wall.placed, margin, manifold, add);
+        });
+    meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, filter_, previous,
+                   found.mesh, found);
   }
 }
 
