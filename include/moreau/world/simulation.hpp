@@ -220,6 +220,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// have the same bits for every team. Snapshots do not contain it; a copy of the simulation has the
   /// same team, and needs another one to run at the same time.
   void set_team(const Team& team) {
+    team_ = team;
     detector_.set_team(team);
     if constexpr (set_valued) dynamics_.set_team(team);
   }
@@ -333,7 +334,7 @@ class Simulation : public BodyControl<ShapeT> {
     detector_.find_pairs(lengths());
     report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
-    assign_laws(assembly_.bodies(), materials_, contacts_);
+    assign_laws(assembly_.bodies(), materials_, contacts_, team_);
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
@@ -351,6 +352,7 @@ class Simulation : public BodyControl<ShapeT> {
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
+  Team team_;
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
