@@ -93,7 +93,7 @@ class ContactGroups {
   /// Largest tr(W^-1 W_hub) of a hub whose pairs share groups.
   static constexpr auto largest_share = typename S::Scalar(0.02);
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
-  static constexpr auto most_in_phase = typename S::Scalar(0);  // none
+  static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
   std::vector<Pairs> pairs;    ///< sorted by phase
   std::vector<Points> points;  ///< in the order of pairs
