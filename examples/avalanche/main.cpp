@@ -243,6 +243,10 @@ bool run(const Options& options) {
 
 /// Returns 0 when the run has ended, 3 when it stopped before, 2 for wrong arguments.
 int main(int count, char** arguments) {
+  if (count == 2 && std::string(arguments[1]) == "--help") {
+    std::fputs(usage, stdout);
+    return 0;
+  }
   if (count < 2) {
     std::fputs(usage, stderr);
     return 2;

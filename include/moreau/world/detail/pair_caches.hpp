@@ -191,13 +191,17 @@ class PairCaches<ShapeT> {
       box_ends_.push_back(boxes_.size());
     }
   }
-  /// Lists the near parts of a pair.
+  /// Lists the near parts of a pair. Parts of a that are far from all of b cost one test each.
   void list_parts(const IndexPair& pair, const Vector& shift) {
     const std::size_t first = begin(box_ends_, pair.first), second = begin(box_ends_, pair.second);
+    Aabb<S> around;
+    for (std::size_t j = second; j < box_ends_[pair.second]; ++j) {
+      around.merge(boxes_[j].lower);
+      around.merge(boxes_[j].upper);
+    }
     for (std::size_t i = first; i < box_ends_[pair.first]; ++i) {
-      Aabb<S> box = boxes_[i];
-      box.lower -= shift;
-      box.upper -= shift;
+      const Aabb<S> box{boxes_[i].lower - shift, boxes_[i].upper - shift};
+      if (!box.overlaps(around)) continue;
       for (std::size_t j = second; j < box_ends_[pair.second]; ++j)
         if (box.overlaps(boxes_[j]))
           parts_.push_back({std::uint32_t(i - first), std::uint32_t(j - second)});
