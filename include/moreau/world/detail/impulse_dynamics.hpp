@@ -216,15 +216,13 @@ class ImpulseDynamics {
   }
 
   void prepare_laws(const Context& context) {
-    const std::vector<Law>& laws = context.materials.laws();
     problem_.law_of.resize(context.contacts.size());
-    if constexpr (stateful) {
-      problem_.laws.clear();
-      for (const Law& law : laws)
+    problem_.laws.clear();
+    for (const Law& law : context.materials.laws())
+      if constexpr (stateful)
         for (std::size_t k = 0; k < Law::variants; ++k) problem_.laws.push_back(law.variant(k));
-    } else {
-      problem_.laws.assign(laws.begin(), laws.end());
-    }
+      else
+        problem_.laws.push_back(law);
   }
   /// The law of a contact in this step, which may depend on the impulse before.
   std::uint32_t variant_of(const Law& law, std::uint32_t index, const auto& impulse) const {
