@@ -216,10 +216,10 @@ class Simulation : public BodyControl<ShapeT> {
     require(all_finite(gravity), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
   }
-  /// Sets the threads that share the work of a step; at first, the calling thread alone. Results
-  /// have the same bits for every team. Snapshots do not contain it; a copy of the simulation has the
-  /// same team, and needs another one to run at the same time.
+  /// Sets the threads that share the work of a step; at first, the calling thread alone. Results have
+  /// the same bits for every team. Snapshots do not contain it; a copy needs another one to run at once.
   void set_team(const Team& team) {
+    team_ = team;
     detector_.set_team(team);
     if constexpr (set_valued) dynamics_.set_team(team);
   }
@@ -340,7 +340,7 @@ class Simulation : public BodyControl<ShapeT> {
     detector_.find_pairs(lengths());
     report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
-    assign_laws(assembly_.bodies(), materials_, contacts_);
+    assign_laws(assembly_.bodies(), materials_, contacts_, team_);
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
@@ -358,11 +358,11 @@ class Simulation : public BodyControl<ShapeT> {
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
+  Team team_;
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
-// step() is defined outside of the class, so that it is not inline. A program can then instantiate it
-// in one source file and declare it `extern template` in the others (moreau/instances).
+// Not inline: a program can instantiate it in one source and declare it extern (moreau/instances).
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
