@@ -7,9 +7,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "moreau/detect/pairs/collide_mesh_wall.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/check_mesh.hpp"
 #include "moreau/shape/convex_of_mesh.hpp"
 #include "moreau/shape/facet_mesh.hpp"
+#include "moreau/shape/mesh_wall.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/shape/repair_mesh.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
@@ -74,6 +78,43 @@ void check_hull(const FacetMesh<S>& mesh, int n) {
        "a simplified hull has fewer vertices");
 }
 
+/// Collides a shape with a wall at a few places.
+template <class ShapeT>
+void check_contacts(const ShapeT& shape, const MeshWall<SpaceOf<ShapeT>>& wall, double size) {
+  using S = SpaceOf<ShapeT>;
+  MeshScratch scratch;
+  Manifold<S> manifold;
+  const double margin = 0.02 * size;
+  for (std::size_t k = 0; k < std::min<std::size_t>(wall.size(), 4); ++k) {
+    const auto& side = wall.side(k);
+    const typename S::Vector at = side.corners.rowwise().mean() + 0.1 * size * side.normal;
+    const Placed<ShapeT> placed(shape, {at, S::exp(S::Angular::Constant(0.3 * double(k)))});
+    std::vector<FeatureKey> keys;
+    const auto check = [&](std::uint32_t) {
+      hold(std::abs(manifold.normal.norm() - 1) < 1e-9, "the normal of a contact is unit");
+      for (const auto& point : manifold.points) {
+        hold(std::isfinite(point.gap) && point.gap <= margin * (1 + 1e-9),
+             "a gap within the margin");
+        hold(point.position.allFinite(), "a contact point is finite");
+        keys.push_back(point.feature);
+      }
+    };
+    collide_each(placed, wall, margin, scratch, manifold, check);
+    std::sort(keys.begin(), keys.end());
+    hold(std::adjacent_find(keys.begin(), keys.end()) == keys.end(), "keys of contacts differ");
+  }
+}
+template <class S>
+void check_wall(const FacetMesh<S>& mesh, WallSides sides) {
+  const MeshWall<S> wall(mesh, sides);
+  const auto bounds = wall.tree().bounds();
+  const double size = double((bounds.upper - bounds.lower).norm());
+  // Coordinates far apart or far from 1 overflow in squares; a user's shape would be refused.
+  if (!(size > 1e-6 && size < 1e6) || size_of(mesh) > 1e3 * size) return;
+  check_contacts(regular_shape<PolytopeOf<S>>(0.15 * size), wall, size);
+  check_contacts(BallIn<S>(0.1 * size), wall, size);
+}
+
 template <class S>
 void try_mesh(Bytes& bytes) {
   const int n = bytes.between(0, 8);
@@ -82,6 +123,7 @@ void try_mesh(Bytes& bytes) {
   if (!find_solid_fault(mesh)) check_solid(mesh);
   attempt([&] { check_hull(mesh, n); });
   attempt([&] { convex_of_mesh(mesh); });
+  attempt([&] { check_wall(mesh, n % 2 == 0 ? WallSides::outside : WallSides::both); });
   attempt([&] {
     FacetMesh<S> welded = mesh;
     weld(welded, tolerance);

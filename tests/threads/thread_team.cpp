@@ -10,83 +10,15 @@
 #include <vector>
 
 #include "moreau/law/compliant.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/shape/regular_shape.hpp"
-#include "moreau/world/simulation.hpp"
 
 #include "conformance/solver.hpp"
+#include "threads/same_bits.hpp"
 
 using namespace solve_test;
-
-namespace {
-
-// The thread sanitizer makes everything some fifty times slower.
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define MOREAU_TEST_FEW_STEPS
-#endif
-#endif
-#ifdef MOREAU_TEST_FEW_STEPS
-constexpr int steps = 30;
-constexpr int team_sizes[] = {2, 3};
-#else
-constexpr int steps = 150;
-constexpr int team_sizes[] = {2, 3, 4, 8};
-#endif
-
-/// Lets a team share its work from now on, without measuring whether this is faster.
-class EagerThreads final : public TeamThreads {
- public:
-  explicit EagerThreads(int size) : pool_(size) { shares = true; }
-  int size() const override { return pool_.size(); }
-  void run(const Work& work) override { pool_.run(work); }
-  bool begin(TimedWork) override { return true; }
-  void end(TimedWork, std::size_t) override {}
-
- private:
-  detail::ThreadPool pool_;
-};
-Team eager(int size) {
-  return Team(std::make_shared<EagerThreads>(size));
-}
-
-/// 6 x 6 x 8 (in the plane 20 x 20) grains fall into a box, which is periodic along x.
-template <class ShapeT, class Law>
-std::vector<double> fall(const Law& law, const Team& team) {
-  using S = SpaceOf<ShapeT>;
-  using Vector = typename S::Vector;
-  constexpr int up = S::dim - 1, wide = up == 1 ? 20 : 6, high = up == 1 ? 20 : 8;
-  constexpr double size = 0.02, cell = 0.024;
-  Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
-  world.set_team(team);
-  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(size));
-  world.set_periodic(0, 0.0, wide * cell);
-  for (int axis = 1; axis < S::dim; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
-  if (up > 1) world.add_wall(-Vector::Unit(1), wide * cell * Vector::Unit(1));
-  for (int k = 0; k < high; ++k)
-    for (int i = 0; i < wide; ++i)
-      for (int j = 0; j < (up > 1 ? wide : 1); ++j) {
-        Vector position = Vector::Constant(cell * (j + 0.5));
-        position[0] = cell * (i + 0.5 + 0.1 * (k % 2));
-        position[up] = cell * (k + 0.5);
-        world.add_grain(shape, {position, S::exp(S::Angular::Constant(0.1 * k + 0.3 * i))}, 2700);
-      }
-  world.set_gravity(-9.81 * Vector::Unit(up));
-  std::vector<double> results;
-  for (int step = 0; step < steps; ++step) {
-    const StepReport report = world.step(5e-4);
-    if (step % 10 != 9) continue;
-    results.push_back(report.solve.residual);
-    results.push_back(report.dissipation);
-    results.push_back(double(report.points));
-  }
-  for (const Pose<S>& pose : world.bodies().pose)
-    for (const double x : pose.position) results.push_back(x);
-  return results;
-}
-
-}  // namespace
+using namespace threads_test;
 
 TEST_CASE("every member works, and waits for the others") {
   for (const int size : {1, 2, 3}) {
@@ -193,13 +125,9 @@ TEST_CASE_TEMPLATE("one, two and three threads solve to the same bits", S, Space
 TEST_CASE_TEMPLATE("1, 2, 3, 4 and 8 threads simulate to the same bits", ShapeT, Disk<double>,
                    Polyhedron<double>) {
   const SignoriniCoulomb<> coulomb(0.4);
-  const auto alone = fall<ShapeT>(coulomb, Team());
-  const auto springs = fall<ShapeT>(Compliant<>(coulomb, 1e6), Team());
-  for (const int threads : team_sizes) {
-    CHECK(fall<ShapeT>(coulomb, eager(threads)) == alone);
-    CHECK(fall<ShapeT>(Compliant<>(coulomb, 1e6), eager(threads)) == springs);
-  }
-  CHECK(fall<ShapeT>(coulomb, ThreadTeam(2)) == alone);
+  check_bits<ShapeT>(coulomb);
+  check_bits<ShapeT>(Compliant<>(coulomb, 1e6));
+  CHECK(fall<ShapeT>(coulomb, ThreadTeam(2)) == fall<ShapeT>(coulomb, Team()));
 }
 
 TEST_CASE("a team without members is refused") {

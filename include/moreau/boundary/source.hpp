@@ -192,6 +192,18 @@ class Source {
       const Vector radial = S::spin(axis, S::spin(axis, grain.center - pose.position));
       if (radial.norm() + grain.radius > cylinder.shape.radius()) return true;
     }
+    for (const auto& mesh : simulation.mesh_walls()) {
+      const Vector center = simulation.pose(mesh.body).to_body(grain.center);
+      const Aabb<S> around = Aabb<S>(center, center).inflated(grain.radius);
+      bool overlaps = false;
+      mesh.shape.tree().query([&](const Aabb<S>& box) { return box.overlaps(around); },
+                              [&](std::size_t k) {
+                                const auto& side = mesh.shape.side(k);
+                                const auto height = side.normal.dot(center) - side.offset;
+                                overlaps = overlaps || std::abs(height) < grain.radius;
+                              });
+      if (overlaps) return true;
+    }
     return false;
   }
 

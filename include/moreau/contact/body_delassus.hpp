@@ -23,6 +23,7 @@
 #include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/local_block.hpp"
+#include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
@@ -62,6 +63,7 @@ class BodyDelassus {
                 std::span<const typename S::Twist> free, const Compliance& compliance = {},
                 const Team& team = {}) {
     rows_.resize(contacts.size());
+    heads_.resize(contacts.size());
     scaled_.assign(roots.size(), PaddedTwist::Zero());
     team.share(contacts.size(), 64, [&](std::size_t begin, std::size_t end) {
       assemble_some(begin, end, contacts, roots, free, compliance);
@@ -74,7 +76,9 @@ class BodyDelassus {
   /// W_cc in the contact's frame [1/kg].
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
-  std::array<std::uint32_t, 2> bodies(std::size_t c) const { return {rows_[c].a, rows_[c].b}; }
+  std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
+  /// Trace of W_cc [1/kg].
+  Scalar trace(std::size_t c) const { return heads_[c].trace; }
   /// Ja^T, padded: width x D, one column for each axis of the frame [kg^-1/2]. An impulse dr
   /// changes y_a by -Ja^T dr.
   const PaddedRows& rows_a(std::size_t c) const { return rows_[c].ja; }
@@ -104,9 +108,17 @@ class BodyDelassus {
   }
   /// Applies an impulse, in the contact's frame, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
+    apply_to_b(c, impulse);
+    apply_to_a(c, impulse);
+  }
+  /// Applies the part of apply() that concerns body a, or body b.
+  void apply_to_a(std::size_t c, const Vector& impulse) {
+    const Row& row = rows_[c];
+    scaled_[row.a].noalias() -= row.ja * impulse;
+  }
+  void apply_to_b(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     scaled_[row.b].noalias() += row.jb * impulse;
-    scaled_[row.a].noalias() -= row.ja * impulse;
   }
   /// Adds the effect of a couple to the scaled angular velocity of a body [kg^1/2 m/s].
   void add_scaled_spin(std::size_t body, const typename S::Angular& change) {
@@ -120,6 +132,11 @@ class BodyDelassus {
   /// sees the same body move.
   std::span<Scalar> scaled_velocities() {
     return {scaled_.empty() ? nullptr : scaled_[0].data(), scaled_.size() * std::size_t(width)};
+  }
+
+  /// Begins to load the rows of some contacts into the cache.
+  void prefetch(std::size_t first, std::size_t count) const {
+    detail::prefetch(rows_.data() + first, count * sizeof(Row));
   }
 
   /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
@@ -136,6 +153,11 @@ class BodyDelassus {
     LocalBlock<S> block;
     Vector free;
     std::uint32_t a, b;
+  };
+  /// What passes over all contacts need that do not need the rows: less memory to read.
+  struct Head {
+    std::array<std::uint32_t, 2> bodies;
+    Scalar trace;
   };
 
   template <class Compliance>
@@ -159,6 +181,7 @@ class BodyDelassus {
       turn_tangents(row.ja, turn);
       turn_tangents(row.jb, turn);
       row.free = relative_velocity(contact, free[contact.a], free[contact.b]);
+      heads_[c] = {{row.a, row.b}, row.block.trace()};
     }
   }
 
@@ -210,6 +233,7 @@ class BodyDelassus {
   }
 
   std::vector<Row> rows_;
+  std::vector<Head> heads_;
   std::vector<PaddedTwist> scaled_;
 };
 

@@ -44,7 +44,12 @@ class CompliantDelassus : public Rigid {
   Scalar normal_velocity(std::size_t c) const { return Rigid::normal_velocity(c) + stretch_[c][0]; }
   /// Applies an impulse to the bodies and the spring of a contact, in its frame [N s].
   void apply(std::size_t c, const Vector& impulse) {
-    Rigid::apply(c, impulse);
+    apply_to_b(c, impulse);
+    Rigid::apply_to_a(c, impulse);
+  }
+  /// Applies the part of apply() that concerns body b, and the spring.
+  void apply_to_b(std::size_t c, const Vector& impulse) {
+    Rigid::apply_to_b(c, impulse);
     stretch_[c] += compliance_[c].cwiseProduct(impulse);
   }
   /// Removes all impulses.

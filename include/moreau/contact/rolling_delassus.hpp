@@ -39,7 +39,7 @@ class RollingDelassus {
           contacts, roots, free,
           [&](std::size_t c) { return typename S::Vector(linear<S>(compliance(c))); }, team);
     rows_.resize(contacts.size());
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
+    team.share_each(contacts.size(), 64, [&](std::size_t c) {
       const Contact<S>& contact = contacts[c];
       const MobilityRoot<S>&a = roots[contact.a], &b = roots[contact.b];
       Row& row = rows_[c];
@@ -56,7 +56,7 @@ class RollingDelassus {
       row.block.coupling =
           points_.rows_a(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.ka +
           points_.rows_b(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.kb;
-    }
+    });
   }
 
   std::size_t size() const { return rows_.size(); }                ///< contacts
@@ -94,12 +94,18 @@ class RollingDelassus {
   Scalar normal_velocity(std::size_t c) const { return points_.normal_velocity(c); }
   /// Applies (impulse, couple / R), in the frame of the contact, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
-    const Row& row = rows_[c];
-    const auto [a, b] = points_.bodies(c);
-    const typename S::Angular couple = angular<S>(impulse);
-    points_.apply(c, linear<S>(impulse));
-    points_.add_scaled_spin(b, row.kb * couple);
-    points_.add_scaled_spin(a, -(row.ka * couple));
+    apply_to_b(c, impulse);
+    apply_to_a(c, impulse);
+  }
+  /// Applies the part of apply() that concerns body a, or body b.
+  void apply_to_a(std::size_t c, const Vector& impulse) {
+    points_.apply_to_a(c, linear<S>(impulse));
+    points_.add_scaled_spin(bodies(c)[0],
+                            -(rows_[c].ka * typename S::Angular(angular<S>(impulse))));
+  }
+  void apply_to_b(std::size_t c, const Vector& impulse) {
+    points_.apply_to_b(c, linear<S>(impulse));
+    points_.add_scaled_spin(bodies(c)[1], rows_[c].kb * typename S::Angular(angular<S>(impulse)));
   }
   /// Removes all impulses.
   void clear() { points_.clear(); }

@@ -102,6 +102,8 @@ class Team {
   explicit Team(std::shared_ptr<TeamThreads> threads) : threads_(std::move(threads)) {}
 
   int size() const { return threads_ ? threads_->size() : 1; }  ///< number of members
+  /// Whether work is shared at present, see run_timed().
+  bool shares() const { return threads_ && threads_->shares; }
 
   /// Runs work(rank, size, wait) on all members. If members throw, the exception of the lowest rank
   /// is thrown again here.
@@ -145,8 +147,6 @@ class Team {
   }
 
  private:
-  bool shares() const { return threads_ && threads_->shares; }
-
   std::shared_ptr<TeamThreads> threads_;
 };
 
@@ -154,21 +154,29 @@ namespace detail {
 
 /// A sum over 0 .. count - 1 whose bits do not depend on the team: parts, whose number depends on
 /// count alone, are summed each by itself, then in their order.
-/// @tparam Sum has add(Sum); Sum{} is the empty sum
-/// @param  add function: add(sum, i) adds what belongs to i
-template <class Sum, class Add>
-Sum sum_of(const Team& team, std::size_t count, const Add& add) {
+/// @tparam Sum  has add(Sum); Sum{} is the empty sum
+/// @param  part function: part(begin, end) returns the sum over begin .. end - 1
+template <class Sum, class Part>
+Sum sum_of_parts(const Team& team, std::size_t count, const Part& part) {
   constexpr int most = 16;
   const int parts = count < 1024 ? 1 : most;
   std::array<Sum, std::size_t(most)> sums{};
   team.share_each(std::size_t(parts), 1, [&](std::size_t p) {
-    const Share part(count, int(p), parts);
-    Sum sum{};
-    for (std::size_t i = part.begin; i < part.end; ++i) add(sum, i);
-    sums[p] = sum;
+    const Share share(count, int(p), parts);
+    sums[p] = part(share.begin, share.end);
   });
   for (std::size_t p = 1; p < std::size_t(parts); ++p) sums[0].add(sums[p]);
   return sums[0];
+}
+/// The same.
+/// @param add function: add(sum, i) adds what belongs to i
+template <class Sum, class Add>
+Sum sum_of(const Team& team, std::size_t count, const Add& add) {
+  return sum_of_parts<Sum>(team, count, [&](std::size_t begin, std::size_t end) {
+    Sum sum{};
+    for (std::size_t i = begin; i < end; ++i) add(sum, i);
+    return sum;
+  });
 }
 
 }  // namespace detail

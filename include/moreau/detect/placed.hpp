@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/detail/rows.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -90,6 +91,24 @@ class Placement<ShapeT> {
               offsets_.data() + offsets_.size(), offsets[0]);
   }
 
+  /// Begins to load the object that holds the shape into the cache. The functions below read it.
+  void prefetch_shape() const { detail::prefetch(shape_, sizeof(ShapeT)); }
+  /// Begins to load what update() reads and writes for the same shape.
+  void prefetch_update() const {
+    const auto load = [](const auto& rows) {
+      detail::prefetch(rows.data(), std::size_t(rows.size()) * sizeof(Scalar));
+    };
+    load(shape_->vertices());
+    load(shape_->face_normals());
+    load(shape_->face_offsets());
+    prefetch_rows();
+  }
+  /// Begins to load what the narrow phase reads.
+  void prefetch_contact() const {
+    prefetch_rows();
+    if constexpr (requires { shape_->prefetch(); }) shape_->prefetch();
+  }
+
   /// Moves the centre, world axes [m]. The orientation is unchanged. Unlike update(), this function
   /// does not rotate the vertices.
   void move_to(const Vector& center) { center_ = center; }
@@ -120,6 +139,12 @@ class Placement<ShapeT> {
   }
 
  private:
+  void prefetch_rows() const {
+    vertices_.prefetch();
+    normals_.prefetch();
+    detail::prefetch(offsets_.data(), std::size_t(offsets_.size()) * sizeof(Scalar));
+  }
+
   const ShapeT* shape_ = nullptr;
   Vector center_ = Vector::Zero();
   Rows<S> vertices_, normals_;

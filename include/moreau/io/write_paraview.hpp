@@ -53,7 +53,7 @@ void write_walls(const std::filesystem::path& path, const World& world) {
 /// |----------------------------|-----------------------------------------------------------------|
 /// | out/run_0010.vtm           | names the other three: open this file in ParaView               |
 /// | out/run_0010_grains.vtp    | surfaces with the arrays of VtkWriter::write_grains()           |
-/// | out/run_0010_walls.vtp     | half-spaces and cylinders with the arrays `id`, `velocity`      |
+/// | out/run_0010_walls.vtp     | all walls with the arrays `id` and `velocity`                   |
 /// | out/run_0010_contacts.vtp  | lines with the arrays of VtkWriter::write_contacts()            |
 ///
 /// The array `id` of the grains is their position in grains(). It changes when a grain with a lower id
@@ -62,8 +62,8 @@ void write_walls(const std::filesystem::path& path, const World& world) {
 /// ParaView shows the files run_0000.vtm, run_0001.vtm, ... as one series. PvdSeries::add() adds
 /// the time to such a file.
 ///
-/// Coordinates are in world axes [m]. Each grain is at its place in the periodic cell. Walls have
-/// no bounds: a half-space is drawn as far as the bounding box of the grains, extended by a grain
+/// Coordinates are in world axes [m]. Each grain is at its place in the periodic cell. A mesh wall is
+/// written as it is. Other walls have no bounds: a half-space is drawn as far as the bounding box of the grains, extended by a grain
 /// size, reaches along it, and it ends at the other half-spaces. A half-space farther from the
 /// grains than the diagonal of this box is left out. The contacts are all contact points of the
 /// last step, also those without force; the positions are those after the step.

@@ -70,7 +70,8 @@ Aabb<typename World::S> visible_box(const World& world, const Surfaces& surfaces
   return box;
 }
 
-/// Tints a wall and draws its edges. The long edges between the strips of a cylinder are not drawn.
+/// Tints a wall and draws its edges. The long edges between the strips of a cylinder are not drawn, of a
+/// mesh wall the ridges that a grain can touch.
 template <class Surface>
 void draw_wall(const Surface& surface, const DepthBuffer& seen, Image& image) {
   const Color wall = screen_color(0x2F6FB0), frame = screen_color(0x4A4F57);
@@ -81,10 +82,13 @@ void draw_wall(const Surface& surface, const DepthBuffer& seen, Image& image) {
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
       tint({seen.view()(corners[0]), seen.view()(corners[k]), seen.view()(corners[k + 1])}, seen,
            wall, 0.06f, image);
-    for (std::size_t k = 0; k < corners.size(); k += is_strip ? 2 : 1)
+    for (std::size_t k = 0; k < corners.size() && surface.lines.empty(); k += is_strip ? 2 : 1)
       draw_line(corners[k], corners[(k + 1) % corners.size()], 1.5f * oversampling, seen, frame,
                 image);
   }
+  for (const auto& line : surface.lines)
+    draw_line(line[0].template cast<float>(), line[1].template cast<float>(), 1.5f * oversampling,
+              seen, frame, image);
 }
 
 /// The view of view_of(), moved and enlarged such that the given points fill the picture.

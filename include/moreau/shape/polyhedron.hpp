@@ -83,6 +83,9 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     return topology_.vertex_edges[v];
   }
 
+  /// Begins to load the incidences of vertices, edges and faces into the cache.
+  void prefetch() const { topology_.prefetch(); }
+
   /// The same polyhedron with all lengths multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor and the new moments are finite and greater
   ///                               than zero

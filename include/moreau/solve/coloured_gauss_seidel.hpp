@@ -123,7 +123,6 @@ class ColouredGaussSeidel {
     SolveReport report;
     if (detail::sum_over(shared_.get(), double(problem.size())) == 0) return report;
     report.converged = false;
-    detail::set_impulses<Operator>(problem.delassus, impulses, shared_.get());
     sweeps.start(problem, impulses, accelerate, team_, shared_.get());
     // The residual takes a pass over all contacts. It is measured once the change per sweep is
     // below the change at which the residual is expected to meet the tolerance.
@@ -146,7 +145,7 @@ class ColouredGaussSeidel {
       if (report.converged) break;
       if (change < improvement * least) {
         least = change;
-        sweeps.save();
+        sweeps.save(team_);
       } else if (!(change < divergence * least)) {
         sweeps.restore();
       }
@@ -189,9 +188,7 @@ class ColouredGaussSeidel {
   void certify(ContactProblem<Operator, Law>& problem,
                std::span<typename Operator::Vector> impulses,
                detail::ColouredSweeps<Operator, Law>& sweeps, SolveReport& report) const {
-    sweeps.unpack(impulses);
-    detail::set_impulses<Operator>(problem.delassus, impulses, shared_.get());
-    sweeps.load_velocities(problem.delassus);
+    sweeps.finish(problem.delassus, impulses, team_);
     measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_,
                      shared_.get());
   }

@@ -29,6 +29,15 @@ double trace_of_copies(const Operator& op, std::size_t c, const SharedBodies& sh
   }
 }
 
+/// The trace of W_cc [1/kg].
+template <class Operator>
+double trace_of(const Operator& op, std::size_t c) {
+  if constexpr (requires { op.trace(c); })
+    return double(op.trace(c));
+  else
+    return double(op.block(c).trace());
+}
+
 /// The mean of the diagonal of W, which makes velocities of impulses in residuals [1/kg]; 1 if it is
 /// not positive.
 template <class Operator>
@@ -36,7 +45,7 @@ double mean_diagonal(const Operator& op, SharedBodies* shared = nullptr) {
   constexpr int rows = Operator::Vector::RowsAtCompileTime;
   double sums[] = {0, double(op.size())};
   double& trace = sums[0];
-  for (std::size_t c = 0; c < op.size(); ++c) trace += double(op.block(c).trace());
+  for (std::size_t c = 0; c < op.size(); ++c) trace += trace_of(op, c);
   if (shared) {
     for (std::size_t c = 0; c < op.size(); ++c) trace -= trace_of_copies(op, c, *shared);
     shared->sum(sums);

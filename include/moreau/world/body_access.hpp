@@ -92,6 +92,10 @@ class BodyAccess {
   /// until a cylinder is added.
   std::span<const CylinderBody<S>> cylinders() const { return assembly_.cylinders(); }
 
+  /// All mesh walls with their shapes, in the order in which they were added. The span is valid until a
+  /// mesh wall is added.
+  std::span<const MeshBody<S>> mesh_walls() const { return assembly_.meshes(); }
+
   std::size_t grain_count() const { return assembly_.grain_count(); }  ///< without walls
   /// The k-th element of grains().
   /// @throws std::invalid_argument unless k < grain_count()

@@ -55,11 +55,13 @@ class BodyControl : public BodyAccess<ShapeT> {
     const std::size_t i = grain.index();
     if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.weight[i], bodies.inertia_body[i]);
   }
-  /// Makes a wall move along its normal as a body of this mass, under set_force() and its contacts.
+  /// Makes a wall move along one axis as a body of this mass, under set_force() and its contacts: a
+  /// half-space along its normal, a mesh wall along the first axis of its frame, which its pose turns.
   /// Gravity does not act on walls. With an infinite mass the wall is fixed or driven again.
-  /// @param wall a half-space; a cylinder cannot have a mass
+  /// @param wall a half-space or a mesh wall; a cylinder cannot have a mass
   /// @param mass [kg], > 0
-  /// @throws std::invalid_argument for a body that is not in walls() or a mass that is not positive
+  /// @throws std::invalid_argument for a body that is neither in walls() nor in mesh_walls(), or a mass
+  ///         that is not positive
   void set_wall_mass(BodyId wall, Scalar mass) {
     assembly_.require_wall(wall, "Simulation::set_wall_mass");
     require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,

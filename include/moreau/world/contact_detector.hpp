@@ -38,8 +38,10 @@
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
+#include "moreau/world/detail/mesh_walls.hpp"
 #include "moreau/world/detail/pair_caches.hpp"
 #include "moreau/world/detail/pair_filter.hpp"
+#include "moreau/world/detail/visit_order.hpp"
 #include "moreau/world/tolerances.hpp"
 
 namespace moreau {
@@ -65,20 +67,19 @@ class ContactDetector {
   /// Adds a grain; the shape must outlive the detector. Grains are numbered in the order of their
   /// bodies.
   void add_grain(BodyId body, const ShapeT& shape);
-  /// Removes grains; the list of the other pairs and their caches stay as they are.
-  /// @param is_removed one entry per body
+  /// Removes grains, those of the bodies for which is_removed is not 0; keeps the other pairs.
   void remove_grains(std::span<const unsigned char> is_removed);
-  /// Adds a plane wall; the shape, in body coordinates, is copied.
+  /// Adds a wall: a plane, a cylinder around the grains, or a mesh. The shape, in body coordinates, is
+  /// copied.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
-    walls_.push_back({body, shape, Placed<HalfSpace<S>>(shape)});
+    walls_.push_back({body, shape, Placed(shape)});
   }
-  /// Adds a cylinder around the grains; the shape, in body coordinates, is copied.
   void add_wall(BodyId body, const CylinderWall<S>& shape) {
-    cylinders_.push_back({body, shape, Placed<CylinderWall<S>>(shape)});
+    cylinders_.push_back({body, shape, Placed(shape)});
   }
+  void add_wall(BodyId body, const MeshWall<S>& shape) { meshes_.add(body, shape); }
   /// Sets the cell; the next find_pairs() finds all pairs anew. Walls are checked where the last
   /// place_walls() put them.
-  /// @param function the public name the caller used
   /// @throws std::invalid_argument in the name of the function if the cell is too short for the
   ///         grains, or a wall bounds a periodic axis
   void set_cell(const PeriodicCell<S>& cell, const DetectionLengths<Scalar>& lengths,
@@ -104,6 +105,7 @@ class ContactDetector {
     boxes_.resize(grains_.size());
     team_.share(grains_.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
+        if constexpr (prefetches) detail::prefetch_update(std::span(grains_), k, end);
         const Pose<S>& pose = poses[grains_[k].body.index()];
         grains_[k].shape = &shape_of(k);
         grains_[k].placed.update(*grains_[k].shape, pose);
@@ -112,11 +114,11 @@ class ContactDetector {
     });
     place_walls(poses);
   }
-  /// Moves the walls to the poses of their bodies.
-  /// @param poses one per body
+  /// Moves the walls to the poses of their bodies, one per body.
   void place_walls(std::span<const Pose<S>> poses) {
     for (auto& wall : walls_) wall.placed.update(wall.shape, poses[wall.body.index()]);
     for (auto& wall : cylinders_) wall.placed.update(wall.shape, poses[wall.body.index()]);
+    meshes_.place(poses);
   }
 
   /// Sets the threads that share the work.
@@ -150,9 +152,11 @@ class ContactDetector {
     grains_.clear();
     walls_.clear();
     cylinders_.clear();
+    meshes_.clear();
     widest_ = 0;
     add_all();
     stale_ = stale;
+    order_.invalidate();
     bool valid = shifts_.size() == (cell_.is_open() ? 0 : pairs_.size());
     for (const IndexPair& pair : pairs_)
       valid = valid && pair.first < pair.second && pair.second < grains_.size();
@@ -173,6 +177,8 @@ class ContactDetector {
   auto serialized_members() {
     return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_);
   }
+
+  static constexpr bool prefetches = requires(Placed<ShapeT> s) { s.prefetch_contact(); };
 
   struct Grain {
     BodyId body;
@@ -200,6 +206,7 @@ class ContactDetector {
   /// What a member of the team finds, and its buffers.
   struct Member : detail::FoundContacts<S> {
     std::optional<Grain> image;  // the second grain of a pair across a periodic boundary
+    detail::MeshBuffers<ShapeT> mesh;
   };
 
   /// The image of a grain, moved by a shift from the pose of its body.
@@ -215,40 +222,16 @@ class ContactDetector {
     return *image;
   }
 
-  /// The first pair whose first grain is k or a later one.
-  std::size_t first_pair(std::size_t k) const {
-    const auto before = [](const IndexPair& pair, std::size_t grain) { return pair.first < grain; };
-    return std::size_t(std::lower_bound(pairs_.begin(), pairs_.end(), k, before) - pairs_.begin());
-  }
-  /// The first grain k such that k grains and their pairs are `work` units or more.
-  std::size_t grain_at(std::size_t work) const {
-    std::size_t low = 0, high = grains_.size();
-    while (low < high) {
-      const std::size_t k = (low + high) / 2;
-      if (k + first_pair(k) < work)
-        low = k + 1;
-      else
-        high = k;
-    }
-    return low;
-  }
-  /// Finds the contacts of the grains begin .. end - 1 with later grains and with walls.
-  void detect_of(std::size_t begin, std::size_t end, Scalar margin, const Bodies<S>& bodies,
-                 const Contacts<S>& previous, Member& found);
-  void detect_in_cylinders(std::size_t k, Scalar margin, detail::FoundContacts<S>& found) {
-    const Grain& a = grains_[k];
-    for (const auto& wall : cylinders_)
-      if (wall.placed.reaches(boxes_[k], margin) && !filter_.leaves_out(a.body, wall.body))
-        found.add_each(a, wall, [&](auto&& add) {
-          return collide_each(a.placed, wall.placed, margin, found.manifold(), add);
-        });
-  }
+  /// Finds the contacts of grain k with later grains and with walls.
+  void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies, const Contacts<S>& previous,
+                 Member& found);
 
   std::vector<Grain> grains_;  // ascending by body
   std::vector<Grain> spare_;   // of removed grains; what they have allocated is used again
   std::vector<std::uint32_t> number_after_;  // of each grain, in remove_grains()
   std::vector<Wall<HalfSpace<S>>> walls_;
   std::vector<Wall<CylinderWall<S>>> cylinders_;
+  detail::MeshWalls<ShapeT> meshes_;
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
@@ -259,8 +242,11 @@ class ContactDetector {
   detail::PairCaches<ShapeT> caches_;
   ContactPoints kept_points_ = ContactPoints::few;
   Team team_;
-  std::vector<Member> members_;  // of the team
-  Scalar widest_ = 0;            // width of the grains in any orientation [m]
+  detail::VisitOrder<S> order_;
+  std::vector<Member> members_;             // of the team
+  std::vector<typename Member::Run> runs_;  // of each grain
+  std::vector<std::size_t> place_;  // of the contacts of each grain; at the end, their number
+  Scalar widest_ = 0;               // width of the grains in any orientation [m]
   bool stale_ = true;
 };
 
@@ -311,6 +297,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
   if (!stale_) caches_.erase_grains(has_gone);
   erase_at(pairs_, pair_has_gone);
   for (IndexPair& pair : pairs_) pair = {number_after_[pair.first], number_after_[pair.second]};
+  order_.invalidate();
   // The width of all grains that are left: the same as after a restart from a snapshot.
   widest_ = 0;
   for (const Grain& grain : grains_) widest_ = std::max(widest_, grain.width);
@@ -325,6 +312,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
         !fat_[k].contains(boxes_[k].inflated(reach)) || !caches_.holds(k, grains_[k].placed, reach);
   if (!left) return;
   stale_ = false;
+  order_.invalidate();
   fat_.resize(boxes_.size());
   for (std::size_t k = 0; k < boxes_.size(); ++k)
     fat_[k] = boxes_[k].inflated(reach + lengths.skin);
@@ -344,53 +332,68 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
   members_.resize(std::size_t(team_.size()));
   for (Member& member : members_)
     member.start(double(lengths.resolution), kept_points_ == ContactPoints::few);
-  // Parts with about as many grains and pairs. Members find nothing while the work is not shared.
+  if (!order_.is_valid())
+    order_.assign(std::span<const Aabb<S>>(boxes_), std::span<const IndexPair>(pairs_));
+  runs_.resize(grains_.size());
+  // Members find nothing while the work is not shared.
   const std::size_t work = grains_.size() + pairs_.size();
   constexpr std::size_t least = 200;  // less is not worth a barrier
-  team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {
-    const detail::Share share(work, rank, size);
-    Member& member = members_[std::size_t(rank)];
-    detect_of(grain_at(share.begin), grain_at(share.end), lengths.margin, bodies, previous, member);
-    member.sort();
-  });
-  Member::gather(members_, out);
+  team_.run_timed(
+      TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier& wait) {
+        Member& member = members_[std::size_t(rank)];
+        order_.for_each(rank, size, [&](std::size_t k, const auto& later) {
+          if constexpr (prefetches) order_.prefetch(later, grains_, pairs_);
+          member.begin_run(k < place_.size() ? place_[k] : 0);
+          detect_of(k, lengths.margin, bodies, previous, member);
+          runs_[k] = member.end_run(std::uint32_t(rank));
+        });
+        wait();
+        if (rank == 0) Member::make_room(runs_, place_, out);
+        wait();
+        const detail::Share part(grains_.size(), rank, size);
+        for (std::size_t k = part.begin; k < part.end; ++k)
+          members_[runs_[k].finder].write(runs_[k], grains_[k].body.value, place_[k], out);
+      });
 }
 
 template <class ShapeT, class BroadPhaseT>
-void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t begin, std::size_t end,
-                                                     Scalar margin, const Bodies<S>& bodies,
+void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margin,
+                                                     const Bodies<S>& bodies,
                                                      const Contacts<S>& previous, Member& found) {
   Manifold<S>& manifold = found.manifold();
   const std::span<const Pose<S>> poses(bodies.pose);
-  std::size_t p = first_pair(begin);
-  for (std::size_t k = begin; k < end; ++k) {
-    const Grain& a = grains_[k];
-    const Aabb<S> reach = boxes_[k].inflated(margin);
-    const bool prescribed = bodies.is_prescribed(a.body.index());
-    const auto ignores = [&](BodyId b) {
-      return (prescribed && bodies.is_prescribed(b.index())) || filter_.leaves_out(a.body, b);
-    };
-    for (; p < pairs_.size() && pairs_[p].first == k; ++p) {
-      const std::size_t second = pairs_[p].second;
-      const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
-      if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
-                    : reach.overlaps(boxes_[second])) ||
-          ignores(grains_[second].body))
-        continue;
-      const Grain& b =
-          crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
-      found.add(a, b, previous, [&](auto&& add) {
-        return caches_.collide_parts(p, a.placed, b.placed, margin, manifold, add);
-      });
-    }
-    for (const auto& wall : walls_) {
-      if (!wall.placed.reaches(boxes_[k], margin) || ignores(wall.body)) continue;
-      found.add(a, wall, previous, [&](auto&& add) {
-        return collide_parts(a.placed, wall.placed, margin, manifold, add);
-      });
-    }
-    if (!cylinders_.empty() && !prescribed) detect_in_cylinders(k, margin, found);
+  const Grain& a = grains_[k];
+  const Aabb<S> reach = boxes_[k].inflated(margin);
+  const bool prescribed = bodies.is_prescribed(a.body.index());
+  const auto ignores = [&](BodyId b) {
+    return (prescribed && bodies.is_prescribed(b.index())) || filter_.leaves_out(a.body, b);
+  };
+  for (std::size_t p = order_.first_pair(k); p < order_.first_pair(k + 1); ++p) {
+    const std::size_t second = pairs_[p].second;
+    const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
+    if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
+                  : reach.overlaps(boxes_[second])) ||
+        ignores(grains_[second].body))
+      continue;
+    const Grain& b =
+        crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
+    found.add(a, b, previous, [&](auto&& add) {
+      return caches_.collide_parts(p, a.placed, b.placed, margin, manifold, add);
+    });
   }
+  for (const auto& wall : walls_) {
+    if (!wall.placed.reaches(boxes_[k], margin) || ignores(wall.body)) continue;
+    found.add(a, wall, previous, [&](auto&& add) {
+      return collide_parts(a.placed, wall.placed, margin, manifold, add);
+    });
+  }
+  for (const auto& wall : cylinders_)
+    if (!ignores(wall.body) && wall.placed.reaches(boxes_[k], margin))
+      found.add_each(a, wall, [&](auto&& add) {
+        return collide_each(a.placed, wall.placed, margin, manifold, add);
+      });
+  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, filter_, previous,
+                 found.mesh, found);
 }
 
 }  // namespace moreau

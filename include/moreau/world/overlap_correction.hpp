@@ -22,6 +22,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
@@ -65,25 +66,34 @@ class OverlapCorrection {
   /// @param contacts   in: gaps; out: gaps after the shift, to first order [m]
   /// @param roots      M^-1/2 of every body, as op was assembled with
   /// @param grain_size length that the slop is relative to [m]
+  /// @param team       threads that share the work around the sweeps
   /// @param shared     bodies that other processes share; null: none
-  /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are zero. Its work
-  ///          and largest_shift are 0: they need the forces
+  /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are
+  ///          zero. Its work and largest_shift are 0: they need the forces
   OverlapCorrectionReport solve(const BodyDelassus<S>& op, std::span<Contact<S>> contacts,
                                 std::span<const MobilityRoot<S>> roots, Scalar grain_size,
-                                SharedBodies* shared = nullptr) {
+                                const Team& team = {}, SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
     shifts_.assign(roots.size(), S::Twist::Zero());
     if (!options_.enabled) return report;
     const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size;
-    for (const Contact<S>& contact : contacts) report.corrected += contact.gap < -slop;
+    rows_.resize(contacts.size());
+    team.share_each(contacts.size(), 512, [&](std::size_t c) {
+      const Contact<S>& contact = contacts[c];
+      rows_[c] = {-(contact.gap + slop), 0, contact.a, contact.b};
+    });
+    for (const Row& row : rows_) report.corrected += row.depth > 0;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
-    sweep(op, contacts, roots.size(), slop, shared);
-    for (std::size_t i = 0; i < roots.size(); ++i) {
+    sweep(op, roots.size(), shared);
+    team.share_each(roots.size(), 256, [&](std::size_t i) {
+      if (!moved_[i]) return;
       linear<S>(shifts_[i]) = product(roots[i].linear, linear<S>(scaled_[i]));
       angular<S>(shifts_[i]) = product(roots[i].angular, angular<S>(scaled_[i]));
-    }
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-      contacts[c].gap += closing(op, c, contacts[c]);
+    });
+    team.share_each(contacts.size(), 512, [&](std::size_t c) {
+      const Row& row = rows_[c];
+      if (moved_[row.a] || moved_[row.b]) contacts[c].gap += closing(op, c, row);
+    });
     return report;
   }
 
@@ -96,27 +106,29 @@ class OverlapCorrection {
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(options_, shifts_); }
 
+  /// A contact in the sweeps.
+  struct Row {
+    Scalar depth;        // overlap beyond the slop, < 0 if there is none [m]
+    Scalar push;         // multiplier, >= 0
+    std::uint32_t a, b;  // its bodies
+  };
+
   /// First-order change of the gap of a contact by the present shifts [m].
-  Scalar closing(const BodyDelassus<S>& op, std::size_t c, const Contact<S>& contact) const {
-    return op.rows_b(c).col(0).dot(scaled_[contact.b]) -
-           op.rows_a(c).col(0).dot(scaled_[contact.a]);
+  Scalar closing(const BodyDelassus<S>& op, std::size_t c, const Row& row) const {
+    return op.rows_b(c).col(0).dot(scaled_[row.b]) - op.rows_a(c).col(0).dot(scaled_[row.a]);
   }
 
-  void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
-             std::size_t body_count, Scalar slop, SharedBodies* shared) {
+  void sweep(const BodyDelassus<S>& op, std::size_t body_count, SharedBodies* shared) {
     scaled_.assign(body_count, BodyDelassus<S>::PaddedTwist::Zero());
     moved_.assign(body_count, 0);
-    rows_.clear();
-    for (const Contact<S>& contact : contacts)
-      rows_.push_back({-(contact.gap + slop), 0, contact.a, contact.b});
     for (int k = 0; k < options_.sweeps; ++k) {
-      for (std::size_t c = 0; c < contacts.size(); ++c) {
+      for (std::size_t c = 0; c < rows_.size(); ++c) {
         Row& row = rows_[c];
         // Most contacts are not too deep and between bodies that do not move: nothing to do.
         if (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b]) continue;
         const Scalar target =
             row.depth > 0 ? static_cast<Scalar>(options_.rate) * row.depth : row.depth;
-        const Scalar missing = target - closing(op, c, contacts[c]);
+        const Scalar missing = target - closing(op, c, row);
         const Scalar push = std::max(Scalar(0), row.push + missing / op.block(c).normal);
         const Scalar change = push - row.push;
         if (change == Scalar(0)) continue;
@@ -136,13 +148,6 @@ class OverlapCorrection {
                    width);
     for (std::size_t i = 0; i < scaled_.size(); ++i) moved_[i] = !scaled_[i].isZero(0);
   }
-
-  /// A contact in the sweeps.
-  struct Row {
-    Scalar depth;        // overlap beyond the slop, < 0 if there is none [m]
-    Scalar push;         // multiplier, >= 0
-    std::uint32_t a, b;  // its bodies
-  };
 
   Options options_;
   std::vector<typename BodyDelassus<S>::PaddedTwist> scaled_;

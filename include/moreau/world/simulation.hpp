@@ -146,13 +146,8 @@ class Simulation : public BodyControl<ShapeT> {
     require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
     require(all_finite(point), self, "point", point, "must be finite");
     cell().require_along(normal, self);
-    const typename S::Rotation rotation(S::contact_frame(normal));
-    const Pose<S> pose{point, S::normalized(rotation)};
-    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
-    assembly_.set_wall(body);
-    detector_.add_wall(body, HalfSpace<S>(Vector::UnitX()));
-    if constexpr (!set_valued) dynamics_.forget();
-    return body;
+    const Pose<S> pose{point, S::normalized(typename S::Rotation(S::contact_frame(normal)))};
+    return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
   }
   /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
   /// fixed, or moving with the velocities of set_velocity and set_spin, e.g.
@@ -173,16 +168,20 @@ class Simulation : public BodyControl<ShapeT> {
     require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
     require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
     cell().require_around(axis, self);
-    Pose<S> pose;
-    pose.position = point;
-    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
-    const CylinderWall<S> shape(axis, radius);
-    assembly_.set_cylinder(body, shape);
-    detector_.add_wall(body, shape);
-    if constexpr (!set_valued) dynamics_.forget();
-    return body;
+    return add_wall_of(CylinderWall<S>(axis, radius), Pose<S>(point), material, self);
   }
 
+  /// Adds a wall of triangles [m], in the plane of segments, in the frame `pose`: fixed, or moving with
+  /// set_velocity() and set_spin(). mesh_walls() lists it.
+  /// @throws std::invalid_argument for a faulty mesh, pose or material, or a periodic cell
+  BodyId add_mesh_wall(const FacetMesh<S>& mesh, const Pose<S>& pose = {},
+                       WallSides sides = WallSides::outside,
+                       MaterialId material = MaterialId(0)) requires MeshCollidable<ShapeT> {
+    constexpr const char* self = "Simulation::add_mesh_wall";
+    assembly_.require_pose(pose, self);
+    require(cell().is_open(), self, "cell", "(periodic)", "must be open: walls have no images");
+    return add_wall_of(MeshWall<S>(mesh, sides, self), pose, material, self);
+  }
   /// Makes an axis periodic. Poses are not wrapped: displacements are differences of positions, and
   /// cell().wrap() gives the place of a point in the cell. Call it again for another axis or other
   /// bounds; infinite bounds open the axis. A change of length moves grains that have left the cell
@@ -190,10 +189,11 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  ///         a wall across the axis, or a cell not longer than two of the widest grain with margin
-  ///         and skins: a pair could touch through two images
+  ///         a wall across the axis, a mesh wall, or a cell not longer than two of the widest grain
+  ///         with margin and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper) {
     constexpr const char* self = "Simulation::set_periodic";
+    require(assembly_.meshes().empty(), self, "axis", axis, "must be open, with mesh walls");
     PeriodicCell<S> cell = detector_.cell();
     cell.set(axis, lower, upper, self);
     detector_.place_walls(assembly_.bodies().pose);
@@ -216,10 +216,10 @@ class Simulation : public BodyControl<ShapeT> {
     require(all_finite(gravity), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
   }
-  /// Sets the threads that share the work of a step; at first, the calling thread alone. Results
-  /// have the same bits for every team. Snapshots do not contain it; a copy of the simulation has the
-  /// same team, and needs another one to run at the same time.
+  /// Sets the threads that share the work of a step; at first, the calling thread alone. Results have
+  /// the same bits for every team. Snapshots do not contain it; a copy needs another one to run at once.
   void set_team(const Team& team) {
+    team_ = team;
     detector_.set_team(team);
     if constexpr (set_valued) dynamics_.set_team(team);
   }
@@ -293,6 +293,13 @@ class Simulation : public BodyControl<ShapeT> {
     if constexpr (CompliantLaw<Law, S>) detector_.keep_points(ContactPoints::all);
   }
 
+  BodyId add_wall_of(const auto& shape, const Pose<S>& pose, MaterialId material,
+                     const char* function) {
+    const BodyId body = assembly_.add_body(pose, material, materials_.count(), function);
+    assembly_.set_wall(body, shape), detector_.add_wall(body, shape);
+    if constexpr (!set_valued) dynamics_.forget();
+    return body;
+  }
   friend struct SerializationAccess;
   auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
@@ -333,7 +340,7 @@ class Simulation : public BodyControl<ShapeT> {
     detector_.find_pairs(lengths());
     report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
-    assign_laws(assembly_.bodies(), materials_, contacts_);
+    assign_laws(assembly_.bodies(), materials_, contacts_, team_);
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
@@ -351,11 +358,11 @@ class Simulation : public BodyControl<ShapeT> {
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
+  Team team_;
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
-// step() is defined outside of the class, so that it is not inline. A program can then instantiate it
-// in one source file and declare it `extern template` in the others (moreau/instances).
+// Not inline: a program can instantiate it in one source and declare it extern (moreau/instances).
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,

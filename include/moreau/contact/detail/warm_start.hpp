@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/detail/merge_join.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/team.hpp"
 
 namespace moreau {
 
@@ -41,31 +43,51 @@ typename S::Vector turned_memory(const Contact<S>& before, const Contact<S>& now
 /// @param old        one per contact of `before`
 /// @param out        out: one per contact of `now`
 /// @param turn       turned() or turned_memory()
+/// @param team       threads that share the work
 /// @returns how many contacts have a predecessor
 template <class S, class Turn>
 std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
                   const std::vector<typename S::Vector>& old, std::vector<typename S::Vector>& out,
-                  const Turn& turn) {
-  out.assign(now.size(), S::Vector::Zero());
-  return merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
-    out[i] = turn(before.points[j], now.points[i], old[j]);
-  });
+                  const Turn& turn, const Team& team = {}) {
+  struct Count {
+    std::size_t value = 0;
+    void add(const Count& other) { value += other.value; }
+  };
+  out.resize(now.size());
+  return detail::sum_of_parts<Count>(
+             team, now.size(),
+             [&](std::size_t begin, std::size_t end) -> Count {
+               std::fill(out.begin() + std::ptrdiff_t(begin), out.begin() + std::ptrdiff_t(end),
+                         S::Vector::Zero());
+               if (begin == end) return {};
+               const auto first =
+                   std::lower_bound(before.keys.begin(), before.keys.end(), now.keys[begin]);
+               const auto skipped = std::size_t(first - before.keys.begin());
+               const std::span some = std::span(now.keys).subspan(begin, end - begin);
+               return {merge_join(some, std::span(before.keys).subspan(skipped),
+                                  [&](std::size_t i, std::size_t j) {
+                                    i += begin;
+                                    j += skipped;
+                                    out[i] = turn(before.points[j], now.points[i], old[j]);
+                                  })};
+             })
+      .value;
 }
 
 /// Makes the impulses of the step before [N s] the first guess of this step.
 /// @param before,now each sorted by its keys
 /// @returns how many contacts have a predecessor
 template <class S>
-std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now) {
-  return carry(before, now, before.impulses, now.impulses, turned<S>);
+std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now, const Team& team = {}) {
+  return carry(before, now, before.impulses, now.impulses, turned<S>, team);
 }
 
 /// Makes the impulses of the step before [N s] the memory of the springs in this step.
 /// @param before,now each sorted by its keys
 /// @returns how many contacts have a predecessor
 template <class S>
-std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now) {
-  return carry(before, now, before.impulses, now.impulses, turned_memory<S>);
+std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now, const Team& team = {}) {
+  return carry(before, now, before.impulses, now.impulses, turned_memory<S>, team);
 }
 
 /// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of

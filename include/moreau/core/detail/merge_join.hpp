@@ -9,8 +9,7 @@ namespace moreau {
 /// traversed once.
 /// @param left,right sequences with size() and operator[], strictly ascending by operator<
 /// @returns the number of such pairs
-template <class Keys>
-std::size_t merge_join(const Keys& left, const Keys& right, const auto& found) {
+std::size_t merge_join(const auto& left, const auto& right, const auto& found) {
   std::size_t count = 0;
   for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
     if (left[i] < right[j]) {

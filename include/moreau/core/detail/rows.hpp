@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/detail/wide.hpp"
 #include "moreau/core/error.hpp"
 
@@ -44,6 +45,11 @@ class Rows {
         std::memcpy(rows_.data() + S::dim * i + k * W::lanes, &sum, sizeof sum);
       }
     }
+  }
+
+  /// Begins to load the rows into the cache.
+  void prefetch() const {
+    detail::prefetch(rows_.data(), std::size_t(S::dim * padded_) * sizeof(T));
   }
 
   std::size_t size() const { return static_cast<std::size_t>(count_); }
@@ -129,6 +135,14 @@ class Rows {
     const auto sum = W::template fold<W::lanes / 2>(
         above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
     return -std::ptrdiff_t{sum[0]} - copies;
+  }
+  /// Bit i: whether direction . row i >= lowest. For at most 64 rows.
+  std::uint64_t bits_above(const Vector& direction, T lowest) const {
+    const auto d = broadcast(direction);
+    std::uint64_t bits = 0;
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes)
+      bits |= std::uint64_t{W::bits(dot(i, d) >= lowest)} << i;
+    return bits & ~std::uint64_t{0} >> (64 - count_);
   }
   /// The square of the largest ratio of distance to rise [-]. The ratio is taken for the vector
   /// from one row, the apex, to each other row. Infinite if another row rises by `least` or less.

@@ -76,6 +76,19 @@ struct Wide {
                  mask, [](const Indices& x, const Indices& y) -> Indices { return x | y; })[0] != 0;
     }
   }
+  /// Bit l: whether a comparison holds in lane l.
+  static std::uint32_t bits(const Indices& mask) {
+#if defined(__AVX__)
+    if constexpr (Bytes == 32 && lanes == 4) {
+      typedef double Doubles __attribute__((vector_size(32)));
+      return static_cast<std::uint32_t>(
+          __builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(mask)));
+    }
+#endif
+    std::uint32_t bits = 0;
+    for (int l = 0; l < lanes; ++l) bits |= std::uint32_t{mask[l] != 0} << l;
+    return bits;
+  }
   static Values square_root(const Values& v) {
     Eigen::Array<T, lanes, 1> a;
     std::memcpy(a.data(), &v, sizeof v);

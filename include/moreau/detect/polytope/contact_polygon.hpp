@@ -18,7 +18,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -63,8 +66,8 @@ class ContactPolygon {
     // Seen along the normal, b's face is clockwise. So its vertices are read in reverse order.
     for (std::size_t j = 0; j < m; ++j)
       project(b_.vertices()[loop_b_[m - 1 - j]] + offset, corners_b_ + 3 * j);
-    sides(corners_a_, n, corners_b_, m, beside_a_);
-    sides(corners_b_, m, corners_a_, n, beside_b_);
+    sides(corners_a_, n, corners_b_, m, beside_a_, sides_a_);
+    sides(corners_b_, m, corners_a_, n, beside_b_, sides_b_);
     plane_a_ = plane(a_, face_a_, Vector::Zero());
     plane_b_ = plane(b_, face_b_, offset);
   }
@@ -74,23 +77,39 @@ class ContactPolygon {
   void for_each_corner(Use&& use) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     for (std::size_t i = 0; i < n; ++i) {
-      if (!is_inside(beside_b_, n, i, m)) continue;
+      if (is_outside(sides_b_, beside_b_, n, i, m)) continue;
       const T* p = corners_a_ + 3 * i;
       use(point(p[0], p[1], p[2], height(plane_b_, p),
                 FeatureKey(FeatureKey::Kind::vertex_face, loop_a_[i], face_b_)));
     }
     for (std::size_t j = 0; j < m; ++j) {
-      if (!is_inside(beside_a_, m, j, n) || is_corner_of_a(j)) continue;
+      if (is_outside(sides_a_, beside_a_, m, j, n) || is_corner_of_a(j)) continue;
       const T* q = corners_b_ + 3 * j;
       use(point(q[0], q[1], height(plane_a_, q), q[2],
                 FeatureKey(FeatureKey::Kind::face_vertex, face_a_, loop_b_[m - 1 - j])));
     }
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < m; ++j) cross(i, j, use);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!is_small()) {
+        for (std::size_t j = 0; j < m; ++j) cross(i, j, use);
+        continue;
+      }
+      for (std::uint64_t left = sides_a_.splits[i]; left != 0; left &= left - 1) {
+        const auto j = static_cast<std::size_t>(std::countr_zero(left));
+        if (sides_b_.splits[j] >> i & 1) cross(i, j, use);
+      }
+    }
   }
 
  private:
   using Loop = std::span<const std::uint32_t>;
+  /// The signs of the result of sides(), for faces of at most 64 vertices.
+  struct Signs {
+    std::uint64_t outside = 0;  // bit j: point j lies to the right of an edge
+    bool has_zero = false;      // whether a point counts as on an edge
+    // Bit j of entry i: points j and j + 1 lie on different sides of edge i, neither on its line.
+    std::array<std::uint64_t, 64> splits;
+  };
+  bool is_small() const { return std::max(loop_a_.size(), loop_b_.size()) <= 64; }
 
   /// Writes the coordinates x, y and h of a point given relative to the centre of a, in world axes.
   void project(const Vector& x, T* corner) const {
@@ -102,17 +121,33 @@ class ContactPolygon {
   /// Computes on which side of each edge each point lies. side[i * m + j] is twice the area of the
   /// triangle of edge i and point j [m^2], > 0 if point j lies to the left of edge i and 0 if point
   /// j is so close to the line of edge i that it counts as on the edge.
-  void sides(const T* edges, std::size_t n, const T* points, std::size_t m, T* side) const {
+  void sides(const T* edges, std::size_t n, const T* points, std::size_t m, T* side,
+             Signs& signs) const {
+    const bool small = is_small();
     for (std::size_t i = 0; i < n; ++i) {
+      std::uint64_t left = 0, right = 0;
       const T* from = edges + 3 * i;
       const T* to = edges + 3 * (i + 1 < n ? i + 1 : 0);
       const T x = to[0] - from[0], y = to[1] - from[1];
       const T on_it = near_ * (std::abs(x) + std::abs(y));
       for (std::size_t j = 0; j < m; ++j) {
         const T area = x * (points[3 * j + 1] - from[1]) - y * (points[3 * j] - from[0]);
-        side[i * m + j] = std::abs(area) <= on_it ? T(0) : area;
+        const T beside = std::abs(area) <= on_it ? T(0) : area;
+        side[i * m + j] = beside;
+        left |= std::uint64_t{beside > T(0)} << (j & 63);
+        right |= std::uint64_t{beside < T(0)} << (j & 63);
       }
+      if (!small) continue;
+      const auto next = [&](std::uint64_t bits) { return bits >> 1 | (bits & 1) << (m - 1); };
+      signs.splits[i] = (left & next(right)) | (right & next(left));
+      signs.outside |= right;
+      signs.has_zero = signs.has_zero || (left | right) != ~std::uint64_t{0} >> (64 - m);
     }
+  }
+  /// Whether point j lies to the right of one of the edges.
+  bool is_outside(const Signs& signs, const T* side, std::size_t points, std::size_t j,
+                  std::size_t edges) const {
+    return is_small() ? (signs.outside >> j & 1) != 0 : !is_inside(side, points, j, edges);
   }
   static bool is_inside(const T* side, std::size_t points, std::size_t j, std::size_t edges) {
     for (std::size_t i = 0; i < edges; ++i)
@@ -123,6 +158,7 @@ class ContactPolygon {
   /// already.
   bool is_corner_of_a(std::size_t j) const {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
+    if (is_small() && !sides_a_.has_zero) return false;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t before = i > 0 ? i - 1 : n - 1;
       if (beside_a_[before * m + j] == T(0) && beside_a_[i * m + j] == T(0) &&
@@ -176,6 +212,7 @@ class ContactPolygon {
   T *corners_a_ = nullptr, *corners_b_ = nullptr;  // x, y, h of each corner [m]
   T* beside_a_ = nullptr;  // result of sides() for a's edges and b's corners
   T* beside_b_ = nullptr;  // result of sides() for b's edges and a's corners
+  Signs sides_a_, sides_b_;
   std::array<T, 3> plane_a_{}, plane_b_{};
 };
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -58,17 +59,18 @@ std::uint32_t most_aligned(const Placed<Polyhedron<T>>& shape,
 
 /// The candidate face with the most vertices, counted up to three, at or above a height [m] along
 /// the direction. Of equal candidates, the face whose normal is most aligned with the direction.
+/// @param is_high  function: index of a vertex -> whether it is at or above the height
 template <std::floating_point T>
 std::uint32_t topmost_face(const Placed<Polyhedron<T>>& shape,
                            std::span<const std::uint32_t> candidates,
-                           const typename Space<3, T>::Vector& direction, T height) {
+                           const typename Space<3, T>::Vector& direction, const auto& is_high) {
   std::uint32_t best = candidates[0];
   int most = -1;
   T most_aligned = 0;
   for (const std::uint32_t f : candidates) {
     int count = 0;
     for (const std::uint32_t v : shape.shape().face(f))
-      if (count < 3 && direction.dot(shape.vertices()[v]) >= height) ++count;
+      if (count < 3 && is_high(v)) ++count;
     const T aligned = direction.dot(shape.normals()[f]);
     if (count < most || (count == most && aligned <= most_aligned)) continue;
     best = f;
@@ -90,9 +92,17 @@ std::uint32_t facing_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kin
   const auto choose = [&](std::span<const std::uint32_t> candidates, T top, int own) {
     // If no vertices but those of the feature are that high, all candidates have the same number of
     // high vertices.
+    if (shape.vertices().size() <= 64) {
+      const std::uint64_t high = shape.vertices().bits_above(direction, top - slab);
+      return std::popcount(high) <= own
+                 ? most_aligned(shape, candidates, direction)
+                 : topmost_face(shape, candidates, direction,
+                                [&](std::uint32_t v) { return (high >> v & 1) != 0; });
+    }
     return shape.vertices().count_above(direction, top - slab) <= own
                ? most_aligned(shape, candidates, direction)
-               : topmost_face(shape, candidates, direction, top - slab);
+               : topmost_face(shape, candidates, direction,
+                              [&](std::uint32_t v) { return height(v) >= top - slab; });
   };
   if (kind == FeatureKind::vertex) return choose(shape.shape().vertex_faces(id), height(id), 1);
   const auto& edge = shape.shape().edges()[id];

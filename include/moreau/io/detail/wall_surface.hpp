@@ -24,6 +24,8 @@ template <class S>
 struct WallSurface {
   BodyId body;
   std::vector<std::vector<typename S::Vector>> faces;
+  /// Lines to draw in place of the edges of the faces: the convex ridges and the rim of a mesh wall.
+  std::vector<std::vector<typename S::Vector>> lines = {};
 };
 
 /// The pose of a grain at its place in the periodic cell.
@@ -142,7 +144,21 @@ std::vector<std::vector<typename S::Vector>> cylinder_faces(
   return faces;
 }
 
-/// The walls of a simulation near its grains. A half-space is drawn as far as the bounding box of
+/// The facets of a mesh wall, and its convex ridges.
+template <class S>
+WallSurface<S> mesh_surface(const MeshBody<S>& mesh, const Pose<S>& pose) {
+  WallSurface<S> surface{mesh.body, {}, {}};
+  const auto add = [&](auto& list, const auto& vertices) {
+    auto& points = list.emplace_back();
+    for (const std::uint32_t v : vertices) points.push_back(pose(mesh.shape.vertex(v)));
+  };
+  for (const auto& facet : mesh.shape.mesh().facets) add(surface.faces, facet);
+  for (std::size_t r = 0; r < mesh.shape.ridge_count(); ++r)
+    add(surface.lines, mesh.shape.ridge(r).vertices);
+  return surface;
+}
+
+/// The walls of a simulation near its grains. Mesh walls are drawn as they are. A half-space is drawn as far as the bounding box of
 /// the grains, extended by a grain size, reaches along it, and ends at the other half-spaces. A
 /// half-space farther from the grains than the diagonal of this box is left out. Without grains
 /// there are no walls.
@@ -169,6 +185,8 @@ std::vector<WallSurface<typename World::S>> wall_surfaces(const World& world) {
   for (const CylinderBody<S>& cylinder : world.cylinders())
     surfaces.push_back(
         {cylinder.body, cylinder_faces<S>(corners, world.pose(cylinder.body), cylinder.shape)});
+  for (const MeshBody<S>& mesh : world.mesh_walls())
+    surfaces.push_back(mesh_surface<S>(mesh, world.pose(mesh.body)));
   return surfaces;
 }
 

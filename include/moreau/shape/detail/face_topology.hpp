@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 
@@ -26,6 +27,11 @@ class IndexLists {
   std::span<const std::uint32_t> operator[](std::size_t i) const {
     MOREAU_ASSERT(i < size());
     return {items_.data() + begins_[i], begins_[i + 1] - begins_[i]};
+  }
+  /// Begins to load the lists into the cache.
+  void prefetch() const {
+    detail::prefetch(begins_);
+    detail::prefetch(items_);
   }
   /// Appends a list.
   void push_back(std::span<const std::uint32_t> list) {
@@ -61,6 +67,15 @@ struct FaceTopology {
   IndexLists vertex_faces;  ///< faces at each vertex, in ascending order
   IndexLists vertex_edges;  ///< edges at each vertex, in ascending order
   std::vector<PolyhedronEdge> edges;  ///< the edges, each listed once
+
+  /// Begins to load all lists into the cache.
+  void prefetch() const {
+    faces.prefetch();
+    face_edges.prefetch();
+    vertex_faces.prefetch();
+    vertex_edges.prefetch();
+    detail::prefetch(edges);
+  }
 
   /// An empty topology, to be overwritten by deserialization.
   FaceTopology() = default;

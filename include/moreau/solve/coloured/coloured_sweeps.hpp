@@ -28,27 +28,31 @@ class ColouredSweeps {
   using S = typename Kernel::S;
   using Impulse = typename Kernel::Impulse;
 
-  /// @param problem its operator carries the velocities of the impulses
+  /// @param problem out: its operator carries the velocities of the impulses
   /// @param shared  bodies that contact problems of other processes share; null: none
-  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+  void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              bool accelerate, const Team& team, SharedBodies* shared) {
     shared_ = shared;
-    kernel_.start(problem, impulses, team);
+    kernel_.start(problem, impulses, team, shared);
     acceleration_ = Acceleration<T>(accelerate);
-    all_.assign(kernel_.groups(), [](std::uint32_t) { return true; });
+    all_.assign(kernel_.groups(), [&](std::uint32_t k) { return kernel_.groups()[k].count; });
     update_active();
-    save();
+    save(team);
   }
-  /// Takes the velocities of the bodies from the operator, free of the rounding of the sweeps.
-  void load_velocities(const Operator& op) {
-    kernel_.load_velocities(op);
+  /// Writes the impulses in the order of the problem and computes their velocities anew, free of the
+  /// rounding of the sweeps.
+  void finish(Operator& op, std::span<Impulse> impulses, const Team& team) {
+    kernel_.unpack(impulses, team);
+    kernel_.set_impulses(op, impulses, team, shared_);
     acceleration_.interrupt();
   }
   /// Saves the impulses.
-  void save() {
-    saved_.clear();
-    for (const auto& point : kernel_.points())
-      for (std::size_t d = 0; d < S::dim; ++d) saved_.push_back(point.impulse[d]);
+  void save(const Team& team) {
+    const auto& points = kernel_.points();
+    saved_.resize(points.size() * S::dim);
+    team.share_each(points.size(), 256, [&](std::size_t p) {
+      for (std::size_t d = 0; d < S::dim; ++d) saved_[p * S::dim + d] = points[p].impulse[d];
+    });
   }
   /// Goes back to the saved impulses; the next sweep has no acceleration.
   void restore() {
@@ -59,8 +63,6 @@ class ColouredSweeps {
     kernel_.velocity().settle();
     acceleration_.restart();
   }
-  void unpack(std::span<Impulse> impulses) const { kernel_.unpack(impulses); }
-
   /// An accelerated sweep over the active groups. While impulses are mixed it has no extrapolation,
   /// and goes backward and forward in turn.
   void sweep_active(const Team& team) {
@@ -74,9 +76,9 @@ class ColouredSweeps {
         wait();
       }
       if (back)
-        active_.backward(rank, size, wait, visit);
+        active_.backward(rank, size, wait, visit, settle_hub());
       else
-        active_.forward(rank, size, wait, visit);
+        active_.forward(rank, size, wait, visit, settle_hub());
     });
     average();
     if (!mixing) update_beta(active_);
@@ -86,9 +88,10 @@ class ColouredSweeps {
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
       wait();
-      all_.forward(rank, size, wait, [&](std::uint32_t k) {
+      const auto visit = [&](std::uint32_t k) {
         kernel_.template visit_all<false>(k, acceleration_.beta());
-      });
+      };
+      all_.forward(rank, size, wait, visit, settle_hub());
     });
     average();
     update_active();
@@ -101,8 +104,8 @@ class ColouredSweeps {
     acceleration_.interrupt();
     kernel_.clear_measures();
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
-      all_.forward(rank, size, wait,
-                   [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); });
+      const auto visit = [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); };
+      all_.forward(rank, size, wait, visit, settle_hub());
     });
     average();
     update_active();
@@ -128,6 +131,9 @@ class ColouredSweeps {
     const bool full = kind == TimedWork::full_sweep;
     team.run_timed(kind, full ? kernel_.points().size() : active_points_, least_points, sweep);
   }
+  auto settle_hub() {
+    return [this](std::uint32_t k) { kernel_.settle_hub(k); };
+  }
   /// Before a sweep while impulses are mixed: mixes them every few sweeps.
   void mix() {
     if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) {
@@ -146,7 +152,7 @@ class ColouredSweeps {
     active_points_ = 0;
     active_.assign(kernel_.groups(), [&](std::uint32_t k) {
       active_points_ += kernel_.groups()[k].active;
-      return kernel_.groups()[k].active > 0;
+      return kernel_.groups()[k].active;
     });
   }
   void update_beta(const Schedule& visited) {

@@ -13,6 +13,9 @@
 // as if each point had an n-th of the mass of the hub (mass splitting: R. Tonge, F. Benevolenski
 // and A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). The fixed point does not change. The pairs
 // of a hub as light as its partners are not grouped: shared groups would take n times the sweeps.
+// The groups of a hub that is heavier still form phases of their own: all groups of such a phase read
+// the velocity of the hub before the phase, so that the members of a team divide them, and n is the
+// number of points in the phase. All pairs of one hub have different partners.
 #pragma once
 
 #include <Eigen/LU>
@@ -26,9 +29,11 @@
 #include <vector>
 
 #include "moreau/contact/lane_block.hpp"
+#include "moreau/core/detail/sort_by_key.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/law/detail/law_lanes.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
+#include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
 
 namespace moreau::detail {
@@ -63,8 +68,14 @@ template <int Lanes>
 struct PairPack {
   std::uint32_t first, count;  ///< PointPacks
   std::uint32_t active;        ///< number of them, from the first, that the active set contains
-  std::uint32_t colour;        ///< PairColouring::colours if the group has none
+  /// Colour; PairColouring::colours or more for groups of a hub that form a phase. Groups of one
+  /// phase are visited in any order.
+  std::uint32_t phase;
+  static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase
   Hub hub;
+
+  /// Whether the hub is changed after the phase, not by the group.
+  bool delays_hub() const { return hub != Hub::none && phase != serial; }
   std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of LaneVelocities
 };
 
@@ -79,8 +90,12 @@ class ContactGroups {
   using Impulse = typename Operator::Vector;
   static constexpr std::size_t lanes = W::lanes;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  /// Largest tr(W^-1 W_hub) of a hub whose pairs share groups.
+  static constexpr auto largest_share = typename S::Scalar(0.02);
+  /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
+  static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
-  std::vector<Pairs> pairs;    ///< sorted by colour
+  std::vector<Pairs> pairs;    ///< sorted by phase
   std::vector<Points> points;  ///< in the order of pairs
 
   /// Number of rows of LaneVelocities: one per body, and one per group for unused lanes and bodies
@@ -96,16 +111,16 @@ class ContactGroups {
     body_count_ = op.body_count();
     find_pairs(op);
     colouring_.assign(bodies_, moves_);
-    find_light_hubs(op);
-    sort(op, impulses);
+    find_shares(op);
+    sort(op, impulses, team);
     pairs.clear();
+    phase_points_.clear();
     begin_.clear();
     point_count_ = 0;
     for (std::size_t k = 0; k < order_.size();) {
       const std::uint64_t kind = order_[k].key & kind_mask;
-      const bool alone = kind == alone_kind;
       std::size_t end = k + 1;
-      while (!alone && end < order_.size() && end - k < lanes &&
+      while (kind != alone_kind && end < order_.size() && end - k < lanes &&
              (order_[end].key & kind_mask) == kind)
         ++end;
       lay_out(k, end);
@@ -115,17 +130,41 @@ class ContactGroups {
     points.resize(point_count_);
     contact_of_.resize(point_count_ * lanes, none);
     team.share_each(pairs.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
+    of_bodies_are_valid_ = false;
   }
 
   /// Writes the impulses of the groups in the order of the problem.
-  void unpack(std::span<Impulse> impulses) const {
-    for (std::size_t p = 0; p < points.size(); ++p)
+  void unpack(std::span<Impulse> impulses, const Team& team) const {
+    team.share_each(points.size(), 128, [&](std::size_t p) {
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const std::uint32_t c = contact_of_[p * lanes + lane];
         if (c == none) continue;
         for (std::size_t d = 0; d < S::dim; ++d)
           impulses[c][Eigen::Index(d)] = points[p].impulse[d][lane];
       }
+    });
+  }
+
+  /// detail::set_impulses(), shared by bodies. The sum of a body has the same order as there.
+  void set_impulses(Operator& op, std::span<const Impulse> impulses, const Team& team,
+                    SharedBodies* shared) {
+    if (!team.shares()) {
+      detail::set_impulses<Operator>(op, impulses, shared);
+      return;
+    }
+    if (!of_bodies_are_valid_) of_bodies_.assign(bodies_, body_count_);
+    of_bodies_are_valid_ = true;
+    op.clear();
+    of_bodies_.for_each(team, [&](const PairsOfBodies::Entry& entry) {
+      for (std::uint32_t c = first_[entry.pair]; c < first_[entry.pair + 1]; ++c) {
+        if (impulses[c].isZero(0)) continue;
+        if (entry.is_b)
+          op.apply_to_b(c, impulses[c]);
+        else
+          op.apply_to_a(c, impulses[c]);
+      }
+    });
+    if (shared) shared->average(op.scaled_velocities(), Operator::width);
   }
 
  private:
@@ -133,13 +172,12 @@ class ContactGroups {
   struct Ordered {
     std::uint64_t key;
     std::uint32_t pair;
-    bool operator<(const Ordered& other) const {
-      return key != other.key ? key < other.key : pair < other.pair;
-    }
   };
   static constexpr int hub_bits = 16, side_bits = hub_bits + 32, colour_bits = side_bits + 2;
   static constexpr std::uint64_t kind_mask = ~((std::uint64_t{1} << hub_bits) - 1);
-  static constexpr std::uint64_t alone_kind = std::uint64_t{PairColouring::colours} << colour_bits;
+  /// In place of a colour: pairs without a phase. Those without a hub share no group.
+  static constexpr std::uint64_t serial = PairColouring::colours + 1,
+                                 alone_kind = serial << colour_bits;
 
   void find_pairs(const Operator& op) {
     moves_.assign(op.body_count(), 0);
@@ -157,9 +195,10 @@ class ContactGroups {
     first_.push_back(static_cast<std::uint32_t>(op.size()));
   }
 
-  void sort(const Operator& op, std::span<const Impulse> impulses) {
-    order_.clear();
-    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+  void sort(const Operator& op, std::span<const Impulse> impulses, const Team& team) {
+    order_.resize(bodies_.size());
+    team.share_each(bodies_.size(), 256, [&](std::size_t pair) {
+      const auto k = static_cast<std::uint32_t>(pair);
       std::uint32_t acting = 0;
       for (std::uint32_t c = first_[k]; c < first_[k + 1]; ++c) acting += likely(op, impulses, c);
       const std::uint64_t fewer = 255 - std::min<std::uint32_t>(255, first_[k + 1] - first_[k]);
@@ -167,29 +206,34 @@ class ContactGroups {
       const Hub hub = hub_of(k);
       const std::uint64_t body =
           hub == Hub::none ? 0 : bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}];
-      order_.push_back({std::uint64_t{colouring_[k]} << colour_bits |
-                            std::uint64_t{static_cast<std::uint8_t>(hub)} << side_bits |
-                            body << hub_bits | idle << 8 | fewer,
-                        k});
-    }
-    std::sort(order_.begin(), order_.end());
+      const bool is_serial = colouring_[k] == PairColouring::colours &&
+                             (hub == Hub::none || !forms_phases(bodies_[k][hub == Hub::a ? 0 : 1]));
+      order_[k] = {(is_serial ? serial : std::uint64_t{colouring_[k]}) << colour_bits |
+                       std::uint64_t{static_cast<std::uint8_t>(hub)} << side_bits |
+                       body << hub_bits | idle << 8 | fewer,
+                   k};
+    });
+    sort_by_key(order_, sorted_);
   }
   /// The heavy hub of a pair; none if the pair has no hub, a light hub or two hubs.
   Hub hub_of(std::uint32_t k) const {
     if (colouring_[k] != PairColouring::colours) return Hub::none;
     const bool a = colouring_.is_hub(bodies_[k][0]), b = colouring_.is_hub(bodies_[k][1]);
-    if (a == b || light_[bodies_[k][a ? std::size_t{0} : std::size_t{1}]]) return Hub::none;
+    if (a == b || !(share_[bodies_[k][a ? std::size_t{0} : std::size_t{1}]] <= largest_share))
+      return Hub::none;
     return a ? Hub::a : Hub::b;
   }
-  void find_light_hubs(const Operator& op) {
-    constexpr auto most = typename S::Scalar(0.02);  // of tr(W^-1 W_hub)
-    light_.assign(body_count_, 0);
+  /// Finds the largest share of each hub in its contacts. Hubs above largest_share are light.
+  void find_shares(const Operator& op) {
+    share_.assign(body_count_, 0);
     for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
       const Hub hub = hub_of(k);
       if (hub == Hub::none) continue;
-      auto& light = light_[bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}]];
-      for (std::uint32_t c = first_[k]; c < first_[k + 1] && !light; ++c)
-        light = !(share_of_hub(op, c, hub) <= most);
+      auto& share = share_[bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}]];
+      for (std::uint32_t c = first_[k]; c < first_[k + 1] && share <= largest_share; ++c) {
+        const typename S::Scalar own = share_of_hub(op, c, hub);
+        if (!(own <= share)) share = own;
+      }
     }
   }
   /// tr(W^-1 W_hub), the share of the hub in W.
@@ -208,16 +252,40 @@ class ContactGroups {
 
   /// Adds the group of the pairs order_[begin] .. order_[end - 1], without its contacts.
   void lay_out(std::size_t begin, std::size_t end) {
+    const std::uint32_t pair = order_[begin].pair;
     Pairs group;
     group.first = point_count_;
     group.count = group.active = 0;
-    group.colour = colouring_[order_[begin].pair];
-    group.hub = hub_of(order_[begin].pair);
-    for (std::size_t k = begin; k < end; ++k)
+    group.hub = hub_of(pair);
+    std::uint32_t together = 0;
+    for (std::size_t k = begin; k < end; ++k) {
       group.count = std::max(group.count, points_of(order_[k].pair));
+      together += points_of(order_[k].pair);
+    }
     point_count_ += group.count;
     begin_.push_back(begin);
+    group.phase = group.hub != Hub::none
+                      ? phase_of_hub(bodies_[pair][group.hub == Hub::a ? 0 : 1], together)
+                  : colouring_[pair] == PairColouring::colours ? Pairs::serial
+                                                               : colouring_[pair];
     pairs.push_back(group);
+  }
+  /// Whether a hub is so heavy that a phase has room for enough points to be worth it.
+  bool forms_phases(std::uint32_t body) const {
+    constexpr auto fewest = typename S::Scalar(16 * lanes);
+    return share_[body] * fewest <= most_in_phase;
+  }
+  /// The phase of a group of a hub: the last one, if it is of this hub and has room.
+  /// @param together points of the group
+  std::uint32_t phase_of_hub(std::uint32_t body, std::uint32_t together) {
+    using T = typename S::Scalar;
+    if (!forms_phases(body)) return Pairs::serial;
+    const bool has_room = !phase_points_.empty() && phase_hub_ == body &&
+                          share_[body] * T(phase_points_.back() + together) <= most_in_phase;
+    if (!has_room) phase_points_.push_back(0);
+    phase_hub_ = body;
+    phase_points_.back() += together;
+    return PairColouring::colours + static_cast<std::uint32_t>(phase_points_.size()) - 1;
   }
   std::uint32_t points_of(std::uint32_t pair) const { return first_[pair + 1] - first_[pair]; }
 
@@ -226,13 +294,20 @@ class ContactGroups {
             std::size_t number) {
     const Operator& op = problem.delassus;
     Pairs& group = pairs[number];
-    const auto members =
-        std::span(order_).subspan(begin_[number], begin_[number + 1] - begin_[number]);
+    const auto members_of = [&](std::size_t k) {
+      return std::span(order_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
+    };
+    const auto members = members_of(number);
+    if (number + 1 < pairs.size())
+      for (const Ordered& next : members_of(number + 1))
+        op.prefetch(first_[next.pair], points_of(next.pair));
     const auto still = static_cast<std::uint32_t>(body_count_ + number);
     group.a.fill(group.hub == Hub::a ? bodies_[members[0].pair][0] : still);
     group.b.fill(group.hub == Hub::b ? bodies_[members[0].pair][1] : still);
     std::uint32_t together = 0;  // points of the group
     for (const Ordered& member : members) together += points_of(member.pair);
+    const std::uint32_t with_hub =
+        group.delays_hub() ? phase_points_[group.phase - PairColouring::colours] : together;
     if (together < group.count * lanes) {
       std::fill_n(points.begin() + group.first, group.count, Points{});
       std::fill_n(contact_of_.begin() + std::ptrdiff_t(group.first * lanes), group.count * lanes,
@@ -249,7 +324,7 @@ class ContactGroups {
           if (likely(op, impulses, c) != acts) continue;
           contact_of_[p * lanes + lane] = c;
           LocalBlock<S> block = op.block(c);
-          if (group.hub != Hub::none) make_heavier(block, op, c, group.hub, together);
+          if (group.hub != Hub::none) make_heavier(block, op, c, group.hub, with_hub);
           set(points[p++], lane, op, block, problem.law(c), impulses[c], c);
         }
     }
@@ -288,10 +363,15 @@ class ContactGroups {
       begin_;  // of the pairs of each group in order_; at the end, their number
   std::vector<std::array<std::uint32_t, 2>> bodies_;
   std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
-  std::vector<unsigned char> moves_, light_;
-  std::vector<Ordered> order_;
+  std::vector<unsigned char> moves_;
+  std::vector<typename S::Scalar> share_;    // of each hub, see find_shares()
+  std::vector<std::uint32_t> phase_points_;  // points of each phase of a hub
+  std::uint32_t phase_hub_ = 0;              // hub of the last phase
+  std::vector<Ordered> order_, sorted_;
   std::vector<std::uint32_t> contact_of_;  // of every lane of every PointPack, or none
   PairColouring colouring_;
+  PairsOfBodies of_bodies_;
+  bool of_bodies_are_valid_ = false;
 };
 
 }  // namespace moreau::detail

@@ -33,20 +33,26 @@ class GroupKernel {
   using Pairs = typename Groups::Pairs;
   using Points = typename Groups::Points;
 
-  /// @param problem its operator carries the velocities of the impulses
+  /// @param problem out: its operator carries the velocities of the impulses
   /// @param team    threads that share the work
-  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-             const Team& team) {
+  void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+             const Team& team, SharedBodies* shared) {
     groups_.build(problem, impulses, team);
     is_large_ = groups_.rows() * sizeof(BodyLanes) / W::lanes > near_cache;
     changes_.assign(groups_.pairs.size(), Values{});
-    load_velocities(problem.delassus);
-    for (Pairs& group : groups_.pairs) update_active(group);
+    hub_changes_.resize(groups_.pairs.size());
+    set_impulses(problem.delassus, impulses, team, shared);
+    team.share_each(groups_.pairs.size(), 128,
+                    [&](std::size_t k) { update_active(groups_.pairs[k]); });
   }
-  /// Takes the velocities of the bodies from the operator.
-  void load_velocities(const Operator& op) {
+  /// Computes the velocities of the impulses, in the order of the problem, for the operator and for
+  /// the bodies here.
+  void set_impulses(Operator& op, std::span<const Impulse> impulses, const Team& team,
+                    SharedBodies* shared) {
+    groups_.set_impulses(op, impulses, team, shared);
     velocity_.reset(groups_.rows());
-    for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.scaled_velocity(i));
+    team.share_each(op.body_count(), 256,
+                    [&](std::size_t i) { velocity_.set(i, op.scaled_velocity(i)); });
     velocity_.settle();
   }
   /// Computes the velocities of the bodies from the impulses alone.
@@ -57,7 +63,9 @@ class GroupKernel {
       update_active(group);
     }
   }
-  void unpack(std::span<Impulse> impulses) const { groups_.unpack(impulses); }
+  void unpack(std::span<Impulse> impulses, const Team& team) const {
+    groups_.unpack(impulses, team);
+  }
 
   const std::vector<Pairs>& groups() const { return groups_.pairs; }
   std::vector<Points>& points() { return groups_.points; }
@@ -73,10 +81,15 @@ class GroupKernel {
   void visit_all(std::uint32_t k, T beta) {
     Pairs& group = groups_.pairs[k];
     changes_[k] = Values{};
+    if (group.delays_hub()) hub_changes_[k] = {};
     if (group.active == 0 && !approaches(group)) return;
     visit<Measure>(k, group.count, beta);
     update_active(group);
   }
+
+  /// After a phase of groups of a hub: adds to the velocity of the hub what the visits of a group
+  /// have changed.
+  void settle_hub(std::uint32_t k) { velocity_.add(groups_.pairs[k], hub_changes_[k]); }
 
   /// Squared change of impulses in the last visits of some groups, added up in their order.
   double squared_change(const std::vector<std::uint32_t>& groups) const {
@@ -191,7 +204,10 @@ class GroupKernel {
       if constexpr (Measure) measure(measures_[number], point.block, change, impulse);
     }
     changes_[number] = change2;
-    velocity_.scatter(group, a, b);
+    if (group.delays_hub())
+      hub_changes_[number] = velocity_.scatter_partners(group, a, b);
+    else
+      velocity_.scatter(group, a, b);
   }
 
   static void measure(SweepChange& sum, const LaneBlock<S>& block, const Vector& change,
@@ -214,6 +230,7 @@ class GroupKernel {
   // One entry per group.
   std::vector<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
   std::vector<SweepChange> measures_;
+  std::vector<typename LaneVelocities<S, W>::Change> hub_changes_;  // of groups that delay them
 };
 
 }  // namespace moreau::detail

@@ -84,17 +84,37 @@ class LaneVelocities {
     }
     return y;
   }
+  /// A change of the velocity of one body.
+  using Change = std::array<T, std::size_t{S::dofs}>;
+
   /// Writes the velocities of the bodies of a group; adds up the changes of all lanes for the hub.
   template <class Pairs>
   void scatter(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
-    if (group.hub == Hub::a)
-      add_to_hub(group.a[0], a);
-    else
+    if (group.hub != Hub::none) add(group, scatter_partners(group, a, b));
+    if (group.hub == Hub::none) {
       scatter(group.a, a);
-    if (group.hub == Hub::b)
-      add_to_hub(group.b[0], b);
-    else
       scatter(group.b, b);
+    }
+  }
+  /// Writes the velocities of the partners of the hub of a group.
+  /// @returns the sum of the changes of all lanes for the hub
+  template <class Pairs>
+  Change scatter_partners(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
+    const bool hub_is_a = group.hub == Hub::a;
+    scatter(hub_is_a ? group.b : group.a, hub_is_a ? b : a);
+    const BodyLanes& y = hub_is_a ? a : b;
+    Change change;
+    for (std::size_t k = 0; k < S::dofs; ++k)
+      change[k] = W::sum(y[k] - W::broadcast(entry(hub_of(group), k)));
+    return change;
+  }
+  /// Adds a change to the velocity of the hub of a group.
+  template <class Pairs>
+  void add(const Pairs& group, const Change& change) {
+    for (std::size_t k = 0; k < S::dofs; ++k) {
+      Values& entries = now_[registers * hub_of(group) + k / W::lanes];
+      entries[k % W::lanes] += change[k];
+    }
   }
 
  private:
@@ -106,12 +126,12 @@ class LaneVelocities {
       for (std::size_t l = 0; l < W::lanes; ++l) now_[registers * bodies[l] + k] = rows[l];
     }
   }
-  void add_to_hub(std::uint32_t body, const BodyLanes& y) {
-    for (std::size_t k = 0; k < S::dofs; ++k) {
-      Values& entries = now_[registers * body + k / W::lanes];
-      const T own = entries[k % W::lanes];
-      entries[k % W::lanes] = own + W::sum(y[k] - W::broadcast(own));
-    }
+  template <class Pairs>
+  static std::uint32_t hub_of(const Pairs& group) {
+    return group.hub == Hub::a ? group.a[0] : group.b[0];
+  }
+  T entry(std::size_t body, std::size_t k) const {
+    return now_[registers * body + k / W::lanes][k % W::lanes];
   }
 
   std::vector<Values, CacheLineAllocator<Values>> now_, before_;

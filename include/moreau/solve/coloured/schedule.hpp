@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,56 +11,90 @@
 
 namespace moreau::detail {
 
-/// An order in which groups of contacts are visited. A phase is a run of groups of one colour: they
-/// share no body that moves, so that the members of a team divide them. Groups without a colour
-/// follow one after another.
+/// An order in which groups of contacts are visited. The groups of one phase share no body that
+/// moves, except a hub, so that the members of a team divide them: each has about as many points.
+/// After a phase of groups of a hub, one member adds up their changes of its velocity. Groups without
+/// a phase follow one after another.
 class Schedule {
  public:
-  /// Takes those groups k = 0, 1, .. for which takes(k).
-  /// @param groups sorted by their member colour
-  void assign(const auto& groups, const auto& takes) {
+  /// Takes those groups k = 0, 1, .. for which points(k) > 0, the points that a visit solves.
+  /// @param groups sorted by phase
+  template <class Group>
+  void assign(const std::vector<Group>& groups, const auto& points) {
     list_.clear();
+    before_.assign(1, 0);
     for (std::uint32_t k = 0; k < groups.size(); ++k)
-      if (takes(k)) list_.push_back(k);
-    ends_.clear();
+      if (const std::uint32_t own = points(k); own > 0) {
+        list_.push_back(k);
+        before_.push_back(before_.back() + own);
+      }
+    phases_.clear();
     std::size_t i = 0;
-    while (i < list_.size() && groups[list_[i]].colour != PairColouring::colours) {
-      const std::uint32_t colour = groups[list_[i]].colour;
-      while (i < list_.size() && groups[list_[i]].colour == colour) ++i;
-      ends_.push_back(i);
+    while (i < list_.size() && groups[list_[i]].phase != Group::serial) {
+      const std::uint32_t phase = groups[list_[i]].phase;
+      const std::size_t begin = i;
+      while (i < list_.size() && groups[list_[i]].phase == phase) ++i;
+      phases_.push_back({begin, i, phase >= PairColouring::colours});
     }
+    serial_ = i;
   }
   const std::vector<std::uint32_t>& groups() const { return list_; }
 
   /// Calls visit(k) for all groups k, phase after phase; work of member `rank` of a team of `size`.
-  /// @param wait returns when all members have called it
-  void forward(int rank, int size, auto&& wait, auto&& visit) const {
-    std::size_t begin = 0;
-    for (const std::size_t end : ends_) {
-      const Share share(end - begin, rank, size);
-      for (std::size_t i = begin + share.begin; i < begin + share.end; ++i) visit(list_[i]);
-      begin = end;
+  /// @param wait   returns when all members have called it
+  /// @param settle function: settle(k) adds up what group k of a hub has changed
+  void forward(int rank, int size, auto&& wait, auto&& visit, auto&& settle) const {
+    for (const Phase& phase : phases_) {
+      visit_share(phase, rank, size, visit);
+      wait();
+      if (!phase.of_hub) continue;
+      if (rank == 0) settle_all(phase, settle);
       wait();
     }
     if (rank == 0)
-      for (std::size_t i = begin; i < list_.size(); ++i) visit(list_[i]);
+      for (std::size_t i = serial_; i < list_.size(); ++i) visit(list_[i]);
   }
   /// As forward(), in the opposite order of phases.
-  void backward(int rank, int size, auto&& wait, auto&& visit) const {
-    const std::size_t serial = ends_.empty() ? 0 : ends_.back();
+  void backward(int rank, int size, auto&& wait, auto&& visit, auto&& settle) const {
     if (rank == 0)
-      for (std::size_t i = list_.size(); i-- > serial;) visit(list_[i]);
-    for (std::size_t p = ends_.size(); p-- > 0;) {
+      for (std::size_t i = list_.size(); i-- > serial_;) visit(list_[i]);
+    for (std::size_t p = phases_.size(); p-- > 0;) {
+      const Phase& phase = phases_[p];
       wait();
-      const std::size_t begin = p > 0 ? ends_[p - 1] : 0;
-      const Share share(ends_[p] - begin, rank, size);
-      for (std::size_t i = begin + share.begin; i < begin + share.end; ++i) visit(list_[i]);
+      visit_share(phase, rank, size, visit);
+      if (!phase.of_hub) continue;
+      wait();
+      if (rank == 0) settle_all(phase, settle);
     }
   }
 
  private:
+  struct Phase {
+    std::size_t begin, end;  // in the list
+    bool of_hub;
+  };
+
+  void visit_share(const Phase& phase, int rank, int size, auto&& visit) const {
+    const std::size_t end = bound(phase, rank + 1, size);
+    for (std::size_t i = bound(phase, rank, size); i < end; ++i) visit(list_[i]);
+  }
+  /// Where the share of a member begins.
+  std::size_t bound(const Phase& phase, int rank, int size) const {
+    if (rank == 0) return phase.begin;
+    if (rank == size) return phase.end;
+    const auto from = before_.begin() + std::ptrdiff_t(phase.begin);
+    const auto to = before_.begin() + std::ptrdiff_t(phase.end);
+    const std::size_t points = (*to - *from) * std::size_t(rank) / std::size_t(size);
+    return phase.begin + std::size_t(std::lower_bound(from, to, *from + points) - from);
+  }
+  void settle_all(const Phase& phase, auto&& settle) const {
+    for (std::size_t i = phase.begin; i < phase.end; ++i) settle(list_[i]);
+  }
+
   std::vector<std::uint32_t> list_;
-  std::vector<std::size_t> ends_;  // of each phase, in the list
+  std::vector<std::size_t> before_;  // points before each group in the list; at the end, all points
+  std::vector<Phase> phases_;
+  std::size_t serial_ = 0;  // first group without a phase, in the list
 };
 
 }  // namespace moreau::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shapes and bodies of a simulation, and which body is a grain, a wall or a cylinder.
+// The shapes and bodies of a simulation, and which body is a grain or a wall.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +23,7 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/shape/mesh_wall.hpp"
 
 namespace moreau {
 
@@ -32,6 +33,14 @@ struct CylinderBody {
   BodyId body;  ///< its pose places the shape
   /// In the frame of the body.
   CylinderWall<S> shape = SerializationAccess::blank<CylinderWall<S>>();
+};
+
+/// A mesh wall of a simulation: its body, and its shape in the frame of the body.
+template <class S>
+struct MeshBody {
+  BodyId body;  ///< its pose places the shape
+  /// In the frame of the body.
+  MeshWall<S> shape = SerializationAccess::blank<MeshWall<S>>();
 };
 
 namespace detail {
@@ -97,12 +106,12 @@ class Assembly {
     erase_at(grain_ids_, is_gone);
     erase_at(grains_, is_gone);
   }
-  /// Makes a body a half-space, where its pose is.
-  void set_wall(BodyId body) { walls_.push_back(body); }
+  /// Makes a body a half-space with the normal UnitX(), where its pose is.
+  void set_wall(BodyId body, const HalfSpace<S>&) { walls_.push_back(body); }
   /// Makes a body the inside of a cylinder.
-  void set_cylinder(BodyId body, const CylinderWall<S>& shape) {
-    cylinders_.push_back({body, shape});
-  }
+  void set_wall(BodyId body, const CylinderWall<S>& shape) { cylinders_.push_back({body, shape}); }
+  /// Makes a body a mesh wall.
+  void set_wall(BodyId body, const MeshWall<S>& shape) { meshes_.push_back({body, shape}); }
 
   /// Mass [kg] and inertia [kg m^2] of an added shape, in its own frame.
   /// @throws std::invalid_argument for an unknown shape, a density that is not finite or not
@@ -128,6 +137,7 @@ class Assembly {
   std::span<const BodyId> walls() const { return walls_; }
   std::span<const BodyId> grains() const { return grain_ids_; }
   std::span<const CylinderBody<S>> cylinders() const { return cylinders_; }
+  std::span<const MeshBody<S>> meshes() const { return meshes_; }
   std::size_t grain_count() const { return grains_.size(); }
   BodyId grain(std::size_t k) const { return grains_[k].body; }  ///< not checked
   /// Shape of the k-th grain; k is not checked.
@@ -165,8 +175,8 @@ class Assembly {
     require(all_finite(vector), function, argument, vector, "must be finite");
   }
   void require_wall(BodyId body, const char* function) const {
-    bool found = false;
-    for (const BodyId wall : walls_) found = found || wall == body;
+    bool found = std::find(walls_.begin(), walls_.end(), body) != walls_.end();
+    for (const MeshBody<S>& mesh : meshes_) found = found || mesh.body == body;
     require(found, function, "wall", body, "must be the id of a wall");
   }
   void require_grain(std::size_t k, const char* function) const {
@@ -192,15 +202,17 @@ class Assembly {
       valid = valid && contains(grain.body) && grain.shape.index() < shapes_.size();
     for (const BodyId wall : walls_) valid = valid && contains(wall);
     for (const CylinderBody<S>& cylinder : cylinders_) valid = valid && contains(cylinder.body);
+    for (const MeshBody<S>& mesh : meshes_) valid = valid && contains(mesh.body);
     return valid;
   }
-  /// Adds all grains, walls and cylinders to a detector.
+  /// Adds all grains and walls to a detector.
   template <class Detector>
   void add_to(Detector& detector) const {
     for (const Grain& grain : grains_) detector.add_grain(grain.body, shape(grain.shape));
     for (const BodyId wall : walls_) detector.add_wall(wall, HalfSpace<S>(S::Vector::UnitX()));
     for (const CylinderBody<S>& cylinder : cylinders_)
       detector.add_wall(cylinder.body, cylinder.shape);
+    for (const MeshBody<S>& mesh : meshes_) detector.add_wall(mesh.body, mesh.shape);
   }
 
  private:
@@ -210,7 +222,9 @@ class Assembly {
   };
 
   friend struct moreau::SerializationAccess;
-  auto serialized_members() { return std::tie(shapes_, grains_, walls_, cylinders_, bodies_); }
+  auto serialized_members() {
+    return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_);
+  }
   void deserialized() {
     grain_ids_.clear();
     for (const Grain& grain : grains_) grain_ids_.push_back(grain.body);
@@ -231,6 +245,7 @@ class Assembly {
   std::vector<unsigned char> marked_;
   std::vector<BodyId> walls_;
   std::vector<CylinderBody<S>> cylinders_;
+  std::vector<MeshBody<S>> meshes_;
   Bodies<S> bodies_;
 };
 

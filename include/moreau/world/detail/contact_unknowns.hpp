@@ -17,15 +17,16 @@ namespace moreau::detail {
 
 /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of
 /// the springs of compliant contacts.
+/// @param team threads that share the work
 /// @returns how many contacts have a predecessor
 template <class Law, class S>
-std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts) {
+std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts, const Team& team) {
   if constexpr (CompliantLaw<Law, S>) {
-    const std::size_t found = remember_springs(previous, contacts);
+    const std::size_t found = remember_springs(previous, contacts, team);
     hand_over(previous, contacts);
     return found;
   } else {
-    return warm_start(previous, contacts);
+    return warm_start(previous, contacts, team);
   }
 }
 
@@ -36,8 +37,9 @@ class PointUnknowns {
   using Operator = OperatorOf<Law, S>;
 
   static const BodyDelassus<S>& points(const Operator& op) { return op; }
-  std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts) {
-    return detail::start<Law>(previous, contacts);
+  std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts,
+                    const Team& team) {
+    return detail::start<Law>(previous, contacts, team);
   }
   static std::span<typename S::Vector> impulses(Contacts<S>& contacts) { return contacts.impulses; }
   static void finish(const Operator&, Contacts<S>&) {}
@@ -50,8 +52,9 @@ class RollingUnknowns {
   using Operator = OperatorOf<Law, S>;
 
   static const BodyDelassus<S>& points(const Operator& op) { return op.points(); }
-  std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts) {
-    const std::size_t found = detail::start<Law>(previous, contacts);
+  std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts,
+                    const Team& team) {
+    const std::size_t found = detail::start<Law>(previous, contacts, team);
     carry_couples(previous, contacts, previous.couples, contacts.couples);
     unknowns_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -75,7 +78,8 @@ class RollingUnknowns {
 /// The unknowns of a law:
 ///
 /// - points(operator): the part of the operator that acts at points
-/// - start(operator, previous, contacts): warm start; returns how many contacts have a predecessor
+/// - start(operator, previous, contacts, team): warm start; returns how many contacts have a
+///   predecessor
 /// - impulses(contacts): the unknowns r, one per contact
 /// - finish(operator, contacts): writes r to the impulses and couples of the contacts
 template <class S, class Law>

@@ -15,9 +15,21 @@ namespace moreau::detail {
 
 /// The contacts that one thread finds in a step, with the buffers that it needs for it. Threads write
 /// to neighbouring objects all the time: each has cache lines of its own.
+///
+/// Contacts are found grain by grain in any order of the grains. write() then writes those of one
+/// grain to their place in the list of the step, which is sorted.
 template <class S>
 class alignas(64) FoundContacts {
  public:
+  using Vector = typename S::Vector;
+
+  /// The contacts of one grain, body a, with bodies b.
+  struct Run {
+    std::uint32_t finder = 0;           ///< the thread that has found them
+    std::uint32_t first = 0, last = 0;  ///< its pairs
+    std::size_t points = 0;             ///< contact points of these pairs
+  };
+
   /// Forgets what was found.
   /// @param resolution distance of points that count as one [m]
   /// @param few        whether contacts between faces are reduced to D points
@@ -25,12 +37,20 @@ class alignas(64) FoundContacts {
     reduction_.resolution = reduction_.near = resolution;
     reduction_.shallower = resolution / 10;
     few_ = few;
-    contacts_.clear();
+    pairs_.clear();
+    points_.clear();
     touching_ = 0;
   }
   Manifold<S>& manifold() { return manifold_; }       ///< of the present pair, for collide()
   std::size_t touching() const { return touching_; }  ///< pairs with a contact
 
+  /// Begins the contacts of a grain.
+  /// @param guess of the index of its first contact in the step before
+  void begin_run(std::size_t guess) {
+    run_pairs_ = pairs_.size();
+    run_points_ = points_.size();
+    previous_ = guess;
+  }
   /// Adds the contact of a pair: the points of each manifold, reduced to D if asked for.
   /// @param a,b      body and placed shape of each side
   /// @param previous contacts of the step before; its points are kept first
@@ -46,78 +66,111 @@ class alignas(64) FoundContacts {
   void add_each(const auto& a, const auto& b, auto&& collide_each) {
     touching_ += collide_each([&] { add_all(a, b); });
   }
-
-  /// Sorts by key: the id of a wall may be lower than that of a grain.
-  void sort() {
-    Contacts<S>& out = contacts_;
-    if (std::is_sorted(out.keys.begin(), out.keys.end())) return;
-    order_.resize(out.size());
-    for (std::size_t c = 0; c < order_.size(); ++c) order_[c] = static_cast<std::uint32_t>(c);
-    std::sort(order_.begin(), order_.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return out.keys[i] < out.keys[j]; });
-    scratch_.clear();
-    for (const std::uint32_t c : order_) {
-      scratch_.points.push_back(out.points[c]);
-      scratch_.keys.push_back(out.keys[c]);
-      scratch_.classes.push_back(out.classes[c]);
-    }
-    out.points.swap(scratch_.points);
-    out.keys.swap(scratch_.keys);
-    out.classes.swap(scratch_.classes);
+  /// Ends the contacts of a grain. Sorts them by body b: the id of a wall may be lower than that of a
+  /// grain.
+  Run end_run(std::uint32_t finder) {
+    const auto begin = pairs_.begin() + std::ptrdiff_t(run_pairs_);
+    const auto before = [](const Pair& l, const Pair& r) { return l.b < r.b; };
+    if (!std::is_sorted(begin, pairs_.end(), before))
+      for (auto at = begin; at != pairs_.end(); ++at)  // stable, without memory
+        std::rotate(std::upper_bound(begin, at, *at, before), at, at + 1);
+    return {finder, std::uint32_t(run_pairs_), std::uint32_t(pairs_.size()),
+            points_.size() - run_points_};
   }
 
-  /// Makes one list of the contacts that the threads have found, in their order; zero impulses.
-  /// @param found one per thread, derived from this class
-  static void gather(auto& found, Contacts<S>& out) {
-    out.clear();
-    if (found.size() == 1) {
-      out.points.swap(found[0].contacts_.points);
-      out.keys.swap(found[0].contacts_.keys);
-      out.classes.swap(found[0].contacts_.classes);
-    } else {
-      for (const FoundContacts& part : found) {
-        const Contacts<S>& more = part.contacts_;
-        out.points.insert(out.points.end(), more.points.begin(), more.points.end());
-        out.keys.insert(out.keys.end(), more.keys.begin(), more.keys.end());
-        out.classes.insert(out.classes.end(), more.classes.begin(), more.classes.end());
+  /// Makes room for the contacts of all grains.
+  /// @param runs  one per grain
+  /// @param place out: index of the first contact of each grain; at the end, their number
+  static void make_room(const std::vector<Run>& runs, std::vector<std::size_t>& place,
+                        Contacts<S>& out) {
+    place.assign(1, 0);
+    for (const Run& run : runs) place.push_back(place.back() + run.points);
+    out.points.resize(place.back());
+    out.keys.resize(place.back());
+    out.classes.resize(place.back());
+    out.impulses.resize(place.back());
+    out.couples.clear();
+  }
+  /// Writes the contacts of a grain, sorted by key, with zero impulses.
+  /// @param at index of the first of them in the list
+  void write(const Run& run, std::uint32_t a, std::size_t at, Contacts<S>& out) {
+    const std::size_t begin = at;
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      const Pair& pair = pairs_[k];
+      const typename S::Matrix frame = S::contact_frame(pair.normal);
+      for (std::uint32_t p = pair.first; p < pair.last; ++p, ++at) {
+        const ManifoldPoint<S>& point = points_[p];
+        out.points[at] = {a,
+                          pair.b,
+                          0,
+                          point.gap,
+                          frame,
+                          point.position - pair.center_a,
+                          point.position - pair.center_b};
+        out.keys[at] = {a, pair.b, point.feature, pair.part_a, pair.part_b};
+        out.classes[at] = pair.contact_class;
+        out.impulses[at].setZero();
       }
     }
-    out.impulses.assign(out.size(), S::Vector::Zero());
+    const auto keys = out.keys.begin();
+    if (!std::is_sorted(keys + std::ptrdiff_t(begin), keys + std::ptrdiff_t(at)))
+      sort(begin, at, out);
   }
 
  private:
-  /// Adds the points of the manifold, with levers from the centres of the placed shapes.
+  /// A manifold of a pair.
+  struct Pair {
+    std::uint32_t b;               // the second body
+    std::uint32_t part_a, part_b;  // the parts that touch
+    std::uint32_t first, last;     // its points
+    ContactClass contact_class;
+    Vector normal, center_a, center_b;  // of the placed shapes
+  };
+
   void add_all(const auto& a, const auto& b) {
-    const typename S::Matrix frame = S::contact_frame(manifold_.normal);
-    for (const ManifoldPoint<S>& point : manifold_.points) {
-      contacts_.points.push_back({a.body.value, b.body.value, 0, point.gap, frame,
-                                  point.position - a.placed.center(),
-                                  point.position - b.placed.center()});
-      contacts_.keys.push_back(
-          {a.body.value, b.body.value, point.feature, manifold_.part_a, manifold_.part_b});
-      contacts_.classes.push_back(manifold_.contact_class);
-    }
+    const auto first = static_cast<std::uint32_t>(points_.size());
+    points_.insert(points_.end(), manifold_.points.begin(), manifold_.points.end());
+    pairs_.push_back({b.body.value, manifold_.part_a, manifold_.part_b, first,
+                      static_cast<std::uint32_t>(points_.size()), manifold_.contact_class,
+                      manifold_.normal, a.placed.center(), b.placed.center()});
   }
   /// Reduces the manifold of two parts to D points, if possible those of the step before.
   void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
+      const auto& keys = previous.keys;
       const ContactKey from{a, b, FeatureKey(), manifold_.part_a, manifold_.part_b};
-      for (auto key = std::lower_bound(previous.keys.begin(), previous.keys.end(), from);
-           key != previous.keys.end() && key->is_of_parts_of(from); ++key) {
-        const auto& impulse = previous.impulses[std::size_t(key - previous.keys.begin())];
-        kept_.push_back({key->feature, std::max(0.0, double(impulse[0]))});
-      }
+      const bool is_first = previous_ <= keys.size() &&
+                            (previous_ == 0 || keys[previous_ - 1].a < a) &&
+                            (previous_ == keys.size() || keys[previous_].a >= a);
+      if (!is_first)
+        previous_ =
+            std::size_t(std::lower_bound(keys.begin(), keys.end(), ContactKey{a, 0, FeatureKey()}) -
+                        keys.begin());
+      for (std::size_t c = previous_; c < keys.size() && keys[c].a == a && keys[c].b <= b; ++c)
+        if (keys[c].is_of_parts_of(from))
+          kept_.push_back({keys[c].feature, std::max(0.0, double(previous.impulses[c][0]))});
     }
     reduce(manifold_, S::dim, std::span<const KeptPoint>(kept_), reduction_);
+  }
+  /// Sorts by key the contacts of a pair with several manifolds.
+  void sort(std::size_t begin, std::size_t end, Contacts<S>& out) {
+    for (std::size_t at = begin + 1; at < end; ++at)
+      for (std::size_t c = at; c > begin && out.keys[c] < out.keys[c - 1]; --c) {
+        std::swap(out.points[c], out.points[c - 1]);
+        std::swap(out.keys[c], out.keys[c - 1]);
+        std::swap(out.classes[c], out.classes[c - 1]);
+      }
   }
 
   Manifold<S> manifold_;
   Reduction reduction_;
   bool few_ = true;
   std::vector<KeptPoint> kept_;
-  Contacts<S> contacts_, scratch_;
-  std::vector<std::uint32_t> order_;
+  std::vector<Pair> pairs_;
+  std::vector<ManifoldPoint<S>> points_;
+  std::size_t run_pairs_ = 0, run_points_ = 0;  // first ones of the present grain
+  std::size_t previous_ = 0;  // first contact of the present grain in the step before
   std::size_t touching_ = 0;
 };
 

@@ -6,8 +6,8 @@
 //      bodies that other processes share are split
 //   3. assemble the Delassus operator
 //   4. warm start from the impulses of the step before
-//   5. variants: the law of each contact in this step, where it depends on the impulse before
-//   6. correct overlaps: bodies and gaps move, velocities do not
+//   5. correct overlaps: bodies and gaps move, velocities do not
+//   6. variants: the law of each contact in this step, where it depends on the impulse before
 //   7. offset velocities: what each law adds to the normal velocity, from the corrected gaps
 //   8. solve the contact problem; by default with solve/coloured_gauss_seidel.hpp
 //   9. velocities after the impulses
@@ -165,7 +165,8 @@ class ImpulseDynamics {
 
   void free_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
-    for (std::size_t i = 0; i < bodies.size(); ++i) roots_[i] = bodies.mobility_root(i);
+    team_.share_each(bodies.size(), 128,
+                     [&](std::size_t i) { roots_[i] = bodies.mobility_root(i); });
     const std::span momentum(momentum_);
     const std::span free(free_);
     if constexpr (requires {
@@ -201,7 +202,7 @@ class ImpulseDynamics {
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
     const std::size_t found =
-        unknowns_.start(problem_.delassus, context.previous, context.contacts);
+        unknowns_.start(problem_.delassus, context.previous, context.contacts, team_);
     if constexpr (compliant) springs_.scale(context, unknowns_.impulses(context.contacts));
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, 1);
     if constexpr (compliant)
@@ -214,48 +215,49 @@ class ImpulseDynamics {
     for (std::size_t c = 0; c < contacts.size(); ++c) impulses[c][0] += sign * pulls_[c];
   }
 
-  void choose_variants(const Context& context) {
-    const Contacts<S>& contacts = context.contacts;
-    const std::vector<Law>& laws = context.materials.laws();
-    const auto impulses = unknowns_.impulses(context.contacts);
-    problem_.law_of.resize(contacts.size());
-    if constexpr (stateful) {
-      problem_.laws.clear();
-      for (const Law& law : laws)
-        for (std::size_t k = 0; k < Law::variants; ++k) problem_.laws.push_back(law.variant(k));
-    } else {
-      problem_.laws.assign(laws.begin(), laws.end());
-    }
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const std::uint32_t law = contacts.points[c].law;
-      problem_.law_of[c] = law;
+  void prepare_laws(const Context& context) {
+    problem_.law_of.resize(context.contacts.size());
+    problem_.laws.clear();
+    for (const Law& law : context.materials.laws())
       if constexpr (stateful)
-        problem_.law_of[c] = static_cast<std::uint32_t>(
-            law * Law::variants + laws[law].variant_after(typename S::Vector(impulses[c])));
-    }
+        for (std::size_t k = 0; k < Law::variants; ++k) problem_.laws.push_back(law.variant(k));
+      else
+        problem_.laws.push_back(law);
+  }
+  /// The law of a contact in this step, which may depend on the impulse before.
+  std::uint32_t variant_of(const Law& law, std::uint32_t index, const auto& impulse) const {
+    if constexpr (stateful)
+      return static_cast<std::uint32_t>(index * Law::variants +
+                                        law.variant_after(typename S::Vector(impulse)));
+    else
+      return index;
   }
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
     OverlapCorrectionReport report =
         correction_.solve(Unknowns::points(problem_.delassus), context.contacts.points, roots_,
-                          context.grain_size, shared_.get());
+                          context.grain_size, team_, shared_.get());
     if (shared_ || report.corrected > 0) shift_bodies(context.bodies, context.gravity, report);
     return report;
   }
   void shift_bodies(Bodies<S>& bodies, const Vector& gravity, OverlapCorrectionReport& report) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Twist& shift = correction_.shifts()[i];
-      if (shared_ && shift.isZero(0)) continue;
-      const Vector move = linear<S>(shift);
+      const Vector move = linear<S>(correction_.shifts()[i]);
       const Vector force = linear<S>(bodies.force[i]) + bodies.weight[i] * gravity;
       if (!shared_ || shared_->owns(i)) report.work += double(force.dot(move));
       report.largest_shift = std::max(report.largest_shift, double(move.norm()));
-      bodies.pose[i].position += move;
-      bodies.pose[i].rotation = S::normalized(S::exp(angular<S>(shift)) * bodies.pose[i].rotation);
     }
+    team_.share_each(bodies.size(), 128, [&](std::size_t i) {
+      const Twist& shift = correction_.shifts()[i];
+      if (shared_ && shift.isZero(0)) return;
+      Pose<S>& pose = bodies.pose[i];
+      pose.position += linear<S>(shift);
+      pose.rotation = S::normalized(S::exp(angular<S>(shift)) * pose.rotation);
+    });
   }
 
-  /// Fills the relative velocities before the step and adds the offsets of the laws to b.
+  /// Chooses the law of each contact, fills the relative velocities before the step and adds the
+  /// offsets of the laws to b.
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
@@ -264,12 +266,13 @@ class ImpulseDynamics {
     return sum_of<Largest>(team_, context.contacts.size(),
                            [&](Largest& fastest, std::size_t c) {
                              const Contact<S>& contact = context.contacts.points[c];
+                             const Law& law = context.materials.laws()[contact.law];
+                             problem_.law_of[c] = variant_of(law, contact.law, impulses[c]);
                              before_[c] = BodyDelassus<S>::relative_velocity(
                                  contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
                              fastest.add({-before_[c][0]});
                              const Scalar offset =
-                                 context.materials.laws()[contact.law].velocity_offset(
-                                     contact.gap, before_[c][0], context.step);
+                                 law.velocity_offset(contact.gap, before_[c][0], context.step);
                              if (!std::isfinite(offset)) impulses[c].setZero();
                              problem_.delassus.offset_normal(c, offset);
                            })
@@ -292,14 +295,14 @@ class ImpulseDynamics {
 
   /// V = V_free + M^-1/2 y. Throws if a velocity is not finite; no body has moved yet.
   void velocities_after() {
-    for (std::size_t i = 0; i < roots_.size(); ++i) {
+    team_.share_each(roots_.size(), 256, [&](std::size_t i) {
       const auto y = problem_.delassus.scaled_velocity(i);
       after_[i] = free_[i];
       linear<S>(after_[i]) += product(roots_[i].linear, linear<S>(y));
       angular<S>(after_[i]) += product(roots_[i].angular, angular<S>(y));
       if (!all_finite(after_[i]))
         throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
-    }
+    });
   }
 
   /// Energies that the impulses took from the bodies in a step [J].
@@ -375,10 +378,10 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context
     split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
   assemble(context);
   report.warm_started = warm_start(context);
-  choose_variants(context);
   report.ms_assemble = clock.lap();
   report.correction = correct_overlaps(context);
   report.ms_correct = clock.lap();
+  prepare_laws(context);
   report.approach = double(offset_velocities(context) * context.step / context.margin);
   solve(context, report);
   report.ms_contacts = clock.lap();

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+// A wall of triangles in space, or of segments in the plane: a funnel, a wavy floor, a tamping tine.
+//
+// The wall is the outside of its facets. Two facets that join at a ridge (an edge of triangles, an end
+// of segments) meet in one of three ways, seen from outside:
+//
+//   - flat: the ridge is no feature of the surface. Facets that are connected over flat ridges form a
+//     face, and a grain that slides over it does not notice its ridges;
+//   - concave: a grain outside touches the two facets, never the ridge;
+//   - convex: a grain can touch the ridge, with a normal between those of the two facets. The rim of an
+//     open surface counts as convex: normals there lie between the normal of the facet and the
+//     direction that continues the facet beyond its rim.
+//
+// A wall with two sides consists of the facets and of their reversed copies, which join at the rim.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/shape/check_mesh.hpp"
+#include "moreau/shape/detail/box_tree.hpp"
+#include "moreau/shape/facet_mesh.hpp"
+
+namespace moreau {
+
+/// Which sides of its facets a mesh wall has.
+enum class WallSides : std::uint8_t {
+  outside,  ///< grains are held on the side to which the facets turn; from behind they pass
+  both,     ///< grains are held on both sides of a thin wall
+};
+
+/// The surface of a mesh wall, in the frame of its body. It does not change.
+template <EuclideanSpace S>
+class MeshWall {
+ public:
+  using Space = S;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
+  using Facet = typename FacetMesh<S>::Facet;
+  static constexpr std::uint32_t none = ~0U;
+
+  /// A facet with what collision tests need of it. All facets of a face have the same plane.
+  struct Side {
+    Matrix corners;      ///< as columns [m]
+    Vector normal;       ///< of the face, unit, to the outside
+    Scalar offset;       ///< of the face: normal . x of the points x of its plane [m]
+    std::uint32_t face;  ///< lowest number of the facets of the face, in the order of the mesh
+    /// For each ridge (number k lies opposite corner k): unit vector in the facet, away from the ridge
+    /// to the inside, and its product with the points of the ridge [m].
+    std::array<Vector, std::size_t(S::dim)> inward;
+    std::array<Scalar, std::size_t(S::dim)> inward_offset;
+    std::array<std::uint32_t, std::size_t(S::dim)> ridge;  ///< number of a convex ridge, or `none`
+  };
+  /// A convex ridge.
+  struct ConvexRidge {
+    std::array<std::uint32_t, std::size_t(S::dim - 1)> vertices;
+    /// Directions d of contact normals at the ridge, towards the grain, satisfy d . beyond >= 0 for
+    /// both: unit vectors in the planes of the two facets, away from the facets; at a rim, the second
+    /// is the normal of the facet.
+    std::array<Vector, 2> beyond;
+    Vector middle;                       ///< of these directions: unit
+    std::array<std::uint32_t, 2> facet;  ///< that join; the same twice at a rim
+  };
+
+  /// @param mesh  vertices [m] and facets in the frame of the body
+  /// @param sides of the facets at which grains are held
+  /// @param function the public name the caller used
+  /// @throws std::invalid_argument if the mesh is not a surface (require_surface()), or if it has more
+  ///         than 2^27 facets or vertices
+  explicit MeshWall(const FacetMesh<S>& mesh, WallSides sides = WallSides::outside,
+                    const char* function = "MeshWall")
+      : mesh_(mesh), sides_(sides) {
+    require_surface(mesh, function);
+    require(std::max(mesh.facets.size(), mesh.vertices.size()) <= (1U << 27), function,
+            "facets.size()", mesh.facets.size(), "must be at most 2^27");
+    build();
+  }
+
+  const FacetMesh<S>& mesh() const { return mesh_; }  ///< as it was given
+  WallSides sides() const { return sides_; }          ///< as they were given
+
+  /// Number of facets: with two sides, twice that of the mesh.
+  std::size_t size() const { return facets_.size(); }
+  /// The facets in the order of tree(): k < size().
+  const Side& side(std::size_t k) const { return facet_sides_[k]; }
+  const Facet& facet(std::size_t k) const { return facets_[k]; }           ///< corners of side(k)
+  const Vector& vertex(std::size_t v) const { return mesh_.vertices[v]; }  ///< [m]
+  std::size_t ridge_count() const { return ridges_.size(); }               ///< of convex ridges
+  const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }
+  /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
+  bool is_tip(std::size_t v) const { return is_tip_[v] != 0; }
+  /// Whether a direction d is a possible contact normal at a vertex, towards the grain: all facets at
+  /// the vertex lie below the plane through it.
+  /// @param tolerance sine of the largest angle of a facet above the plane [-]
+  bool is_top(std::size_t v, const Vector& d, Scalar tolerance) const {
+    for (std::uint32_t k = ring_begin_[v]; k < ring_begin_[v + 1]; ++k) {
+      const Vector along = mesh_.vertices[ring_[k]] - mesh_.vertices[v];
+      if (d.dot(along) > tolerance * along.norm()) return false;
+    }
+    return true;
+  }
+  /// The boxes of the facets [m]. A query gives the places k of side().
+  const detail::BoxTree<S>& tree() const { return tree_; }
+
+ private:
+  friend struct SerializationAccess;
+  MeshWall() = default;
+  auto serialized_members() { return std::tie(mesh_.vertices, mesh_.facets, sides_); }
+  void deserialized() {
+    require_surface(mesh_, "MeshWall");
+    build();
+  }
+
+  void build();
+  void set_sides();
+  void join_faces(const std::vector<Ridge<S>>& ridges);
+  void set_ridges(const std::vector<Ridge<S>>& ridges);
+  void set_rings();
+  void sort_by_place();
+  /// The height of the corner of facet g that is not on the ridge above the plane of facet f [m].
+  Scalar height_above(const Ridge<S>& ridge, std::uint32_t f) const {
+    const Vector& corner = mesh_.vertices[facets_[ridge.facet][ridge.corner]];
+    return facet_sides_[f].normal.dot(corner - mesh_.vertices[facets_[f][0]]);
+  }
+
+  FacetMesh<S> mesh_;
+  WallSides sides_ = WallSides::outside;
+  std::vector<Facet> facets_;
+  std::vector<Side> facet_sides_;
+  std::vector<ConvexRidge> ridges_;
+  std::vector<unsigned char> is_tip_;
+  std::vector<std::uint32_t> ring_, ring_begin_;  ///< the neighbours of each vertex
+  detail::BoxTree<S> tree_;
+  Scalar flat_ = 0;  ///< a corner closer to the plane of a neighbour than this lies in it [m]
+};
+
+// Outside of the class: compiled once where a program declares the wall extern.
+template <EuclideanSpace S>
+void MeshWall<S>::build() {
+  // Files hold coordinates in single precision: facets of a plane floor are plane to 1e-7.
+  flat_ = Scalar(4e-7) * size_of(mesh_);
+  facets_ = mesh_.facets;
+  if (sides_ == WallSides::both)
+    for (const Facet& facet : mesh_.facets) {
+      facets_.push_back(facet);
+      std::swap(facets_.back()[0], facets_.back()[1]);
+    }
+  set_sides();
+  // The two sides of a thin wall join at its rim alone: the ridges of each side are paired first.
+  const auto ridges = ridges_of<S>(facets_);
+  join_faces(ridges);
+  set_ridges(ridges);
+  set_rings();
+  sort_by_place();
+}
+
+/// Makes the tree, and brings the facets into its order: those near each other are near in memory.
+template <EuclideanSpace S>
+void MeshWall<S>::sort_by_place() {
+  std::vector<Aabb<S>> boxes(facets_.size());
+  for (std::size_t f = 0; f < facets_.size(); ++f)
+    for (const std::uint32_t v : facets_[f]) boxes[f].merge(mesh_.vertices[v]);
+  tree_ = detail::BoxTree<S>(boxes);
+  const auto facets = facets_;
+  const auto sides = facet_sides_;
+  std::vector<std::uint32_t> place(facets.size());
+  for (std::uint32_t k = 0; k < facets.size(); ++k) {
+    facets_[k] = facets[tree_.order()[k]];
+    facet_sides_[k] = sides[tree_.order()[k]];
+    place[tree_.order()[k]] = k;
+  }
+  for (ConvexRidge& ridge : ridges_)
+    for (std::uint32_t& f : ridge.facet) f = place[f];
+}
+
+template <EuclideanSpace S>
+void MeshWall<S>::set_sides() {
+  const FacetMesh<S> all{mesh_.vertices, facets_};
+  facet_sides_.resize(facets_.size());
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const Matrix corners = corners_of(all, f);
+    Side& side = facet_sides_[f];
+    side.normal = area_vector(corners).normalized();
+    side.face = std::uint32_t(f);
+    side.corners = corners;
+    side.offset = side.normal.dot(corners.rowwise().mean());
+    for (int k = 0; k < S::dim; ++k) {
+      // The direction to corner k, without its components along the ridge opposite to it.
+      const Vector on_ridge = corners.col((k + 1) % S::dim);
+      Vector inward = corners.col(k) - on_ridge;
+      for (int other = 0; other < S::dim; ++other) {
+        if (other == k || other == (k + 1) % S::dim) continue;
+        const Vector along = (corners.col(other) - on_ridge).normalized();
+        inward -= inward.dot(along) * along;
+      }
+      side.inward[std::size_t(k)] = inward.normalized();
+      side.inward_offset[std::size_t(k)] = side.inward[std::size_t(k)].dot(on_ridge);
+    }
+    side.ridge.fill(none);
+  }
+}
+
+/// Unites facets that lie in the plane of the lowest numbered facet of their face.
+template <EuclideanSpace S>
+void MeshWall<S>::join_faces(const std::vector<Ridge<S>>& ridges) {
+  std::vector<std::array<std::uint32_t, std::size_t(S::dim)>> neighbour(facets_.size());
+  for (auto& of_facet : neighbour) of_facet.fill(none);
+  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
+    for (const Ridge<S>& a : at)
+      for (const Ridge<S>& b : at)
+        if (a.is_forward != b.is_forward &&
+            facet_sides_[a.facet].normal.dot(facet_sides_[b.facet].normal) > 0)
+          neighbour[a.facet][a.corner] = b.facet;
+  });
+  std::vector<unsigned char> is_done(facets_.size(), 0);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t seed = 0; seed < facets_.size(); ++seed) {
+    if (is_done[seed] != 0) continue;
+    is_done[seed] = 1;
+    for (open.assign(1, seed); !open.empty();) {
+      const std::uint32_t f = open.back();
+      open.pop_back();
+      for (const std::uint32_t g : neighbour[f]) {
+        if (g == none || is_done[g] != 0) continue;
+        bool is_flat = facet_sides_[g].normal.dot(facet_sides_[seed].normal) > 0;
+        for (const std::uint32_t v : facets_[g])
+          is_flat = is_flat && std::abs(facet_sides_[seed].normal.dot(mesh_.vertices[v]) -
+                                        facet_sides_[seed].offset) <= flat_;
+        if (!is_flat) continue;
+        is_done[g] = 1;
+        facet_sides_[g].face = seed;
+        facet_sides_[g].normal = facet_sides_[seed].normal;
+        facet_sides_[g].offset = facet_sides_[seed].offset;
+        open.push_back(g);
+      }
+    }
+  }
+}
+
+template <EuclideanSpace S>
+void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
+  const auto add = [&](const Ridge<S>& a, const Ridge<S>& b) {
+    const Vector of_a = -facet_sides_[a.facet].inward[a.corner];
+    const Side& side_b = facet_sides_[b.facet];
+    const Vector of_b = a.facet == b.facet ? side_b.normal : Vector(-side_b.inward[b.corner]);
+    for (const Ridge<S>& ridge : {a, b})
+      facet_sides_[ridge.facet].ridge[ridge.corner] = std::uint32_t(ridges_.size());
+    ridges_.push_back({a.vertices, {of_a, of_b}, (of_a + of_b).normalized(), {a.facet, b.facet}});
+  };
+  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
+    // Of a surface, two facets join; with both sides, two pairs of them, or the two sides of a rim.
+    std::vector<unsigned char> is_paired(at.size(), 0);
+    const auto pair_up = [&](const auto& fits) {
+      for (std::size_t i = 0; i < at.size(); ++i)
+        for (std::size_t j = i + 1; j < at.size(); ++j) {
+          const Ridge<S>&a = at[i], &b = at[j];
+          if (is_paired[i] != 0 || is_paired[j] != 0 || a.is_forward == b.is_forward ||
+              !fits(a.facet, b.facet))
+            continue;
+          is_paired[i] = is_paired[j] = 1;
+          if (facet_sides_[a.facet].face == facet_sides_[b.facet].face) continue;
+          const bool is_fold = (a.facet < mesh_.facets.size()) != (b.facet < mesh_.facets.size());
+          if (is_fold || height_above(b, a.facet) < -flat_) add(a, b);
+        }
+    };
+    const std::size_t front = mesh_.facets.size();
+    pair_up([&](auto f, auto g) { return (f < front) == (g < front); });
+    pair_up([&](auto f, auto g) { return (f < front) != (g < front); });
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (is_paired[i] == 0) add(at[i], at[i]);
+  });
+}
+
+template <EuclideanSpace S>
+void MeshWall<S>::set_rings() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const Facet& facet : mesh_.facets)
+    for (const std::uint32_t v : facet)
+      for (const std::uint32_t w : facet)
+        if (v != w) pairs.emplace_back(v, w);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  ring_begin_.assign(mesh_.vertices.size() + 1, 0);
+  ring_.clear();
+  for (const auto& [v, w] : pairs) {
+    ++ring_begin_[v + 1];
+    ring_.push_back(w);
+  }
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) ring_begin_[v + 1] += ring_begin_[v];
+  // The other ends of the convex ridges at a vertex must not lie in one line with it. In the plane a
+  // ridge is a vertex.
+  is_tip_.assign(mesh_.vertices.size(), 0);
+  std::vector<Vector> first(mesh_.vertices.size(), Vector::Zero());
+  for (const ConvexRidge& ridge : ridges_)
+    for (const std::uint32_t v : ridge.vertices) {
+      if (ridge.vertices.size() == 1) is_tip_[v] = 1;
+      for (const std::uint32_t w : ridge.vertices) {
+        if (w == v) continue;
+        const Vector along = (mesh_.vertices[w] - mesh_.vertices[v]).normalized();
+        if (first[v].isZero(0)) first[v] = along;
+        if (std::abs(along.dot(first[v])) < Scalar(1 - 1e-10)) is_tip_[v] = 1;
+      }
+    }
+}
+
+}  // namespace moreau

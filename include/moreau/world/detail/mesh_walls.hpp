@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/detect/pairs/collide_compound.hpp"
+#include "moreau/detect/pairs/collide_mesh_wall.hpp"
+#include "moreau/detect/placed.hpp"
+#include "moreau/shape/mesh_wall.hpp"
+#include "moreau/world/detail/found_contacts.hpp"
+#include "moreau/world/detail/pair_filter.hpp"
+
+namespace moreau::detail {
+
+/// What one thread needs to collide grains with mesh walls.
+template <class ShapeT>
+struct MeshBuffers {
+  std::optional<Placed<ShapeT>> local;  ///< the grain in the frame of the wall
+  MeshScratch scratch;
+};
+
+/// A grain, and the same in the world.
+template <class ShapeT>
+struct GrainInWorld {
+  BodyId body;
+  const ShapeT& shape;
+  const Placed<ShapeT>& placed;
+  const Aabb<SpaceOf<ShapeT>>& box;  ///< world axes [m]
+};
+
+/// The mesh walls of a ContactDetector. A program that adds none does not compile their collisions.
+template <class ShapeT>
+class MeshWalls {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  void add(BodyId body, const MeshWall<S>& shape) {
+    walls_.push_back({body, shape, {}, {}});
+    detect_ = &MeshWalls::detect_all;
+  }
+  void clear() { walls_.clear(); }
+  /// Moves the walls to the poses of their bodies.
+  void place(std::span<const Pose<S>> poses) {
+    for (Wall& wall : walls_) {
+      wall.placed.pose = poses[wall.body.index()];
+      wall.box = moved(wall.shape.tree().bounds(), wall.placed.pose);
+    }
+  }
+  /// Finds the contacts of a grain.
+  void detect(const GrainInWorld<ShapeT>& grain, Scalar margin, const Bodies<S>& bodies,
+              const PairFilter& filter, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
+              FoundContacts<S>& found) const {
+    if (!walls_.empty()) detect_(*this, grain, margin, bodies, filter, previous, buffers, found);
+  }
+
+ private:
+  struct PlacedFrame {
+    Pose<S> pose;
+    const Vector& center() const { return pose.position; }
+  };
+  struct Wall {
+    BodyId body;
+    MeshWall<S> shape;
+    PlacedFrame placed;
+    Aabb<S> box;  // world axes [m]
+  };
+
+  /// A box around a box at a pose [m].
+  static Aabb<S> moved(const Aabb<S>& box, const Pose<S>& pose) {
+    const Vector half = pose.rotation.toRotationMatrix().cwiseAbs() * (box.upper - box.lower) / 2;
+    const Vector center = pose((box.lower + box.upper) / 2);
+    return {center - half, center + half};
+  }
+  static void detect_all(const MeshWalls& self, const GrainInWorld<ShapeT>& grain, Scalar margin,
+                         const Bodies<S>& bodies, const PairFilter& filter,
+                         const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
+                         FoundContacts<S>& found) {
+    const std::size_t body = grain.body.index();
+    for (const Wall& wall : self.walls_) {
+      if (!wall.box.overlaps(grain.box.inflated(margin))) continue;
+      if (bodies.is_prescribed(body) && bodies.is_prescribed(wall.body.index())) continue;
+      if (filter.leaves_out(grain.body, wall.body)) continue;
+      if constexpr (MeshCollidable<ShapeT>)
+        detect_at(grain, bodies.pose[body], wall, margin, previous, buffers, found);
+    }
+  }
+  static void detect_at(const GrainInWorld<ShapeT>& grain, const Pose<S>& pose, const Wall& wall,
+                        Scalar margin, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
+                        FoundContacts<S>& found) {
+    const Pose<S>& frame = wall.placed.pose;
+    const Pose<S> local(frame.to_body(pose.position),
+                        S::normalized(frame.rotation.inverse() * pose.rotation));
+    if (buffers.local)
+      buffers.local->update(grain.shape, local);
+    else
+      buffers.local.emplace(grain.shape, local);
+    Manifold<S>& manifold = found.manifold();
+    found.add(grain, wall, previous, [&](const auto& add) {
+      bool touches = false;
+      for_each_part(*buffers.local, [&](std::uint32_t part, const auto& placed) {
+        const auto add_in_world = [&](std::uint32_t face) {
+          manifold.normal = frame.rotation * manifold.normal;
+          for (auto& point : manifold.points) point.position = frame(point.position);
+          manifold.part_a = part;
+          manifold.part_b = face;  // so that each face is reduced on its own
+          add();
+        };
+        touches |=
+            collide_each(placed, wall.shape, margin, buffers.scratch, manifold, add_in_world);
+      });
+      return touches;
+    });
+    manifold.part_a = manifold.part_b = 0;
+  }
+
+  std::vector<Wall> walls_;
+  void (*detect_)(const MeshWalls&, const GrainInWorld<ShapeT>&, Scalar, const Bodies<S>&,
+                  const PairFilter&, const Contacts<S>&, MeshBuffers<ShapeT>&,
+                  FoundContacts<S>&) = nullptr;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/solve/coloured/schedule.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <doctest/doctest.h>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "moreau/solve/coloured/pairs_of_bodies.hpp"
+
+using namespace moreau;
+using namespace moreau::detail;
+
+namespace {
+
+struct Group {
+  static constexpr std::uint32_t serial = ~std::uint32_t{0};
+  std::uint32_t phase;
+};
+
+/// Members that work one after another.
+struct Turns final : TeamThreads {
+  explicit Turns(int size) : size_(size) { shares = true; }
+  int size() const override { return size_; }
+  void run(const Work& work) override {
+    for (int rank = 0; rank < size_; ++rank) work(rank, size_, TeamBarrier());
+  }
+  bool begin(TimedWork) override { return true; }
+  void end(TimedWork, std::size_t) override {}
+  int size_;
+};
+
+}  // namespace
+
+TEST_CASE("every group with points is visited once, whatever the size of the team") {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<Group> groups;
+    std::vector<std::uint32_t> points;
+    for (std::uint64_t k = random() % 80; k > 0; --k) {
+      constexpr std::uint32_t phases[] = {0, 1, 2, PairColouring::colours, Group::serial};
+      groups.push_back({phases[random() % 5]});
+      points.push_back(static_cast<std::uint32_t>(random() % 4));
+    }
+    std::sort(groups.begin(), groups.end(),
+              [](const Group& l, const Group& r) { return l.phase < r.phase; });
+    Schedule schedule;
+    schedule.assign(groups, [&](std::uint32_t k) { return points[k]; });
+    for (const int size : {1, 2, 3, 8})
+      for (const bool back : {false, true}) {
+        std::vector<int> visits(groups.size(), 0), settled(groups.size(), 0);
+        const auto wait = [] {};
+        const auto visit = [&](std::uint32_t k) { ++visits[k]; };
+        const auto settle = [&](std::uint32_t k) { ++settled[k]; };
+        for (int rank = 0; rank < size; ++rank)
+          if (back)
+            schedule.backward(rank, size, wait, visit, settle);
+          else
+            schedule.forward(rank, size, wait, visit, settle);
+        for (std::size_t k = 0; k < groups.size(); ++k) {
+          CHECK(visits[k] == (points[k] > 0));
+          CHECK(settled[k] == (points[k] > 0 && groups[k].phase == PairColouring::colours));
+        }
+      }
+  }
+}
+
+TEST_CASE("the pairs of each body come in their order, whatever the size of the team") {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 50; ++round) {
+    const auto bodies = static_cast<std::uint32_t>(2 + random() % 50);
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    std::vector<std::vector<std::uint32_t>> expected(bodies);
+    for (std::uint64_t k = random() % 100; k > 0; --k) {
+      const auto a = static_cast<std::uint32_t>(random() % bodies);
+      const auto b = static_cast<std::uint32_t>((a + 1 + random() % (bodies - 1)) % bodies);
+      for (const std::uint32_t body : {a, b})
+        expected[body].push_back(static_cast<std::uint32_t>(pairs.size()));
+      pairs.push_back({a, b});
+    }
+    PairsOfBodies of_bodies;
+    of_bodies.assign(pairs, bodies);
+    for (const int size : {1, 2, 3, 8}) {
+      std::vector<std::vector<std::uint32_t>> found(bodies);
+      of_bodies.for_each(Team(std::make_shared<Turns>(size)),
+                         [&](const PairsOfBodies::Entry& entry) {
+                           found[pairs[entry.pair][entry.is_b]].push_back(entry.pair);
+                         });
+      CHECK(found == expected);
+    }
+  }
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Small simulations, whose results must not depend on the number of threads.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <doctest/doctest.h>
+#include <memory>
+#include <vector>
+
+#include "moreau/core/thread_team.hpp"
+#include "moreau/shape/regular_shape.hpp"
+#include "moreau/world/simulation.hpp"
+
+namespace threads_test {
+
+using namespace moreau;
+
+// The thread sanitizer makes everything some fifty times slower.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define MOREAU_TEST_FEW_STEPS
+#endif
+#endif
+#ifdef MOREAU_TEST_FEW_STEPS
+inline constexpr int steps = 30;
+inline constexpr int team_sizes[] = {2, 3};
+#else
+inline constexpr int steps = 150;
+inline constexpr int team_sizes[] = {2, 3, 4, 8};
+#endif
+
+/// Lets a team share its work from now on, without measuring whether this is faster.
+class EagerThreads final : public TeamThreads {
+ public:
+  explicit EagerThreads(int size) : pool_(size) { shares = true; }
+  int size() const override { return pool_.size(); }
+  void run(const Work& work) override { pool_.run(work); }
+  bool begin(TimedWork) override { return true; }
+  void end(TimedWork, std::size_t) override {}
+
+ private:
+  detail::ThreadPool pool_;
+};
+inline Team eager(int size) {
+  return Team(std::make_shared<EagerThreads>(size));
+}
+
+/// 6 x 6 x 8 (in the plane 20 x 20) grains fall into a box, which is periodic along x.
+template <class ShapeT, class Law>
+std::vector<double> fall(const Law& law, const Team& team) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1, wide = up == 1 ? 20 : 6, high = up == 1 ? 20 : 8;
+  constexpr double size = 0.02, cell = 0.024;
+  Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
+  world.set_team(team);
+  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(size));
+  world.set_periodic(0, 0.0, wide * cell);
+  for (int axis = 1; axis < S::dim; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
+  if (up > 1) world.add_wall(-Vector::Unit(1), wide * cell * Vector::Unit(1));
+  for (int k = 0; k < high; ++k)
+    for (int i = 0; i < wide; ++i)
+      for (int j = 0; j < (up > 1 ? wide : 1); ++j) {
+        Vector position = Vector::Constant(cell * (j + 0.5));
+        position[0] = cell * (i + 0.5 + 0.1 * (k % 2));
+        position[up] = cell * (k + 0.5);
+        world.add_grain(shape, {position, S::exp(S::Angular::Constant(0.1 * k + 0.3 * i))}, 2700);
+      }
+  world.set_gravity(-9.81 * Vector::Unit(up));
+  std::vector<double> results;
+  for (int step = 0; step < steps; ++step) {
+    const StepReport report = world.step(5e-4);
+    if (step % 10 != 9) continue;
+    results.push_back(report.solve.residual);
+    results.push_back(report.dissipation);
+    results.push_back(double(report.points));
+  }
+  for (const Pose<S>& pose : world.bodies().pose)
+    for (const double x : pose.position) results.push_back(x);
+  return results;
+}
+
+/// 9 x 9 x 3 (in the plane 60 x 4) grains between a floor and a lid with a mass, which a force presses
+/// on them. The lid touches more than 48 grains: it is a hub of the contact problem.
+template <class ShapeT, class Law>
+std::vector<double> press(const Law& law, const Team& team) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1, wide = up == 1 ? 60 : 9, high = up == 1 ? 4 : 3;
+  constexpr double size = 0.02, cell = 0.0205;
+  Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
+  world.set_team(team);
+  const BodyId floor = world.add_wall(Vector::Unit(up), Vector::Zero());
+  for (int axis = 0; axis < up; ++axis) world.set_periodic(axis, 0.0, wide * cell);
+  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(size));
+  double mass = 0;
+  for (int k = 0; k < high; ++k)
+    for (int i = 0; i < wide; ++i)
+      for (int j = 0; j < (up > 1 ? wide : 1); ++j) {
+        Vector position = Vector::Constant(cell * (j + 0.5));
+        position[0] = cell * (i + 0.5);
+        position[up] = cell * (k + 0.5);
+        const BodyId grain = world.add_grain(
+            shape, {position, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))}, 2700);
+        mass += world.bodies().weight[grain.index()];
+      }
+  const BodyId lid = world.add_wall(-Vector::Unit(up), (high * cell + size / 4) * Vector::Unit(up));
+  world.set_wall_mass(lid, mass);
+  world.set_force(lid, -100 * mass * Vector::Unit(up));
+  world.set_gravity(-9.81 * Vector::Unit(up));
+  std::vector<double> results;
+  std::size_t most = 0;  // contacts of the lid
+  for (int step = 0; step < 20; ++step) {
+    const StepReport report = world.step(5e-4);
+    std::size_t count = 0;
+    for (const auto& contact : world.contacts().points) count += contact.b == lid.index();
+    most = std::max(most, count);
+    results.push_back(report.solve.residual);
+    results.push_back(double(report.solve.sweeps));
+  }
+  CHECK(most > 48);
+  results.push_back(world.contact_impulse(floor)[up]);
+  for (const Pose<S>& pose : world.bodies().pose)
+    for (const double x : pose.position) results.push_back(x);
+  return results;
+}
+
+/// Checks that the results of a simulation are the same for all team sizes.
+template <class ShapeT, class Law>
+void check_bits(const Law& law) {
+  const auto fallen = fall<ShapeT>(law, Team()), pressed = press<ShapeT>(law, Team());
+  for (const int threads : team_sizes) {
+    CHECK(fall<ShapeT>(law, eager(threads)) == fallen);
+    CHECK(press<ShapeT>(law, eager(threads)) == pressed);
+  }
+}
+
+}  // namespace threads_test
