@@ -111,11 +111,12 @@ class BodyDelassus {
     apply_to_b(c, impulse);
     apply_to_a(c, impulse);
   }
-  /// Applies the part of apply() that concerns body a, or body b.
+  /// Applies the part of apply() that concerns body a.
   void apply_to_a(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     scaled_[row.a].noalias() -= row.ja * impulse;
   }
+  /// Applies the part of apply() that concerns body b.
   void apply_to_b(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
     scaled_[row.b].noalias() += row.jb * impulse;

@@ -97,12 +97,13 @@ class RollingDelassus {
     apply_to_b(c, impulse);
     apply_to_a(c, impulse);
   }
-  /// Applies the part of apply() that concerns body a, or body b.
+  /// Applies the part of apply() that concerns body a.
   void apply_to_a(std::size_t c, const Vector& impulse) {
     points_.apply_to_a(c, linear<S>(impulse));
     points_.add_scaled_spin(bodies(c)[0],
                             -(rows_[c].ka * typename S::Angular(angular<S>(impulse))));
   }
+  /// Applies the part of apply() that concerns body b.
   void apply_to_b(std::size_t c, const Vector& impulse) {
     points_.apply_to_b(c, linear<S>(impulse));
     points_.add_scaled_spin(bodies(c)[1], rows_[c].kb * typename S::Angular(angular<S>(impulse)));

@@ -46,8 +46,8 @@ class MeshWall {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   using Matrix = typename S::Matrix;
-  using Facet = typename FacetMesh<S>::Facet;
-  static constexpr std::uint32_t none = ~0U;
+  using Facet = typename FacetMesh<S>::Facet;  ///< the D corners of a facet, as vertices
+  static constexpr std::uint32_t none = ~0U;   ///< the number of no ridge
 
   /// A facet with what collision tests need of it. All facets of a face have the same plane.
   struct Side {
@@ -58,12 +58,12 @@ class MeshWall {
     /// For each ridge (number k lies opposite corner k): unit vector in the facet, away from the ridge
     /// to the inside, and its product with the points of the ridge [m].
     std::array<Vector, std::size_t(S::dim)> inward;
-    std::array<Scalar, std::size_t(S::dim)> inward_offset;
-    std::array<std::uint32_t, std::size_t(S::dim)> ridge;  ///< number of a convex ridge, or `none`
+    std::array<Scalar, std::size_t(S::dim)> inward_offset;  ///< see inward
+    std::array<std::uint32_t, std::size_t(S::dim)> ridge;   ///< number of a convex ridge, or `none`
   };
   /// A convex ridge.
   struct ConvexRidge {
-    std::array<std::uint32_t, std::size_t(S::dim - 1)> vertices;
+    std::array<std::uint32_t, std::size_t(S::dim - 1)> vertices;  ///< its ends; in the plane one
     /// Directions d of contact normals at the ridge, towards the grain, satisfy d . beyond >= 0 for
     /// both: unit vectors in the planes of the two facets, away from the facets; at a rim, the second
     /// is the normal of the facet.
@@ -96,7 +96,7 @@ class MeshWall {
   const Facet& facet(std::size_t k) const { return facets_[k]; }           ///< corners of side(k)
   const Vector& vertex(std::size_t v) const { return mesh_.vertices[v]; }  ///< [m]
   std::size_t ridge_count() const { return ridges_.size(); }               ///< of convex ridges
-  const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }
+  const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }     ///< r < ridge_count()
   /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
   bool is_tip(std::size_t v) const { return is_tip_[v] != 0; }
   /// Whether a direction d is a possible contact normal at a vertex, towards the grain: all facets at

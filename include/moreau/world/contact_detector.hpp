@@ -69,15 +69,15 @@ class ContactDetector {
   void add_grain(BodyId body, const ShapeT& shape);
   /// Removes grains, those of the bodies for which is_removed is not 0; keeps the other pairs.
   void remove_grains(std::span<const unsigned char> is_removed);
-  /// Adds a wall: a plane, a cylinder around the grains, or a mesh. The shape, in body coordinates, is
-  /// copied.
+  /// Adds a plane wall. The shape of a wall, in body coordinates, is copied.
   void add_wall(BodyId body, const HalfSpace<S>& shape) {
     walls_.push_back({body, shape, Placed(shape)});
   }
+  /// Adds a cylinder around the grains.
   void add_wall(BodyId body, const CylinderWall<S>& shape) {
     cylinders_.push_back({body, shape, Placed(shape)});
   }
-  void add_wall(BodyId body, const MeshWall<S>& shape) { meshes_.add(body, shape); }
+  void add_wall(BodyId body, const MeshWall<S>& shape) { meshes_.add(body, shape); }  ///< a mesh
   /// Sets the cell; the next find_pairs() finds all pairs anew. Walls are checked where the last
   /// place_walls() put them.
   /// @throws std::invalid_argument in the name of the function if the cell is too short for the

@@ -66,9 +66,9 @@ concept MeshCollidable = detail::touches_mesh<ShapeT>;
 /// Memory of collisions with mesh walls, used again from one to the next.
 struct MeshScratch {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> facets;  ///< (face, facet)
-  std::vector<std::uint32_t> ridges;
-  std::vector<std::uint32_t> low;                             ///< vertices of the shape
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
+  std::vector<std::uint32_t> ridges;                            ///< convex ridges near the shape
+  std::vector<std::uint32_t> low;                               ///< vertices of the shape
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;    ///< (vertex, facet)
 };
 
 namespace detail {
