@@ -19,7 +19,7 @@ namespace moreau {
 
 /// The order of points along a Z-order curve (Morton, 1966): points that follow one another are
 /// near each other. Add grains to a simulation in this order: neighbours then lie near each other
-/// in memory, and a step of many thousand grains takes less time.
+/// in memory, if grains are added in this order.
 /// @tparam S     the space, e.g. Space<3>
 /// @param points positions, world axes [m]
 /// @returns the indices of the points in this order
