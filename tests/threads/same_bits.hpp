@@ -88,7 +88,7 @@ std::vector<double> press(const Law& law, const Team& team) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1, wide = up == 1 ? 60 : 9, high = up == 1 ? 4 : 3;
-  constexpr double size = 0.02, cell = 0.0205;
+  constexpr double size = 0.02, cell = 0.0205, above = up == 1 ? size / 20 : size / 4;
   Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
   world.set_team(team);
   const BodyId floor = world.add_wall(Vector::Unit(up), Vector::Zero());
@@ -105,7 +105,7 @@ std::vector<double> press(const Law& law, const Team& team) {
             shape, {position, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))}, 2700);
         mass += world.bodies().weight[grain.index()];
       }
-  const BodyId lid = world.add_wall(-Vector::Unit(up), (high * cell + size / 4) * Vector::Unit(up));
+  const BodyId lid = world.add_wall(-Vector::Unit(up), (high * cell + above) * Vector::Unit(up));
   world.set_wall_mass(lid, mass);
   world.set_force(lid, -100 * mass * Vector::Unit(up));
   world.set_gravity(-9.81 * Vector::Unit(up));
