@@ -40,7 +40,10 @@ void append(std::string& text, const std::string& name, const moreau::Polyhedron
   }
   for (std::size_t f = 0; f < part.face_count(); ++f) {
     text += "f";
-    for (const std::uint32_t v : part.face(f)) text += " " + std::to_string(vertices + v + 1);
+    for (const std::uint32_t v : part.face(f)) {
+      text += ' ';
+      text += std::to_string(vertices + v + 1);
+    }
     text += "\n";
   }
   vertices += part.vertex_count();
