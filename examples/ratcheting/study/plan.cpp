@@ -139,7 +139,7 @@ std::vector<Case> paper_plan() {
   // above the active one.
   series(plan, "states", all, 1, &Parameters::fmin, {0, 400});
   series(plan, "states", all, 1, fmax, {300, 60});
-  // A quarter of the step: what the blocked wall creeps is an error of the solver.
+  // A quarter of the step: the numerical drift of the jammed wall is an error of the solver.
   for (const double frequency : {5.0, 20.0, 60.0, 10.0, 2.0})
     for (const char* shape : {"polygon", "disk"})
       plan.add("fine", shape, 1, [&](Parameters& p) {
@@ -197,7 +197,7 @@ std::vector<Case> paper_plan() {
       p.duration = 5;
     });
   plan.add("long", "polygon", 1, [](Parameters& p) { p.duration = 20; });
-  // The laws anew by a tenth of the tolerance: what creep is left is not of the grains.
+  // The laws again at a tenth of the tolerance: how much numerical drift is left.
   const auto tight = [&](const char* shape, double Parameters::*field, Numbers values) {
     for (const double value : values)
       plan.add("tight", shape, 1, [&](Parameters& p) {
@@ -206,7 +206,7 @@ std::vector<Case> paper_plan() {
       });
   };
   for (const char* shape : angular) tight(shape, nu, {5, 10, 20, 60, 2});
-  // In space nothing creeps by much at 5 Hz.
+  // In space the numerical drift is small at 5 Hz.
   tight("polygon", fmax, {2000, 4000, 10000});
   tight("polygon", g, {2.5, 5, 20});
   tight("polygon", wall, {0.1, 1, 2, 4});
@@ -224,7 +224,7 @@ std::vector<Case> paper_plan() {
         p.box_ratio = 0.9;
         p.tolerance = 1e-5;
       });
-  // Does what creeps out against a force that never falls below the thrust creep by the tolerance?
+  // Does the outward drift under a force above the thrust depend on the tolerance?
   for (const char* shape : {"polygon", "disk"})
     plan.add("states", shape, 1, [](Parameters& p) {
       p.fmin = 400;
@@ -234,7 +234,7 @@ std::vector<Case> paper_plan() {
   tight("disk", fmax, {2000, 4000, 10000});
   tight("disk", g, {2.5, 5, 20});
   tight("disk", wall, {0.1, 1, 2, 4});
-  // In space half the step leaves as little creep at 20 Hz as a tenth of the tolerance, for less.
+  // In space half the step leaves as little drift at 20 Hz as a tenth of the tolerance, for less.
   const auto half = [&](double Parameters::*field, Numbers values) {
     for (const double value : values)
       plan.add("half", "polyhedron", 1, [&](Parameters& p) {
