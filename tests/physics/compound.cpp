@@ -68,7 +68,7 @@ TEST_CASE_TEMPLATE("a cube cut in two flies as the cube", Part, Polygon<>, Polyh
   using S = SpaceOf<Part>;
   const Part cube = compounds::box<Part>(S::Vector::Constant(-0.5), S::Vector::Constant(0.5));
   const auto parts =
-      compounds::halves<Part>(cube, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0.05));
+      compounds::halves<Part>(cube, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0.02));
   const Compound<Part> cut{std::span<const Part>(parts)};
   OnFloor<Part> whole(cube, -100, 0.5, 0);
   OnFloor<Compound<Part>> halves(cut, -100, 0.5, 0);
@@ -86,7 +86,7 @@ TEST_CASE_TEMPLATE("a cube cut in two slides as the cube", Part, Polygon<>, Poly
   using S = SpaceOf<Part>;
   const Part cube = compounds::box<Part>(S::Vector::Constant(-0.5), S::Vector::Constant(0.5));
   const auto parts =
-      compounds::halves<Part>(cube, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0.05));
+      compounds::halves<Part>(cube, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0.02));
   const Compound<Part> cut{std::span<const Part>(parts)};
   OnFloor<Part> whole(cube, -0.5, 0.3, 0.1);
   OnFloor<Compound<Part>> halves(cut, -0.5, 0.3, 0.1);

@@ -42,7 +42,7 @@ Part box(const typename moreau::SpaceOf<Part>::Vector& low,
 }
 
 /// The two halves of a convex shape on the sides of a plane through the point, where their points are
-/// in the shape's frame.
+/// in the shape's frame. The plane must not pass through a vertex: to rounding, it may lie on any side.
 template <class Part>
 std::vector<Part> halves(const Part& shape, const typename moreau::SpaceOf<Part>::Vector& normal,
                          const typename moreau::SpaceOf<Part>::Vector& through) {
