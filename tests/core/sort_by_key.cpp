@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "moreau/core/detail/spatial_order.hpp"
+#include "moreau/core/detail/z_curve.hpp"
 #include "moreau/core/space.hpp"
 
 namespace {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -12,14 +11,15 @@
 #include <vector>
 
 #include "moreau/core/components.hpp"
+#include "moreau/core/detail/z_curve.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
 
 /// The order of points along a Z-order curve (Morton, 1966): points that follow one another are
-/// near each other. Add grains to a simulation in this order: neighbours then lie near each other
-/// in memory, if grains are added in this order.
+/// near each other. If grains are added to a simulation in this order, neighbours in space lie near
+/// each other in memory.
 /// @tparam S     the space, e.g. Space<3>
 /// @param points positions, world axes [m]
 /// @returns the indices of the points in this order
@@ -27,7 +27,6 @@ namespace moreau {
 template <class S>
 std::vector<std::size_t> spatial_order(std::span<const typename S::Vector> points) {
   using Vector = typename S::Vector;
-  constexpr int bits = 60 / S::dim;  // of the code along each axis
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (points.empty()) return order;
@@ -38,19 +37,11 @@ std::vector<std::size_t> spatial_order(std::span<const typename S::Vector> point
     low = low.cwiseMin(points[i]);
     high = high.cwiseMax(points[i]);
   }
-  // The same scale along all axes, so that the curve visits cubes.
-  const double extent = std::max(double((high - low).maxCoeff()), 1e-300);
-  const double scale = (std::ldexp(1.0, bits) - 1) / extent;
+  const double edge = std::max(double((high - low).maxCoeff()), 1e-300);
   std::vector<std::uint64_t> codes;
   codes.reserve(points.size());
-  for (const Vector& point : points) {
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < S::dim; ++axis) {
-      const auto cell = static_cast<std::uint64_t>(double(point[axis] - low[axis]) * scale);
-      for (int bit = 0; bit < bits; ++bit) code |= (cell >> bit & 1) << (S::dim * bit + axis);
-    }
-    codes.push_back(code);
-  }
+  for (const Vector& point : points)
+    codes.push_back(detail::z_code<S>(point, low, edge, 60 / S::dim));
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     return codes[i] != codes[j] ? codes[i] < codes[j] : i < j;
   });

@@ -9,7 +9,7 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/detail/prefetch.hpp"
-#include "moreau/core/detail/spatial_order.hpp"
+#include "moreau/core/detail/z_curve.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/detect/broad_phase.hpp"
 

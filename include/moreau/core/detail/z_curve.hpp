@@ -12,6 +12,25 @@
 
 namespace moreau::detail {
 
+/// Where a point lies along the Z curve (Morton, 1966) through a cube, which visits cells near one
+/// another mostly in turn.
+/// @param at    coordinates of the point [m]
+/// @param lower lower corner of the cube [m]
+/// @param edge  length of its edges [m], > 0
+/// @param bits  of the number of a cell along each axis
+template <class S>
+std::uint64_t z_code(const typename S::Vector& at, const typename S::Vector& lower, double edge,
+                     int bits) {
+  const double cells = double((std::uint64_t{1} << bits) - 1);
+  std::uint64_t code = 0;
+  for (int k = 0; k < S::dim; ++k) {
+    const double share = std::clamp(double(at[k] - lower[k]) / edge, 0.0, 1.0);
+    const auto cell = static_cast<std::uint64_t>(share * cells);
+    for (int bit = 0; bit < bits; ++bit) code |= (cell >> bit & 1) << (S::dim * bit + k);
+  }
+  return code;
+}
+
 /// An order of boxes in which neighbours in space mostly follow one another: that of their centres on
 /// the Z curve (Morton order). If boxes are visited in it, the data of a box and its neighbours are
 /// still in the cache from one visit to the next.
@@ -26,9 +45,11 @@ class SpatialOrder {
       all.lower = all.lower.cwiseMin(box.lower);
       all.upper = all.upper.cwiseMax(box.upper);
     }
-    const typename S::Scalar longest = (all.upper - all.lower).maxCoeff();
-    for (std::size_t k = 0; k < boxes.size(); ++k)
-      order_.push_back({key(boxes[k], all.lower, longest), static_cast<std::uint32_t>(k)});
+    const double edge = std::max(double((all.upper - all.lower).maxCoeff()), 1e-300);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      const typename S::Vector centre = (boxes[k].lower + boxes[k].upper) / 2;
+      order_.push_back({z_code<S>(centre, all.lower, edge, 16), static_cast<std::uint32_t>(k)});
+    }
     sort_by_key(order_, scratch_);
   }
   std::size_t size() const { return order_.size(); }
@@ -40,18 +61,6 @@ class SpatialOrder {
     std::uint64_t key;
     std::uint32_t box;
   };
-
-  static std::uint64_t key(const Aabb<S>& box, const typename S::Vector& lower,
-                           typename S::Scalar longest) {
-    constexpr int bits = 16;
-    std::uint64_t key = 0;
-    for (int k = 0; k < S::dim; ++k) {
-      const double at = double((box.lower[k] + box.upper[k]) / 2 - lower[k]) / double(longest);
-      const auto cell = static_cast<std::uint64_t>(std::clamp(at, 0.0, 1.0) * ((1 << bits) - 1));
-      for (int bit = 0; bit < bits; ++bit) key |= (cell >> bit & 1) << (S::dim * bit + k);
-    }
-    return key;
-  }
 
   std::vector<Entry> order_, scratch_;
 };
