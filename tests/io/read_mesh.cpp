@@ -267,8 +267,9 @@ TEST_CASE("the same cube in four formats") {
                                    {"a.stl", cube.stl()},
                                    {"b.STL", cube.binary_stl()},
                                    {"a.ply", cube.ply()}}) {
-    CAPTURE(name);
-    const Mesh mesh = read_mesh(write(folder, name, text), 1e-3);
+    const std::string path = write(folder, name, text);
+    CAPTURE(path);
+    const Mesh mesh = read_mesh(path, 1e-3);
     CHECK(mesh.vertices.size() == 8);
     CHECK(mesh.facets.size() == 12);
     CHECK(!find_solid_fault(mesh));

@@ -25,9 +25,7 @@ struct CacheLineAllocator {
   X* allocate(std::size_t count) {
     return static_cast<X*>(::operator new(count * sizeof(X), line));
   }
-  void deallocate(X* memory, std::size_t count) {
-    ::operator delete(memory, count * sizeof(X), line);
-  }
+  void deallocate(X* memory, std::size_t) { ::operator delete(memory, line); }
   template <class Y>
   bool operator==(const CacheLineAllocator<Y>&) const {
     return true;
