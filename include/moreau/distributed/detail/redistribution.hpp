@@ -152,7 +152,7 @@ void Redistribution<World>::begin() {
   topology_.lent.assign(ranks(), {});
   topology_.walls.clear();
   whole_.remember(world_, processes_);
-  for (const auto* list : {&whole_.walls, &whole_.cylinders})
+  for (const auto* list : {&whole_.walls, &whole_.cylinders, &whole_.meshes})
     for (const BodyId wall : *list) {
       topology_.owner[wall.index()] = RankTopology::everywhere;
       topology_.walls.push_back(wall.value);
@@ -378,6 +378,8 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
     parts.walls()[k] = BodyId(local_index(whole_.walls[k].value));
   for (std::size_t k = 0; k < whole_.cylinders.size(); ++k)
     parts.cylinders()[k].body = BodyId(local_index(whole_.cylinders[k].value));
+  for (std::size_t k = 0; k < whole_.meshes.size(); ++k)
+    parts.meshes()[k].body = BodyId(local_index(whole_.meshes[k].value));
   parts.bodies() = std::move(bodies);
 }
 

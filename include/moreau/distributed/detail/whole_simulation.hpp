@@ -32,7 +32,7 @@ class WholeSimulation {
  public:
   using S = typename World::S;
 
-  std::vector<BodyId> walls, cylinders;  ///< in the order in which they were added
+  std::vector<BodyId> walls, cylinders, meshes;  ///< in the order in which they were added
 
   /// Notes what gather() needs.
   /// @param world on rank 0 the whole simulation, on the others its walls
@@ -40,6 +40,7 @@ class WholeSimulation {
     Parts parts(world);
     for (const BodyId wall : parts.walls()) walls.push_back(wall);
     for (const auto& cylinder : parts.cylinders()) cylinders.push_back(cylinder.body);
+    for (const auto& mesh : parts.meshes()) meshes.push_back(mesh.body);
     if (processes.rank() != 0) return;
     shapes_ = parts.shapes();
     Bodies<S>& bodies = parts.bodies();
@@ -103,6 +104,7 @@ void WholeSimulation<World>::set_bodies(Parts& whole, BodyList<S>& list, std::si
   whole.bodies() = std::move(bodies);
   std::copy(walls.begin(), walls.end(), whole.walls().begin());
   for (std::size_t k = 0; k < cylinders.size(); ++k) whole.cylinders()[k].body = cylinders[k];
+  for (std::size_t k = 0; k < meshes.size(); ++k) whole.meshes()[k].body = meshes[k];
 }
 
 template <class World>

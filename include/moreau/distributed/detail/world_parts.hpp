@@ -53,7 +53,8 @@ struct WorldParts {
   auto& grains() { return std::get<1>(of(assembly())); }
   auto& walls() { return std::get<2>(of(assembly())); }
   auto& cylinders() { return std::get<3>(of(assembly())); }
-  auto& bodies() { return std::get<4>(of(assembly())); }
+  auto& meshes() { return std::get<4>(of(assembly())); }
+  auto& bodies() { return std::get<5>(of(assembly())); }
 
   /// The energies of the springs, one per contact.
   auto& spring_energies() { return std::get<1>(of(springs())); }
