@@ -47,7 +47,7 @@ inline CarriedGrains carried_grains(const std::vector<double>& t, const std::vec
 /// equals the weight of the grains: the force is then still above the force of the grains on the
 /// moving wall, so motion before this time is numerical drift. SI units.
 struct ActivePhase {
-  double creep = 0;       ///< numerical drift: x at this time - x_j
+  double drift = 0;       ///< numerical drift of the jammed wall: x at this time - x_j
   double dx = 0;          ///< opening displacement: largest x later - x at this time
   double thrust = 0;      ///< mean f_g while the wall moves out at more than a fifth of its largest
                           ///< outward speed; nan if it does not move out
@@ -79,7 +79,7 @@ inline ActivePhase active_phase(const std::vector<double>& t, const std::vector<
   for (std::size_t k = first; k <= last; ++k)
     if (x[k] > x[peak]) peak = k;
   ActivePhase phase;
-  phase.creep = x[first] - x[jam];
+  phase.drift = x[first] - x[jam];
   phase.dx = x[peak] - x[first];
   phase.peak = t[peak];
   for (std::size_t k = first; k <= peak; ++k) phase.v_out = std::max(phase.v_out, v[k]);

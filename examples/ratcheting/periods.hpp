@@ -28,7 +28,7 @@ struct Period {
   ActivePhase active;  ///< from its onset to its peak
 
   double delay() const { return active.peak - force_minimum; }             ///< delta t_r [s]
-  double x_peak() const { return jam_before + active.creep + active.dx; }  ///< largest x [m]
+  double x_peak() const { return jam_before + active.drift + active.dx; }  ///< largest x [m]
 };
 
 /// The complete periods from the first force maximum on. The extension before it belongs to the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The solution of several processes solves the contact problem of one.
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <type_traits>
@@ -31,6 +32,7 @@ void check_steps(std::size_t count, double tolerance, int steps) {
     const std::optional<World> after = packing.gather();
     if (!after) continue;
     const SolveReport measured = measured_on_one_rank(*before, *after);
+    if (report.solve.converged) CHECK(measured.residual <= tolerance);
     CHECK(measured.residual == doctest::Approx(report.solve.residual).epsilon(1e-3));
     CHECK(report.points == after->contacts().size());
     Vector change = Vector::Zero();
@@ -42,9 +44,21 @@ void check_steps(std::size_t count, double tolerance, int steps) {
     }
     for (const auto& impulse : after->contacts().impulses) all += impulse.norm();
     CHECK((change - from_walls).norm() <= 1e-10 * all);
+    // One of the checked steps of rigid polygons to 1e-6 is solved by one process and not by two.
+    if (before->step(step).solve.converged) WARN(report.solve.converged);
   }
   // The scene is a packing by now.
   CHECK(packing.step(step).pairs > count);
+}
+
+/// Rows of balls that overlap by a hundredth of their size.
+Balls overlapping_rows() {
+  Balls rows = empty_world<Balls>();
+  rows.set_correction({});
+  const ShapeId shape = rows.add_shape(regular_shape<Ball<>>(size));
+  for (int k = 0; k < 60; ++k)
+    rows.add_grain(shape, Pose<Space<3>>({0.99 * size * (k % 20), 2 * size * (k / 20), 0}), 2700);
+  return rows;
 }
 
 }  // namespace
@@ -58,12 +72,7 @@ TEST_CASE("The residual on one rank is below the tolerance, and momentum is bala
 }
 
 TEST_CASE("Overlaps across processes are corrected as in one process") {
-  // Rows of balls that overlap by a hundredth of their size.
-  Balls rows = empty_world<Balls>();
-  rows.set_correction({});
-  const ShapeId shape = rows.add_shape(regular_shape<Ball<>>(size));
-  for (int k = 0; k < 60; ++k)
-    rows.add_grain(shape, Pose<Space<3>>({0.99 * size * (k % 20), 2 * size * (k / 20), 0}), 2700);
+  const Balls rows = overlapping_rows();
   Balls alone = rows;
   DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>([&] { return rows; }));
   StepReport report, reference;
@@ -73,9 +82,6 @@ TEST_CASE("Overlaps across processes are corrected as in one process") {
     if (k == 0) CHECK(report.correction.corrected == 57);
     if (k == 0) CHECK(report.correction.corrected == reference.correction.corrected);
     CHECK(reference.max_overlap <= 0.0101 * size);
-    // The grains of a process push outwards before those of the next push back: the overlap between
-    // processes grows for some steps, to 0.0165 of the size with two.
-    CHECK(report.max_overlap <= 0.02 * size);
   }
   // The slop of the correction is left, and about as much is left in one process.
   CHECK(report.max_overlap <= 4e-4 * size);
@@ -86,4 +92,13 @@ TEST_CASE("Overlaps across processes are corrected as in one process") {
   for (const BodyId grain : whole->grains())
     center += (whole->pose(grain).position - rows.pose(grain).position) / 60;
   CHECK(center.norm() <= 1e-12);
+}
+
+// Known miss: the balls of a process push outwards before those of the next push back, so that the
+// overlap between the processes grows for some steps, to 0.018 of the size with two.
+TEST_CASE("Overlaps across processes only shrink" * doctest::should_fail()) {
+  DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>(overlapping_rows));
+  double largest = 0;
+  for (int k = 0; k < 200; ++k) largest = std::max(largest, packing.step(step).max_overlap);
+  CHECK(largest <= 0.0101 * size);
 }

@@ -71,7 +71,7 @@ TEST_CASE(
     f_g.push_back(k <= 100 ? 50 : k <= 200 ? 7 : 90);
   }
   const ActivePhase phase = active_phase(t, x, v, f_g, 0, 1, 3);
-  CHECK(phase.creep == doctest::Approx(0.2));
+  CHECK(phase.drift == doctest::Approx(0.2));
   CHECK(phase.dx == doctest::Approx(1));
   CHECK(phase.thrust == doctest::Approx(7));
 }

@@ -131,7 +131,7 @@ void summarize_wall(Result& r) {
   r.delay = mean(periods, [](const Period& p) { return p.delay(); });
   r.net_contraction = mean(periods, [](const Period& p) { return p.jam_before - p.jam_after; });
   r.dx_active = mean(periods, [](const Period& p) { return p.active.dx; });
-  r.creep = mean(periods, [](const Period& p) { return p.active.creep; });
+  r.drift = mean(periods, [](const Period& p) { return p.active.drift; });
   r.thrust = mean(periods, [](const Period& p) { return p.active.thrust; });
   const auto carried = [&](double ratcheting::CarriedGrains::*field) {
     return mean(periods, [=](const Period& p) { return p.active.carried.*field; });

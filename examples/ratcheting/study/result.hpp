@@ -39,7 +39,7 @@ struct Result {
   double dx_max, dx_spread;                 ///< mean, standard deviation over periods [m]
   double v_max;                             ///< mean of the largest inward speeds [m/s]
   double delay;                             ///< delta t_r [s]
-  double dx_active, creep, thrust;          ///< see ActivePhase; thrust: f_a [N]
+  double dx_active, drift, thrust;          ///< see ActivePhase; thrust: f_a [N]
   double steady_thrust, carried_share;      ///< see CarriedGrains; of the weight, of the mass [-]
   double explained;                         ///< [-]
   /// Mean share of a period in which the wall is at rest, |v| below a hundredth of its maximum [-].

@@ -85,7 +85,7 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
                                                                    : "circumradius")
          << p.lid_force << p.step << p.tolerance << double(p.correction) << p.duration << r.mass
          << r.wall_mass << r.length << r.height << double(r.facts.settled)
-         << double(r.periods.size()) << r.dx_max << r.dx_spread << r.dx_active << r.creep << r.v_max
+         << double(r.periods.size()) << r.dx_max << r.dx_spread << r.dx_active << r.drift << r.v_max
          << r.delay << r.thrust / r.weight << r.net_contraction << double(r.contracting)
          << r.rho_initial << r.rho_0 << r.rho_final << r.box_initial << r.box_final << r.rate
          << r.compaction_per_period << r.constant

@@ -127,9 +127,9 @@ class RollingDelassus {
     return body.grain || !body.angular.isZero(0);
   }
   static Vector joined(const typename S::Vector& point, const typename S::Angular& spin) {
-    Vector u;  // by component: Eigen's comma initializer makes g++ 12 warn here, of nothing
-    for (int k = 0; k < S::dim; ++k) u[k] = point[k];
-    for (int k = 0; k < S::angular_dim; ++k) u[S::dim + k] = spin[k];
+    Vector u;
+    linear<S>(u) = point;
+    angular<S>(u) = spin;
     return u;
   }
   typename S::Angular spin_of(std::size_t body) const {

@@ -146,7 +146,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   std::size_t grain_count() {
     return std::size_t(processes_.sum(double(redistribution_.own_grains())));
   }
-  std::span<const BodyId> walls() const { return redistribution_.wall_ids(); }  ///< half-spaces
+  std::span<const BodyId> walls() const { return redistribution_.half_spaces(); }  ///< half-spaces
 
   // The functions of BodyControl and BodyAccess for walls. They throw std::invalid_argument as the
   // functions of Simulation do.

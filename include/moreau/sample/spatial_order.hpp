@@ -37,11 +37,11 @@ std::vector<std::size_t> spatial_order(std::span<const typename S::Vector> point
     low = low.cwiseMin(points[i]);
     high = high.cwiseMax(points[i]);
   }
-  const double edge = std::max(double((high - low).maxCoeff()), 1e-300);
+  const double edge = double((high - low).maxCoeff());
   std::vector<std::uint64_t> codes;
   codes.reserve(points.size());
   for (const Vector& point : points)
-    codes.push_back(detail::z_code<S>(point, low, edge, 60 / S::dim));
+    codes.push_back(detail::z_code<S, 60 / S::dim>(point, low, edge));
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     return codes[i] != codes[j] ? codes[i] < codes[j] : i < j;
   });

@@ -14,14 +14,14 @@ namespace moreau::detail {
 
 /// Where a point lies along the Z curve (Morton, 1966) through a cube, which visits cells near one
 /// another mostly in turn.
+/// @tparam bits of the number of a cell along each axis
 /// @param at    coordinates of the point [m]
 /// @param lower lower corner of the cube [m]
-/// @param edge  length of its edges [m], > 0
-/// @param bits  of the number of a cell along each axis
-template <class S>
-std::uint64_t z_code(const typename S::Vector& at, const typename S::Vector& lower, double edge,
-                     int bits) {
-  const double cells = double((std::uint64_t{1} << bits) - 1);
+/// @param edge  length of the edges of the cube [m], >= 0
+template <class S, int bits>
+std::uint64_t z_code(const typename S::Vector& at, const typename S::Vector& lower, double edge) {
+  constexpr double cells = double((std::uint64_t{1} << bits) - 1);
+  edge = std::max(edge, 1e-300);
   std::uint64_t code = 0;
   for (int k = 0; k < S::dim; ++k) {
     const double share = std::clamp(double(at[k] - lower[k]) / edge, 0.0, 1.0);
@@ -45,10 +45,10 @@ class SpatialOrder {
       all.lower = all.lower.cwiseMin(box.lower);
       all.upper = all.upper.cwiseMax(box.upper);
     }
-    const double edge = std::max(double((all.upper - all.lower).maxCoeff()), 1e-300);
+    const double edge = double((all.upper - all.lower).maxCoeff());
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       const typename S::Vector centre = (boxes[k].lower + boxes[k].upper) / 2;
-      order_.push_back({z_code<S>(centre, all.lower, edge, 16), static_cast<std::uint32_t>(k)});
+      order_.push_back({z_code<S, 16>(centre, all.lower, edge), static_cast<std::uint32_t>(k)});
     }
     sort_by_key(order_, scratch_);
   }

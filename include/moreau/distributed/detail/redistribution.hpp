@@ -72,9 +72,12 @@ class Redistribution {
   std::size_t ghost_count() const { return world_.grain_count() - own_.size(); }
   std::size_t count() const { return count_; }
   std::size_t partitions() const { return partitions_; }
-  std::span<const BodyId> wall_ids() const { return whole_.walls; }
+  /// Half-spaces: the first of all walls.
+  std::span<const BodyId> half_spaces() const {
+    return std::span(whole_.walls).first(world_.walls().size());
+  }
   BodyId id(std::size_t local) const { return ids_[local]; }
-  /// The body here of a wall or cylinder of the whole simulation.
+  /// The body here of a wall of the whole simulation.
   /// @throws std::invalid_argument for another body
   BodyId local_wall(BodyId wall) const {
     for (const std::uint32_t i : topology_.walls)
@@ -152,11 +155,10 @@ void Redistribution<World>::begin() {
   topology_.lent.assign(ranks(), {});
   topology_.walls.clear();
   whole_.remember(world_, processes_);
-  for (const auto* list : {&whole_.walls, &whole_.cylinders, &whole_.meshes})
-    for (const BodyId wall : *list) {
-      topology_.owner[wall.index()] = RankTopology::everywhere;
-      topology_.walls.push_back(wall.value);
-    }
+  for (const BodyId wall : whole_.walls) {
+    topology_.owner[wall.index()] = RankTopology::everywhere;
+    topology_.walls.push_back(wall.value);
+  }
   std::sort(topology_.walls.begin(), topology_.walls.end());
   for (const auto& grain : parts.grains()) own_.push_back(grain.body.value);
   for (std::uint32_t k = 0; k < parts.shapes().size(); ++k) shape_ids_.push_back(k);
@@ -374,12 +376,9 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
     topology_.lent[rank].clear();
     for (const BodyId id : lent[rank]) topology_.lent[rank].push_back(local_index(id.value));
   }
-  for (std::size_t k = 0; k < whole_.walls.size(); ++k)
-    parts.walls()[k] = BodyId(local_index(whole_.walls[k].value));
-  for (std::size_t k = 0; k < whole_.cylinders.size(); ++k)
-    parts.cylinders()[k].body = BodyId(local_index(whole_.cylinders[k].value));
-  for (std::size_t k = 0; k < whole_.meshes.size(); ++k)
-    parts.meshes()[k].body = BodyId(local_index(whole_.meshes[k].value));
+  std::size_t next = 0;
+  parts.for_each_wall(
+      [&](BodyId& wall) { wall = BodyId(local_index(whole_.walls[next++].value)); });
   parts.bodies() = std::move(bodies);
 }
 

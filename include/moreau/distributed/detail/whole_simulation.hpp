@@ -32,15 +32,13 @@ class WholeSimulation {
  public:
   using S = typename World::S;
 
-  std::vector<BodyId> walls, cylinders, meshes;  ///< in the order in which they were added
+  std::vector<BodyId> walls;  ///< in the order of WorldParts::for_each_wall()
 
   /// Notes what gather() needs.
   /// @param world on rank 0 the whole simulation, on the others its walls
   void remember(World& world, const Communicator& processes) {
     Parts parts(world);
-    for (const BodyId wall : parts.walls()) walls.push_back(wall);
-    for (const auto& cylinder : parts.cylinders()) cylinders.push_back(cylinder.body);
-    for (const auto& mesh : parts.meshes()) meshes.push_back(mesh.body);
+    parts.for_each_wall([&](const BodyId& wall) { walls.push_back(wall); });
     if (processes.rank() != 0) return;
     shapes_ = parts.shapes();
     Bodies<S>& bodies = parts.bodies();
@@ -102,9 +100,8 @@ void WholeSimulation<World>::set_bodies(Parts& whole, BodyList<S>& list, std::si
     if (k < grains) whole.grains().push_back({list.bodies.id[k], list.shapes[k]});
   }
   whole.bodies() = std::move(bodies);
-  std::copy(walls.begin(), walls.end(), whole.walls().begin());
-  for (std::size_t k = 0; k < cylinders.size(); ++k) whole.cylinders()[k].body = cylinders[k];
-  for (std::size_t k = 0; k < meshes.size(); ++k) whole.meshes()[k].body = meshes[k];
+  std::size_t next = 0;
+  whole.for_each_wall([&](BodyId& wall) { wall = walls[next++]; });
 }
 
 template <class World>

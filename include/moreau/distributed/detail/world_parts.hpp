@@ -55,6 +55,13 @@ struct WorldParts {
   auto& cylinders() { return std::get<3>(of(assembly())); }
   auto& meshes() { return std::get<4>(of(assembly())); }
   auto& bodies() { return std::get<5>(of(assembly())); }
+  /// Calls visit(body) with a reference to the body of every wall: of half-spaces, then of cylinders,
+  /// then of meshes, each in the order in which they were added.
+  void for_each_wall(const auto& visit) {
+    for (BodyId& wall : walls()) visit(wall);
+    for (auto& cylinder : cylinders()) visit(cylinder.body);
+    for (auto& mesh : meshes()) visit(mesh.body);
+  }
 
   /// The energies of the springs, one per contact.
   auto& spring_energies() { return std::get<1>(of(springs())); }
