@@ -111,7 +111,8 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--set", o.selection.sets,
                  "run only the cases of these series, e.g. frequencies, fmax");
   app.add_option("--shape", o.selection.shapes, "run only the cases of these shapes")
-      ->check(CLI::IsMember({"polyhedron", "polygon", "sphere", "disk"}));
+      ->check(CLI::IsMember(
+          {"polyhedron", "polygon", "sphere", "disk", "compound", "compound_polygon"}));
   app.add_option("--seed", o.selection.seeds, "run only the cases of these samples");
   app.add_option("--case", o.selection.numbers,
                  "run only the cases of these numbers and write no report, for job arrays")

@@ -362,6 +362,10 @@ std::vector<Case> settled_plan() {
   for (const double flatness : {0.7, 0.5, 0.4}) form([&](Parameters& p) { p.flatness = flatness; });
   for (const double friction : {0.1, 0.2, 0.7, 1.0})
     form([&](Parameters& p) { p.friction = friction; });
+  // The same with concave grains of four parts, in both dimensions; `course` has the convex ones.
+  for (const std::size_t seed : {1u, 2u, 3u})
+    for (const char* shape : {"compound_polygon", "compound"})
+      plan.add("concave", shape, seed, with(&Parameters::duration, 1));
   // 5. A thousand periods.
   for (const char* shape : {"polygon", "polyhedron"})
     add_jammed(plan, "thousand", shape, 1, 1000, [](Parameters& p) {
@@ -485,10 +489,12 @@ double seconds_of(const Parameters& p) {
   // Milliseconds of a step of 1200 grains, measured on one core: compliant contacts with k = 1e8 N/m
   // to 1e-5, rigid contacts by QM/16 to 1e-4.
   const bool compliant = p.method == "compliant";
-  const double step = p.shape == "polyhedron" ? (compliant ? 13.0 : 23.0)
-                      : p.shape == "sphere"   ? (compliant ? 5.0 : 14.0)
-                      : p.shape == "polygon"  ? (compliant ? 2.4 : 3.3)
-                                              : (compliant ? 1.5 : 2.2);
+  const double step = p.shape == "polyhedron"         ? (compliant ? 13.0 : 23.0)
+                      : p.shape == "compound"         ? 20.0
+                      : p.shape == "compound_polygon" ? 5.0
+                      : p.shape == "sphere"           ? (compliant ? 5.0 : 14.0)
+                      : p.shape == "polygon"          ? (compliant ? 2.4 : 3.3)
+                                                      : (compliant ? 1.5 : 2.2);
   return 1e-3 * step * double(p.grains) / 1200 * (p.duration / p.step);
 }
 

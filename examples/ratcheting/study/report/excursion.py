@@ -32,15 +32,22 @@ def displacement(thrust, mass, fmax, frequency, steps=2000):
 
 class Prediction:
     """Excursions over all loads from the thrust and the carried mass of one run of each sample: 5 Hz,
-    6 kN, m_w = m/2, 9.81 m/s²."""
+    6 kN, m_w = m/2, 9.81 m/s².
 
-    def __init__(self, runs, shape, **wanted):
+    thrusts_of: thrust over weight of each sample from elsewhere, as from the static test; samples that
+    it lacks are left out."""
+
+    def __init__(self, runs, shape, thrusts_of=None, **wanted):
         self.ratios = {"frequency": [], "fmax": [], "gravity": [], "wall_mass_ratio": []}
         self.thrusts, self.shares = [], []
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
                 continue
             thrust, share = base["steady_thrust"], base["carried_share"]
+            if thrusts_of is not None:
+                thrust = thrusts_of.get(base["parameters"]["seed"], math.nan)
+                if not math.isfinite(thrust):
+                    continue
             self.thrusts.append(thrust)
             self.shares.append(share)
             seed = base["parameters"]["seed"]
@@ -63,13 +70,18 @@ class Prediction:
 def static_thrust(run):
     """Mean force of the grains on a wall that moves slowly outward, over 1 mm from where it has fallen to
     half of their weight, over the weight."""
-    table, weight = run["tables"]["wall"], run["weight"]
+    table, weight = run["tables"].get("wall", {"x": [], "f_g": []}), run["weight"]
     rows = list(zip(table["x"], table["f_g"]))
     start = next((k for k, (_, f_g) in enumerate(rows) if f_g < weight / 2), None)
     if start is None:
         return math.nan
     forces = [f_g for x, f_g in rows[start:] if x - rows[start][0] <= 1e-3]
     return sum(forces) / len(forces) / weight
+
+
+def static_thrusts(runs, shape):
+    """Thrust over weight by sample."""
+    return {r["parameters"]["seed"]: static_thrust(r) for r in static_runs(runs, shape)}
 
 
 def static_runs(runs, shape):
