@@ -17,10 +17,12 @@ instructions=-march=native
 if g++ -march=x86-64-v3 -E - </dev/null >/dev/null 2>&1 && grep -qw avx2 /proc/cpuinfo; then
   instructions=-march=x86-64-v3
 fi
+shapes="polyhedron;polygon;sphere;disk"
+case " $* " in *settled*) shapes+=";compound;compound_polygon" ;; esac  # its concave grains
 cmake -S "$top" -B "$top/build/study" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=OFF \
   "-DCMAKE_CXX_FLAGS=$instructions" \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_BENCHES=OFF \
-  "-DRATCHETING_SHAPES=polyhedron;polygon;sphere;disk" \
+  "-DRATCHETING_SHAPES=$shapes" \
   "-DRATCHETING_METHODS=contact_dynamics;compliant" >/dev/null
 echo "building ${targets[*]} in $top/build/study"
 cmake --build "$top/build/study" --target "${targets[@]}"
