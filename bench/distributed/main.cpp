@@ -3,8 +3,10 @@
 // exchange. A packing of N polyhedra under a lid whose force changes by a few percent per step. The
 // packing is prepared by one process.
 //
-//   mpirun -n 2 bench_distributed STEPS TOLERANCE N SIDE...    SIDE x SIDE packings of N grains each
-//   mpirun -n 2 bench_distributed 20 1e-4 1200 1 2 4
+//   mpirun -n 2 bench_distributed LAW STEPS TOLERANCE N SIDE...    SIDE x SIDE packings of N grains each
+//   mpirun -n 2 bench_distributed rigid 20 1e-4 1200 1 2 4
+//
+// LAW is rigid, or compliant with k = 1e8 N/m.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,12 +14,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "moreau/core/thread_team.hpp"
 #include "moreau/distributed/distributed_simulation.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/law/compliant.hpp"
 #include "moreau/moreau.hpp"
 
 #include "packing.hpp"
@@ -25,10 +29,20 @@
 namespace {
 
 using namespace moreau;
-using Law = SignoriniCoulomb<>;
 using Shape = Polyhedron<>;
-using Packing = bench::Packing<Shape, Law, ColouredGaussSeidel>;
-using World = Packing::World;
+template <class Law>
+using WorldOf = typename bench::Packing<Shape, Law, ColouredGaussSeidel>::World;
+
+template <class Law>
+Law law();
+template <>
+SignoriniCoulomb<> law() {
+  return SignoriniCoulomb<>(0.5);
+}
+template <>
+Compliant<> law() {
+  return Compliant<>(SignoriniCoulomb<>(0.5), 1e8);
+}
 
 struct Result {
   double sweeps = 0, milliseconds = 0, worst = 0;  // mean per step, mean per step, largest residual
@@ -58,14 +72,17 @@ void print(const char* who, int size, std::size_t grains, const Result& result) 
 }
 
 /// A packing of `count` grains at rest under a lid; read from a file if there is one.
-World packed(std::size_t count) {
-  const Materials<Law> material(1, Law(0.5));
-  const std::string file = "packing_" + std::to_string(count) + ".snapshot";
-  World world(0.025, material, ColouredGaussSeidel());
+template <class Law>
+WorldOf<Law> packed(std::size_t count) {
+  constexpr bool rigid = std::is_same_v<Law, SignoriniCoulomb<>>;
+  const std::string file =
+      (rigid ? "packing_" : "compliant_packing_") + std::to_string(count) + ".snapshot";
+  WorldOf<Law> world(0.025, Materials<Law>(1, law<Law>()), ColouredGaussSeidel());
   if (std::filesystem::exists(file)) {
     read_snapshot(file, world);
   } else {
-    Packing packing(count, Law(0.5), ColouredGaussSeidel());
+    bench::Packing<Shape, Law, ColouredGaussSeidel> packing(count, law<Law>(),
+                                                            ColouredGaussSeidel());
     packing.compress();
     world = packing.world;
     write_snapshot(file, world);
@@ -74,6 +91,7 @@ World packed(std::size_t count) {
 }
 
 /// side x side copies of a packing beside each other under one lid, after some steps.
+template <class World>
 World tiled(const World& tile, int side) {
   if (side == 1) return tile;
   World world(0.025, tile.materials(), ColouredGaussSeidel());
@@ -100,15 +118,17 @@ World tiled(const World& tile, int side) {
   return world;
 }
 
+template <class Law>
 void measure(std::size_t count, int side, int steps, double tolerance) {
+  using World = WorldOf<Law>;
   Communicator all;
   ColouredOptions options;
   options.tolerance = tolerance;
   const ColouredGaussSeidel solver(options);
-  World world(0.025, Materials<Law>(1, Law(0.5)), solver);
+  World world(0.025, Materials<Law>(1, law<Law>()), solver);
   double force = 0;
   if (all.rank() == 0) {
-    world = tiled(packed(count), side);
+    world = tiled(packed<Law>(count), side);
     world.set_solver(solver);
     force = -world.bodies().force[world.walls().back().index()][2];
     World alone = world;
@@ -151,11 +171,14 @@ void measure(std::size_t count, int side, int steps, double tolerance) {
 
 int main(int argc, char** argv) {
   const moreau::MpiSession mpi(argc, argv);
-  if (argc < 5) {
-    std::fprintf(stderr, "usage: bench_distributed STEPS TOLERANCE N SIDE...\n");
+  const std::string law = argc > 1 ? argv[1] : "";
+  if (argc < 6 || (law != "rigid" && law != "compliant")) {
+    std::fprintf(stderr, "usage: bench_distributed rigid|compliant STEPS TOLERANCE N SIDE...\n");
     return 2;
   }
-  for (int k = 4; k < argc; ++k)
-    measure(std::strtoul(argv[3], nullptr, 10), std::atoi(argv[k]), std::atoi(argv[1]),
-            std::atof(argv[2]));
+  for (int k = 5; k < argc; ++k)
+    (law == "rigid" ? measure<moreau::SignoriniCoulomb<>>
+                    : measure<moreau::Compliant<>>)(std::strtoul(argv[4], nullptr, 10),
+                                                    std::atoi(argv[k]), std::atoi(argv[2]),
+                                                    std::atof(argv[3]));
 }

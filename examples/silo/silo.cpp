@@ -141,8 +141,12 @@ void run(const Options& options, const Series& series, Tables& tables) {
       ++flowing, rate += sample.rate;
       outlets.push_back(outlet), reduced.push_back(std::pow(flux, 1 / power));
     }
-    std::cout << series.name << ", outlet " << outlet << " m: " << rate / double(flowing)
-              << (dim == 2 ? " kg/(m s)" : " kg/s") << ", mean of " << flowing << std::endl;
+    std::cout << series.name << ", outlet " << outlet << " m: ";
+    if (flowing > 0)
+      std::cout << rate / double(flowing) << (dim == 2 ? " kg/(m s)" : " kg/s") << ", mean of "
+                << flowing << std::endl;
+    else
+      std::cout << "arches stopped the flow of all samples" << std::endl;
   }
   std::cout << series.name << ": " << unsolved << " of " << steps << " steps not solved, "
             << stopped << " samples stopped flowing";
@@ -172,7 +176,7 @@ int main(int argc, char** argv) try {
                   {"reduced_rate", "m"}}},
                 {options.output / "beverloo.csv",
                  {"dimension", "parts", "grains", "samples", "C", "C_error", "k", "k_error"}}};
-  const std::array<double, 3> in_plane{0.10, 0.13, 0.16}, in_space{0.08, 0.10, 0.12};  // [m]
+  const std::array<double, 3> in_plane{0.13, 0.16, 0.19}, in_space{0.08, 0.10, 0.12};  // [m]
   for (const std::string& shape : options.shapes) {
     const int parts = shape.starts_with("concave") ? 4 : 1;
     const Series plane{shape, parts, options.plane, 0.2, in_plane};

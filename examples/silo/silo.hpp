@@ -28,7 +28,8 @@ using Law = moreau::SignoriniCoulomb<double>;
 constexpr double size = 0.02, density = 2700, gravity = 9.81;  // of a grain [m], [kg/m^3], [m/s^2]
 constexpr double friction = 0.4;                               // with grains and with walls [-]
 constexpr double h = 5e-4;                                     // [s]
-constexpr double longest = 3;                                  // filling, discharge [s]
+constexpr double longest = 3;                                  // filling [s]
+constexpr double still = 1;  // an arch has formed if no grain leaves for so long [s]
 
 /// A corner of the profile that is turned about the vertical axis.
 struct ProfilePoint {
@@ -111,11 +112,10 @@ class Silo {
     away.position[up] = -10;
     simulation_.set_pose(plate_, away);
     auto sink = moreau::Sink<S>::behind(S::Vector::Unit(up), -0.1 * S::Vector::Unit(up));
-    double begin = 0, before = 0;
-    const double start = simulation_.time();
-    while (simulation_.time() - start < longest) {
+    double begin = 0, before = 0, last = simulation_.time();  // last: a grain left
+    while (simulation_.time() - last < still) {
       step();
-      sink.apply(simulation_);
+      if (sink.apply(simulation_).count > 0) last = simulation_.time();
       const double out = sink.total().mass;
       if (begin == 0 && out > 0.2 * mass) {
         begin = simulation_.time(), before = out;

@@ -27,9 +27,10 @@ bool has_parameters(const Json& had, const Case& c) {
     if (key == "from") continue;
     if (value != (had.contains(key) ? had[key] : usual[key])) return false;
   }
-  // A run tells the checkpoint's path, a case the name of the case that made it.
+  // A run tells the checkpoint's path, a case and its line the name of the case that made it.
   const fs::path from = had.value("from", "");
-  return c.parameters.from == from.parent_path().filename().string();
+  return c.parameters.from ==
+         (from.has_parent_path() ? from.parent_path().filename() : from).string();
 }
 
 /// Says once of each line and each folder why it does not count.

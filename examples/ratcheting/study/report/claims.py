@@ -5,8 +5,8 @@ import math
 
 import excursion
 from figures import first_second, rise, speeds
-from runs import (ANY, COMPLIANT, SHAPES, constant, exponent, over_samples, power, select, series,
-                  strain)
+from runs import (ANY, COMPLIANT, SHAPES, constant, exponent, judged, over_samples, power, select,
+                  series, strain)
 
 
 def base(runs, shape, **wanted):
@@ -50,7 +50,8 @@ def predicted_exponent(runs, shape, parameter, **wanted):
 
 
 def loaded(runs, shape, parameter, **wanted):
-    return [r for r in series(runs, shape, parameter, **wanted) if r["parameters"]["fmax"] >= 1000]
+    return [r for r in series(runs, shape, parameter, **wanted)
+            if r["parameters"]["fmax"] >= 1000 and judged(r)]
 
 
 def wall_scatter(runs, shape):
@@ -73,6 +74,8 @@ def line_scatter(runs, shape, **wanted):
         for run in loaded(runs, shape, parameter, **(wanted | fixed)):
             values[run["name"]] = constant(run)
     logs = [math.log(v) for v in values.values() if v > 0]
+    if len(logs) < 2:
+        return math.nan, math.nan, len(logs)
     mean = sum(logs) / len(logs)
     return math.exp(mean), math.sqrt(sum((v - mean) ** 2 for v in logs) / (len(logs) - 1)), len(logs)
 

@@ -8,7 +8,8 @@ The periods of a run are taken together in groups 1, 2, 3-4, 5-8, ... The errors
 jackknife over the runs, because the groups of a run are not independent."""
 import math
 
-from runs import ANY, CASE, COMPLIANT, SHAPES, least_squares, line, select, strain, unjammed_time
+from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, select, strain,
+                  unjammed_time)
 
 UNIT = 0.01  # [s]
 SET_ASIDE = 3  # the sample whose runs are predicted, not fitted
@@ -27,13 +28,15 @@ def groups(run):
 
 
 def loading_runs(runs, shape, method="contact-dynamics"):
-    """All runs that jam and differ in the load, the box, the wall or the lid."""
+    """All runs that jam and differ in the load, the box, the wall or the lid, without those whose
+    displacement is mostly elastic."""
     wanted = {"frequency": ANY, "fmax": ANY, "gravity": ANY, "wall_mass_ratio": ANY,
               "box_ratio": ANY, "lid_force_weights": ANY, "size_reading": ANY, "size_scale": ANY}
     if method == "compliant":
         wanted = COMPLIANT | wanted
     found = [run for run in select(runs, shape, **wanted)
-             if run["parameters"]["fmax"] >= CASE["fmax"] / 6 and run["parameters"]["duration"] <= 5]
+             if run["parameters"]["fmax"] >= CASE["fmax"] / 6 and run["parameters"]["duration"] <= 5
+             and judged(run)]
     # A long run repeats the first second of a short one.
     keys = {}
     for run in found:

@@ -8,7 +8,7 @@ For F << fmax: dx = 0.228 F^2 / (M fmax nu^2), the paper's equation 4 with
 C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
 import math
 
-from runs import ANY, COMPLIANT, select
+from runs import ANY, COMPLIANT, judged, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
@@ -56,7 +56,7 @@ class Prediction:
                 for run in select(runs, shape, seed=seed, **ranges, **wanted):
                     p = run["parameters"]
                     if run is base or p["fmax"] < 1000 or p["duration"] > 5 or \
-                            p[name] == base["parameters"][name]:
+                            p[name] == base["parameters"][name] or not judged(run):
                         continue
                     predicted = displacement(thrust * run["weight"],
                                              run["wall_mass"] + share * run["mass"], p["fmax"],

@@ -4,8 +4,9 @@ import math
 
 import compaction
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
-from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, over_samples,
-                  power, scaled_load, select, series, shapes_of, strain, thrust_ratio)
+from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, judged,
+                  over_samples, power, scaled_load, select, series, shapes_of, strain, thrust_ratio,
+                  unjammed_time)
 
 RIGID_TEXT = "rigid contacts, QM/16 at 1e-4"
 COMPLIANT_TEXT = "k = 1e8 N/m, residual 1e-5"
@@ -448,6 +449,33 @@ def compaction_law(runs, path):
             f"N = 1200; {RIGID_TEXT}.")
 
 
+def one_state(runs, path):
+    """Strain over t_u, from one jammed state of each sample, with compliant contacts."""
+    panels = []
+    for shape in SHAPES:
+        found = select(runs, shape, frequency=ANY, fmax=ANY, jammed=True, **COMPLIANT)
+        if len({r["parameters"]["frequency"] for r in found}) < 3:
+            continue
+        panel = Panel(TITLE[shape], "t_u  [ms]", "strain of a period, mean of four" if not panels else "",
+                      ["set logscale xy", "set xrange [0.5:300]", "set yrange [5e-5:2e-2]",
+                       "set format y '10^{%L}'", "set key bottom right"])
+        for fmax, color, symbol in ((2000.0, "#2e7d4f", 9), (6000.0, "#1f5fa8", 7), (27000.0, "#b3261e", 5)):
+            for mostly_elastic in (False, True):
+                panel.points([(1e3 * unjammed_time(r), strain(r, 0, 4)) for r in found
+                              if r["parameters"]["fmax"] == fmax and judged(r) != mostly_elastic
+                              and strain(r, 0, 4) > 0],
+                             color, symbol - 1 if mostly_elastic else symbol,
+                             None if mostly_elastic else f"{fmax / 1000:g} kN")
+        panel.function("1e-3 * x / 10", GREY, "∝ t_u", 2)
+        panels.append(panel)
+    if not panels:
+        raise Missing
+    draw(path, panels, 1, len(panels), 1500, 460, "0.065, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return ("Strain of a period, mean over four periods from one jammed state of each sample, over the time t_u during which f "
+            "is below the thrust: 1 to 60 Hz, three forces, up to five samples. Open: the elastic rebound is more than 30 % of the displacement "
+            f"(not judged). N = 1200; {COMPLIANT_TEXT}.")
+
+
 def thrust(runs, path):
     panels = [Panel("thrust", "Δx / d", "F / mg", ["set logscale x", "set format x '10^{%L}'",
                                                    "set yrange [0:0.6]", "set key bottom left"]),
@@ -618,5 +646,6 @@ FIGURES = (
     ("box", "The prefactor and the shape of the box", box),
     ("compaction_rate", "Compaction rate over frequency (paper, fig. 16)", compaction_rate),
     ("compaction_law", "The law of compaction", compaction_law),
+    ("one_state", "Compaction from one jammed state", one_state),
     ("long_course", "Many periods", long_course),
 )

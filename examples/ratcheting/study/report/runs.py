@@ -175,6 +175,14 @@ def constant(run, displacement="dx_active"):
     return run[displacement] / load
 
 
+REBOUND = 0.3  # largest share of the elastic rebound in the displacement of a run that is judged
+
+
+def judged(run):
+    """Whether the displacement of the wall is more than elastic rebound. Rigid contacts: always."""
+    return run["parameters"]["method"] != "compliant" or run["creep"] <= REBOUND * run["dx_max"]
+
+
 def scaled_load(run):
     p = run["parameters"]
     return run["weight"] ** 2 / ((run["mass"] + run["wall_mass"]) * p["fmax"] * p["frequency"] ** 2)

@@ -15,8 +15,8 @@ import drawings
 import excursion
 import plots
 from figures import FIGURES, Missing, first_second
-from runs import (ANY, COMPLIANT, SHAPES, SMALLEST, TITLE, constant, exponent, number, over_samples,
-                  power, read, select, series, strain)
+from runs import (ANY, COMPLIANT, REBOUND, SHAPES, SMALLEST, TITLE, constant, exponent, judged, number,
+                  over_samples, power, read, select, series, strain)
 
 HERE = pathlib.Path(__file__).resolve().parent
 PICTURE = HERE.parents[1] / "ballast.png"
@@ -249,7 +249,8 @@ def exponents(runs):
             for parameter, fixed in (("frequency", {}), ("fmax", {"frequency": 5.0}),
                                      ("gravity", {"frequency": 5.0})):
                 found = [r for r in series(runs, shape, parameter, **(wanted | fixed))
-                         if r["parameters"]["fmax"] >= 1000 and r["parameters"]["frequency"] > 1.5]
+                         if r["parameters"]["fmax"] >= 1000 and r["parameters"]["frequency"] > 1.5
+                         and judged(r)]
                 e = exponent(found, parameter, lambda r, quantity=quantity: r[quantity])
                 samples = max(samples, e.n)
                 cells.append(e.text())
@@ -311,8 +312,8 @@ def settled_section(runs):
     for shape in SHAPES:
         found = [r for r in compaction.loading_runs(runs, shape, "compliant")]
         law, other = laws[shape], aside[shape]
-        if law.fitted:
-            c, scatter, n = ten.line_scatter(runs, shape, **JAMMED)
+        c, scatter, n = ten.line_scatter(runs, shape, **JAMMED)
+        if law.fitted and n > 2:
             rows.append([TITLE[shape], len({r["parameters"]["seed"] for r in found}),
                          f"{c:.3f}, {100 * scatter:.0f} % ({n})", f"{law.run_count}; {law.count}",
                          number(1e3 * law.share, 1e3 * law.share_error), number(law.p, law.errors[1]),
@@ -335,8 +336,10 @@ def settled_section(runs):
         return []
     lines = ["## 6. Compliant contacts, from one jammed state", "",
              "Each run continues one jammed state of its sample for four periods or more, so that the frequency is not mixed with "
-             "the age of the packing. The excursion is without the elastic rebound. The law of compaction is fitted to all these runs "
-             "and to the compliant runs in other boxes; sample 3 is then predicted from the others.", "",
+             "the age of the packing. The excursion is without the elastic rebound. Runs in which the rebound is more than "
+             f"{100 * REBOUND:.0f} % of the displacement are shown in the figure below and not judged: at high frequencies and forces the wall "
+             "mostly moves elastically, and the packing compacts by its load cycles, whatever t_u. The law of compaction is fitted to the judged "
+             "runs and to the compliant runs in other boxes; sample 3 is then predicted from the others.", "",
              *table(["", "samples", "C of all loads, scatter (runs)", "compaction: runs; points", "a [1e-3]", "p", "b",
                      "scatter", "sample 3 predicted: rms (runs)"], rows)]
     if tests:
