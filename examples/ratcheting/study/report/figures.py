@@ -466,7 +466,7 @@ def one_state(runs, path):
                               and strain(r, 0, 4) > 0],
                              color, symbol - 1 if mostly_elastic else symbol,
                              None if mostly_elastic else f"{fmax / 1000:g} kN")
-        panel.function("1e-3 * x / 10", GREY, "∝ t_u", 2)
+        panel.function("6e-4 * x / 10", GREY, "∝ t_u", 2)
         panels.append(panel)
     if not panels:
         raise Missing
@@ -511,15 +511,14 @@ def box_runs(runs, shape):
 
 
 def box(runs, path):
-    panels = [Panel("prefactor", "H / L", "C", ["set logscale xy", "set xrange [0.35:1.8]",
-                                                 "set yrange [0.006:0.12]", "set key bottom right",
-                                                 "set xtics (0.4, 0.5, 0.7, 1, 1.5)"]),
+    axis = ["set logscale x", "set xrange [0.27:1.8]", "set xtics (0.3, 0.42, 0.5, 0.7, 1, 1.5)"]
+    panels = [Panel("prefactor", "H / L", "C", [*axis, "set logscale y", "set yrange [0.005:0.3]",
+                                                 "set key top left"]),
               Panel("thrust in extension", "H / L", "F / mg",
-                    ["set logscale xy", "set xrange [0.35:1.8]", "set yrange [0.08:0.6]",
-                     "set key bottom right", "set xtics (0.4, 0.5, 0.7, 1, 1.5)",
+                    [*axis, "set logscale y", "set yrange [0.08:0.9]", "set key top left",
                      "set ytics (0.1, 0.2, 0.3, 0.5)"]),
               Panel("solid fraction of the box at the start", "H / L", "ρ",
-                    ["set xrange [0.35:1.8]", "set key bottom right"])]
+                    [*axis, "set yrange [0.48:0.56]", "set key bottom right"])]
     values = (constant, thrust_ratio, lambda r: r["rho_box_initial"])
     if not box_runs(runs, "polyhedron"):
         raise Missing
