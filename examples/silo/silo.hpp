@@ -91,13 +91,12 @@ class Silo {
         radius_(radius),
         funnel_(radius - outlet / 2) {
     simulation_.set_gravity(-gravity * S::Vector::Unit(up));
-    const std::vector<ProfilePoint> inside{
-        {radius, funnel_ + 4}, {radius, funnel_}, {outlet / 2, 0}};
+    const double top = add_grains(grains, seed) + size;
+    const std::vector<ProfilePoint> inside{{radius, top}, {radius, funnel_}, {outlet / 2, 0}};
     simulation_.add_mesh_wall(revolved(inside, S{}));
     // From beyond the rim of the outlet almost to the axis.
     const std::vector<ProfilePoint> plate{{0.6 * outlet, -0.002}, {1e-4 * outlet, -0.002}};
     plate_ = simulation_.add_mesh_wall(revolved(plate, S{}));
-    add_grains(grains, seed);
     settle();
   }
 
@@ -108,9 +107,9 @@ class Silo {
     for (const auto grain : simulation_.grains())
       mass += simulation_.bodies().weight[grain.index()];
     result_.bulk_density = bulk_density();
-    moreau::Pose<S> away;
-    away.position[up] = -10;
-    simulation_.set_pose(plate_, away);
+    moreau::Pose<S> lowered;  // below the sink
+    lowered.position[up] = -0.15;
+    simulation_.set_pose(plate_, lowered);
     auto sink = moreau::Sink<S>::behind(S::Vector::Unit(up), -0.1 * S::Vector::Unit(up));
     double begin = 0, before = 0, last = simulation_.time();  // last: a grain left
     while (simulation_.time() - last < still) {
@@ -136,7 +135,9 @@ class Silo {
     wide.margin = 0.08;
     return wide;
   }
-  void add_grains(std::size_t grains, std::uint64_t seed) {
+  /// @returns the height of the highest one [m]
+  double add_grains(std::size_t grains, std::uint64_t seed) {
+    double top = 0;
     std::mt19937_64 random(seed);
     const std::vector<double> radii(grains, size / 2);
     const double side = S::dim == 2 ? 2 * radius_ : std::numbers::sqrt2 * radius_;
@@ -145,7 +146,9 @@ class Silo {
       pose.position[up] += funnel_;
       const Shape shape = moreau::Ballast<Shape>::draw(random).scaled(size / 2);
       simulation_.add_grain(simulation_.add_shape(shape), pose, density);
+      top = std::max(top, pose.position[up]);
     }
+    return top;
   }
   void step() {
     const moreau::StepReport report = simulation_.step(h);
