@@ -4,7 +4,8 @@
 // its data are not in the caches of the processor. The same code runs for every shape and dimension.
 //
 // A shape of your own: configure with -DMOREAU_BENCH_HEADER=pebble.hpp -DMOREAU_BENCH_SHAPE=Pebble.
-// The type needs `static Pebble draw(std::mt19937_64&)`, which returns a random shape.
+// The type needs `static Pebble draw(std::mt19937_64&)`, which returns a random shape. With
+// -DMOREAU_BENCH_OWN_ONLY=ON only this shape is compiled.
 #include <benchmark/benchmark.h>
 #include <memory>
 #include <string>
@@ -173,6 +174,7 @@ void register_update(const std::string& shape) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifndef MOREAU_BENCH_OWN_ONLY
   register_shape<Polyhedron<double>>("polyhedra");
   register_shape<Polyhedron<float>>("polyhedra_float");
   register_shape<Polygon<double>>("polygons");
@@ -182,6 +184,7 @@ int main(int argc, char** argv) {
   register_sizes<Polygon<double>>("polygons", {4, 8, 16});
   register_update<Polyhedron<double>>("polyhedra");
   register_update<Polygon<double>>("polygons");
+#endif
 #ifdef MOREAU_BENCH_HEADER
   register_shape<MOREAU_BENCH_SHAPE>("own");
 #endif

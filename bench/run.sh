@@ -26,14 +26,17 @@ done
 "$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3
 command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
 [ $install = no ] || "$top/.ci/require" libfcl-dev libccd-dev libbullet-dev libbox2d-dev
+only=OFF
+[[ -z $header || $filter != ^own* ]] || only=ON
 build=$top/build/bench
 cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMOREAU_NATIVE=ON -DMOREAU_BENCH_PEERS=ON \
   -DMOREAU_BUILD_TESTS=OFF -DMOREAU_BUILD_EXAMPLES=OFF -DMOREAU_BUILD_BENCHES=ON \
-  "-DMOREAU_BENCH_HEADER=$header" "-DMOREAU_BENCH_SHAPE=$type" >/dev/null
+  "-DMOREAU_BENCH_HEADER=$header" "-DMOREAU_BENCH_SHAPE=$type" \
+  -DMOREAU_BENCH_OWN_ONLY=$only >/dev/null
 cmake --build "$build" --target bench_narrow_phase
 mkdir -p "$output"
 "$build/bench/bench_narrow_phase" --benchmark_filter="$filter" --benchmark_min_time=0.05 \
-  --benchmark_out="$output/narrow_phase.json" --benchmark_out_format=json >"$output/narrow_phase.log"
+  --benchmark_out="$output/narrow_phase.json" --benchmark_out_format=json | tee "$output/narrow_phase.log"
 if [ $peers = no ]; then
   rm -f "$output/peers.txt"
 elif ninja -C "$build" -t query bench_peers >/dev/null 2>&1; then

@@ -6,7 +6,8 @@
 //
 //   plane_and_space [folder] [grains in the plane] [grains in space] [samples]
 //
-// The defaults are plane_and_space-output, 300, 300 and 3. Prints the run-out (L - L0) / L0 over the
+// The defaults are plane_and_space-output, 120, 480 and 3: the columns of the plane and of space then have
+// the same length L0, so that their grains have the same time in units of sqrt(L0 / g). Prints the run-out (L - L0) / L0 over the
 // aspect ratio a, with its standard error over the samples, and writes it to plane_and_space.csv in
 // the folder. Each sample is stored in a file of its own in the folder samples/ when it is finished.
 // A run that was stopped continues from these files; delete them after a change of the program.
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -22,6 +24,7 @@
 #include <moreau/moreau.hpp>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -66,6 +69,11 @@ class Column {
     // Solid fractions of about 0.8 in the plane and 0.55 in space.
     const double section = up == 1 ? volume / 0.8 : volume / 0.55 / setup::depth;
     length_ = std::sqrt(section / aspect);
+    if (const double least = 3 * 1.5 * setup::size; length_ < least)
+      throw std::invalid_argument(std::to_string(count) + " grains make a column of " +
+                                  std::to_string(length_) + " m length; it must be " +
+                                  std::to_string(least) +
+                                  " m, three of the largest grains, or more");
     fill(shapes, radii, random);
     simulation_.add_wall(Vector::Unit(up), Vector::Zero());
     simulation_.add_wall(Vector::UnitX(), Vector::Zero());
@@ -92,6 +100,7 @@ class Column {
   std::size_t steps() const { return steps_; }
   std::size_t unsolved() const { return unsolved_; }  ///< steps that the solver did not solve
   double duration() const { return duration_; }       ///< of the collapse [s]
+  double length() const { return length_; }           ///< L0 [m]
 
  private:
   /// A larger margin than the default, for grains that fall at 2 m/s.
@@ -142,7 +151,7 @@ class Column {
 
 /// Results of one sample.
 struct Sample {
-  double run_out = 0, duration = 0;
+  double run_out = 0, duration = 0, length = 0;
   std::size_t steps = 0, unsolved = 0;
 };
 
@@ -151,16 +160,17 @@ template <class Shape>
 Sample stored_sample(const fs::path& path, std::size_t count, double aspect, std::uint64_t seed) {
   Sample sample;
   if (std::ifstream file(path);
-      file >> sample.run_out >> sample.duration >> sample.steps >> sample.unsolved)
+      file >> sample.run_out >> sample.duration >> sample.length >> sample.steps >> sample.unsolved)
     return sample;
   Column<Shape> column(count, aspect, seed);
   sample.run_out = column.collapse();
-  sample.duration = column.duration(), sample.steps = column.steps();
+  sample.duration = column.duration(), sample.length = column.length();
+  sample.steps = column.steps();
   sample.unsolved = column.unsolved();
   std::ostringstream text;
   text.precision(17);
-  text << sample.run_out << ' ' << sample.duration << ' ' << sample.steps << ' ' << sample.unsolved
-       << '\n';
+  text << sample.run_out << ' ' << sample.duration << ' ' << sample.length << ' ' << sample.steps
+       << ' ' << sample.unsolved << '\n';
   moreau::write_atomically(path, text.str());
   return sample;
 }
@@ -177,7 +187,7 @@ void run(const std::string& name, std::size_t count, const Series& series,
          moreau::CsvWriter& file) {
   const auto n = double(series.samples);
   for (const double aspect : {0.5, 1.0, 2.0, 4.0}) {
-    double sum = 0, square = 0, duration = 0;
+    double sum = 0, square = 0, duration = 0, length = 0;
     std::size_t steps = 0, unsolved = 0;
     for (std::uint64_t seed = 1; seed <= series.samples; ++seed) {
       std::ostringstream stem;
@@ -187,6 +197,7 @@ void run(const std::string& name, std::size_t count, const Series& series,
       sum += sample.run_out;
       square += sample.run_out * sample.run_out;
       duration += sample.duration / n;
+      length += sample.length / n;
       steps += sample.steps;
       unsolved += sample.unsolved;
     }
@@ -194,25 +205,43 @@ void run(const std::string& name, std::size_t count, const Series& series,
     const double variance = std::max(0.0, (square - n * mean * mean) / std::max(1.0, n - 1));
     // One sample says nothing of the error.
     const double error = n > 1 ? std::sqrt(variance / n) : std::numeric_limits<double>::quiet_NaN();
-    std::cout << name << ", a = " << aspect << ": run-out " << mean << " +- " << error
-              << ", end after " << duration << " s; " << unsolved << " of " << steps
+    std::cout << name << ", a = " << aspect << ", L0 = " << length << " m: run-out " << mean;
+    if (n > 1) std::cout << " +- " << error;
+    std::cout << ", end after " << duration << " s; " << unsolved << " of " << steps
               << " steps not solved" << std::endl;
-    file.row(double(moreau::SpaceOf<Shape>::dim), double(count), aspect, mean, error, n, duration);
+    file.row(double(moreau::SpaceOf<Shape>::dim), double(count), aspect, mean, error, n, duration,
+             length);
   }
 }
 
-int main(int count, char** arguments) {
+/// Throws if the columns of the largest aspect ratio would be too narrow.
+template <class Shape>
+void check_length(std::size_t count) {
+  Column<Shape>(count, 4, 1);
+}
+
+int main(int count, char** arguments) try {
   const auto number = [&](int k, int otherwise) {
     return count > k ? std::stoul(arguments[k]) : static_cast<unsigned long>(otherwise);
   };
   const Series series{count > 1 ? arguments[1] : "plane_and_space-output", number(4, 3)};
-  const std::size_t plane = number(2, 300), space = number(3, 300);
+  const std::size_t plane = number(2, 120), space = number(3, 480);
+  check_length<moreau::Polygon<double>>(plane);
+  check_length<moreau::Polyhedron<double>>(space);
   fs::create_directories(series.folder / "samples");
-  moreau::CsvWriter file(
-      series.folder / "plane_and_space.csv",
-      {"dimension", "grains", "aspect", "run_out", "standard_error", "samples", {"duration", "s"}});
+  moreau::CsvWriter file(series.folder / "plane_and_space.csv", {"dimension",
+                                                                 "grains",
+                                                                 "aspect",
+                                                                 "run_out",
+                                                                 "standard_error",
+                                                                 "samples",
+                                                                 {"duration", "s"},
+                                                                 {"length", "m"}});
   run<moreau::Polygon<double>>("polygons", plane, series, file);
   run<moreau::Disk<double>>("disks", plane, series, file);
   run<moreau::Polyhedron<double>>("polyhedra", space, series, file);
   run<moreau::Ball<double>>("balls", space, series, file);
+} catch (const std::exception& error) {
+  std::cerr << "plane_and_space: " << error.what() << '\n';
+  return 1;
 }

@@ -9,7 +9,7 @@
 # takes less than five minutes of one core, after building.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../.." && pwd)
-folder=${1:-plane_and_space-output} plane=${2:-300} space=${3:-300} samples=${4:-3}
+folder=${1:-plane_and_space-output} plane=${2:-120} space=${3:-480} samples=${4:-3}
 "$top/.ci/require" g++ libeigen3-dev
 command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
 program=$top/build/plane_and_space
