@@ -69,11 +69,11 @@ class Column {
     // Solid fractions of about 0.8 in the plane and 0.55 in space.
     const double section = up == 1 ? volume / 0.8 : volume / 0.55 / setup::depth;
     length_ = std::sqrt(section / aspect);
-    if (const double least = 3 * 1.5 * setup::size; length_ < least)
+    if (const double least = 2 * 1.5 * setup::size; length_ < least)
       throw std::invalid_argument(std::to_string(count) + " grains make a column of " +
                                   std::to_string(length_) + " m length; it must be " +
                                   std::to_string(least) +
-                                  " m, three of the largest grains, or more");
+                                  " m, two of the largest grains, or more");
     fill(shapes, radii, random);
     simulation_.add_wall(Vector::Unit(up), Vector::Zero());
     simulation_.add_wall(Vector::UnitX(), Vector::Zero());
