@@ -8,6 +8,7 @@
 
 #include "check_rest.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 #include "world/assemblies.hpp"
 
 using moreau::BallIn;
@@ -20,8 +21,8 @@ using moreau::ShapeId;
 using moreau::Space;
 using scenes::BoxOfGrains;
 
-TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", ShapeT, Polyhedron<>,
-                   Polygon<>, moreau::Ball<>, moreau::Disk<>) {
+TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, moreau::Disk<>), (Polygon<>, moreau::Ball<>))) {
   BoxOfGrains<ShapeT> scene(27);
   using Vector = typename BoxOfGrains<ShapeT>::Vector;
   const double h = 5e-4;
@@ -43,8 +44,8 @@ TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", Sh
   CHECK(reactions > 0.1 * h * weight.norm());
 }
 
-TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", ShapeT, Polyhedron<>,
-                   Polygon<>, moreau::Ball<>, moreau::Disk<>) {
+TEST_CASE_TEMPLATE("grains come to rest on each other, with bounded overlap", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, moreau::Disk<>), (Polygon<>, moreau::Ball<>))) {
   scenes::check_rest<ShapeT>();
 }
 
