@@ -68,7 +68,7 @@ struct Layers {
 }  // namespace
 
 TEST_CASE_TEMPLATE("a periodic packing knows no origin", ShapeT,
-                   MOREAU_TYPES((Polyhedron<>, moreau::Disk<>), (Polygon<>, moreau::Ball<>))) {
+                   MOREAU_TYPES((Polygon<>, moreau::Ball<>), (Polyhedron<>, moreau::Disk<>))) {
   using Scene = Layers<ShapeT>;
   Scene one(0), other(0.37 * Scene::length);
   std::size_t across = 0;

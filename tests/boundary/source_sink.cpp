@@ -57,7 +57,7 @@ struct Shaft {
 }  // namespace
 
 TEST_CASE_TEMPLATE("a source fills its box up to its limit, without overlaps", ShapeT,
-                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
   for (const bool periodic : {false, true}) {
     Shaft<ShapeT> shaft;
     using Vector = typename Shaft<ShapeT>::Vector;
