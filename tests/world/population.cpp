@@ -248,6 +248,7 @@ TEST_CASE_TEMPLATE("a restart amid removals continues with the same bits", Shape
   }
 }
 
+#ifdef MOREAU_TEST_FURTHER_TYPES
 TEST_CASE("springs of a regularized law: the other contacts keep their memory") {
   using S = Space<2>;
   using Law = LinearSpringDashpot<double>;
@@ -274,3 +275,4 @@ TEST_CASE("springs of a regularized law: the other contacts keep their memory") 
   }
   CHECK(snapshot(world) == snapshot(other));
 }
+#endif

@@ -92,6 +92,7 @@ TEST_CASE("the order in which walls and grains are added does not matter to the 
   }
 }
 
+#ifdef MOREAU_TEST_FURTHER_TYPES
 namespace {
 
 /// A law that returns NaN for fast contacts.
@@ -110,7 +111,7 @@ struct NoNumber {
 
 }  // namespace
 
-TEST_CASE("a step whose velocities are not finite throws before any body has moved") {
+TEST_CASE("a step whose impulses are not finite throws before any body has moved") {
   using S = Space<3>;
   moreau::Simulation<BallIn<S>, NoNumber> world(0.02, moreau::Materials<NoNumber>(1));
   const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(0.01)), {}, 1000);
@@ -119,7 +120,11 @@ TEST_CASE("a step whose velocities are not finite throws before any body has mov
   CHECK_THROWS_WITH_AS(world.step(1e-3), doctest::Contains("Simulation::step: velocity of body 0"),
                        std::runtime_error);
   CHECK(world.pose(ball).is_finite());
+}
+#endif
 
+TEST_CASE("a step whose velocities are not finite throws") {
+  using S = Space<3>;
   scenes::World<BallIn<S>> far(0.02, moreau::Materials<moreau::SignoriniCoulomb<double>>(1));
   far.add_grain(far.add_shape(BallIn<S>(0.01)), {}, 1000);
   far.set_gravity(S::Vector(0, 0, -1e308));
