@@ -20,8 +20,11 @@ if(MOREAU_WERROR)
   target_compile_options(moreau_development INTERFACE -Werror)
 endif()
 if(MOREAU_NATIVE)
+  # A target with the property MOREAU_ANY_CPU is compiled as without MOREAU_NATIVE.
+  target_compile_options(moreau_development INTERFACE
+    $<$<NOT:$<BOOL:$<TARGET_PROPERTY:MOREAU_ANY_CPU>>>:-march=native>)
   # g++ 12 sees uninitialized values inside its own AVX-512 intrinsics (GCC bug 105593).
-  target_compile_options(moreau_development INTERFACE -march=native
+  target_compile_options(moreau_development INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized>)
 endif()
 if(MOREAU_SANITIZE)

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
-# Each header compiled alone and twice, all linked into one program: a header that leans on its
-# includer, lacks a guard or defines a function that is not inline does not pass.
+# Checks of the headers:
+#   moreau_headers            each header alone, included twice: a header that needs what its includer
+#                             includes, or that lacks a guard, does not pass
+#   moreau_headers_together   two units that include all headers, linked into one program: a function
+#                             that is not inline is defined twice
 set(include_dir ${PROJECT_SOURCE_DIR}/include)
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/headers)
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${include_dir} ${include_dir}/moreau/*.hpp)
@@ -16,6 +19,7 @@ if(NOT TARGET moreau_mesh)
 endif()
 set(units "")
 set(together "int main() {}\n")
+set(again "")
 if(NOT TARGET moreau_distributed)
   list(FILTER headers EXCLUDE REGEX "moreau/distributed/.*\\.hpp")
 endif()
@@ -24,17 +28,20 @@ foreach(header IN LISTS headers)
   file(CONFIGURE OUTPUT ${generated}/${header}.cpp CONTENT "${include}${include}" @ONLY)
   list(APPEND units ${generated}/${header}.cpp)
   string(PREPEND together "${include}")
+  string(APPEND again "${include}")
 endforeach()
 file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
+file(CONFIGURE OUTPUT ${generated}/again.cpp CONTENT "${again}" @ONLY)
 
-# Nothing of it runs: the code that is fastest to compile will do. Most of it is Eigen's, which a
-# header that leans on Eigen is spared; what it would be warned about, "together" is.
-add_library(moreau_headers OBJECT ${units})
-target_link_libraries(moreau_headers PUBLIC moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
-                                            $<TARGET_NAME_IF_EXISTS:moreau_picture>
-                                            $<TARGET_NAME_IF_EXISTS:moreau_mesh>
-                                            $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
-target_compile_options(moreau_headers PUBLIC -O0 -g0 PRIVATE -w)
+# No code is generated, and there are no warnings: moreau_headers_together shows them. Most of what these
+# units include is Eigen's, which is read once.
+add_library(moreau_headers OBJECT EXCLUDE_FROM_ALL ${units})
+set_target_properties(moreau_headers PROPERTIES CXX_COMPILER_LAUNCHER ${PROJECT_SOURCE_DIR}/.cmake/check_syntax)
+target_link_libraries(moreau_headers PRIVATE moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
+                                             $<TARGET_NAME_IF_EXISTS:moreau_picture>
+                                             $<TARGET_NAME_IF_EXISTS:moreau_mesh>
+                                             $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
+target_compile_options(moreau_headers PRIVATE -O0 -g0 -w)
 target_precompile_headers(moreau_headers PRIVATE <Eigen/Geometry>)
 foreach(header IN LISTS headers)
   file(STRINGS ${include_dir}/${header} includes REGEX "^#include (<Eigen|\"moreau/)")
@@ -43,11 +50,8 @@ foreach(header IN LISTS headers)
     set_source_files_properties(${generated}/${header}.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endforeach()
-add_executable(moreau_headers_link ${generated}/together.cpp)
-target_link_libraries(moreau_headers_link PRIVATE moreau_headers)
 
-# All headers in one unit: what a second compiler is shown of those that no test includes.
-add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cpp)
+add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cpp ${generated}/again.cpp)
 target_link_libraries(moreau_headers_together PRIVATE moreau_development
                                               $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                               $<TARGET_NAME_IF_EXISTS:moreau_picture>

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs what the project needs (Debian), builds the tests and runs them. Arguments go to ctest:
 #   tests/run.sh                 tests of all folders, without what takes longest to compile
-#   tests/run.sh --all           all but the long tests, as CI does; must be the first argument
+#   tests/run.sh --all           all but the long tests; must be the first argument
 #   tests/run.sh -R detect       those whose name contains detect
 #   PRESET=asan tests/run.sh     all of another preset of CMakePresets.json than release
 # CMAKE_OPTIONS go to the configuration.

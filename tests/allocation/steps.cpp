@@ -6,6 +6,7 @@
 
 #include "allocation/counted_new.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 #include "world/assemblies.hpp"
 #include "world/compound_box.hpp"
 
@@ -43,7 +44,8 @@ TEST_CASE_TEMPLATE("a packing at rest steps without allocating", ShapeT, moreau:
   CHECK(allocations == before);
 }
 
-TEST_CASE_TEMPLATE("nor do compound grains", Part, moreau::Polyhedron<>, moreau::Polygon<>) {
+TEST_CASE_TEMPLATE("nor do compound grains", Part,
+                   MOREAU_TYPES((moreau::Polygon<>), (moreau::Polyhedron<>))) {
   scenes::CompoundBox<Part> box(std::size_t(rounds(12)), true);
   box.run(1500);
   const long before = allocations;

@@ -9,6 +9,7 @@
 #include "moreau/boundary/servo.hpp"
 
 #include "boundary/check_lid.hpp"
+#include "types.hpp"
 #include "world/assemblies.hpp"
 
 using namespace moreau;
@@ -77,8 +78,8 @@ TEST_CASE("a driven velocity is taken in the middle of the step") {
   CHECK(scene.x() == doctest::Approx(1 - h * h / 4).epsilon(1e-10));
 }
 
-TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT, Polyhedron<>, Polygon<>,
-                   moreau::Ball<>, moreau::Disk<>) {
+TEST_CASE_TEMPLATE("a lid under pressure settles to it", ShapeT,
+                   MOREAU_TYPES((Polygon<>, moreau::Ball<>), (Polyhedron<>, moreau::Disk<>))) {
   scenes::check_lid<ShapeT>();
 }
 

@@ -8,6 +8,7 @@
 
 #include "boundary/grain_of_radius.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 #include "world/assemblies.hpp"
 
 using namespace moreau;
@@ -66,8 +67,8 @@ struct Layers {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a periodic packing knows no origin", ShapeT, Polyhedron<>, Polygon<>,
-                   moreau::Ball<>, moreau::Disk<>) {
+TEST_CASE_TEMPLATE("a periodic packing knows no origin", ShapeT,
+                   MOREAU_TYPES((Polygon<>, moreau::Ball<>), (Polyhedron<>, moreau::Disk<>))) {
   using Scene = Layers<ShapeT>;
   Scene one(0), other(0.37 * Scene::length);
   std::size_t across = 0;

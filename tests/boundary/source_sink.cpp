@@ -9,6 +9,7 @@
 #include "moreau/detect/collide.hpp"
 #include "moreau/io/snapshot.hpp"
 
+#include "types.hpp"
 #include "world/assemblies.hpp"
 
 using namespace moreau;
@@ -55,8 +56,8 @@ struct Shaft {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a source fills its box up to its limit, without overlaps", ShapeT, Polyhedron<>,
-                   Polygon<>, Ball<>, Disk<>) {
+TEST_CASE_TEMPLATE("a source fills its box up to its limit, without overlaps", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
   for (const bool periodic : {false, true}) {
     Shaft<ShapeT> shaft;
     using Vector = typename Shaft<ShapeT>::Vector;

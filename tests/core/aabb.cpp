@@ -6,12 +6,15 @@
 #include <random>
 #include <vector>
 
+#include "types.hpp"
+
 namespace {
 
 using moreau::Aabb;
 using moreau::Space;
 
-#define MOREAU_SPACES Space<2, double>, Space<3, double>, Space<2, float>, Space<3, float>
+#define MOREAU_SPACES \
+  MOREAU_TYPES((Space<2, double>, Space<3, double>), (Space<2, float>, Space<3, float>))
 
 template <class S>
 Aabb<S> unit_box_at(const typename S::Vector& corner) {

@@ -10,11 +10,14 @@
 #include <random>
 #include <type_traits>
 
+#include "types.hpp"
+
 namespace {
 
 using moreau::Space;
 
-#define MOREAU_SPACES Space<2, double>, Space<3, double>, Space<2, float>, Space<3, float>
+#define MOREAU_SPACES \
+  MOREAU_TYPES((Space<2, double>, Space<3, double>), (Space<2, float>, Space<3, float>))
 
 template <class S>
 struct Draw {
@@ -148,7 +151,7 @@ TEST_CASE_TEMPLATE("rotations about one axis add", S, MOREAU_SPACES) {
   }
 }
 
-TEST_CASE_TEMPLATE("exp agrees with Eigen's angle and axis", T, double, float) {
+TEST_CASE_TEMPLATE("exp agrees with Eigen's angle and axis", T, MOREAU_TYPES((double), (float))) {
   using S = Space<3, T>;
   Draw<S> draw;
   // At the angle 2e-2, exp switches from the series to the quotient.
@@ -262,7 +265,8 @@ TEST_CASE_TEMPLATE("contact_frame is orthonormal and right-handed", S, MOREAU_SP
   }
 }
 
-TEST_CASE_TEMPLATE("contact_frame accepts zeros of either sign", T, double, float) {
+TEST_CASE_TEMPLATE("contact_frame accepts zeros of either sign", T,
+                   MOREAU_TYPES((double), (float))) {
   using S = Space<3, T>;
   for (const T zero : {T(0), T(-0.0)}) {
     check_frame<S>({T(1), T(0), zero});

@@ -11,6 +11,8 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
+#include "types.hpp"
+
 using moreau::BallIn;
 using moreau::Polygon;
 using moreau::Polyhedron;
@@ -69,7 +71,8 @@ auto points_of(const ShapeT& shape, const Pose<moreau::SpaceOf<ShapeT>>& pose, d
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a ball's gap and normal, on the axis too", S, Space<2>, Space<3>) {
+TEST_CASE_TEMPLATE("a ball's gap and normal, on the axis too", S,
+                   MOREAU_TYPES((Space<3>), (Space<2>))) {
   using Vector = typename S::Vector;
   const BallIn<S> ball(0.25);
   Pose<S> pose;
@@ -92,8 +95,8 @@ TEST_CASE_TEMPLATE("a ball's gap and normal, on the axis too", S, Space<2>, Spac
   CHECK(S::spin(across<S>(), central[0].normal).norm() == doctest::Approx(1));
 }
 
-TEST_CASE_TEMPLATE("every corner of a polytope has its own normal", ShapeT, Polygon<>,
-                   Polyhedron<>) {
+TEST_CASE_TEMPLATE("every corner of a polytope has its own normal", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>), (Polygon<>))) {
   using S = moreau::SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   std::vector<Vector> corners;
@@ -115,8 +118,8 @@ TEST_CASE_TEMPLATE("every corner of a polytope has its own normal", ShapeT, Poly
   }
 }
 
-TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its ends", S, Space<2>,
-                   Space<3>) {
+TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its ends", S,
+                   MOREAU_TYPES((Space<3>), (Space<2>))) {
   Pose<S> pose;
   pose.position[S::dim - 1] = -0.5;
   const auto both = points_of(Stadium<S>{0.4, 0.1}, pose, 1, 1);
@@ -133,8 +136,8 @@ TEST_CASE_TEMPLATE("a shape with nothing but its support touches at both its end
   CHECK(one[0].gap == doctest::Approx(1 - 0.1 - std::hypot(0.1, 0.8)));
 }
 
-TEST_CASE_TEMPLATE("capsules and shapes of several kinds are seen as what they are", S, Space<2>,
-                   Space<3>) {
+TEST_CASE_TEMPLATE("capsules and shapes of several kinds are seen as what they are", S,
+                   MOREAU_TYPES((Space<3>), (Space<2>))) {
   using Grain = moreau::OneOf<BallIn<S>, moreau::CapsuleIn<S>>;
   Pose<S> pose;
   pose.position[S::dim - 1] = -0.5;

@@ -13,6 +13,7 @@
 
 #include "detect/shapes.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 
 using namespace moreau;
 
@@ -51,7 +52,8 @@ void check_answers(const Placed<Polyhedron<T>>& a, const Placed<Polyhedron<T>>& 
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("boxes turned alike: the gap is that of intervals", T, double, float) {
+TEST_CASE_TEMPLATE("boxes turned alike: the gap is that of intervals", T,
+                   MOREAU_TYPES((double), (float))) {
   using S = Space<3, T>;
   using Vector = typename S::Vector;
   const std::array<std::array<T, 3>, 4> edges = {

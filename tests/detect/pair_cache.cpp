@@ -12,6 +12,7 @@
 #include "detect/same_manifold.hpp"
 #include "detect/shapes.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 
 using namespace moreau;
 
@@ -111,8 +112,9 @@ std::vector<Polygon<T>> shapes_to_try(Space<2, T> space, std::mt19937_64& random
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a pair cache changes no bit, whatever the motion", ShapeT, Polyhedron<double>,
-                   Polyhedron<float>, Polygon<double>, Polygon<float>) {
+TEST_CASE_TEMPLATE("a pair cache changes no bit, whatever the motion", ShapeT,
+                   MOREAU_TYPES((Polyhedron<double>, Polygon<double>),
+                                (Polyhedron<float>, Polygon<float>))) {
   using T = typename ShapeT::Scalar;
   std::mt19937_64 random(1);
   const auto shapes = shapes_to_try(SpaceOf<ShapeT>{}, random);

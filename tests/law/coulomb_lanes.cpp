@@ -14,6 +14,8 @@
 
 #include "moreau/law/signorini_coulomb.hpp"
 
+#include "types.hpp"
+
 using namespace moreau;
 
 namespace {
@@ -64,8 +66,8 @@ struct Lanes {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("one visit comes near, a few are exact", S, Space<2>, Space<3>, Space<2, float>,
-                   Space<3, float>) {
+TEST_CASE_TEMPLATE("one visit comes near, a few are exact", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   using T = typename S::Scalar;
   std::mt19937_64 random(11);
   double first = 0, last = 0;
@@ -84,8 +86,8 @@ TEST_CASE_TEMPLATE("one visit comes near, a few are exact", S, Space<2>, Space<3
   CHECK(last < 1e4 * double(std::numeric_limits<T>::epsilon()));
 }
 
-TEST_CASE_TEMPLATE("alpha remembered from another velocity does no harm", S, Space<3>,
-                   Space<3, float>) {
+TEST_CASE_TEMPLATE("alpha remembered from another velocity does no harm", S,
+                   MOREAU_TYPES((Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   std::mt19937_64 random(12);
   std::normal_distribution<double> normal;

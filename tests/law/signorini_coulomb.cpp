@@ -12,6 +12,8 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 
+#include "types.hpp"
+
 using moreau::LocalBlock;
 using moreau::SignoriniCoulomb;
 using moreau::Space;
@@ -45,8 +47,8 @@ LocalProblem<S> random_problem(std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S, Space<2>,
-                   Space<3>, Space<2, float>, Space<3, float>) {
+TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   using T = typename S::Scalar;
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -71,7 +73,8 @@ TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S
   CHECK(open > 1000);
 }
 
-TEST_CASE_TEMPLATE("turning the tangents keeps W", S, Space<2>, Space<3>, Space<3, float>) {
+TEST_CASE_TEMPLATE("turning the tangents keeps W", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   std::mt19937_64 random(2);
   std::normal_distribution<double> normal;

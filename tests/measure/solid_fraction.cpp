@@ -12,6 +12,8 @@
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
+#include "types.hpp"
+
 namespace {
 
 using namespace moreau;
@@ -120,9 +122,9 @@ double hull_of_intersection(const Polyhedron<double>& shape, const Pose<Space<3>
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("clipped volume adds up over the parts of a box", Shape, Polyhedron<double>,
-                   Polyhedron<float>, Polygon<double>, Polygon<float>, Ball<double>, Ball<float>,
-                   Disk<double>, Disk<float>) {
+TEST_CASE_TEMPLATE("clipped volume adds up over the parts of a box", Shape,
+                   MOREAU_TYPES((Polyhedron<double>, Polygon<double>, Ball<double>, Disk<double>),
+                                (Polyhedron<float>, Polygon<float>, Ball<float>, Disk<float>))) {
   using S = SpaceOf<Shape>;
   using T = typename S::Scalar;
   std::mt19937_64 random(1);
@@ -145,7 +147,8 @@ TEST_CASE_TEMPLATE("clipped volume adds up over the parts of a box", Shape, Poly
 }
 
 TEST_CASE_TEMPLATE("the cells of a grid around a shape share its whole volume", Shape,
-                   Polyhedron<double>, Polygon<double>, Ball<double>, Disk<double>) {
+                   MOREAU_TYPES((Polyhedron<double>, Disk<double>),
+                                (Polygon<double>, Ball<double>))) {
   using S = SpaceOf<Shape>;
   std::mt19937_64 random(2);
   ClipWorkspace<S> workspace;
@@ -184,8 +187,9 @@ TEST_CASE("a clipped polyhedron has the volume of the hull of its corners") {
   CHECK(cut > 25);
 }
 
-TEST_CASE_TEMPLATE("clipped volume agrees with random sampling", Shape, Polyhedron<double>,
-                   Polygon<double>, Ball<double>, Disk<double>) {
+TEST_CASE_TEMPLATE("clipped volume agrees with random sampling", Shape,
+                   MOREAU_TYPES((Polyhedron<double>, Disk<double>),
+                                (Polygon<double>, Ball<double>))) {
   using S = SpaceOf<Shape>;
   std::mt19937_64 random(4);
   ClipWorkspace<S> workspace;

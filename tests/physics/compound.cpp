@@ -14,6 +14,8 @@
 
 #include "sanitized.hpp"
 #include "shape/compounds.hpp"
+#include "types.hpp"
+#include "worlds/compound.hpp"
 
 using namespace moreau;
 
@@ -64,7 +66,8 @@ double lowest(const Compound<Part>& grain) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a cube cut in two flies as the cube", Part, Polygon<>, Polyhedron<>) {
+TEST_CASE_TEMPLATE("a cube cut in two flies as the cube", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   const Part cube = compounds::box<Part>(S::Vector::Constant(-0.5), S::Vector::Constant(0.5));
   const auto parts =
@@ -82,7 +85,8 @@ TEST_CASE_TEMPLATE("a cube cut in two flies as the cube", Part, Polygon<>, Polyh
 }
 
 // With the contact points of the two halves the problem has more unknowns, and the same motion.
-TEST_CASE_TEMPLATE("a cube cut in two slides as the cube", Part, Polygon<>, Polyhedron<>) {
+TEST_CASE_TEMPLATE("a cube cut in two slides as the cube", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   const Part cube = compounds::box<Part>(S::Vector::Constant(-0.5), S::Vector::Constant(0.5));
   const auto parts =
@@ -104,8 +108,8 @@ TEST_CASE_TEMPLATE("a cube cut in two slides as the cube", Part, Polygon<>, Poly
 
 // A letter gamma with a column of width 1 and a beam of length b, both 1 high, tips over the edge of
 // the column if its centre of mass lies beyond: (1 + b^2) / (2 (1 + b)) = 1, b = 1 + sqrt(2).
-TEST_CASE_TEMPLATE("a gamma stands or tips as its centre of mass says", Part, Polygon<>,
-                   Polyhedron<>) {
+TEST_CASE_TEMPLATE("a gamma stands or tips as its centre of mass says", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   for (const double share : {0.99, 1.01}) {
     const auto gamma = compounds::gamma<Part>(share * (1 + std::numbers::sqrt2));
     OnFloor<Compound<Part>> scene(gamma, lowest(gamma), 0.8, 0);
@@ -120,7 +124,8 @@ TEST_CASE_TEMPLATE("a gamma stands or tips as its centre of mass says", Part, Po
 
 // On a slope an L tips about the edge of its foot as soon as the direction of gravity from its centre
 // of mass passes outside of it.
-TEST_CASE_TEMPLATE("an L stands on a slope or tips", Part, Polygon<>, Polyhedron<>) {
+TEST_CASE_TEMPLATE("an L stands on a slope or tips", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   const Compound<Part> l(
       {compounds::box<Part>(compounds::point<S>(0, 0), compounds::point<S>(2, 1, 1)),
@@ -140,7 +145,8 @@ TEST_CASE_TEMPLATE("an L stands on a slope or tips", Part, Polygon<>, Polyhedron
 
 // A tetrapod (in the plane a tripod) stands on its lower feet. It tips over the edge between two of
 // their corners that the slope points to.
-TEST_CASE_TEMPLATE("a tetrapod stands on a slope or tips", Part, Polygon<>, Polyhedron<>) {
+TEST_CASE_TEMPLATE("a tetrapod stands on a slope or tips", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   const auto tetrapod = compounds::tetrapod<Part>(0.3);
   const double low = lowest(tetrapod);
@@ -171,7 +177,7 @@ TEST_CASE_TEMPLATE("a tetrapod stands on a slope or tips", Part, Polygon<>, Poly
 // A regular hexagon (in space a prism) of two halves rolls down a slope steeper than 30 degrees, over
 // one edge after the other, and stays on a slope less steep.
 TEST_CASE_TEMPLATE("a hexagon of two halves rolls on a slope of more than 30 degrees", Part,
-                   Polygon<>, Polyhedron<>) {
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   std::vector<typename S::Vector> corners;
   for (int k = 0; k < 6; ++k)
@@ -198,8 +204,8 @@ TEST_CASE_TEMPLATE("a hexagon of two halves rolls on a slope of more than 30 deg
 
 // A small block slides without friction over the seam of a block cut in two as over the whole block:
 // the edges of the cut make no contacts.
-TEST_CASE_TEMPLATE("a block slides over the seam between two parts", Part, Polygon<>,
-                   Polyhedron<>) {
+TEST_CASE_TEMPLATE("a block slides over the seam between two parts", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   using Grain = Compound<Part>;
   const Part floor =

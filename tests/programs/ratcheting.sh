@@ -115,7 +115,7 @@ timeout 60 "$program" --shape disk --grains 100 --fmax 500 --duration 0.002 --pr
 grep -q '"settled": false' "$folder/restless/run.json" || fail "restless run.json"
 grep -q "still moving" "$folder/restless.log" || fail "restless run says nothing"
 
-"$program" --grains 1200 --output "$folder/early" >"$folder/early.log" 2>&1 &
+"$program" --shape disk --grains 5000 --output "$folder/early" >"$folder/early.log" 2>&1 &
 pid=$!
 sleep 2
 kill -INT "$pid"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -30,8 +31,8 @@ struct moreau::Ballast<Pebble> {
 
 namespace {
 
-TEST_CASE_TEMPLATE("polyhedra: 8 to 37 vertices, 12 to 70 triangles, circumradius 1", T, double,
-                   float) {
+TEST_CASE_TEMPLATE("polyhedra: 8 to 37 vertices, 12 to 70 triangles, circumradius 1", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(1);
   const auto shapes = ballast_shapes<Polyhedron<T>>(60, random);
   REQUIRE(shapes.size() == 60);
@@ -66,7 +67,7 @@ TEST_CASE_TEMPLATE("polyhedra: 8 to 37 vertices, 12 to 70 triangles, circumradiu
   CHECK(roundness < 0.8);
 }
 
-TEST_CASE_TEMPLATE("polygons: 5 to 7 sides, circumradius 1", T, double, float) {
+TEST_CASE_TEMPLATE("polygons: 5 to 7 sides, circumradius 1", T, MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(2);
   std::set<std::size_t> counts;
   std::set<T> areas;

@@ -11,6 +11,7 @@
 #include "moreau/core/space.hpp"
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -21,7 +22,7 @@ using moreau::Space;
 }  // namespace
 
 TEST_CASE_TEMPLATE("deposited spheres lie in the box, overlap nowhere and rest on something", S,
-                   Space<2>, Space<3>, Space<3, float>) {
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   constexpr int up = S::dim - 1;
   constexpr T length = 1, rounding = 20 * std::numeric_limits<T>::epsilon();
@@ -72,7 +73,7 @@ TEST_CASE("radii that do not fit are refused by their number") {
 
 TEST_CASE_TEMPLATE(
     "random rotations are normalized; the mean is 0 in the plane and 1/27 of the identity in space",
-    S, Space<2>, Space<3>, Space<3, float>) {
+    S, MOREAU_TYPES((Space<2>, Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   constexpr int count = 4000;
   std::mt19937_64 random(2);

@@ -17,6 +17,7 @@
 #include "detect/shapes.hpp"
 #include "message_of.hpp"
 #include "shape/compounds.hpp"
+#include "types.hpp"
 
 using namespace moreau;
 
@@ -110,8 +111,8 @@ TEST_CASE_TEMPLATE("two balls, in the plane two disks", S, Space<2>, Space<3>) {
   CHECK(dumbbell.circumradius() == doctest::Approx(3));
 }
 
-TEST_CASE_TEMPLATE("parts that overlap need mass properties", S, Space<2>, Space<3>,
-                   Space<2, float>, Space<3, float>) {
+TEST_CASE_TEMPLATE("parts that overlap need mass properties", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   using T = typename S::Scalar;
   using Grain = Compound<BallIn<S>>;
   using Part = typename Grain::Part;
@@ -178,8 +179,8 @@ TEST_CASE("parts of other shapes: rounded, of several types, in float") {
   conformance::check_grain(Compound<Corner>({{corner, {}}, {corner, {{1.2f, 0, 0}}}}));
 }
 
-TEST_CASE_TEMPLATE("requirements on grains of parts", Part, Polygon<>, Polyhedron<>, Polygon<float>,
-                   Polyhedron<float>) {
+TEST_CASE_TEMPLATE("requirements on grains of parts", Part,
+                   MOREAU_TYPES((Polygon<>, Polyhedron<>), (Polygon<float>, Polyhedron<float>))) {
   std::mt19937_64 random(3);
   for (int k = 0; k < 5; ++k) conformance::check_grain(Ballast<Compound<Part>>::draw(random));
   if constexpr (std::same_as<typename SpaceOf<Part>::Scalar, double>)

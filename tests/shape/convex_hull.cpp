@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -165,7 +166,7 @@ TEST_CASE("hull in space equals brute force, degenerate integer points") {
   }
 }
 
-TEST_CASE_TEMPLATE("a rigid motion does not change the faces", T, double, float) {
+TEST_CASE_TEMPLATE("a rigid motion does not change the faces", T, MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(4);
   const double epsilon = std::numeric_limits<T>::epsilon();
   for (int trial = 0; trial < 300; ++trial) {
@@ -246,8 +247,8 @@ TEST_CASE("noise around the tolerance always leaves a closed convex surface") {
   }
 }
 
-TEST_CASE_TEMPLATE("subdivided, needle-like and plate-like boxes have six faces", T, double,
-                   float) {
+TEST_CASE_TEMPLATE("subdivided, needle-like and plate-like boxes have six faces", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(8);
   for (const Eigen::Vector3d& scale :
        {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(100, 1, 1), Eigen::Vector3d(100, 100, 1),
@@ -282,7 +283,7 @@ TEST_CASE("a box cut very unevenly has six faces") {
   }
 }
 
-TEST_CASE_TEMPLATE("prisms and bipyramids", T, double, float) {
+TEST_CASE_TEMPLATE("prisms and bipyramids", T, MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(10);
   for (int n = 3; n <= 20; ++n) {
     CAPTURE(n);
@@ -302,7 +303,7 @@ TEST_CASE_TEMPLATE("prisms and bipyramids", T, double, float) {
   }
 }
 
-TEST_CASE_TEMPLATE("the Platonic solids with their faces", T, double, float) {
+TEST_CASE_TEMPLATE("the Platonic solids with their faces", T, MOREAU_TYPES((double), (float))) {
   const double g = std::numbers::phi;
   std::vector<Eigen::Vector3d> cube, dodecahedron, icosahedron, octahedron;
   for (const int a : {-1, 1}) {
@@ -396,7 +397,8 @@ TEST_CASE("hull in the plane equals brute force") {
   }
 }
 
-TEST_CASE_TEMPLATE("points along the sides of a polygon are dropped", T, double, float) {
+TEST_CASE_TEMPLATE("points along the sides of a polygon are dropped", T,
+                   MOREAU_TYPES((double), (float))) {
   for (int n = 3; n <= 12; ++n) {
     std::vector<V2<T>> points;
     for (int k = 0; k < n; ++k) {

@@ -12,6 +12,8 @@
 #include "moreau/shape/rounded.hpp"
 #include "moreau/shape/support_box.hpp"
 
+#include "types.hpp"
+
 using namespace moreau;
 
 namespace {
@@ -61,7 +63,7 @@ std::pair<double, double> differences(const ShapeT& shape, const Faceted<ShapeT>
 }  // namespace
 
 TEST_CASE_TEMPLATE("the polytope lies inside the shape and is as close as its error says", S,
-                   Space<2>, Space<3>, Space<2, float>, Space<3, float>) {
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   const ShiftedEllipsoid<S> shape;
   const double rounding = 1e-6 * 0.03 * (sizeof(typename S::Scalar) == 4 ? 1 : 1e-8);
   double before = 1;

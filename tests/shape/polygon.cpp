@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -56,7 +57,8 @@ void check_geometry(const Polygon<T>& p) {
   REQUIRE(p.inradius() > 0);
 }
 
-TEST_CASE_TEMPLATE("regular polygons in closed form, turned and moved", T, double, float) {
+TEST_CASE_TEMPLATE("regular polygons in closed form, turned and moved", T,
+                   MOREAU_TYPES((double), (float))) {
   for (int n = 3; n <= 12; ++n) {
     const double radius = 1.7, step = 2 * std::numbers::pi / n;
     std::vector<V2<T>> points;
@@ -83,7 +85,8 @@ TEST_CASE_TEMPLATE("regular polygons in closed form, turned and moved", T, doubl
   }
 }
 
-TEST_CASE_TEMPLATE("a rectangle and a triangle in closed form", T, double, float) {
+TEST_CASE_TEMPLATE("a rectangle and a triangle in closed form", T,
+                   MOREAU_TYPES((double), (float))) {
   const auto box = hull<T>({{1, 1}, {4, 1}, {4, 3}, {1, 3}});
   CHECK(box.area() == doctest::Approx(6));
   CHECK(box.mass_properties(1).inertia(0, 0) == doctest::Approx(6.0 * (9 + 4) / 12));
@@ -96,7 +99,8 @@ TEST_CASE_TEMPLATE("a rectangle and a triangle in closed form", T, double, float
         doctest::Approx(2.5 / 12 * triangle.vertices().squaredNorm()).epsilon(tolerance<T>));
 }
 
-TEST_CASE_TEMPLATE("random hulls: geometry, support, box, cut in two", T, double, float) {
+TEST_CASE_TEMPLATE("random hulls: geometry, support, box, cut in two", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(1);
   for (std::size_t n = 3; n < 60; ++n) {
     const auto p = hull(random_points<T>(n, random));
@@ -120,7 +124,7 @@ TEST_CASE("vertices keep the cyclic order of the input, the first of it first") 
   CHECK(p.vertices() == truth);
 }
 
-TEST_CASE_TEMPLATE("scaled", T, double, float) {
+TEST_CASE_TEMPLATE("scaled", T, MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(2);
   const auto p = hull(random_points<T>(9, random));
   const auto twice = p.scaled(2);
@@ -131,7 +135,7 @@ TEST_CASE_TEMPLATE("scaled", T, double, float) {
   CHECK(twice.mass_properties(1).inertia(0, 0) == 16 * p.mass_properties(1).inertia(0, 0));
 }
 
-TEST_CASE_TEMPLATE("bad arguments are named", T, double, float) {
+TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))) {
   const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
   const auto message = [](const std::vector<V2<T>>& points) {
     return message_of([&] { hull(points); });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -127,7 +128,8 @@ void check_geometry(const Polyhedron<T>& p) {
   REQUIRE(p.mass_properties(1).center == V3<T>::Zero());
 }
 
-TEST_CASE_TEMPLATE("a box has the moments of a box, turned and moved as well", T, double, float) {
+TEST_CASE_TEMPLATE("a box has the moments of a box, turned and moved as well", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(1);
   const T a = T(0.3), b = T(1.1), c = T(2.3), density = 2700;
   for (int trial = 0; trial < 20; ++trial) {
@@ -154,8 +156,8 @@ TEST_CASE_TEMPLATE("a box has the moments of a box, turned and moved as well", T
   }
 }
 
-TEST_CASE_TEMPLATE("any tetrahedron: volume, centre, and second moment in closed form", T, double,
-                   float) {
+TEST_CASE_TEMPLATE("any tetrahedron: volume, centre, and second moment in closed form", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 50; ++trial) {
     auto points = random_points<T>(4, random);
@@ -213,8 +215,8 @@ TEST_CASE("octahedron and regular prisms in closed form") {
   }
 }
 
-TEST_CASE_TEMPLATE("random hulls: geometry, incidences, mass by summation over points", T, double,
-                   float) {
+TEST_CASE_TEMPLATE("random hulls: geometry, incidences, mass by summation over points", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(3);
   for (std::size_t n = 4; n <= 100; n += 8) {
     const auto p = hull(random_points<T>(n, random));
@@ -252,7 +254,8 @@ TEST_CASE("the vertices of the input that are kept, are kept in order") {
   }
 }
 
-TEST_CASE_TEMPLATE("support and bounding box equal a search over all vertices", T, double, float) {
+TEST_CASE_TEMPLATE("support and bounding box equal a search over all vertices", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 100; ++trial) {
     const auto p = hull(random_points<T>(30, random));
@@ -275,7 +278,8 @@ TEST_CASE_TEMPLATE("support and bounding box equal a search over all vertices", 
   }
 }
 
-TEST_CASE_TEMPLATE("scaled keeps the incidences and scales the rest", T, double, float) {
+TEST_CASE_TEMPLATE("scaled keeps the incidences and scales the rest", T,
+                   MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(5);
   const auto p = hull(random_points<T>(20, random));
   const auto twice = p.scaled(2);
@@ -292,7 +296,7 @@ TEST_CASE_TEMPLATE("scaled keeps the incidences and scales the rest", T, double,
   CHECK(third.volume() == doctest::Approx(p.volume() / 27).epsilon(tolerance<T>));
 }
 
-TEST_CASE_TEMPLATE("from_faces takes its own faces back", T, double, float) {
+TEST_CASE_TEMPLATE("from_faces takes its own faces back", T, MOREAU_TYPES((double), (float))) {
   std::mt19937_64 random(6);
   const auto box = from_faces(box_vertices<T>(1, 2, 3), box_faces);
   check_incidences(box);
@@ -399,7 +403,7 @@ TEST_CASE("from_faces refuses coplanar neighbours, dents, two bodies, straight c
         "Polyhedron::from_faces: number of faces at vertices[8] = 2 must be at least 3");
 }
 
-TEST_CASE_TEMPLATE("bad arguments are named", T, double, float) {
+TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))) {
   const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
   auto vertices = box_vertices<T>(1, 1, 1);
   const auto box = hull(vertices);

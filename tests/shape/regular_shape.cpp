@@ -9,6 +9,7 @@
 #include "moreau/shape/polyhedron.hpp"
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -17,8 +18,9 @@ using moreau::Polygon;
 using moreau::Polyhedron;
 using moreau::regular_shape;
 
-TEST_CASE_TEMPLATE("cuboid and rectangle: centre, volume, inertia", Shape, Polyhedron<double>,
-                   Polyhedron<float>, Polygon<double>, Polygon<float>) {
+TEST_CASE_TEMPLATE("cuboid and rectangle: centre, volume, inertia", Shape,
+                   MOREAU_TYPES((Polyhedron<double>, Polygon<double>),
+                                (Polyhedron<float>, Polygon<float>))) {
   using S = moreau::SpaceOf<Shape>;
   using T = typename S::Scalar;
   typename S::Vector half;

@@ -10,6 +10,7 @@
 
 #include "detect/shapes.hpp"
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -61,7 +62,7 @@ TEST_CASE("a rounded box, turned, in closed form") {
   CHECK((its - turn * inertia * turn.transpose()).norm() < 1e-12 * inertia.norm());
 }
 
-TEST_CASE_TEMPLATE("a rounded rectangle in closed form", T, double, float) {
+TEST_CASE_TEMPLATE("a rounded rectangle in closed form", T, MOREAU_TYPES((double), (float))) {
   const Rounded rounded(samples::box(T(2), T(1)), T(0.5));
   // The shape consists of a rectangle 2 x 1, two rectangles 2 x 0.5, two rectangles 0.5 x 1, and
   // four quarters of a disk.

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "conformance/solver.hpp"
+#include "types.hpp"
 
 using namespace solve_test;
 
-#define MOREAU_SPACES Space<2, double>, Space<3, double>, Space<2, float>, Space<3, float>
+#define MOREAU_SPACES \
+  MOREAU_TYPES((Space<2, double>, Space<3, double>), (Space<2, float>, Space<3, float>))
 
 TEST_CASE_TEMPLATE("both solvers meet the tolerance they report", S, MOREAU_SPACES) {
   const double tolerance = sizeof(typename S::Scalar) == 8 ? 1e-9 : 3e-5;

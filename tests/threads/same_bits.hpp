@@ -82,30 +82,33 @@ std::vector<double> fall(const Law& law, const Team& team) {
 }
 
 /// 9 x 9 x 3 (in the plane 60 x 4) grains between a floor and a lid with a mass, which a force presses
-/// on them. The lid touches more than 48 grains: it is a hub of the contact problem.
+/// on them. The lid starts a twentieth of the grain size above the highest grain. It touches more than 48
+/// grains: it is a hub of the contact problem.
 template <class ShapeT, class Law>
 std::vector<double> press(const Law& law, const Team& team) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1, wide = up == 1 ? 60 : 9, high = up == 1 ? 4 : 3;
-  constexpr double size = 0.02, cell = 0.0205, above = up == 1 ? size / 20 : size / 4;
+  constexpr double size = 0.02, cell = 0.0205;
   Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
   world.set_team(team);
   const BodyId floor = world.add_wall(Vector::Unit(up), Vector::Zero());
   for (int axis = 0; axis < up; ++axis) world.set_periodic(axis, 0.0, wide * cell);
-  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(size));
-  double mass = 0;
+  const ShapeT regular = regular_shape<ShapeT>(size);
+  const ShapeId shape = world.add_shape(regular);
+  double mass = 0, top = 0;  // mass of the grains, height of their highest point
   for (int k = 0; k < high; ++k)
     for (int i = 0; i < wide; ++i)
       for (int j = 0; j < (up > 1 ? wide : 1); ++j) {
         Vector position = Vector::Constant(cell * (j + 0.5));
         position[0] = cell * (i + 0.5);
         position[up] = cell * (k + 0.5);
-        const BodyId grain = world.add_grain(
-            shape, {position, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))}, 2700);
+        const Pose<S> pose{position, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))};
+        const BodyId grain = world.add_grain(shape, pose, 2700);
         mass += world.bodies().weight[grain.index()];
+        top = std::max(top, regular.bounding_box(pose).upper[up]);
       }
-  const BodyId lid = world.add_wall(-Vector::Unit(up), (high * cell + above) * Vector::Unit(up));
+  const BodyId lid = world.add_wall(-Vector::Unit(up), (top + size / 20) * Vector::Unit(up));
   world.set_wall_mass(lid, mass);
   world.set_force(lid, -100 * mass * Vector::Unit(up));
   world.set_gravity(-9.81 * Vector::Unit(up));

@@ -10,6 +10,8 @@
 #include "moreau/sample/compound_ballast.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "worlds/compound.hpp"
+
 namespace scenes {
 
 /// Concave ballast that falls into a box, open above, whose first axis may be periodic.

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "moreau/instances/friction_problems.hpp"
 #include "moreau/solve/proximal_solver.hpp"
 
 #include "world/assemblies.hpp"

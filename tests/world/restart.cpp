@@ -9,6 +9,7 @@
 
 #include "io/faults.hpp"
 #include "io/temporary_folder.hpp"
+#include "types.hpp"
 #include "world/assemblies.hpp"
 
 using namespace moreau;
@@ -88,8 +89,8 @@ std::string with(std::string bytes, std::size_t place, Number number) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("N + M steps are N steps, a restart and M steps", ShapeT, Polyhedron<>,
-                   Polygon<>, moreau::Ball<>, Disk<>) {
+TEST_CASE_TEMPLATE("N + M steps are N steps, a restart and M steps", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, moreau::Ball<>))) {
   const TemporaryFolder folder("restart");
   const auto path = folder / "run.snapshot";
   BoxOfGrains<ShapeT> box = shaken_box<ShapeT>(150);
