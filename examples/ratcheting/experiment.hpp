@@ -130,9 +130,7 @@ class Experiment {
     pose.position[up] += parameters_.lid_raise;
     simulation_.set_pose(lid_, pose);
     height_ = pose.position[up];
-    simulation_.set_gravity(-parameters_.gravity * Vector::Unit(up));
-    wall_mass_ = parameters_.wall_mass_ratio * mass_;
-    simulation_.set_wall_mass(wall_, wall_mass_);
+    set_weights();
     start_ = simulation_.time();
   }
 
@@ -175,14 +173,15 @@ class Experiment {
                           more...);
   }
 
-  /// Makes the state that read_checkpoint() read the start of a run with other laws, solver, force
-  /// and step, `hold` before a maximum of its force. The stiffness changes gradually over the first
+  /// Makes the state that read_checkpoint() read the start of a run with other laws, solver, force,
+  /// gravity, mass of the wall and step, `hold` before a maximum of its force. The stiffness changes gradually over the first
   /// half of the hold, because the overlaps are those of the old stiffness.
   /// @param stiffness of the run that made the checkpoint [N/m]
   void start_again(double stiffness) requires solves {
     old_stiffness_ = stiffness;
     simulation_.set_solver(study_solver(parameters_));
     set_correction();
+    set_weights();
     start_ = simulation_.time() - parameters_.begin();
   }
 
@@ -239,6 +238,12 @@ class Experiment {
   /// The speed of the lid in the preparation is that of steps of at least this length [s].
   static constexpr double slowest_step = 2e-4;
 
+  /// Sets gravity and the mass of the wall.
+  void set_weights() {
+    simulation_.set_gravity(-parameters_.gravity * Vector::Unit(up));
+    wall_mass_ = parameters_.wall_mass_ratio * mass_;
+    simulation_.set_wall_mass(wall_, wall_mass_);
+  }
   /// Sets the stiffness of this time in the hold of a run from a checkpoint.
   void change_stiffness() {
     if (old_stiffness_ == 0) return;

@@ -57,6 +57,22 @@ cmp "$folder/one/wall.csv" "$folder/two/wall.csv" || fail "wall.csv differs from
 [ "$(head -1 "$folder/one/wall.csv")" = "t,f,x,v,f_g" ] || fail "header of wall.csv"
 [ "$(wc -l <"$folder/one/wall.csv")" = 101 ] || fail "wall.csv has not a line per step"
 
+# A run from the checkpoint of another one has its own gravity and mass of the wall.
+"$program" "${small[@]}" --duration 0.06 --checkpoint-every 300 --output "$folder/start" >"$folder/start.log" 2>&1 ||
+  fail "start: $(tail -3 "$folder/start.log")"
+again() {
+  "$program" "${small[@]}" --from "$folder/start/checkpoint.snapshot" --hold 0.02 --duration 0.04 "${@:2}" \
+    --output "$folder/$1" >"$folder/$1.log" 2>&1 || fail "$1: $(tail -3 "$folder/$1.log")"
+}
+again usual
+again heavy --wall-mass-ratio 2
+again light --gravity 2
+masses=$(sed -n 's/.*"wall_mass": \([0-9.]*\).*/\1/p' "$folder"/{usual,heavy}/run.json | paste -sd ' ')
+awk '{exit !($2 > 3.99 * $1 && $2 < 4.01 * $1)}' <<<"$masses" || fail "masses of the wall from a checkpoint: $masses"
+for name in heavy light; do
+  cmp -s "$folder/usual/wall.csv" "$folder/$name/wall.csv" && fail "$name: nothing changed after --from"
+done
+
 # Killed after a checkpoint and taken up again: the same tables as without.
 "$program" "${small[@]}" --duration 0.02 --checkpoint-every 7 --output "$folder/killed" \
   >"$folder/killed.log" 2>&1 &
