@@ -14,6 +14,7 @@
 #include "silo.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -110,6 +111,22 @@ Line line(const std::vector<double>& x, const std::vector<double>& y) {
   return found;
 }
 
+/// C of each sample for k = 1.4, the value of the literature: mean and standard error.
+struct Mean {
+  double value = 0, error = 0;
+};
+Mean prefactor(const std::vector<double>& outlets, const std::vector<double>& reduced,
+               double power) {
+  const auto n = double(outlets.size());
+  double sum = 0, square = 0;
+  for (std::size_t k = 0; k < outlets.size(); ++k) {
+    const double c = std::pow(reduced[k] / (outlets[k] - 1.4 * silo::size), power);
+    sum += c, square += c * c;
+  }
+  const double mean = sum / n;
+  return {mean, std::sqrt(std::max(0.0, square / n - mean * mean) / (n - 1))};
+}
+
 struct Tables {
   moreau::CsvWriter samples, fits;
 };
@@ -154,8 +171,12 @@ void run(const Options& options, const Series& series, Tables& tables) {
     const Line fit = line(outlets, reduced);
     const double c = std::pow(fit.slope, power), c_error = c * power * fit.slope_error / fit.slope;
     const double k = fit.zero / silo::size, k_error = fit.zero_error / silo::size;
-    std::cout << "; C = " << c << " +- " << c_error << ", k = " << k << " +- " << k_error;
-    tables.fits.row(dim, series.parts, series.grains, options.samples, c, c_error, k, k_error);
+    const Mean usual = prefactor(outlets, reduced, power);
+    std::cout << "; C = " << usual.value << " +- " << usual.error
+              << " for k = 1.4; fitted: C = " << c << " +- " << c_error << ", k = " << k << " +- "
+              << k_error;
+    tables.fits.row(dim, series.parts, series.grains, options.samples, c, c_error, k, k_error,
+                    usual.value, usual.error);
   }
   std::cout << std::endl;
 }
@@ -175,7 +196,8 @@ int main(int argc, char** argv) try {
                   "bulk_density",
                   {"reduced_rate", "m"}}},
                 {options.output / "beverloo.csv",
-                 {"dimension", "parts", "grains", "samples", "C", "C_error", "k", "k_error"}}};
+                 {"dimension", "parts", "grains", "samples", "C", "C_error", "k", "k_error",
+                  "C_for_1.4", "C_for_1.4_error"}}};
   const std::array<double, 3> in_plane{0.13, 0.16, 0.19}, in_space{0.08, 0.10, 0.12};  // [m]
   for (const std::string& shape : options.shapes) {
     const int parts = shape.starts_with("concave") ? 4 : 1;
