@@ -72,8 +72,7 @@ class Column {
     if (const double least = 2 * 1.5 * setup::size; length_ < least)
       throw std::invalid_argument(std::to_string(count) + " grains make a column of " +
                                   std::to_string(length_) + " m length; it must be " +
-                                  std::to_string(least) +
-                                  " m, two of the largest grains, or more");
+                                  std::to_string(least) + " m, two of the largest grains, or more");
     fill(shapes, radii, random);
     simulation_.add_wall(Vector::Unit(up), Vector::Zero());
     simulation_.add_wall(Vector::UnitX(), Vector::Zero());
