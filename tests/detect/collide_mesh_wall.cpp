@@ -91,27 +91,27 @@ FacetMesh<Plane> convex_mesh(Plane, std::uint64_t seed) {
 template <class ShapeT>
 ShapeT grain(double size);
 template <>
-Polyhedron<> grain(double size) {
+[[maybe_unused]] Polyhedron<> grain(double size) {
   return cuboid<Polyhedron<>>({size, 0.8 * size, 0.6 * size});
 }
 template <>
-Polygon<> grain(double size) {
+[[maybe_unused]] Polygon<> grain(double size) {
   return cuboid<Polygon<>>({size, 0.6 * size});
 }
 template <>
-Ball<> grain(double size) {
+[[maybe_unused]] Ball<> grain(double size) {
   return Ball<>(size);
 }
 template <>
-Disk<> grain(double size) {
+[[maybe_unused]] Disk<> grain(double size) {
   return Disk<>(size);
 }
 template <>
-Capsule<> grain(double size) {
+[[maybe_unused]] Capsule<> grain(double size) {
   return Capsule<>(size, size / 2);
 }
 template <>
-Rounded<Polyhedron<>> grain(double size) {
+[[maybe_unused]] Rounded<Polyhedron<>> grain(double size) {
   return Rounded<Polyhedron<>>(grain<Polyhedron<>>(size), size / 4);
 }
 
