@@ -24,7 +24,7 @@ refuse "--density" --density -1
 refuse "--density" --density nan
 refuse "--step" --step 0
 refuse "--step" --step inf
-refuse "must not exceed --duration" --step 0.1 --duration 0.01 --grains 200
+refuse "must not exceed --duration" --shape disk --step 0.1 --duration 0.01 --grains 200
 refuse "--duration" --duration -1
 refuse "--frequency" --frequency 0
 refuse "--gravity" --gravity -9.81
@@ -37,7 +37,7 @@ refuse "--tolerance" --tolerance 5
 refuse "--margin" --margin 0
 refuse "--max-sweeps" --max-sweeps 0
 refuse "--grains" --grains 2
-refuse "too short for a control volume" --grains 20
+refuse "too short for a control volume" --shape disk --grains 20
 refuse "--seed" --seed -3
 refuse "--shape" --shape cube
 refuse "--size-reading" --size-reading diameter
