@@ -37,7 +37,7 @@ refuse "--tolerance" --tolerance 5
 refuse "--margin" --margin 0
 refuse "--max-sweeps" --max-sweeps 0
 refuse "--grains" --grains 2
-refuse "too short for a control volume" --shape disk --grains 20
+refuse "too short for a control volume" --shape disk --grains 9
 refuse "--seed" --seed -3
 refuse "--shape" --shape cube
 refuse "--size-reading" --size-reading diameter
