@@ -167,7 +167,7 @@ void run(const Options& options, const Series& series, Tables& tables) {
   }
   std::cout << series.name << ": " << unsolved << " of " << steps << " steps not solved, "
             << stopped << " samples stopped flowing";
-  if (outlets.size() > 3) {
+  if (outlets.size() > 2) {
     const Line fit = line(outlets, reduced);
     const double c = std::pow(fit.slope, power), c_error = c * power * fit.slope_error / fit.slope;
     const double k = fit.zero / silo::size, k_error = fit.zero_error / silo::size;
