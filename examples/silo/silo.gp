@@ -14,7 +14,7 @@ law(x, dim, c, k) = c > 0 && x > k * d ? c ** (1 / (dim - 0.5)) * (x - k * d) : 
 set xlabel "outlet D [m]"
 set ylabel "(W / {/Symbol r}{/Symbol \326}g)^{1/(dim - 1/2)} [m]"
 set yrange [0:*]
-set xrange [0:0.18]
+set xrange [0:0.21]
 set key top left Left reverse
 set grid
 set multiplot layout 1,2 title sprintf("Discharge of a silo: grains of 2 cm, %d samples, friction 0.4, tolerance 1e-4, step 0.5 ms", samples)
