@@ -6,9 +6,9 @@
 //
 //   plane_and_space [folder] [grains in the plane] [grains in space] [samples]
 //
-// The defaults are plane_and_space-output, 120, 480 and 3: the columns of the plane and of space then have
-// the same length L0, so that their grains have the same time in units of sqrt(L0 / g). Prints the run-out (L - L0) / L0 over the
-// aspect ratio a, with its standard error over the samples, and writes it to plane_and_space.csv in
+// The defaults are plane_and_space-output, 120, 480 and 3. The lengths L0 of the columns of the plane and of
+// space then differ by a quarter at most, so that their grains have about the same time in units of
+// sqrt(L0 / g). Prints the run-out (L - L0) / L0 over the aspect ratio a, with its standard error over the samples, and writes it to plane_and_space.csv in
 // the folder. Each sample is stored in a file of its own in the folder samples/ when it is finished.
 // A run that was stopped continues from these files; delete them after a change of the program.
 // run.sh builds, runs and plots it.

@@ -88,7 +88,8 @@ silo::Discharge stored_sample(const fs::path& path, const Series& series, double
   return sample;
 }
 
-/// A straight line y = slope (x - zero) through points, by least squares, with standard errors.
+/// A straight line y = slope (x - zero) through at least three points, by least squares, with standard
+/// errors. Here x and y are lengths [m].
 struct Line {
   double slope = 0, zero = 0, slope_error = 0, zero_error = 0;
 };
