@@ -159,7 +159,7 @@ class Tiles {
   /// The lid moves under its force; it weighs as much as the grains.
   void free_lid() {
     double mass = 0;
-    for (const double weight : world.bodies().weight) mass += weight;
+    for (const double weight : world.bodies().grain_mass) mass += weight;
     world.set_velocity(lid_, Vector::Zero());
     world.set_wall_mass(lid_, mass);
   }

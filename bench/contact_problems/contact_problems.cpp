@@ -77,7 +77,7 @@ StepProblem<SpaceOf<ShapeT>> packing(std::size_t count) {
     pose.rotation = S::exp(turn);
     const auto body =
         world.add_grain(world.add_shape(shapes[i % shapes.size()].scaled(radius)), pose, 2700);
-    mass += world.bodies().weight[body.index()];
+    mass += world.bodies().grain_mass[body.index()];
   }
   BodyId wall;
   for (int d = 0; d < up; ++d) {

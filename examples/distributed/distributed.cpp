@@ -18,7 +18,8 @@
 
 namespace {
 
-using Shape = moreau::Polyhedron<double>;  // or moreau::Polygon, moreau::Ball, moreau::Disk
+// Or moreau::Polygon<double>, moreau::Ball<double>, moreau::Disk<double>:
+using Shape = moreau::Polyhedron<double>;
 using S = moreau::SpaceOf<Shape>;
 using Law = moreau::Compliant<>;
 using World = moreau::Simulation<Shape, Law>;

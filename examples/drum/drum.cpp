@@ -57,7 +57,7 @@ template <class Simulation>
 double angle_of_repose(const Simulation& simulation) {
   typename Simulation::Vector sum = Simulation::Vector::Zero();
   for (const moreau::BodyId grain : simulation.grains())
-    sum += simulation.bodies().weight[grain.index()] * simulation.pose(grain).position;
+    sum += simulation.bodies().grain_mass[grain.index()] * simulation.pose(grain).position;
   return std::atan2(std::abs(sum[0]), -sum[Simulation::S::dim - 1]) * 180 / std::numbers::pi;
 }
 

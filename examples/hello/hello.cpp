@@ -4,7 +4,8 @@
 #include <moreau/moreau.hpp>
 
 int main() {
-  using Shape = moreau::Polyhedron<double>;  // or moreau::Polygon, moreau::Ball, moreau::Disk
+  // Or moreau::Polygon<double>, moreau::Ball<double>, moreau::Disk<double>:
+  using Shape = moreau::Polyhedron<double>;
   using S = moreau::SpaceOf<Shape>;
   using Law = moreau::SignoriniCoulomb<double>;
   const S::Vector aside = S::Vector::UnitX(), up = S::Vector::Unit(S::dim - 1);

@@ -70,7 +70,7 @@ double fill(Simulation& simulation) {
     for (int axis = 0; axis < up; ++axis, rest /= per_side)
       pose.position[axis] = width / per_side * (rest % per_side + 0.5) + jitter(random);
     pose.position[up] = 1.15 * size * (rest + 0.5);
-    mass += simulation.bodies().weight[simulation.add_grain(grains[k % 3], pose, 2500).index()];
+    mass += simulation.bodies().grain_mass[simulation.add_grain(grains[k % 3], pose, 2500).index()];
   }
   for (int axis = 0; axis < up; ++axis) {
     simulation.add_wall(Vector::Unit(axis), Vector::Zero());

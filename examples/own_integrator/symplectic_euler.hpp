@@ -18,7 +18,7 @@ struct SymplecticEuler {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       typename S::Twist& v = bodies.velocity[i];
       const typename S::Twist load = loads[i] + bodies.force[i];
-      const typename S::Vector force = moreau::linear<S>(load) + bodies.weight[i] * gravity;
+      const typename S::Vector force = moreau::linear<S>(load) + bodies.grain_mass[i] * gravity;
       const typename S::Matrix axes = bodies.axes(i);  // a wall with mass moves along one of them
       moreau::linear<S>(v) +=
           step * (axes * bodies.inverse_mass[i].cwiseProduct(axes.transpose() * force));

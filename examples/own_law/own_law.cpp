@@ -24,7 +24,7 @@ int main() {
   const auto crate = simulation.add_grain(shape, pose, 500);
   simulation.add_wall({0, 1}, {0, 0});
   simulation.set_gravity({9.81 * std::sin(slope), -9.81 * std::cos(slope)});
-  const double mass = simulation.bodies().weight[crate.index()];
+  const double mass = simulation.bodies().grain_mass[crate.index()];
   const double drag = 2 * viscosity;  // of two contact points
   int unsolved = 0;
   double worst = 0;

@@ -18,7 +18,8 @@
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/sample/size_distribution.hpp"
 
-using Shape = moreau::Polyhedron<double>;  // or moreau::Polygon, moreau::Ball, moreau::Disk
+// Or moreau::Polygon<double>, moreau::Ball<double>, moreau::Disk<double>:
+using Shape = moreau::Polyhedron<double>;
 using S = moreau::SpaceOf<Shape>;
 using Vector = S::Vector;
 using Law = moreau::SignoriniCoulomb<double>;
@@ -55,7 +56,7 @@ double kinetic_energy(const Simulation& simulation) {
   const auto& bodies = simulation.bodies();
   const auto motion_of = [&](std::size_t k) {
     const std::size_t i = simulation.grain(k).index();
-    return moreau::BodyMotion<S>(bodies.weight[i], bodies.inertia(i, bodies.pose[i].rotation),
+    return moreau::BodyMotion<S>(bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
                                  bodies.pose[i].position, bodies.velocity[i]);
   };
   return moreau::kinetic_energy<S>(simulation.grain_count(), motion_of).total();
@@ -64,7 +65,7 @@ double kinetic_energy(const Simulation& simulation) {
 /// Weight of all grains [N].
 double weight(const Simulation& simulation) {
   double mass = 0;
-  for (const double grain : simulation.bodies().weight) mass += grain;
+  for (const double grain : simulation.bodies().grain_mass) mass += grain;
   return mass * gravity;
 }
 

@@ -198,7 +198,7 @@ class Experiment {
                                      [&](std::size_t k) {
                                        const std::size_t i = simulation_.grain(k).index();
                                        return moreau::BodyMotion<S>{
-                                           bodies.weight[i],
+                                           bodies.grain_mass[i],
                                            bodies.inertia(i, bodies.pose[i].rotation),
                                            bodies.pose[i].position, bodies.velocity[i]};
                                      })

@@ -105,7 +105,7 @@ class Silo {
   Discharge discharge(const std::filesystem::path& picture) {
     double mass = 0;
     for (const auto grain : simulation_.grains())
-      mass += simulation_.bodies().weight[grain.index()];
+      mass += simulation_.bodies().grain_mass[grain.index()];
     result_.bulk_density = bulk_density();
     moreau::Pose<S> lowered;  // below the sink
     lowered.position[up] = -0.15;
@@ -171,7 +171,7 @@ class Silo {
     std::vector<std::pair<double, double>> grains;  // height, mass
     for (const auto grain : simulation_.grains())
       if (const double z = simulation_.pose(grain).position[up]; z > funnel_)
-        grains.emplace_back(z, simulation_.bodies().weight[grain.index()]);
+        grains.emplace_back(z, simulation_.bodies().grain_mass[grain.index()]);
     if (grains.size() < 30)
       throw std::runtime_error(
           "fewer than 30 grains above the funnel: no bulk density; add grains");

@@ -105,10 +105,11 @@ TEST_CASE("bad drives and servos are named") {
   push.apply(scene.simulation, 1e-3);
   CHECK_THROWS_AS(aside.apply(scene.simulation, 1e-3), std::invalid_argument);
   const VelocityDrive pull(scene.wall, V(1, 0), one), along(scene.wall, V(0, 1), one);
-  CHECK_THROWS_WITH_AS(pull.apply(scene.simulation, 1e-3),
-                       "VelocityDrive::apply: body = 0 must have no mass along the direction, as a "
-                       "wall without set_wall_mass",
-                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      pull.apply(scene.simulation, 1e-3),
+      "VelocityDrive::apply: body = 0 must have a prescribed motion along the direction, as a "
+      "wall without set_wall_mass",
+      std::invalid_argument);
   along.apply(scene.simulation, 1e-3);
   CHECK_THROWS_AS(along.apply(scene.simulation, -1e-3), std::invalid_argument);
   CHECK_THROWS_AS(HarmonicForce(0, 1, 1e308), std::invalid_argument);
@@ -122,10 +123,11 @@ TEST_CASE("bad drives and servos are named") {
                        "PressureServo: gain = 0 must be finite and > 0", std::invalid_argument);
   CHECK_THROWS_AS(PressureServo(scene.wall, 1, 1, -1, area), std::invalid_argument);
   const PressureServo servo(scene.wall, 1, 1, 1, area);
-  CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),
-                       "PressureServo::apply: wall = 0 must have no mass: contacts change the "
-                       "velocity of a wall with a mass",
-                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      servo.apply(scene.simulation, 1e-3),
+      "PressureServo::apply: wall = 0 must have a prescribed motion: contacts change the "
+      "velocity of a wall with a mass",
+      std::invalid_argument);
   length = 0;
   CHECK_THROWS_WITH_AS(servo.apply(scene.simulation, 1e-3),
                        "PressureServo::apply: area = 0 must be finite and > 0",

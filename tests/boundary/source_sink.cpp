@@ -78,7 +78,7 @@ TEST_CASE_TEMPLATE("a source fills its box up to its limit, without overlaps", S
     CHECK(shaft.least_gap() >= 0);
     double mass = 0;
     for (const BodyId grain : source.added()) {
-      mass += world.bodies().weight[grain.index()];
+      mass += world.bodies().grain_mass[grain.index()];
       CHECK(world.velocity(grain) == options.velocity);
       CHECK(options.region.contains(world.shape(grain).bounding_box(world.pose(grain))));
     }
@@ -133,7 +133,7 @@ TEST_CASE_TEMPLATE("a sink removes the grains behind a plane or outside a box", 
   const BodyId left = add(-1), middle = add(0), right = add(1), fixed = add(-2), far = add(5);
   world.prescribe_motion(fixed);
   Sink<S> behind = Sink<S>::behind(Vector::UnitX(), -0.5 * Vector::UnitX());
-  const double mass = world.bodies().weight[left.index()];
+  const double mass = world.bodies().grain_mass[left.index()];
   GrainSum removed = behind.apply(world);
   CHECK(removed.count == 1);
   CHECK(removed.mass == mass);

@@ -30,7 +30,7 @@ struct FreeBody {
     bodies.inverse_mass.push_back(S::Vector::Constant(1 / mass));
     bodies.inertia_body.push_back(inertia);
     bodies.inverse_inertia_root_body.push_back(moreau::inverse_root<S>(inertia));
-    bodies.weight.push_back(mass);
+    bodies.grain_mass.push_back(mass);
     bodies.material.push_back(moreau::MaterialId(0));
     bodies.id.emplace_back();
   }
@@ -89,7 +89,7 @@ void check_forces(const Integrator& integrator, int steps, double rounding) {
   FreeBody<S> wall(1, uneven_inertia<S>());
   wall.bodies.inertia_body[0].setZero();
   wall.bodies.inverse_inertia_root_body[0].setZero();
-  wall.bodies.weight[0] = 0;
+  wall.bodies.grain_mass[0] = 0;
   wall.bodies.inverse_mass[0] = Vector::UnitX() / 2;
   const Vector normal = (Vector::Unit(0) + 2 * Vector::Unit(1)).normalized();
   wall.bodies.pose[0].rotation = S::normalized(typename S::Rotation(S::contact_frame(normal)));
@@ -116,7 +116,7 @@ void check_forces(const Integrator& integrator, int steps, double rounding) {
 
 /// Checks that in a fall the velocity is exact and the position accurate to first order in the
 /// step; that a top without torques keeps its angular momentum, and its energy to 1 %; that forces
-/// and torques have the right effect; and that a body without mobility keeps its velocity.
+/// and torques have the right effect; and that a body whose motion is prescribed keeps its velocity.
 template <class S, class Integrator>
 requires moreau::TimeIntegrator<Integrator, S>
 void integrator(const Integrator& integrator) {

@@ -91,8 +91,8 @@ class Assembly {
   moreau::BodyMotion<S> motion(std::size_t k) const {
     const auto& bodies = simulation.bodies();
     const std::size_t i = simulation.grain(k).index();
-    return {bodies.weight[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
-            bodies.velocity[i]};
+    return {bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
+            bodies.pose[i].position, bodies.velocity[i]};
   }
   moreau::Momentum<S> momentum() const {
     return moreau::momentum<S>(simulation.grain_count(), [&](std::size_t k) { return motion(k); });

@@ -38,7 +38,7 @@ void check_steps(std::size_t count, double tolerance, int steps) {
     Vector change = Vector::Zero();
     double all = 0;
     for (const BodyId grain : after->grains()) {
-      const double mass = after->bodies().weight[grain.index()];
+      const double mass = after->bodies().grain_mass[grain.index()];
       change += mass * (after->velocity(grain) - before->velocity(grain) - step * after->gravity());
       all += mass * after->velocity(grain).norm();
     }

@@ -115,7 +115,7 @@ World box_of_grains(std::size_t count, double tolerance = 1e-6, std::uint64_t se
   for (int axis = 0; axis < up; ++axis)
     world.add_wall(-Vector::Unit(axis), length * Vector::Unit(axis));
   const BodyId mover = world.walls().back();
-  const double mass = world.bodies().weight[0] * 20;
+  const double mass = world.bodies().grain_mass[0] * 20;
   world.set_wall_mass(mover, mass);
   world.set_force(mover, -20 * mass * Vector::Unit(up - 1));
   world.set_gravity(-9.81 * Vector::Unit(up));

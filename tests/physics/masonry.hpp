@@ -90,7 +90,7 @@ struct Structure {
   }
   double mass() const {
     double sum = 0;
-    for (const double weight : simulation.bodies().weight) sum += weight;
+    for (const double weight : simulation.bodies().grain_mass) sum += weight;
     return sum;
   }
   /// The velocity to which the residual of the last step is relative: |r| times the mean of the

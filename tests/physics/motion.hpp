@@ -16,7 +16,7 @@ double kinetic_energy(const Simulation& simulation) {
                                    [&](std::size_t k) {
                                      const std::size_t i = simulation.grain(k).index();
                                      return moreau::BodyMotion<S>{
-                                         bodies.weight[i],
+                                         bodies.grain_mass[i],
                                          bodies.inertia(i, bodies.pose[i].rotation),
                                          bodies.pose[i].position, bodies.velocity[i]};
                                    })

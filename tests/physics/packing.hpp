@@ -28,7 +28,7 @@ void check_rests(double duration) {
   scenes::BoxOfGrains<ShapeT> box(count, options, 0.5);
   for (int k = 0; k < 1500; ++k) box.simulation.step(h);
   double mass = 0;
-  for (const double weight : box.simulation.bodies().weight) mass += weight;
+  for (const double weight : box.simulation.bodies().grain_mass) mass += weight;
   double overlap[2] = {}, energy[2] = {};
   const int half = int(duration / h / 2);
   int capped = 0;

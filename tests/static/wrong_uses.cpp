@@ -18,6 +18,8 @@
 // | 34 | cannot convert 'Id<BodyTag>' to 'Id<ShapeTag>' |
 // | 35 | cannot convert 'Pose<Space<2, double> >' to 'const Pose<Space<3, double> >&' |
 // | 36 | cannot convert 'Polygon<double>' to 'const Polyhedron<double>&' |
+// | 44 | use of deleted function 'Materials<Law>::Materials(auto:1, const Law&) [with auto:1 = double]' |
+// | 45-47 | use of deleted function 'Placed<ShapeT>::Placed(const ShapeT&&)' |
 // | 37 | template constraint failure for 'template<class ... Shapes> .. class OneOf' |
 #include "moreau/boundary/drive.hpp"
 #include "moreau/measure/energy.hpp"
@@ -111,5 +113,15 @@ REFUSED(34, world.add_grain(body, pose, 2700));
 REFUSED(35, world.add_grain(shape, moreau::Pose<R>(), 2700));
 REFUSED(36, world.add_shape(std::declval<moreau::Polygon<T>>()));
 REFUSED(37, typename moreau::OneOf<moreau::Ball<T>, moreau::Disk<T>>);
+TAKEN(moreau::Materials<Law>(2));
+REFUSED(44, moreau::Materials<Law>(T(0.4)));
+
+// Temporary shapes, to which a placed shape would refer.
+TAKEN(moreau::Placed<moreau::Polygon<T>>(std::declval<const moreau::Polygon<T>&>()));
+REFUSED(45, moreau::Placed<moreau::Polygon<T>>(std::declval<moreau::Polygon<T>>()));
+REFUSED(46,
+        moreau::Placed<moreau::Polygon<T>>(std::declval<moreau::Polygon<T>>(), moreau::Pose<R>()));
+using Mixed = moreau::OneOf<moreau::Ball<double>, moreau::Polyhedron<double>>;
+REFUSED(47, moreau::Placed<Mixed>(std::declval<Mixed>()));
 
 }  // namespace

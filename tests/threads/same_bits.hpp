@@ -105,7 +105,7 @@ std::vector<double> press(const Law& law, const Team& team) {
         position[up] = cell * (k + 0.5);
         const Pose<S> pose{position, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))};
         const BodyId grain = world.add_grain(shape, pose, 2700);
-        mass += world.bodies().weight[grain.index()];
+        mass += world.bodies().grain_mass[grain.index()];
         top = std::max(top, regular.bounding_box(pose).upper[up]);
       }
   const BodyId lid = world.add_wall(-Vector::Unit(up), (top + size / 20) * Vector::Unit(up));

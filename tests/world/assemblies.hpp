@@ -49,7 +49,7 @@ struct BoxOfGrains {
   Vector momentum() const {
     Vector sum = Vector::Zero();
     for (const BodyId grain : grains)
-      sum += simulation.bodies().weight[grain.index()] * simulation.velocity(grain);
+      sum += simulation.bodies().grain_mass[grain.index()] * simulation.velocity(grain);
     return sum;
   }
 };

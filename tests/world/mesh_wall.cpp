@@ -250,7 +250,7 @@ TEST_CASE_TEMPLATE("a wall that moves lifts a grain, a wall with a mass is carri
   CHECK(simulation.pose(block).position.dot(up) == doctest::Approx(0.03).epsilon(0.001));
   CHECK(simulation.pose(lid).position.dot(up) == doctest::Approx(0.04).epsilon(0.001));
   // Force on the lid: 5 N; on the floor also the weight of the block.
-  const double weight = 9.81 * simulation.bodies().weight[block.index()];
+  const double weight = 9.81 * simulation.bodies().grain_mass[block.index()];
   CHECK(simulation.contact_impulse(lid).dot(up) / 5e-4 == doctest::Approx(5).epsilon(1e-4));
   CHECK(simulation.contact_impulse(floor).dot(up) / 5e-4 ==
         doctest::Approx(-5 - weight).epsilon(1e-4));

@@ -75,12 +75,13 @@ TEST_CASE_TEMPLATE("an intruder moves at its velocity, and gives the momentum th
   const auto momentum = [&] {
     Vector sum = Vector::Zero();
     for (const BodyId grain : scene.grains)
-      if (grain != intruder) sum += world.bodies().weight[grain.index()] * world.velocity(grain);
+      if (grain != intruder)
+        sum += world.bodies().grain_mass[grain.index()] * world.velocity(grain);
     return sum;
   };
   Vector weight = Vector::Zero();
   for (const BodyId grain : scene.grains)
-    if (grain != intruder) weight += world.bodies().weight[grain.index()] * world.gravity();
+    if (grain != intruder) weight += world.bodies().grain_mass[grain.index()] * world.gravity();
   const Vector start = world.pose(intruder).position;
   double worst = 0, pushes = 0;
   const int steps = rounds(200);

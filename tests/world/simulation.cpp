@@ -28,7 +28,7 @@ TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", Sh
   const double h = 5e-4;
   Vector weight = Vector::Zero();
   for (const BodyId grain : scene.grains)
-    weight += scene.simulation.bodies().weight[grain.index()] * scene.simulation.gravity();
+    weight += scene.simulation.bodies().grain_mass[grain.index()] * scene.simulation.gravity();
   double worst = 0, reactions = 0;
   for (int k = 0; k < rounds(400); ++k) {
     const Vector before = scene.momentum();

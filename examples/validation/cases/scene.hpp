@@ -132,7 +132,7 @@ template <class ShapeT, class Law>
 moreau::BodyMotion<SpaceOf<ShapeT>> motion_of(const World<ShapeT, Law>& world, std::size_t grain) {
   const std::size_t i = world.grain(grain).index();
   const auto& bodies = world.bodies();
-  return {bodies.weight[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
+  return {bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
           bodies.velocity[i]};
 }
 /// Kinetic energy of all grains [J].
@@ -148,7 +148,7 @@ double energy(const World<ShapeT, Law>& world) {
   double sum = kinetic_energy(world);
   for (std::size_t k = 0; k < world.grain_count(); ++k) {
     const std::size_t i = world.grain(k).index();
-    sum -= world.bodies().weight[i] * world.gravity().dot(world.bodies().pose[i].position);
+    sum -= world.bodies().grain_mass[i] * world.gravity().dot(world.bodies().pose[i].position);
   }
   return sum;
 }
@@ -161,7 +161,7 @@ moreau::Momentum<SpaceOf<ShapeT>> momentum(const World<ShapeT, Law>& world) {
 template <class ShapeT, class Law>
 double mass(const World<ShapeT, Law>& world) {
   double sum = 0;
-  for (const double weight : world.bodies().weight) sum += weight;
+  for (const double weight : world.bodies().grain_mass) sum += weight;
   return sum;
 }
 

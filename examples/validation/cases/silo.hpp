@@ -77,7 +77,7 @@ struct Silo {
     };
     for (std::size_t k = 0; k < world.grain_count(); ++k) {
       const std::size_t i = world.grain(k).index();
-      add(weight, bodies.pose[i].position[up], bodies.weight[i] * gravity);
+      add(weight, bodies.pose[i].position[up], bodies.grain_mass[i] * gravity);
     }
     const auto& contacts = world.contacts();
     for (std::size_t c = 0; c < contacts.size(); ++c) {

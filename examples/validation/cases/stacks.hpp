@@ -43,7 +43,7 @@ void column(Record& record, int count, const Law& law, double theta = 0.5) {
     unsolved += rigid && !solve.converged;
     sweeps = std::max(sweeps, solve.sweeps);
   }
-  const double weight = world.bodies().weight[0] * gravity;
+  const double weight = world.bodies().grain_mass[0] * gravity;
   double worst = 0;
   for (int k = 0; k < count; ++k) {
     double carried = 0;

@@ -21,7 +21,7 @@ Balance balance(const World<ShapeT>& world, double h) {
   const auto& bodies = world.bodies();
   std::vector<Twist> load(bodies.size(), Twist::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    load[i].template head<S::dim>() = bodies.weight[i] * world.gravity();
+    load[i].template head<S::dim>() = bodies.grain_mass[i] * world.gravity();
   double worst = 0, all = 0;
   const auto& contacts = world.contacts();
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -29,8 +29,8 @@ struct Encounter {
     world.set_velocity(upper, in_plane<S>(v_t, -v_n));
   }
   double mass() const {  ///< effective mass [kg]
-    return 1 /
-           (1 / world.bodies().weight[lower.index()] + 1 / world.bodies().weight[upper.index()]);
+    return 1 / (1 / world.bodies().grain_mass[lower.index()] +
+                1 / world.bodies().grain_mass[upper.index()]);
   }
   /// Effective radius [m].
   static constexpr double radius() { return 1 / (1 / below + 1 / above); }

@@ -53,10 +53,9 @@ struct Bodies {
   std::vector<Inertia> inertia_body;
   /// I^-1/2, body axes [kg^-1/2 m^-1]; 0 if the rotation is prescribed.
   std::vector<Inertia> inverse_inertia_root_body;
-  /// The mass on which gravity acts [kg]: weight[i] times the gravitational acceleration [m/s^2] is
-  /// the force of gravity [N]. It is the mass for grains, also while their motion is prescribed. It is
-  /// 0 for walls, also for walls that have an inverse mass along an axis. It is not a force.
-  std::vector<typename S::Scalar> weight;
+  /// The mass on which gravity acts [kg]: that of a grain, also while its motion is prescribed; 0 for
+  /// walls, also for a wall with a mass along its normal.
+  std::vector<typename S::Scalar> grain_mass;
   std::vector<MaterialId> material;  ///< material of the surface
   /// The id of the body. If its generation is odd, the element belongs to no body: its grain was
   /// removed, and it will be the element of a body that is added later. Until then it is at rest and
@@ -75,7 +74,7 @@ struct Bodies {
     inverse_mass.push_back(Vector::Zero());
     inertia_body.push_back(Inertia::Zero());
     inverse_inertia_root_body.push_back(Inertia::Zero());
-    weight.push_back(0);
+    grain_mass.push_back(0);
     material.push_back(of);
     id.push_back(BodyId(id.size()));
   }
@@ -92,7 +91,7 @@ struct Bodies {
     inverse_mass[i].setZero();
     inertia_body[i].setZero();
     inverse_inertia_root_body[i].setZero();
-    weight[i] = 0;
+    grain_mass[i] = 0;
     ++id[i].generation;
   }
   /// Turns body i into a grain: a body that forces move along all axes. Arguments are not checked.
@@ -102,10 +101,10 @@ struct Bodies {
     inverse_mass[i] = Vector::Constant(1 / mass);
     inertia_body[i] = inertia;
     inverse_inertia_root_body[i] = inverse_root<S>(inertia);
-    weight[i] = mass;
+    grain_mass[i] = mass;
   }
   /// Makes grain i move at its velocity alone: neither forces nor impulses change it. set_mass() with
-  /// weight[i] and inertia_body[i] is the inverse.
+  /// grain_mass[i] and inertia_body[i] is the inverse.
   void prescribe_motion(std::size_t i) {
     inverse_mass[i].setZero();
     inverse_inertia_root_body[i].setZero();
@@ -115,7 +114,7 @@ struct Bodies {
   bool are_valid(std::size_t materials) const {
     for (const std::size_t count :
          {velocity.size(), force.size(), inverse_mass.size(), inertia_body.size(),
-          inverse_inertia_root_body.size(), weight.size(), material.size(), id.size()})
+          inverse_inertia_root_body.size(), grain_mass.size(), material.size(), id.size()})
       if (count != size()) return false;
     for (std::size_t i = 0; i < size(); ++i)
       if (id[i].index() != i) return false;
@@ -147,13 +146,13 @@ struct Bodies {
         for (int k = 0; k < S::dim; ++k)
           linear(row, column) += r(row, k) * std::sqrt(inverse_mass[i][k]) * r(column, k);
       }
-    return {linear, turned * a.transpose(), weight[i] > 0};
+    return {linear, turned * a.transpose(), grain_mass[i] > 0};
   }
 
   /// See core/serialize.hpp.
   auto serialized_members() {
     return std::tie(pose, velocity, force, inverse_mass, inertia_body, inverse_inertia_root_body,
-                    weight, material, id);
+                    grain_mass, material, id);
   }
 };
 

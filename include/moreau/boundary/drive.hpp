@@ -91,8 +91,8 @@ class Drive {
     return static_cast<Scalar>(f_(simulation.time() + step / 2)) * direction_;
   }
   /// If expected is true, throws unless a force along the direction accelerates the body. If
-  /// expected is false, throws if such a force accelerates the body. A wall for which set_wall_mass
-  /// was not called has no mass. A wall with a mass moves only along its normal.
+  /// expected is false, throws if such a force accelerates the body. The motion of a wall is prescribed
+  /// until set_wall_mass() is called; then a force can accelerate it, but only along its normal.
   void require_mass(const auto& simulation, bool expected, const char* self,
                     const char* expectation) const {
     const auto& bodies = simulation.bodies();
@@ -140,15 +140,14 @@ class ForceDrive : public detail::Drive<VectorT, F> {
   }
 };
 
-/// A velocity f(t) [m/s] along a fixed direction of a body without mass, such as a wall, or of a grain
-/// after Simulation::prescribe_motion(). The velocity replaces the velocity that set_velocity() has set.
+/// A velocity f(t) [m/s] along a fixed direction of a body whose motion is prescribed: a wall without
+/// set_wall_mass(), or a grain after prescribe_motion(). The velocity replaces the velocity that set_velocity() has set.
 template <class VectorT, class F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
 
  public:
-  /// @param body      a body without mass along the direction, or a grain whose motion is prescribed;
-  ///                  apply() checks this
+  /// @param body      a body whose motion along the direction is prescribed; apply() checks this
   /// @param direction D components, unit, world axes; if f > 0 the body moves in this direction
   /// @param f         function: time at the middle of the step [s] -> velocity [m/s]
   /// @throws std::invalid_argument if the length of the direction differs from 1 by more than 1e-5
@@ -157,14 +156,15 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
 
   /// Sets the velocity for the next step.
   /// @param step length of the next step [s]
-  /// @throws std::invalid_argument for a body that is not in the simulation, a body with a mass
-  ///                               along the direction, a velocity that is not finite, or a step
+  /// @throws std::invalid_argument for a body that is not in the simulation, a body that
+  ///                               forces along the direction accelerate, a velocity that is not finite, or a step
   ///                               that is not finite or not positive
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
     const VectorT velocity = this->value(simulation, step, self);
-    this->require_mass(simulation, false, self,
-                       "must have no mass along the direction, as a wall without set_wall_mass");
+    this->require_mass(
+        simulation, false, self,
+        "must have a prescribed motion along the direction, as a wall without set_wall_mass");
     simulation.set_velocity(this->body(), velocity);
   }
 };

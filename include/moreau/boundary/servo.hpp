@@ -109,11 +109,11 @@ class PressureLoad {
   Area area_;
 };
 
-/// A pressure controlled by the velocity of a wall without mass, for compliant grains.
+/// A pressure controlled by the velocity of a wall without set_wall_mass(), for compliant grains.
 template <AreaFunction Area>
 class PressureServo {
  public:
-  /// @param wall     id of a half-space without mass; apply() checks this
+  /// @param wall     id of a half-space without set_wall_mass(); apply() checks this
   /// @param pressure set point [Pa], in the plane [N/m]; > 0 pushes the wall on the grains
   /// @param gain     velocity of the wall per difference of pressure [m/(s Pa)], in the plane
   ///                 [m^2/(s N)], > 0
@@ -141,7 +141,8 @@ class PressureServo {
     const Scalar area = detail::checked_area<Scalar>(area_, "PressureServo::apply");
     const double missing = pressure_ - double(wall_pressure(simulation, wall_, step, area));
     require(simulation.bodies().inverse_mass[wall_.index()].isZero(0), "PressureServo::apply",
-            "wall", wall_, "must have no mass: contacts change the velocity of a wall with a mass");
+            "wall", wall_,
+            "must have a prescribed motion: contacts change the velocity of a wall with a mass");
     const double speed = std::clamp(gain_ * missing, -limit_, limit_);
     simulation.set_velocity(
         wall_, static_cast<Scalar>(speed) * simulation.bodies().axes(wall_.index()).col(0));

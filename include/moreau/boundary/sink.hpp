@@ -73,7 +73,7 @@ class Sink {
       if (stays || simulation.is_prescribed(grain)) continue;
       removed_.push_back(grain);
       ++now.count;
-      now.mass += double(simulation.bodies().weight[grain.index()]);
+      now.mass += double(simulation.bodies().grain_mass[grain.index()]);
     }
     simulation.remove_grains(removed_);
     total_.count += now.count;

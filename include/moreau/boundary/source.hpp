@@ -103,7 +103,7 @@ class Source {
     while (due_ >= 1 && simulation.grain_count() < options_.grain_limit && add(simulation)) {
       due_ -= 1;
       ++now.count;
-      now.mass += double(simulation.bodies().weight[added_.back().index()]);
+      now.mass += double(simulation.bodies().grain_mass[added_.back().index()]);
     }
     total_.count += now.count;
     total_.mass += now.mass;

@@ -49,7 +49,7 @@ class PeriodicCell {
   const Vector& lower() const { return lower_; }
 
   /// The image of x that lies in the cell, world axes [m].
-  Vector wrap(const VectorArgument<S>& x) const { return image_from(lower_, x); }
+  [[nodiscard]] Vector wrap(const VectorArgument<S>& x) const { return image_from(lower_, x); }
   /// The image y of x with from <= y < from + length() along the periodic axes. Along open axes, y
   /// = x. World axes [m].
   Vector image_from(const VectorArgument<S>& from, const VectorArgument<S>& x) const {

@@ -84,7 +84,7 @@ class Barrier {
 class ShareTuner {
  public:
   bool shares() const { return left_ > 0 ? left_ % 2 == 0 : shares_; }
-  /// @param time of one piece of work per unit, done as shares() said
+  /// @param time per unit of the last piece of work, which was shared or not as shares() had answered
   void measured(double time) {
     if (left_ > 0)
       try_out(time);

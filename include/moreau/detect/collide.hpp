@@ -12,7 +12,7 @@
 // cache.
 //
 //   polyhedra, polygons        pairs/collide_polytopes.hpp, polytope/
-//   balls, disks               pairs/collide_spheres.hpp, pairs/collide_sphere_polytope.hpp
+//   balls, disks               pairs/collide_balls.hpp, pairs/collide_ball_polytope.hpp
 //   capsules, rounded shapes   pairs/collide_rounded.hpp, which collides their cores
 //   segments                   pairs/collide_segments.hpp, pairs/collide_segment_polytope.hpp
 //   half-spaces                pairs/collide_half_space.hpp
@@ -27,6 +27,8 @@
 #pragma once
 
 #include "moreau/detect/convex/collide_convex.hpp"
+#include "moreau/detect/pairs/collide_ball_polytope.hpp"
+#include "moreau/detect/pairs/collide_balls.hpp"
 #include "moreau/detect/pairs/collide_compound.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
 #include "moreau/detect/pairs/collide_one_of.hpp"
@@ -34,8 +36,6 @@
 #include "moreau/detect/pairs/collide_rounded.hpp"
 #include "moreau/detect/pairs/collide_segment_polytope.hpp"
 #include "moreau/detect/pairs/collide_segments.hpp"
-#include "moreau/detect/pairs/collide_sphere_polytope.hpp"
-#include "moreau/detect/pairs/collide_spheres.hpp"
 #include "moreau/detect/reduce.hpp"
 
 namespace moreau {
@@ -94,7 +94,7 @@ bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar
 
 /// Whether the shapes have a point in common: distance(a, b).gap <= 0.
 template <class A, class B>
-bool overlap(const Placed<A>& a, const Placed<B>& b) {
+[[nodiscard]] bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return distance(a, b).gap <= 0;
 }
 
@@ -106,7 +106,7 @@ SignedDistance<SpaceOf<A>> distance(const Placed<A>& a, const Placed<B>& b,
 }
 /// Whether the shapes have a point in common, for a pair whose functions make no use of a cache.
 template <class A, class B>
-bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>&) {
+[[nodiscard]] bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>&) {
   return overlap(a, b);
 }
 

@@ -156,7 +156,7 @@ struct Manifold {
 /// by a tenth of their size or more and one of the shapes is a segment or a shape of which only the
 /// support function is known.
 template <class S>
-struct SignedDistance {
+struct [[nodiscard]] SignedDistance {
   typename S::Scalar gap;        ///< signed gap [m]; if < 0, minus the depth of penetration
   typename S::Vector normal;     ///< unit, from a to b, world axes
   typename S::Vector witness_a;  ///< point of a's surface nearest to b or deepest in b, world axes

@@ -239,6 +239,7 @@ class Placement<Segment<S>> {
 
 /// A shape at a pose. Its functions are update(shape, pose), which places the shape again,
 /// center(), support(direction), bounding_box() and the other functions of its detail::Placement.
+/// It refers to the shape, so the shape must not be a temporary object.
 template <class ShapeT>
 class Placed : public detail::Placement<ShapeT> {
  public:
@@ -250,6 +251,8 @@ class Placed : public detail::Placement<ShapeT> {
   explicit Placed(const ShapeT& shape) { this->update(shape, Pose<Space>{}); }
   /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   Placed(const ShapeT& shape, const Pose<Space>& pose) { this->update(shape, pose); }
+  explicit Placed(const ShapeT&&) = delete;
+  Placed(const ShapeT&&, const Pose<Space>&) = delete;
 };
 
 /// A rounded shape at a pose: its placed core and the rounding radius.
@@ -265,6 +268,7 @@ class Placed<Rounded<Core>> {
       : core_(shape.core(), shape.core_pose(pose)),
         center_(pose.position),
         radius_(shape.radius()) {}
+  explicit Placed(const Rounded<Core>&&, const Pose<Space>& = {}) = delete;
 
   /// Places the shape at a pose, world axes [m]. The shape must outlive this object.
   void update(const Rounded<Core>& shape, const Pose<Space>& pose) {
@@ -301,6 +305,7 @@ class Placed<ShapeT> {
 
   /// Places the grain at a pose, world axes [m]. The shape must outlive this object.
   explicit Placed(const ShapeT& shape, const Pose<Space>& pose = {}) { update(shape, pose); }
+  explicit Placed(const ShapeT&&, const Pose<Space>& = {}) = delete;
 
   /// Places the grain at a pose, world axes [m]. Keeps the memory of the parts. The shape must outlive
   /// this object.
@@ -350,6 +355,7 @@ class Placed<OneOf<Shapes...>> {
       : held_(shape.visit([&](const auto& kind) -> Held {
           return Placed<KindOf<decltype(kind)>>(kind, pose);
         })) {}
+  explicit Placed(const OneOf<Shapes...>&&, const Pose<Space>& = {}) = delete;
 
   /// Places the shape at a pose, world axes [m]. Keeps its memory if the shape held is of the same
   /// type as the shape placed before. The shape must outlive this object.

@@ -13,9 +13,9 @@ namespace moreau {
 
 /// Whether a shape is a Ball or a Disk.
 template <class ShapeT>
-inline constexpr bool is_sphere = false;
+inline constexpr bool is_ball = false;
 template <class S>
-inline constexpr bool is_sphere<BallIn<S>> = true;
+inline constexpr bool is_ball<BallIn<S>> = true;
 
 /// Whether a shape is a Segment.
 template <class ShapeT>
@@ -42,14 +42,14 @@ concept Elementary = !is_rounded<ShapeT> && !is_one_of<ShapeT> && !CompoundShape
 /// A convex shape of which only the support function is known.
 template <class ShapeT>
 concept SupportOnly =
-    ConvexCore<ShapeT> && Elementary<ShapeT> && !Polytope<ShapeT> && !is_sphere<ShapeT>;
+    ConvexCore<ShapeT> && Elementary<ShapeT> && !Polytope<ShapeT> && !is_ball<ShapeT>;
 
 /// A pair of elementary shapes that only the general algorithms GJK and EPA can treat
 /// (convex/collide_convex.hpp). A sphere or a segment must be the first shape of the pair
 /// (collide_rank in collide.hpp).
 template <class A, class B>
 concept GeneralPair =
-    ConvexCore<A> && ConvexCore<B> && Elementary<A> && Elementary<B> && !is_sphere<B> &&
+    ConvexCore<A> && ConvexCore<B> && Elementary<A> && Elementary<B> && !is_ball<B> &&
     !is_segment<B> && (SupportOnly<A> || SupportOnly<B>);
 
 /// A pair that has a Rounded shape and no OneOf.

@@ -95,7 +95,7 @@ void write_pieces(const std::filesystem::path& path, DistributedSimulation<World
   if (rank != 0) return;
   using Shape = std::remove_cvref_t<decltype(local.shape_of_grain(0))>;
   bool as_points = false;
-  if constexpr (std::same_as<Shape, BallIn<S>>) as_points = options.spheres_as_points;
+  if constexpr (std::same_as<Shape, BallIn<S>>) as_points = options.balls_as_points;
   constexpr detail::PieceArray of_grains[] = {{"Int32", "id", 1},
                                               {"Float32", "size", 1},
                                               {"Float32", "velocity", 3},

@@ -67,7 +67,7 @@ typename S::Vector velocity_change(const Bodies<S>& bodies, std::size_t i,
   for (int axis = 0; axis < S::dim; ++axis) {
     typename S::Scalar along = 0;
     for (int k = 0; k < S::dim; ++k)
-      along += r(k, axis) * (bodies.force[i][k] + load[k] + bodies.weight[i] * gravity[k]);
+      along += r(k, axis) * (bodies.force[i][k] + load[k] + bodies.grain_mass[i] * gravity[k]);
     for (int k = 0; k < S::dim; ++k)
       change[k] += h * bodies.inverse_mass[i][axis] * along * r(k, axis);
   }

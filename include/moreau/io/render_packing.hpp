@@ -191,7 +191,7 @@ requires(!Polytope<Shape>) void draw_grain(const Shape& shape, const Pose<SpaceO
   }
   drawing.fill(rim, color);
   drawing.outline(rim, 0.25f * color, 1);
-  if constexpr (is_sphere<Shape>)
+  if constexpr (is_ball<Shape>)
     drawing.line(pose.position.template cast<double>(), rim[0], 0.45f * color, 1);
 }
 

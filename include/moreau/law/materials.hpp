@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <tuple>
 #include <vector>
@@ -24,6 +25,8 @@ class Materials {
     require(count > 0 && count <= 65535, "Materials", "count", count, "must lie in [1, 65535]");
     laws_.assign(count * count, fallback);
   }
+  /// The first argument is the number of materials, not a coefficient of friction.
+  explicit Materials(std::floating_point auto, const Law& = Law{}) = delete;
 
   /// Gives the law of the pairs (a, b) and (b, a).
   /// @throws std::invalid_argument for a material that does not exist

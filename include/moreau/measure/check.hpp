@@ -27,7 +27,8 @@ namespace moreau {
 ///            step is too long, or compliant contacts are too soft
 ///          - the solver did not reach its tolerance
 template <class Simulation>
-std::vector<std::string> check(const Simulation& simulation, const StepReport& report) {
+[[nodiscard]] std::vector<std::string> check(const Simulation& simulation,
+                                             const StepReport& report) {
   std::vector<std::string> found;
   const auto say = [&](const auto&... parts) {
     std::ostringstream text;

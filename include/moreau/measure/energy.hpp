@@ -20,7 +20,7 @@ struct BodyMotion {
   typename S::Twist velocity = S::Twist::Zero();     ///< twist (v, w) of the centre of mass [m/s,
                                                      ///< rad/s]
 
-  BodyMotion() = default;  ///< a body without mass, at rest at the origin
+  BodyMotion() = default;  ///< mass 0, at rest at the origin
   /// @param m       mass [kg]
   /// @param about_x inertia tensor about the centre of mass, A x A, world axes [kg m^2]
   /// @param x       position of the centre of mass [m]

@@ -46,8 +46,8 @@ struct EnergyTerms {
                        ///< [J]
   double forces = 0;   ///< work of the forces of set_force() on grains, and on walls along the axes
                        ///< along which they have a mass [J]
-  double drives = 0;   ///< work of the drives that move bodies without mass, or bodies along axes
-                       ///< without mass [J]
+  double drives = 0;   ///< work of the drives of bodies whose motion is prescribed, or prescribed
+                       ///< along an axis [J]
   double impacts = 0;  ///< energy dissipated by normal impulses (inelastic impacts), > 0 for a loss
                        ///< [J]
   double friction = 0;  ///< energy dissipated by tangential impulses, > 0 for a loss [J]
@@ -103,7 +103,7 @@ class EnergyBalance {
       const Vector way = bodies.pose[i].position - positions_[i];
       const Vector force = linear<S>(bodies.force[i]);
       if (!bodies.is_prescribed(i))
-        terms_.gravity += double(bodies.weight[i] * simulation.gravity().dot(way));
+        terms_.gravity += double(bodies.grain_mass[i] * simulation.gravity().dot(way));
       terms_.forces += double(with_mass(bodies, i, force).dot(way));
     }
     terms_.drives += work_of_drives(bodies, simulation.contacts());

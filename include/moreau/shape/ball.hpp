@@ -65,7 +65,7 @@ class BallIn {
   /// A ball with the radius multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor and the new radius are finite and greater than
   ///                               zero
-  BallIn scaled(Scalar factor) const {
+  [[nodiscard]] BallIn scaled(Scalar factor) const {
     detail::require_positive(factor, "Ball::scaled", "factor");
     return BallIn(radius_ * factor);
   }

@@ -136,7 +136,7 @@ class Compound {
   /// The same grain with all lengths multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor is finite and greater than zero; also the
   ///         exceptions of the parts
-  Compound scaled(Scalar factor) const requires Scalable<ShapeT> {
+  [[nodiscard]] Compound scaled(Scalar factor) const requires Scalable<ShapeT> {
     detail::require_positive(factor, "Compound::scaled", "factor");
     Compound copy = *this;
     for (Part& part : copy.parts_) {

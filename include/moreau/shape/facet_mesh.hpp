@@ -76,7 +76,7 @@ typename S::Scalar size_of(const FacetMesh<S>& mesh) {
 /// The mesh with all lengths multiplied by `factor` [-]: 1e-3 converts millimetres to metres.
 /// @throws std::invalid_argument if the factor is not finite or not positive
 template <class S>
-FacetMesh<S> scaled(FacetMesh<S> mesh, typename S::Scalar factor) {
+[[nodiscard]] FacetMesh<S> scaled(FacetMesh<S> mesh, typename S::Scalar factor) {
   require(std::isfinite(factor) && factor > 0, "scaled", "factor", factor,
           "must be finite and > 0");
   for (auto& x : mesh.vertices) x *= factor;

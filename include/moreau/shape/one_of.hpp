@@ -12,14 +12,19 @@
 
 namespace moreau {
 
+/// Types of shapes that one assembly can mix: all of the same space.
+template <class... Shapes>
+concept ShapesOfOneSpace =
+    sizeof...(Shapes) > 0 &&
+    (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> && ...);
+
 /// A shape whose type is chosen at run time, for assemblies of several types of shapes. For each
 /// pair, detection finds out the two types and calls the function for these types
 /// (detect/collide.hpp).
 /// @tparam Shapes  different types of shapes, all of the same space
 template <Shape... Shapes>
-requires(sizeof...(Shapes) > 0 &&
-         (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> &&
-          ...)) class OneOf {
+requires ShapesOfOneSpace<Shapes...>
+class OneOf {
  public:
   using Space = SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>;
   using Scalar = typename Space::Scalar;
@@ -71,7 +76,7 @@ requires(sizeof...(Shapes) > 0 &&
   }
   /// The same shape with all lengths multiplied by `factor` [-], > 0.
   /// @throws the exceptions of the shape held
-  OneOf scaled(Scalar factor) const requires(Scalable<Shapes>&&...) {
+  [[nodiscard]] OneOf scaled(Scalar factor) const requires(Scalable<Shapes>&&...) {
     return visit([&](const auto& shape) { return OneOf(shape.scaled(factor)); });
   }
 

@@ -50,7 +50,7 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
   /// The same polygon with all lengths multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor and the new moments are finite and greater
   ///                               than zero
-  Polygon scaled(T factor) const {
+  [[nodiscard]] Polygon scaled(T factor) const {
     Polygon copy = *this;
     copy.scale(factor);
     return copy;

@@ -89,7 +89,7 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   /// The same polyhedron with all lengths multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor and the new moments are finite and greater
   ///                               than zero
-  Polyhedron scaled(T factor) const;
+  [[nodiscard]] Polyhedron scaled(T factor) const;
 
  private:
   friend struct SerializationAccess;

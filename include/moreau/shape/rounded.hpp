@@ -101,7 +101,7 @@ class Rounded {
   /// The same shape with all lengths multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor is finite and greater than zero; also the
   ///                               exceptions of the core
-  Rounded scaled(Scalar factor) const requires Scalable<Core> {
+  [[nodiscard]] Rounded scaled(Scalar factor) const requires Scalable<Core> {
     detail::require_positive(factor, "Rounded::scaled", "factor");
     return Rounded(core_.scaled(factor), radius_ * factor);
   }

@@ -48,7 +48,7 @@ class Segment {
   /// A segment with the length multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor and the new half length are finite and greater
   ///                               than zero
-  Segment scaled(Scalar factor) const {
+  [[nodiscard]] Segment scaled(Scalar factor) const {
     detail::require_positive(factor, "Segment::scaled", "factor");
     return Segment(half_length_ * factor);
   }

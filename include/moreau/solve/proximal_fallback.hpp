@@ -106,8 +106,8 @@ class ProximalFallback {
     report.capped = !report.converged;
   }
 
-  /// Compares the residuals of two results that are closed, else their relative approach: the
-  /// residual also falls where impulses diverge.
+  /// Whether the first result is the better one. Two closed results are compared by their residuals,
+  /// others by their relative approach, because the residual also falls while impulses diverge.
   static bool is_nearer(const SolveReport& one, const SolveReport& other) {
     if (detail::is_closed(one) && detail::is_closed(other)) return one.residual < other.residual;
     return one.relative_approach < other.relative_approach;

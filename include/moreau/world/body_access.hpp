@@ -67,8 +67,8 @@ class BodyAccess {
             index, "must be the index of a body");
     return bodies().id[index];
   }
-  /// Whether neither forces nor contacts change the motion of a body: a grain after
-  /// prescribe_motion(), a wall without mass.
+  /// Whether the motion of a body is prescribed, so that neither forces nor contacts change it: a grain
+  /// after prescribe_motion(), a wall without set_wall_mass().
   /// @throws std::invalid_argument for a body that is not of this simulation
   bool is_prescribed(BodyId body) const {
     assembly_.require_body(body, "Simulation::is_prescribed");
@@ -111,7 +111,7 @@ class BodyAccess {
   }
   /// Whether the element `body` of bodies(), which must exist, is a grain. Else it is a wall, or belongs
   /// to no body (Bodies::exists()).
-  bool is_grain(std::size_t body) const { return bodies().weight[body] > 0; }
+  bool is_grain(std::size_t body) const { return bodies().grain_mass[body] > 0; }
 
   /// All quantities of all bodies, by BodyId::index(); indices are not checked. Removed grains leave
   /// elements with zero mass, which a body that is added later takes (Bodies::exists()).

@@ -35,8 +35,8 @@ class BodyControl : public BodyAccess<ShapeT> {
 
   /// Prescribes the motion of a grain: neither forces nor contacts change its velocity and spin. It
   /// keeps those that it has until set_velocity() and set_spin() set others. It has contacts with
-  /// grains that are free and with walls that have a mass. It has none with walls without mass and
-  /// with other grains of prescribed motion, and can pass through them.
+  /// grains that are free and with walls that have a mass. It has none with other bodies of
+  /// prescribed motion, and can pass through them.
   ///
   /// contact_impulse() gives the impulse that it received. Its mass still counts in the measures. No
   /// effect on a grain whose motion is prescribed already.
@@ -53,11 +53,11 @@ class BodyControl : public BodyAccess<ShapeT> {
     assembly_.number_of_grain(grain, "Simulation::release");
     Bodies<S>& bodies = assembly_.bodies();
     const std::size_t i = grain.index();
-    if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.weight[i], bodies.inertia_body[i]);
+    if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.grain_mass[i], bodies.inertia_body[i]);
   }
   /// Makes a wall move along one axis as a body of this mass, under set_force() and its contacts: a
   /// half-space along its normal, a mesh wall along the first axis of its frame, which its pose turns.
-  /// Gravity does not act on walls. With an infinite mass the wall is fixed or driven again.
+  /// Gravity does not act on walls. With an infinite mass its motion is prescribed again.
   /// @param wall a half-space or a mesh wall; a cylinder cannot have a mass
   /// @param mass [kg], > 0
   /// @throws std::invalid_argument for a body that is neither in walls() nor in mesh_walls(), or a mass
@@ -69,15 +69,15 @@ class BodyControl : public BodyAccess<ShapeT> {
     assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
   }
   /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
-  /// and acts until it is set again. It does not move a body without mass, such as a wall, or one
-  /// whose motion is prescribed.
+  /// and acts until it is set again. It does not move a body whose motion is prescribed, such
+  /// as a wall without set_wall_mass().
   /// @throws std::invalid_argument for a body of another simulation or a force that is not finite
   void set_force(BodyId body, const VectorArgument<S>& force) {
     assembly_.require_body(body, "Simulation::set_force", "force", force);
     linear<S>(assembly_.bodies().force[body.index()]) = force;
   }
-  /// Sets the velocity of the centre, world axes [m/s]. A body without mass, such as a wall, and one
-  /// whose motion is prescribed keep it.
+  /// Sets the velocity of the centre, world axes [m/s]. A body whose motion is prescribed, such as
+  /// a wall without set_wall_mass(), keeps it.
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
   ///         not finite
   void set_velocity(BodyId body, const VectorArgument<S>& velocity) {

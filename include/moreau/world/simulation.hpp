@@ -311,7 +311,7 @@ class Simulation : public BodyControl<ShapeT> {
             "Simulation", "bodies", bodies().size(),
             "must be the bodies that contacts, pairs and materials refer to");
     require(dynamics_.is_valid(contacts_.size()), "Simulation", "contacts", contacts_.size(),
-            "must be those that the memory of the laws is of");
+            "must be as many as the laws have memories");
     detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 

@@ -93,7 +93,7 @@ class Ledger {
     for (const BodyId grain : silo.source.added()) {
       Entry& entry = entries_[grain.index()];
       wrong_ += entry.present;
-      entry = {grain, silo.world.bodies().weight[grain.index()], true};
+      entry = {grain, silo.world.bodies().grain_mass[grain.index()], true};
       ++present_;
     }
   }
@@ -104,7 +104,7 @@ class Ledger {
       if (silo.world.is_prescribed(grain)) continue;
       const Entry& entry = entries_[grain.index()];
       if (!entry.present || entry.grain != grain ||
-          entry.mass != silo.world.bodies().weight[grain.index()])
+          entry.mass != silo.world.bodies().grain_mass[grain.index()])
         return false;
       ++found;
     }
@@ -172,7 +172,7 @@ TEST_CASE("2,000 grains through an outlet: every grain is accounted for, memory 
   const double present = silo.source.total().mass - silo.sink.total().mass;
   double mass = 0;
   for (const BodyId grain : silo.world.grains())
-    if (!silo.world.is_prescribed(grain)) mass += silo.world.bodies().weight[grain.index()];
+    if (!silo.world.is_prescribed(grain)) mass += silo.world.bodies().grain_mass[grain.index()];
   CHECK(present == doctest::Approx(mass).epsilon(1e-10));
 
   Silo other;

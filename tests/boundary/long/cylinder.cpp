@@ -43,7 +43,7 @@ struct InCylinder {
     return moreau::ColouredGaussSeidel(options);
   }
   const Vector& position() const { return simulation.pose(grain).position; }
-  double mass() const { return simulation.bodies().weight[grain.index()]; }
+  double mass() const { return simulation.bodies().grain_mass[grain.index()]; }
 };
 
 }  // namespace

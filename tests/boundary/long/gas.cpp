@@ -37,13 +37,13 @@ TEST_CASE_TEMPLATE("gas in a cell periodic along all axes: momentum and energy s
   const auto momentum = [&] {
     Vector sum = Vector::Zero();
     for (std::size_t k = 0; k < gas.grain_count(); ++k)
-      sum += gas.bodies().weight[k] * gas.bodies().velocity[k].template head<S::dim>();
+      sum += gas.bodies().grain_mass[k] * gas.bodies().velocity[k].template head<S::dim>();
     return sum;
   };
   const Vector before = momentum();
   double scale = 0, lost = 0;
   for (std::size_t k = 0; k < gas.grain_count(); ++k)
-    scale += gas.bodies().weight[k] * gas.bodies().velocity[k].norm();
+    scale += gas.bodies().grain_mass[k] * gas.bodies().velocity[k].norm();
   std::size_t points = 0, elsewhere = 0;
   for (int k = 0; k < 1000; ++k) {
     const auto report = gas.step(2e-4);

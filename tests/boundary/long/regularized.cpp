@@ -69,7 +69,7 @@ TEST_CASE_TEMPLATE("a servo wall brings a periodic packing to its pressure", S, 
         doctest::Approx(pressure).epsilon(0.01));
   Vector momentum = Vector::Zero();
   for (std::size_t k = 0; k < world.grain_count(); ++k)
-    momentum += world.bodies().weight[k] * world.bodies().velocity[k].template head<S::dim>();
+    momentum += world.bodies().grain_mass[k] * world.bodies().velocity[k].template head<S::dim>();
   CHECK(momentum.norm() < 1e-3);
 }
 

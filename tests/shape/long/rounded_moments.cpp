@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "moreau/detect/pairs/collide_sphere_polytope.hpp"
+#include "moreau/detect/pairs/collide_ball_polytope.hpp"
 
 #include "detect/shapes.hpp"
 #include "sanitized.hpp"

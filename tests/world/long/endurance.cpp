@@ -21,7 +21,7 @@ double kinetic(const scenes::World<ShapeT>& world) {
   return kinetic_energy<S>(world.grain_count(),
                            [&](std::size_t k) {
                              const std::size_t i = world.grain(k).index();
-                             return BodyMotion<S>{bodies.weight[i],
+                             return BodyMotion<S>{bodies.grain_mass[i],
                                                   bodies.inertia(i, bodies.pose[i].rotation),
                                                   bodies.pose[i].position, bodies.velocity[i]};
                            })
@@ -32,7 +32,7 @@ double potential(const scenes::World<ShapeT>& world) {
   double sum = 0;
   for (std::size_t k = 0; k < world.grain_count(); ++k) {
     const std::size_t i = world.grain(k).index();
-    sum -= world.bodies().weight[i] * world.gravity().dot(world.bodies().pose[i].position);
+    sum -= world.bodies().grain_mass[i] * world.gravity().dot(world.bodies().pose[i].position);
   }
   return sum;
 }
@@ -44,8 +44,8 @@ TEST_CASE_TEMPLATE("a million steps at rest", ShapeT, Polyhedron<>, Polygon<>, D
   auto& world = box.simulation;
   for (int k = 0; k < 10000; ++k) world.step(5e-4);
   // Unit of energy: the weight of a grain times its size.
-  const double unit =
-      world.bodies().weight[box.grains[0].index()] * world.gravity().norm() * world.grain_size();
+  const double unit = world.bodies().grain_mass[box.grains[0].index()] * world.gravity().norm() *
+                      world.grain_size();
   const double start = potential(world);
   const std::size_t memory = mallinfo2().uordblks;
   double moving = 0, capped = 0;

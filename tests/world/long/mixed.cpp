@@ -45,7 +45,7 @@ Vector momentum(const World& world) {
   Vector sum = Vector::Zero();
   for (std::size_t k = 0; k < world.grain_count(); ++k) {
     const std::size_t i = world.grain(k).index();
-    sum += world.bodies().weight[i] * world.bodies().velocity[i].head<3>();
+    sum += world.bodies().grain_mass[i] * world.bodies().velocity[i].head<3>();
   }
   return sum;
 }
@@ -55,7 +55,7 @@ TEST_CASE("balls, rods and rounded rocks come to rest, momentum balanced at ever
   const double h = 5e-4;
   Vector weight = Vector::Zero();
   for (std::size_t k = 0; k < world.grain_count(); ++k)
-    weight += world.bodies().weight[world.grain(k).index()] * world.gravity();
+    weight += world.bodies().grain_mass[world.grain(k).index()] * world.gravity();
   double worst = 0, overlap = 0;
   for (int k = 0; k < rounds(1600); ++k) {
     const Vector before = momentum(world);

@@ -165,7 +165,7 @@ requires CompoundPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>&
 /// Whether two grains have a point in common.
 template <class A, class B>
 requires CompoundPair<A, B>
-bool overlap(const Placed<A>& a, const Placed<B>& b) {
+[[nodiscard]] bool overlap(const Placed<A>& a, const Placed<B>& b) {
   bool found = false;
   for_each_part(a, [&](std::uint32_t, const auto& part_a) {
     for_each_part(

@@ -369,7 +369,7 @@ bool collide_core(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin,
     });
   } else {
     T thickness = radius;
-    if constexpr (is_sphere<ShapeT>) thickness += a.radius();
+    if constexpr (is_ball<ShapeT>) thickness += a.radius();
     MeshCollision<ShapeT> collision(a, thickness, wall, margin, scratch, out);
     collision.find(box);
     const bool faces = collision.touch_faces(use), points = collision.touch_points(use);

@@ -43,13 +43,13 @@ requires MixedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& a,
 /// Whether the shapes that the pair holds have a point in common.
 template <class A, class B>
 requires MixedPair<A, B>
-bool overlap(const Placed<A>& a, const Placed<B>& b) {
+[[nodiscard]] bool overlap(const Placed<A>& a, const Placed<B>& b) {
   return detail::visit_pair(a, b, [](const auto& x, const auto& y) { return overlap(x, y); });
 }
 /// Whether the shapes that the pair holds have a point in common, with the pair's cache.
 template <class A, class B>
 requires MixedPair<A, B>
-bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cache) {
+[[nodiscard]] bool overlap(const Placed<A>& a, const Placed<B>& b, PairCache<SpaceOf<A>>& cache) {
   return detail::visit_pair(a, b,
                             [&](const auto& x, const auto& y) { return overlap(x, y, cache); });
 }

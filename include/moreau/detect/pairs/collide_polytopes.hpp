@@ -107,7 +107,8 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(const Placed<
 /// features of the separating axis and stores them in the cache.
 template <class ShapeT>
 requires Polytope<ShapeT>
-bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b, PairCache<SpaceOf<ShapeT>>& cache) {
+[[nodiscard]] bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b,
+                           PairCache<SpaceOf<ShapeT>>& cache) {
   const detail::PolytopePair<ShapeT> pair(a, b);
   return !pair.is_clearly_apart(0, cache) && !detail::axis_of(pair, 0, cache).is_beyond;
 }
@@ -115,7 +116,7 @@ bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b, PairCache<SpaceOf
 /// Whether two polytopes have a point in common, without a cache.
 template <class ShapeT>
 requires Polytope<ShapeT>
-bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b) {
+[[nodiscard]] bool overlap(const Placed<ShapeT>& a, const Placed<ShapeT>& b) {
   PairCache<SpaceOf<ShapeT>> none;
   const detail::PolytopePair<ShapeT> pair(a, b);
   if (pair.is_clearly_apart(0, none)) return false;

@@ -6,7 +6,7 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
-#include "moreau/detect/pairs/collide_spheres.hpp"
+#include "moreau/detect/pairs/collide_balls.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/polytope/segment_axis.hpp"
 

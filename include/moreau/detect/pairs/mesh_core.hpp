@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "moreau/detect/manifold.hpp"
-#include "moreau/detect/pairs/collide_sphere_polytope.hpp"
+#include "moreau/detect/pairs/collide_ball_polytope.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"

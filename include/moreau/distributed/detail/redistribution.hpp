@@ -77,7 +77,7 @@ class Redistribution {
     return std::span(whole_.walls).first(world_.walls().size());
   }
   BodyId id(std::size_t local) const { return ids_[local]; }
-  /// The body here of a wall of the whole simulation.
+  /// The id that a wall of the whole simulation has in this process.
   /// @throws std::invalid_argument for another body
   BodyId local_wall(BodyId wall) const {
     for (const std::uint32_t i : topology_.walls)

@@ -275,7 +275,8 @@ class ContactGroups {
     constexpr auto fewest = typename S::Scalar(16 * lanes);
     return share_[body] * fewest <= most_in_phase;
   }
-  /// The phase of a group of a hub: the last one, if it is of this hub and has room.
+  /// The phase of a group of contacts of a hub: the phase added last, if it belongs to this hub and has
+  /// room, otherwise a new one.
   /// @param together points of the group
   std::uint32_t phase_of_hub(std::uint32_t body, std::uint32_t together) {
     using T = typename S::Scalar;

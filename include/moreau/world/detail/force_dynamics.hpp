@@ -93,7 +93,7 @@ class ForceDynamics {
     return {contact.gap,
             BodyDelassus<S>::relative_velocity(contact, bodies.velocity[a], bodies.velocity[b]),
             inverse_mass > 0 ? 1 / inverse_mass : Scalar(0),
-            effective_radius(contact, bodies.weight[a] > 0, bodies.weight[b] > 0), elapsed};
+            effective_radius(contact, bodies.grain_mass[a] > 0, bodies.grain_mass[b] > 0), elapsed};
   }
   static Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i, const Vector& n) {
     return (bodies.axes(i).transpose() * n).cwiseAbs2().dot(bodies.inverse_mass[i]);

@@ -243,7 +243,7 @@ class ImpulseDynamics {
   void shift_bodies(Bodies<S>& bodies, const Vector& gravity, OverlapCorrectionReport& report) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector move = linear<S>(correction_.shifts()[i]);
-      const Vector force = linear<S>(bodies.force[i]) + bodies.weight[i] * gravity;
+      const Vector force = linear<S>(bodies.force[i]) + bodies.grain_mass[i] * gravity;
       if (!shared_ || shared_->owns(i)) report.work += double(force.dot(move));
       report.largest_shift = std::max(report.largest_shift, double(move.norm()));
     }

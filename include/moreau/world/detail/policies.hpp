@@ -23,9 +23,8 @@ struct Policies {
   static_assert(
       set_valued || forces,
       "Simulation: Law offers neither the functions velocity_offset, solve and natural_map "
-      "(SetValuedLaw) nor the function force (RegularizedLaw) for the space of the shape; "
-      "they must take and return exactly its types, of the same dimension and scalar; "
-      "static_assert the concept to see what is missing");
+      "(SetValuedLaw) nor the function force (RegularizedLaw) for the dimension and the scalar of "
+      "the shape; static_assert the concept to see what is missing");
   static_assert(integrates,
                 "Simulation: Integrator offers the functions neither of an ImpulseIntegrator nor "
                 "of a ForceIntegrator with the types of the shape's space; assert the concept to "
