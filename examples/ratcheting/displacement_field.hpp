@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "moreau/io/csv.hpp"
 #include "moreau/measure/velocity_field.hpp"
 
+#include "field_file.hpp"
 #include "parameters.hpp"
 
 namespace ratcheting {
@@ -33,7 +33,7 @@ class DisplacementField {
     for (std::size_t k = 0; k < simulation.grain_count(); ++k)
       now.push_back(simulation.bodies().pose[simulation.grain(k).index()].position);
     if (maxima == last_ + 1 && before_.size() == now.size()) {
-      if (!field_) field_.emplace(experiment.box(), cells, cells);
+      if (!field_) field_.emplace(experiment.box(), field_cells, field_cells);
       for (std::size_t k = 0; k < now.size(); ++k) field_->add(before_[k], now[k] - before_[k]);
       ++periods_;
     }
@@ -48,20 +48,10 @@ class DisplacementField {
   /// Writes displacement_field.csv: cells of the section (x to the right, z up), mean displacement in
   /// a period, number of grains in all periods.
   void write(const std::filesystem::path& folder) const {
-    if (!field_) return;
-    moreau::CsvWriter file(folder / "displacement_field.csv", {"x", "z", "u_x", "u_z", "grains"});
-    for (std::size_t row = 0; row < cells; ++row)
-      for (std::size_t column = 0; column < cells; ++column) {
-        const auto sample = field_->sample(column, row);
-        file.row(sample.position.x(), sample.position.y(), sample.velocity.x(), sample.velocity.y(),
-                 sample.grains);
-      }
-    file.close();
+    if (field_) write_field(folder / "displacement_field.csv", "u", *field_);
   }
 
  private:
-  static constexpr std::size_t cells = 10;  ///< in each direction
-
   std::optional<Field> field_;
   std::vector<typename S::Vector> before_;  // centres at the last maximum
   double last_ = -1;                        // number of this maximum, from 0

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "moreau/io/csv.hpp"
 #include "moreau/measure/velocity_field.hpp"
 
+#include "field_file.hpp"
 #include "parameters.hpp"
 
 namespace ratcheting {
@@ -29,7 +29,7 @@ class PassiveField {
     time_ = experiment.time();
     wall_velocity_ = v;
     const auto& simulation = experiment.simulation();
-    field_.emplace(experiment.box(), cells, cells);
+    field_.emplace(experiment.box(), field_cells, field_cells);
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       const std::size_t body = simulation.grain(k).index();
       field_->add(simulation.bodies().pose[body].position,
@@ -45,20 +45,10 @@ class PassiveField {
   /// Writes velocity_field.csv: cells of the section (x to the right, z up), mean velocity, number
   /// of grains.
   void write(const std::filesystem::path& folder) const {
-    if (!field_) return;
-    moreau::CsvWriter file(folder / "velocity_field.csv", {"x", "z", "v_x", "v_z", "grains"});
-    for (std::size_t row = 0; row < cells; ++row)
-      for (std::size_t column = 0; column < cells; ++column) {
-        const auto sample = field_->sample(column, row);
-        file.row(sample.position.x(), sample.position.y(), sample.velocity.x(), sample.velocity.y(),
-                 sample.grains);
-      }
-    file.close();
+    if (field_) write_field(folder / "velocity_field.csv", "v", *field_);
   }
 
  private:
-  static constexpr std::size_t cells = 10;  ///< in each direction
-
   std::optional<Field> field_;
   double time_ = 0, wall_velocity_ = 0;
 };

@@ -111,7 +111,8 @@ TEST_CASE("rods in line, end to end, and one inside the other") {
   const Flat flat(1, 0.2);
   const auto row = distance(Placed<Flat>(flat), Placed<Flat>(flat, at(V2(2.5, 0))));
   CHECK(row.gap == doctest::Approx(0.1));
-  const Placed<Ball<double>> ball(Ball<double>(0.5), at(V3(0.3, 0, 0)));
+  const Ball<double> round(0.5);
+  const Placed<Ball<double>> ball(round, at(V3(0.3, 0, 0)));
   CHECK(distance(ball, Placed<Rod>(rod)).gap == doctest::Approx(-0.7));
   CHECK(distance(Placed<Rod>(rod), ball).gap == doctest::Approx(-0.7));
 }

@@ -30,7 +30,8 @@ Moments<SpaceOf<Core>> counted(const Core& core, double r, int samples, std::mt1
   for (int i = 0; i < samples; ++i) {
     Vector x;
     for (double& c : x) c = coordinate(random);
-    const Placed<BallIn<S>> point(BallIn<S>(tiny), Pose<S>{x, S::identity()});
+    const BallIn<S> ball(tiny);
+    const Placed<BallIn<S>> point(ball, Pose<S>{x, S::identity()});
     if (distance(point, placed).gap + tiny > r) continue;
     sum += {1, x, x * x.transpose()};
   }
