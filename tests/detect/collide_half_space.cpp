@@ -82,8 +82,8 @@ TEST_CASE("walls: the class counts the vertices") {
   Manifold<Space<2>> flat;
   Pose<Space<2>> pose{Space<2>::Vector(0, 0.5), Space<2>::identity()};
   const Polygon<double> square = samples::box(1., 1.);
-  REQUIRE(collide(Placed<Polygon<double>>(square, pose),
-                  Placed<HalfSpace<Space<2>>>(line), 1e-3, flat));
+  REQUIRE(collide(Placed<Polygon<double>>(square, pose), Placed<HalfSpace<Space<2>>>(line), 1e-3,
+                  flat));
   CHECK(flat.contact_class == ContactClass::edge_edge);
   CHECK(flat.points.size() == 2);
 }
