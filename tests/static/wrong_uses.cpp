@@ -20,6 +20,7 @@
 // | 36 | cannot convert 'Polygon<double>' to 'const Polyhedron<double>&' |
 // | 44 | use of deleted function 'Materials<Law>::Materials(auto:1, const Law&) [with auto:1 = double]' |
 // | 45-47 | use of deleted function 'Placed<ShapeT>::Placed(const ShapeT&&)' |
+// | 48, 49 | template constraint failure for 'template<class ShapeT, ..> requires GrainShape<ShapeT> class Simulation' |
 // | 37 | template constraint failure for 'template<class ... Shapes> .. class OneOf' |
 #include "moreau/boundary/drive.hpp"
 #include "moreau/measure/energy.hpp"
@@ -115,6 +116,9 @@ REFUSED(36, world.add_shape(std::declval<moreau::Polygon<T>>()));
 REFUSED(37, typename moreau::OneOf<moreau::Ball<T>, moreau::Disk<T>>);
 TAKEN(moreau::Materials<Law>(2));
 REFUSED(44, moreau::Materials<Law>(T(0.4)));
+TAKEN(typename moreau::Simulation<moreau::Polyhedron<T>, Law>);
+REFUSED(48, typename moreau::Simulation<Law, moreau::Polyhedron<T>>);
+REFUSED(49, typename moreau::Simulation<moreau::HalfSpace<S>, Law>);
 
 // Temporary shapes, to which a placed shape would refer.
 TAKEN(moreau::Placed<moreau::Polygon<T>>(std::declval<const moreau::Polygon<T>&>()));

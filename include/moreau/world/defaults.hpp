@@ -3,10 +3,12 @@
 
 #include <type_traits>
 
+#include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
+#include "moreau/shape/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
@@ -23,5 +25,24 @@ template <class Law, class S>
 using DefaultSolver = std::conditional_t<
     RegularizedLaw<Law, S>, NoSolver,
     std::conditional_t<PointLaw<Law, S>, ColouredGaussSeidel, NonlinearGaussSeidel>>;
+
+namespace detail {
+
+/// The default policies of a simulation. For a type that is no shape there are none, so that the
+/// compiler's only message is that it is no shape.
+template <class ShapeT, class Law>
+struct DefaultPolicies {
+  using Integrator = void;
+  using Broad = void;
+  using Solver = void;
+};
+template <GrainShape ShapeT, class Law>
+struct DefaultPolicies<ShapeT, Law> {
+  using Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>;
+  using Broad = CellGrid<SpaceOf<ShapeT>>;
+  using Solver = DefaultSolver<Law, SpaceOf<ShapeT>>;
+};
+
+}  // namespace detail
 
 }  // namespace moreau

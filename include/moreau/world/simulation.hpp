@@ -60,9 +60,10 @@ namespace moreau {
 /// Functions throw std::invalid_argument, which names function, argument and value, for an id that
 /// is not of this simulation or of a grain that was removed, a value that is not finite, and the
 /// cases in their comments. The simulation is then unchanged.
-template <GrainShape ShapeT, class Law, class Integrator = DefaultIntegrator<Law, SpaceOf<ShapeT>>,
-          class Broad = CellGrid<SpaceOf<ShapeT>>,
-          class Solver = DefaultSolver<Law, SpaceOf<ShapeT>>>
+template <GrainShape ShapeT, class Law,
+          class Integrator = typename detail::DefaultPolicies<ShapeT, Law>::Integrator,
+          class Broad = typename detail::DefaultPolicies<ShapeT, Law>::Broad,
+          class Solver = typename detail::DefaultPolicies<ShapeT, Law>::Solver>
 class Simulation : public BodyControl<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
