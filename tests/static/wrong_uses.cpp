@@ -125,7 +125,7 @@ TAKEN(moreau::Placed<moreau::Polygon<T>>(std::declval<const moreau::Polygon<T>&>
 REFUSED(45, moreau::Placed<moreau::Polygon<T>>(std::declval<moreau::Polygon<T>>()));
 REFUSED(46,
         moreau::Placed<moreau::Polygon<T>>(std::declval<moreau::Polygon<T>>(), moreau::Pose<R>()));
-using Mixed = moreau::OneOf<moreau::Ball<double>, moreau::Polyhedron<double>>;
-REFUSED(47, moreau::Placed<Mixed>(std::declval<Mixed>()));
+REFUSED(47, moreau::Placed<moreau::Rounded<moreau::Polygon<T>>>(
+                std::declval<moreau::Rounded<moreau::Polygon<T>>>()));
 
 }  // namespace
