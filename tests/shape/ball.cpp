@@ -51,7 +51,7 @@ TEST_CASE_TEMPLATE("bad arguments are named", Shape, Ball<double>, Disk<float>) 
   const Shape sphere(1);
   CHECK(message_of([&] { sphere.mass_properties(-3); }) ==
         "Ball::mass_properties: density = -3 must be finite and greater than zero");
-  CHECK(message_of([&] { sphere.scaled(0); }) ==
+  CHECK(message_of([&] { return sphere.scaled(0); }) ==
         "Ball::scaled: factor = 0 must be finite and greater than zero");
 }
 

@@ -58,7 +58,7 @@ TEST_CASE("bad arguments are named") {
         "Segment: half_length = 0 must be finite and greater than zero");
   CHECK(message_of([] { Stadium(1, -1); }) ==
         "Rounded: radius = -1 must be finite and greater than zero");
-  CHECK(message_of([] { Segment<Space<2>>(1).scaled(-2); }) ==
+  CHECK(message_of([] { return Segment<Space<2>>(1).scaled(-2); }) ==
         "Segment::scaled: factor = -2 must be finite and greater than zero");
 }
 

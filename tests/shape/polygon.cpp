@@ -154,7 +154,7 @@ TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))
   const auto p = hull<T>({{0, 0}, {1, 0}, {0, 1}});
   CHECK(message_of([&] { p.mass_properties(-1); }) ==
         "Polygon::mass_properties: density = -1 must be finite and greater than zero");
-  CHECK(message_of([&] { p.scaled(nan); }) ==
+  CHECK(message_of([&] { return p.scaled(nan); }) ==
         "Polygon::scaled: factor = nan must be finite and greater than zero");
 }
 
@@ -171,6 +171,6 @@ TEST_CASE("a polygon of which the scalar cannot hold the moments is refused") {
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(square(1e11f), doctest::Contains("Polygon: second moment = inf m^4"),
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS(square(1).scaled(1e-12f),
+  CHECK_THROWS_WITH_AS(static_cast<void>(square(1).scaled(1e-12f)),
                        doctest::Contains("Polygon::scaled: second moment"), std::invalid_argument);
 }

@@ -413,9 +413,9 @@ TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))
         "Polyhedron::mass_properties: density = -2 must be finite and greater than zero");
   CHECK(message_of([&] { box.mass_properties(nan); }) ==
         "Polyhedron::mass_properties: density = nan must be finite and greater than zero");
-  CHECK(message_of([&] { box.scaled(0); }) ==
+  CHECK(message_of([&] { return box.scaled(0); }) ==
         "Polyhedron::scaled: factor = 0 must be finite and greater than zero");
-  CHECK(message_of([&] { box.scaled(inf); }) ==
+  CHECK(message_of([&] { return box.scaled(inf); }) ==
         "Polyhedron::scaled: factor = inf must be finite and greater than zero");
   for (auto& x : vertices) x *= std::numeric_limits<T>::max() / 4;
   CHECK(message_of([&] { hull(vertices); }).find("nan m^3 must be finite") != std::string::npos);
@@ -442,7 +442,7 @@ TEST_CASE("a polyhedron of which the scalar cannot hold the moments is refused")
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(tetrahedron(1e9f), doctest::Contains("Polyhedron: second moment = inf m^5"),
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS(tetrahedron(1).scaled(1e9f),
+  CHECK_THROWS_WITH_AS(static_cast<void>(tetrahedron(1).scaled(1e9f)),
                        doctest::Contains("Polyhedron::scaled: second moment"),
                        std::invalid_argument);
 }

@@ -108,7 +108,7 @@ TEST_CASE("bad arguments are named") {
   const Rounded rounded(core, 0.1);
   CHECK(message_of([&] { rounded.mass_properties(-1); }) ==
         "Rounded::mass_properties: density = -1 must be finite and greater than zero");
-  CHECK(message_of([&] { rounded.scaled(0); }) ==
+  CHECK(message_of([&] { return rounded.scaled(0); }) ==
         "Rounded::scaled: factor = 0 must be finite and greater than zero");
 }
 

@@ -10,7 +10,7 @@ namespace moreau {
 /// centre of mass, in the axes of the shape's frame. In the plane the density is a mass per area
 /// [kg/m^2].
 template <EuclideanSpace S>
-struct [[nodiscard]] MassProperties {
+struct MassProperties {
   typename S::Scalar mass = 0;                       ///< [kg]
   typename S::Vector center = S::Vector::Zero();     ///< centre of mass in the shape's frame [m]
   typename S::Inertia inertia = S::Inertia::Zero();  ///< A x A, about the centre of mass [kg m^2]
