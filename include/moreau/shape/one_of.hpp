@@ -12,18 +12,22 @@
 
 namespace moreau {
 
+namespace detail {
+
 /// Types of shapes that one assembly can mix: all of the same space.
 template <class... Shapes>
 concept ShapesOfOneSpace =
     sizeof...(Shapes) > 0 &&
     (std::same_as<SpaceOf<Shapes>, SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>> && ...);
 
+}  // namespace detail
+
 /// A shape whose type is chosen at run time, for assemblies of several types of shapes. For each
 /// pair, detection finds out the two types and calls the function for these types
 /// (detect/collide.hpp).
 /// @tparam Shapes  different types of shapes, all of the same space
 template <Shape... Shapes>
-requires ShapesOfOneSpace<Shapes...>
+requires detail::ShapesOfOneSpace<Shapes...>
 class OneOf {
  public:
   using Space = SpaceOf<std::tuple_element_t<0, std::tuple<Shapes...>>>;
