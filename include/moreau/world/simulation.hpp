@@ -53,7 +53,6 @@ namespace moreau {
 /// @tparam Solver     of the contact problem; NoSolver for a regularized law
 ///
 /// Policies that do not fit together do not compile; policies.hpp has the reasons.
-///
 /// BodyAccess has the functions that read bodies: pose(id), velocity(id), grains(), ... BodyControl
 /// has those that set forces and motions: set_velocity(id, v), prescribe_motion(id), ...
 ///
