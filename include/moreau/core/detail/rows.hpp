@@ -134,7 +134,7 @@ class Rows {
     for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) above += dot(i, d) >= lowest;
     const auto sum = W::template fold<W::lanes / 2>(
         above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
-    return -std::ptrdiff_t{sum[0]} - copies;
+    return -static_cast<std::ptrdiff_t>(sum[0]) - copies;
   }
   /// Bit i: whether direction . row i >= lowest. For at most 64 rows.
   std::uint64_t bits_above(const Vector& direction, T lowest) const {
