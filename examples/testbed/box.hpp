@@ -72,9 +72,9 @@ class Box final : public Scene<ShapeT> {
   /// The solid fraction after the packing, about; it only changes the height.
   static constexpr double packed = S::dim == 2 ? 0.80 : 0.53;
   static constexpr double lid_raise = 0.01;     // [m]
-  static constexpr double longest_press = 0.4;  // [s]
+  static constexpr double longest_press = 0.2;  // [s]
 
-  double lid_force() const { return 10 * 9.81 * this->mass(); }
+  double lid_force() const { return 5 * 9.81 * this->mass(); }
   double lid_height() const { return simulation_.pose(lid_).position[up]; }
   double wall_position() const { return simulation_.pose(wall_).position[0]; }
 

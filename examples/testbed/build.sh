@@ -5,7 +5,7 @@
 #   examples/testbed/build.sh [folder]
 #
 # Installs what is missing (Debian: emscripten, libeigen3-dev; npm: what web/package.json pins). Takes about
-# two minutes the first time. CXXFLAGS are added to those of the compiler, e.g. CXXFLAGS=-mno-simd128.
+# two minutes the first time. CXXFLAGS are added to those of the compiler.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../.." && pwd)
 work=$top/build/testbed
@@ -15,7 +15,7 @@ command -v emcc >/dev/null || "$top/.ci/require" emscripten libeigen3-dev
 command -v npm >/dev/null || "$top/.ci/require" npm
 
 # WebAssembly without the JavaScript of emscripten: web/program.js has the few functions that it imports.
-flags=(-std=c++20 -O3 -msimd128 -fwasm-exceptions -DNDEBUG -I"$top/include" -isystem /usr/include/eigen3)
+flags=(-std=c++20 -O3 -fwasm-exceptions -DNDEBUG -I"$top/include" -isystem /usr/include/eigen3)
 read -ra more <<<"${CXXFLAGS:-}"
 flags+=("${more[@]}")
 mkdir -p "$work/objects"

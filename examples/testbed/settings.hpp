@@ -78,12 +78,12 @@ struct Settings {
   double seed = 1;          ///< of shapes, sizes and positions
   double friction = 0.4;    ///< of grains with grains and with the walls that have friction [-]
   double gravity = 9.81;    ///< [m/s^2]
-  double stiffness = 1e6;   ///< of a pair of grains, normal and tangential [N/m]
+  double stiffness = 2e6;   ///< of a pair of grains, normal and tangential [N/m]
   double step = 5e-4;       ///< h [s]
   double tolerance = 1e-3;  ///< of the solver, on the natural-map residual [-]
   double sweeps = 200;      ///< most sweeps in a step
   double frequency = 3;     ///< nu of the force on the wall [Hz]
-  double fmax = 400;        ///< largest force on the wall [N]
+  double fmax = 300;        ///< largest force on the wall [N]
   double wall_mass = 0.5;   ///< mass of the wall / mass of the grains [-]
   double packing = 1;       ///< 1: the lid packs the grains first; 0: the wall is free at once
   double aspect = 2;        ///< height / length of the column [-]
@@ -112,7 +112,7 @@ inline constexpr std::array<SettingEntry, 15> setting_table{{
      "on the wall, inward"},
     {"wall_mass", "Wall mass / grains", "-", &Settings::wall_mass, 0.05, 5, true, false, false,
      in_box, "mass of the wall over the mass of all grains"},
-    {"packing", "Pack by the lid first", "0/1", &Settings::packing, 0, 1, false, true, true, in_box,
+    {"packing", "Pack by the lid first", "", &Settings::packing, 0, 1, false, true, true, in_box,
      "1: a lid packs the grains without gravity, then the wall is set free; 0: grains fall into "
      "the "
      "box and the wall is free at once"},

@@ -1,0 +1,11 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Serves the page that build.sh has built, on this machine only:
+#
+#   examples/testbed/serve.sh [port] [folder]      then open http://localhost:8000
+set -euo pipefail
+top=$(cd "$(dirname "$0")/../.." && pwd)
+port=${1:-8000} page=${2:-$top/build/testbed/page}
+[ -e "$page/testbed.wasm" ] || { echo "Build it first: examples/testbed/build.sh" >&2; exit 1; }
+echo "http://localhost:$port (stop with Ctrl-C)"
+exec python3 -m http.server --bind 127.0.0.1 --directory "$page" "$port"

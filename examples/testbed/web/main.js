@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+// The page: controls from the tables of settings.hpp, the clock, the status. The simulation runs in
+// worker.js. One frame is under way at a time: the page asks for it when the browser is about to draw.
+import "./main.css";
+import { Plots } from "./plots.js";
+import { View } from "./view.js";
+import { scaleGradient } from "./colours.js";
+
+const element = (id) => document.getElementById(id);
+const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+const view = new View(element("canvas"));
+const plots = new Plots(element("plots"));
+
+let tables = null;
+const state = { scene: 0, dimension: 3, label: "angular", playing: true, values: {} };
+let generation = -1; // of the scene that is shown
+let waiting = false; // for a frame
+let arrays = []; // that go to and fro
+let latest = null; // a frame that is not drawn yet
+let stepOnce = false;
+const waitingRuns = [];
+
+// Settings
+
+/** Four digits, as short as possible. */
+const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3 ? Number(x.toPrecision(4)).toExponential() : String(Number(x.toPrecision(4))));
+
+function makeSlider(setting, index) {
+  const holder = document.createElement("div");
+  holder.className = "slider";
+  holder.title = setting.help;
+  const id = `setting-${setting.key}`;
+  holder.innerHTML = `<div class="head"><label for="${id}"></label><input type="text" inputmode="decimal" id="${id}"><span></span></div><input type="range" aria-label="">`;
+  const [label, number, unit] = holder.firstChild.children, range = holder.lastChild;
+  label.textContent = setting.label;
+  unit.textContent = setting.unit === "-" ? "" : setting.unit;
+  range.setAttribute("aria-label", setting.label);
+  const toRange = setting.logarithmic ? Math.log : (x) => x, toValue = setting.logarithmic ? Math.exp : (x) => x;
+  range.min = toRange(setting.low);
+  range.max = toRange(setting.high);
+  range.step = setting.whole && !setting.logarithmic ? 1 : "any";
+  setting.show = (value) => {
+    number.value = short(value);
+    range.value = toRange(Math.max(value, setting.low));
+    holder.classList.remove("wrong");
+  };
+  setting.refuse = () => holder.classList.add("wrong");
+  const propose = (value, again) => {
+    if (setting.rebuilds && !again) return;
+    worker.postMessage({ type: "set", index, value, answer: true });
+    if (setting.rebuilds) load();
+  };
+  const ofRange = () => {
+    const value = toValue(Number(range.value));
+    return setting.whole ? Math.round(value) : Number(value.toPrecision(3));
+  };
+  range.addEventListener("input", () => {
+    number.value = short(ofRange());
+    propose(ofRange(), false);
+  });
+  range.addEventListener("change", () => propose(ofRange(), true));
+  number.addEventListener("change", () => propose(number.value.trim() === "" ? NaN : Number(number.value.replace(",", ".")), true));
+  setting.holder = holder;
+  return holder;
+}
+function setValue(key, value) {
+  const index = tables.settings.findIndex((setting) => setting.key === key);
+  worker.postMessage({ type: "set", index, value, answer: true });
+}
+
+function makeChoice(id, entries, current, choose) {
+  const holder = element(id);
+  holder.replaceChildren(...entries.map(({ label, value }) => {
+    const button = document.createElement("button");
+    button.textContent = label;
+    button.setAttribute("role", "radio");
+    button.setAttribute("aria-checked", String(value === current()));
+    button.addEventListener("click", () => {
+      choose(value);
+      for (const other of holder.children) other.setAttribute("aria-checked", String(other === button));
+      load();
+    });
+    return button;
+  }));
+}
+
+function makeControls() {
+  makeChoice("scenes", tables.scenes.map(({ label }, k) => ({ label, value: k })), () => state.scene, (k) => (state.scene = k));
+  makeChoice("dimensions", [{ label: "plane", value: 2 }, { label: "space", value: 3 }], () => state.dimension, (d) => (state.dimension = d));
+  const labels = [...new Set(tables.shapes.map(({ label }) => label))];
+  makeChoice("shapes", labels.map((label) => ({ label, value: label })), () => state.label, (label) => (state.label = label));
+  const solver = ["step", "stiffness", "tolerance", "sweeps"];
+  for (const holder of ["sliders", "solverSliders"]) element(holder).replaceChildren();
+  tables.settings.forEach((setting, k) => {
+    element(solver.includes(setting.key) ? "solverSliders" : "sliders").append(makeSlider(setting, k));
+    setting.show(state.values[setting.key]);
+  });
+}
+
+// Scene
+
+const shapeIndex = () => tables.shapes.findIndex((shape) => shape.dimension === state.dimension && shape.label === state.label);
+function load() {
+  view.letLoose();
+  worker.postMessage({ type: "load", scene: state.scene, shape: shapeIndex() });
+  const scene = tables.scenes[state.scene];
+  element("tryThis").textContent = scene.tryThis;
+  element("action").textContent = scene.action;
+  for (const setting of tables.settings) setting.holder.hidden = (setting.scenes & (1 << state.scene)) === 0;
+  location.replace(`#scene=${scene.key}&shape=${tables.shapes[shapeIndex()].key}`);
+}
+function play(on) {
+  state.playing = on;
+  element("play").textContent = on ? "Pause" : "Play";
+}
+function showError(text) {
+  element("error").hidden = false;
+  element("error").firstChild.textContent = text;
+}
+
+// Frames
+
+const rate = { real: 0, simulated: 0, steps: 0, shown: "", begin: performance.now() };
+let before = performance.now(), interval = 16.7, plotsDrawn = 0;
+
+function tick(now) {
+  requestAnimationFrame(tick);
+  const passed = now - before;
+  before = now;
+  if (latest) draw(now);
+  if (waiting || generation < 0) return;
+  if (passed < 200) interval += 0.1 * (passed - interval);
+  // A slow machine runs in slow motion: at most the time of one frame is made up for.
+  const real = Math.min(passed, 100) / 1000;
+  const moves = state.playing || stepOnce;
+  const step = state.values.step;
+  // What was too short for a step is kept for the next frame.
+  rest = Math.min(rest + real, 0.1);
+  const duration = stepOnce ? step : rest;
+  if (moves && duration < step) return;
+  rest = 0;
+  waiting = true;
+  worker.postMessage(
+    { type: "frame", arrays, duration: moves ? duration : 0, step, budget: Math.min(100, Math.max(8, 0.8 * interval)) },
+    arrays.map((array) => array.buffer));
+  arrays = [];
+  stepOnce = false;
+}
+let rest = 0;
+
+function draw(now) {
+  const { arrays: got, sizes, status, steps } = latest;
+  latest = null;
+  const force = plots.last("f");
+  view.update(
+    {
+      poses: got[0], colours: got[1], walls: got[2], wallCount: sizes[2] / 8, segments: got[3], segmentCount: sizes[3] / 11,
+    },
+    force === null ? null : Math.min(1, force / state.values.fmax));
+  plots.add(got[4], sizes[4], state.values.step);
+  arrays = got;
+  view.render();
+  if (now - plotsDrawn > 90) {
+    plotsDrawn = now;
+    plots.draw();
+  }
+  showStatus(status, steps, now);
+}
+
+function showStatus(status, steps, now) {
+  rate.steps += steps;
+  rate.simulated += steps * state.values.step;
+  rate.real = (now - rate.begin) / 1000;
+  if (rate.real > 0.5) {
+    const factor = rate.simulated / rate.real;
+    rate.shown = state.playing
+      ? `<span>${(rate.steps / rate.real).toFixed(0)} steps/s</span><span class="${factor < 0.9 ? "slow" : ""}">${factor < 0.9 ? `slow motion: ${factor.toPrecision(2)} × real time` : "real time"}</span>`
+      : "<span>paused</span>";
+    rate.steps = rate.simulated = 0;
+    rate.begin = now;
+  }
+  const last = (key) => plots.last(key);
+  const residual = last("residual");
+  element("status").innerHTML =
+    `<span>${status.stage}</span><span>t = ${status.time.toFixed(3)} s</span>${rate.shown}` +
+    `<span>${view.count} grains, ${status.points} contact points</span>` +
+    `<span>${residual === null ? "" : `residual ${residual.toExponential(0)}`}</span>` +
+    (status.capped > 0 ? `<span>${status.capped} steps not solved to the tolerance</span>` : "");
+  element("advice").textContent = status.advice;
+  const colour = view.options.colour;
+  element("legend").hidden = colour === "size";
+  element("contactLegend").hidden = !view.options.contacts;
+  if (colour !== "size") {
+    const [title, unit] = { speed: ["speed", "m/s"], force: ["sum of the normal forces on a grain", "N"], residual: ["residual, as a velocity", "m/s"] }[colour];
+    element("legendTitle").textContent = title;
+    element("legendMost").textContent = `${Number(view.colourMax.toPrecision(2))} ${unit}`;
+  }
+  memory = status;
+}
+let memory = null;
+
+worker.onmessage = ({ data }) => {
+  switch (data.type) {
+    case "tables":
+      tables = data.tables;
+      for (const { key, value } of tables.settings) state.values[key] = value;
+      readAddress();
+      makeControls();
+      load();
+      break;
+    case "scene":
+      generation = data.generation;
+      latest = null;
+      view.load(data.shapes, data.description, tables.shapes[data.shape].dimension === 3);
+      plots.load(data.description);
+      element("loading").hidden = true;
+      element("error").hidden = true;
+      stepOnce = !state.playing;
+      break;
+    case "frame":
+      waiting = false;
+      if (data.generation === generation) latest = data;
+      else arrays = data.arrays;
+      break;
+    case "set": {
+      const setting = tables.settings[data.index];
+      if (data.accepted) {
+        state.values[setting.key] = data.value;
+        setting.show(data.value);
+        element("error").hidden = true;
+      } else {
+        setting.refuse();
+      }
+      break;
+    }
+    case "error":
+      waiting = false;
+      showError(data.text);
+      if (/Simulation::step/.test(data.text)) play(false);
+      break;
+    case "run":
+      waitingRuns.shift()?.(data);
+      break;
+    case "fatal":
+      element("loading").textContent = data.text;
+  }
+};
+worker.onerror = (event) => (element("loading").textContent = `The simulation could not be started: ${event.message}`);
+
+/** #scene=column&shape=disk&grains=500 */
+function readAddress() {
+  for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
+    const scene = tables.scenes.findIndex((entry) => entry.key === value);
+    const shape = tables.shapes.find((entry) => entry.key === value);
+    if (key === "scene" && scene >= 0) state.scene = scene;
+    else if (key === "shape" && shape) Object.assign(state, { dimension: shape.dimension, label: shape.label });
+    else if (tables.settings.some((setting) => setting.key === key)) setValue(key, Number(value));
+  }
+}
+
+// Buttons
+
+view.onPull = (grain, { x, y, z }) => {
+  worker.postMessage({ type: "pull", grain, x, y, z });
+  element("hint").classList.add("used");
+};
+view.onRelease = () => worker.postMessage({ type: "release" });
+const actions = {
+  play: () => play(!state.playing),
+  step() {
+    play(false);
+    stepOnce = true;
+  },
+  reset: () => load(),
+  newSeed() {
+    setValue("seed", (state.values.seed % 100) + 1);
+    load();
+  },
+  action: () => worker.postMessage({ type: "act" }),
+  camera: () => view.frameScene(),
+  defaults() {
+    for (const { key, value } of tables.settings) setValue(key, value);
+    load();
+  },
+  closeError: () => (element("error").hidden = true),
+};
+for (const [id, act] of Object.entries(actions)) element(id).addEventListener("click", () => tables && act());
+const keys = { " ": "play", s: "step", r: "reset", n: "newSeed", c: "camera" };
+addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || /INPUT|SELECT|BUTTON|SUMMARY/.test(document.activeElement?.tagName)) return;
+  const id = keys[event.key];
+  if (!id || !tables) return;
+  event.preventDefault();
+  actions[id]();
+});
+element("chains").addEventListener("change", (event) => showOption("chains", event.target.checked));
+element("contacts").addEventListener("change", (event) => showOption("contacts", event.target.checked));
+element("colour").addEventListener("change", (event) => showOption("colour", event.target.value));
+function showOption(name, value) {
+  view.options[name] = value;
+  view.colourMax = 0;
+}
+element("legendBar").style.background = scaleGradient;
+
+// For tests: the page as an object.
+window.testbed = {
+  state, view, plots, play,
+  isReady: () => generation >= 0,
+  tables: () => tables,
+  memory: () => memory,
+  generation: () => generation,
+  error: () => (element("error").hidden ? "" : element("error").firstChild.textContent),
+  load(scene, shape, values = {}) {
+    state.scene = tables.scenes.findIndex((entry) => entry.key === scene);
+    const { dimension, label } = tables.shapes.find((entry) => entry.key === shape);
+    Object.assign(state, { dimension, label });
+    for (const { key, value } of tables.settings) setValue(key, values[key] ?? value);
+    makeControls();
+    load();
+  },
+  /** Steps without frames. */
+  run: (steps) =>
+    new Promise((resolve) => {
+      waitingRuns.push(resolve);
+      worker.postMessage({ type: "run", steps });
+    }),
+};
+
+worker.postMessage({ type: "init", url: new URL("testbed.wasm", import.meta.url).href });
+requestAnimationFrame(tick);

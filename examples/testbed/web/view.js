@@ -1,0 +1,511 @@
+// SPDX-License-Identifier: MIT
+// The picture: grains as instances of their base shapes, walls, force chains, contact points, and the
+// hand that pulls a grain. It draws what the buffers of view.hpp contain; x to the right, z up.
+import {
+  AmbientLight, BoxGeometry, BufferAttribute, BufferGeometry, Color, ColorManagement,
+  CylinderGeometry, DirectionalLight, DoubleSide, DynamicDrawUsage, EdgesGeometry, Group, InstancedMesh,
+  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
+  OrthographicCamera, PerspectiveCamera, Plane, Quaternion, Raycaster, Scene, SphereGeometry, Vector2,
+  Vector3, WebGLRenderer, LinearSRGBColorSpace,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { scaleColour, stoneColour } from "./colours.js";
+
+// Colours are given and shown as they are, without conversion.
+ColorManagement.enabled = false;
+
+const background = 0xf3f4f6, wallColour = 0x8a93a0, movingColour = 0x2f6fb3;
+const stickColour = new Color(0x1f4e79), slideColour = new Color(0xe07b00);
+
+export class View {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.setClearColor(background);
+    this.scene = new Scene();
+    this.scene.add(new AmbientLight(0xffffff, 1.7));
+    const sun = new DirectionalLight(0xffffff, 1.9);
+    sun.position.set(0.5, -1, 1.6);
+    this.scene.add(sun);
+    this.options = { chains: true, contacts: false, colour: "size" };
+    this.colourMax = 0; // upper end of the colour scale
+    this.meshes = [];
+    this.makeWalls();
+    this.makeSegments();
+    this.makeHand();
+    this.setSpace(true);
+    canvas.addEventListener("pointerdown", (event) => this.grab(event));
+    canvas.addEventListener("pointermove", (event) => this.drag(event));
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
+      canvas.addEventListener(name, () => this.letLoose());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  /** Called with the grain and the point to which it is pulled, and when the hand opens. */
+  onPull = () => {};
+  onRelease = () => {};
+
+  setSpace(isSpace) {
+    this.isSpace = isSpace;
+    this.controls?.dispose();
+    this.camera = isSpace ? new PerspectiveCamera(32, 1, 0.01, 100) : new OrthographicCamera(-1, 1, 1, -1, 0, 100);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.enableRotate = isSpace;
+    this.controls.screenSpacePanning = true;
+    // In the plane every button moves the picture.
+    if (!isSpace) this.controls.mouseButtons = { LEFT: 2, MIDDLE: 1, RIGHT: 2 };
+    this.controls.zoomSpeed = 1.5;
+  }
+
+  /** Takes a new scene: meshes of the shapes, placements of the grains, bounds. */
+  load({ meshes, mesh, scale }, description, isSpace) {
+    this.letLoose();
+    for (const old of this.meshes) {
+      this.scene.remove(old);
+      old.geometry.dispose();
+      old.material.dispose();
+      old.dispose();
+    }
+    if (isSpace !== this.isSpace) this.setSpace(isSpace);
+    this.bounds = description.bounds;
+    this.count = mesh.length;
+    this.scaleOf = scale;
+    this.slotOf = new Uint32Array(this.count); // place of a grain among the instances of its mesh
+    this.meshOf = mesh;
+    const numbers = new Uint32Array(meshes.length);
+    for (let k = 0; k < this.count; ++k) this.slotOf[k] = numbers[mesh[k]]++;
+    this.grainsOf = meshes.map((_, m) => new Uint32Array(numbers[m]));
+    for (let k = 0; k < this.count; ++k) this.grainsOf[mesh[k]][this.slotOf[k]] = k;
+    this.meshes = meshes.map((shape, m) => this.makeGrains(shape, numbers[m]));
+    this.sizeOf = meshes.map(({ triangles }) => triangles.reduce((most, x) => Math.max(most, Math.abs(x)), 0));
+    this.grainSize = 1e9; // of the smallest grain
+    for (let k = 0; k < this.count; ++k)
+      this.grainSize = Math.min(this.grainSize, scale[k] * this.sizeOf[mesh[k]]);
+    this.makeOutlines(meshes);
+    this.colourMax = 0;
+    this.forceScale = 0;
+    this.poses = null;
+    if (this.framedFor !== `${isSpace} ${this.bounds}`) this.frameScene();
+    this.framedFor = `${isSpace} ${this.bounds}`;
+  }
+
+  makeGrains(shape, count) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(shape.triangles, 3));
+    const shades = new Float32Array(shape.triangles.length).fill(1);
+    // Round grains show how they roll: dark and light octants.
+    if (shape.isRound && this.isSpace) shadeOctants(shape.triangles, shades);
+    geometry.setAttribute("color", new BufferAttribute(shades, 3));
+    if (this.isSpace) geometry.computeVertexNormals();
+    const material = this.isSpace
+      ? new MeshLambertMaterial({ flatShading: !shape.isRound, vertexColors: true })
+      : new MeshBasicMaterial({ side: DoubleSide });
+    if (shape.isRound && this.isSpace) smoothNormals(geometry);
+    const grains = new InstancedMesh(geometry, material, Math.max(1, count));
+    grains.count = count;
+    grains.instanceMatrix.setUsage(DynamicDrawUsage);
+    grains.frustumCulled = false;
+    for (let k = 0; k < count; ++k) grains.setColorAt(k, new Color(1, 1, 1));
+    grains.instanceColor?.setUsage(DynamicDrawUsage);
+    this.scene.add(grains);
+    return grains;
+  }
+  /** In the plane all outlines are one set of lines, which is computed anew for every frame. */
+  makeOutlines(meshes) {
+    if (this.outlines) {
+      this.scene.remove(this.outlines);
+      this.outlines.geometry.dispose();
+    }
+    this.outlines = null;
+    if (this.isSpace) return;
+    this.outlineOf = meshes.map((shape) => visibleOutline(shape));
+    let numbers = 0;
+    for (let k = 0; k < this.count; ++k) numbers += this.outlineOf[this.meshOf[k]].length;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(numbers), 3).setUsage(DynamicDrawUsage));
+    this.outlines = new LineSegments(geometry, new LineBasicMaterial({ color: 0x30343b }));
+    this.outlines.frustumCulled = false;
+    this.scene.add(this.outlines);
+  }
+  makeWalls() {
+    this.walls = new Group();
+    this.scene.add(this.walls);
+    this.box = new BoxGeometry(1, 1, 1);
+    this.edges = new EdgesGeometry(this.box);
+    this.arrow = new Group();
+    const paint = new MeshBasicMaterial({ color: 0xc0392b });
+    const shaft = new Mesh(new CylinderGeometry(0.012, 0.012, 1, 12), paint);
+    const head = new Mesh(new CylinderGeometry(0, 0.035, 0.09, 16), paint);
+    shaft.name = "shaft", head.name = "head";
+    this.arrow.add(shaft, head);
+    this.arrow.visible = false;
+    this.scene.add(this.arrow);
+  }
+  makeSegments() {
+    this.chains = this.makeInstances(new CylinderGeometry(1, 1, 1, 8, 1), 1024);
+    this.points = this.makeInstances(new SphereGeometry(1, 8, 6), 1024);
+  }
+  makeInstances(geometry, capacity) {
+    const instances = new InstancedMesh(geometry, new MeshLambertMaterial(), capacity);
+    instances.frustumCulled = false;
+    instances.instanceMatrix.setUsage(DynamicDrawUsage);
+    instances.setColorAt(0, new Color(1, 1, 1));
+    instances.instanceColor.setUsage(DynamicDrawUsage);
+    instances.count = 0;
+    instances.renderOrder = 2;
+    this.scene.add(instances);
+    return instances;
+  }
+  /** Instances with room for that many; the room grows in large steps and is kept. */
+  withRoom(instances, count) {
+    if (instances.instanceMatrix.count >= count) return instances;
+    this.scene.remove(instances);
+    instances.dispose();
+    instances.material.dispose();
+    return this.makeInstances(instances.geometry, 2 * count);
+  }
+  makeHand() {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(6), 3));
+    this.hand = new LineSegments(geometry, new LineBasicMaterial({ color: 0xd6336c, depthTest: false }));
+    this.hand.frustumCulled = false;
+    this.hand.renderOrder = 5;
+    this.hand.visible = false;
+    this.scene.add(this.hand);
+  }
+
+  /** Puts the camera where it sees the whole scene. */
+  frameScene() {
+    if (!this.bounds) return;
+    const b = this.bounds;
+    const centre = new Vector3((b[0] + b[3]) / 2, (b[1] + b[4]) / 2, (b[2] + b[5]) / 2);
+    const size = new Vector3(b[3] - b[0], b[4] - b[1], b[5] - b[2]);
+    const aspect = this.camera.isPerspectiveCamera ? this.camera.aspect : this.aspect || 1;
+    this.controls.target.copy(centre);
+    if (this.isSpace) {
+      const way = new Vector3(0.42, -1, 0.5).normalize();
+      // Width and height of the bounds as seen along `way`.
+      const wide = Math.abs(size.x * way.y) + Math.abs(size.y * way.x) * 1.1, high = size.z * 0.87 + (size.x + size.y) * 0.22;
+      const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+      const distance = 1.12 * Math.max(high / 2 / tangent, wide / 2 / tangent / aspect) + size.y / 2;
+      this.camera.position.copy(centre).addScaledVector(way, distance);
+      this.camera.near = distance / 50, this.camera.far = distance * 20;
+    } else {
+      const half = 0.56 * Math.max(size.z, size.x / aspect);
+      this.half = half;
+      this.camera.zoom = 1;
+      this.camera.position.set(centre.x, -10, centre.z);
+    }
+    this.applyAspect();
+    this.controls.update();
+  }
+  applyAspect() {
+    if (this.camera.isPerspectiveCamera) {
+      this.camera.aspect = this.aspect || 1;
+    } else if (this.half) {
+      Object.assign(this.camera, {
+        left: -this.half * this.aspect, right: this.half * this.aspect, top: this.half, bottom: -this.half,
+      });
+    }
+    this.camera.updateProjectionMatrix();
+  }
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (width < 2 || height < 2) return;
+    this.aspect = width / height;
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setSize(width, height, false);
+    this.applyAspect();
+    this.frameScene();
+    this.render();
+  }
+
+  /** Takes the buffers of a frame. `force` is f(t) relative to its largest value, or null. */
+  update({ poses, colours, walls, segments, segmentCount, wallCount }, force) {
+    this.poses = poses;
+    this.updateGrains(poses, colours);
+    this.updateWalls(walls, wallCount, force);
+    this.updateSegments(segments, segmentCount);
+    this.updateHand();
+  }
+  updateGrains(poses, colours) {
+    const { position, turn, size, matrix } = scratch;
+    const which = { speed: 0, force: 1, residual: 2 }[this.options.colour];
+    let most = 0;
+    if (which !== undefined) {
+      for (let k = 0; k < this.count; ++k) {
+        const value = colours[3 * k + which];
+        if (Number.isFinite(value)) most = Math.max(most, value);
+      }
+      // The scale follows slowly, so that colours do not flicker.
+      this.colourMax = this.colourMax === 0 ? most : Math.max(0.8 * most, this.colourMax + 0.03 * (most - this.colourMax));
+    }
+    for (let k = 0; k < this.count; ++k) {
+      const mesh = this.meshes[this.meshOf[k]], slot = this.slotOf[k], p = 7 * k;
+      position.set(poses[p], poses[p + 1], poses[p + 2]);
+      turn.set(poses[p + 3], poses[p + 4], poses[p + 5], poses[p + 6]);
+      size.setScalar(this.scaleOf[k]);
+      matrix.compose(position, turn, size).toArray(mesh.instanceMatrix.array, 16 * slot);
+      const out = mesh.instanceColor.array;
+      if (which === undefined) stoneColour(k, out, 3 * slot);
+      else scaleColour(this.colourMax > 0 ? colours[3 * k + which] / this.colourMax : 0, out, 3 * slot);
+    }
+    const faded = this.options.chains || this.options.contacts;
+    for (const mesh of this.meshes) {
+      mesh.instanceMatrix.needsUpdate = true;
+      mesh.instanceColor.needsUpdate = true;
+      const opacity = faded ? (this.isSpace ? 0.2 : 0.45) : 1;
+      if (mesh.material.opacity !== opacity) {
+        mesh.material.opacity = opacity;
+        mesh.material.transparent = opacity < 1;
+        mesh.material.depthWrite = opacity === 1;
+        mesh.material.needsUpdate = true;
+      }
+    }
+    if (this.outlines) this.updateOutlines(poses);
+  }
+  updateOutlines(poses) {
+    const out = this.outlines.geometry.attributes.position.array;
+    let at = 0;
+    for (let k = 0; k < this.count; ++k) {
+      const outline = this.outlineOf[this.meshOf[k]], p = 7 * k, scale = this.scaleOf[k];
+      // The quaternion is (0, y, 0, w): a turn in the plane y = 0.
+      const y = poses[p + 4], w = poses[p + 6], cos = w * w - y * y, sin = -2 * y * w;
+      for (let i = 0; i < outline.length; i += 3) {
+        const x = scale * outline[i], z = scale * outline[i + 2];
+        out[at++] = poses[p] + cos * x - sin * z;
+        out[at++] = -0.001;
+        out[at++] = poses[p + 2] + sin * x + cos * z;
+      }
+    }
+    this.outlines.geometry.attributes.position.needsUpdate = true;
+  }
+  updateWalls(walls, count, force) {
+    while (this.walls.children.length > count) this.removeWall(this.walls.children[this.walls.children.length - 1]);
+    this.arrow.visible = false;
+    for (let k = 0; k < count; ++k) {
+      const w = walls.subarray(8 * k, 8 * k + 8), isDrum = w[0] === 1;
+      let wall = this.walls.children[k];
+      if (!wall || wall.userData.isDrum !== isDrum || (isDrum && wall.userData.radius !== w[4]) ||
+          wall.userData.moves !== (w[7] !== 0) || wall.userData.isSpace !== this.isSpace) {
+        if (wall) while (this.walls.children.length > k) this.removeWall(this.walls.children[this.walls.children.length - 1]);
+        wall = isDrum ? this.makeDrum(w) : this.makeWall(w);
+        this.walls.add(wall);
+      }
+      if (isDrum) {
+        wall.position.set(w[1], w[2], w[3]);
+        wall.rotation.set(0, -w[6], 0);
+        continue;
+      }
+      wall.position.set(w[1], w[2], w[3]);
+      const thick = this.isSpace ? 0 : 0.05;
+      wall.scale.set(2 * w[4], Math.max(2 * w[5], thick), 2 * w[6]);
+      // The free wall of the box has the largest x: the arrow shows the force on it.
+      if (w[7] !== 0 && force !== null && w[4] < w[6]) {
+        const length = 0.3 * (this.bounds[3] - this.bounds[0]) * force;
+        const unit = this.bounds[3] - this.bounds[0];
+        this.arrow.visible = length > 0.01 * unit;
+        this.arrow.position.set(w[1] + w[4] + 0.06 * unit, w[2], w[3]);
+        this.arrow.rotation.set(0, 0, Math.PI / 2);
+        this.arrow.getObjectByName("shaft").scale.set(unit, length, unit);
+        this.arrow.getObjectByName("shaft").position.y = -0.03 * unit - length / 2;
+        this.arrow.getObjectByName("head").scale.setScalar(unit);
+        this.arrow.getObjectByName("head").position.y = 0;
+      }
+    }
+  }
+  makeWall(w) {
+    const moves = w[7] !== 0;
+    const colour = moves ? movingColour : wallColour;
+    const wall = new Group();
+    const solid = new Mesh(this.box, new MeshBasicMaterial({
+      color: colour, transparent: this.isSpace, opacity: this.isSpace ? (moves ? 0.3 : 0.07) : 1, depthWrite: !this.isSpace,
+    }));
+    solid.renderOrder = 1;
+    wall.add(solid, new LineSegments(this.edges, new LineBasicMaterial({ color: colour })));
+    wall.userData = { isDrum: false, moves, isSpace: this.isSpace };
+    return wall;
+  }
+  makeDrum(w) {
+    const drum = new Group(), half = Math.max(w[5], 0.0005), radius = w[4];
+    const rim = (scale) => new CylinderGeometry(radius * scale, radius * scale, 2 * half, 96, 1, true);
+    const shell = new Mesh(rim(1), new MeshBasicMaterial({
+      color: movingColour, side: DoubleSide, transparent: true, opacity: 0.1, depthWrite: false,
+    }));
+    shell.renderOrder = 1;
+    // Circles at both ends, and marks on the rim that show how the drum turns.
+    const corners = [];
+    const add = (angle, scale, y) => corners.push(radius * scale * Math.cos(angle), y, radius * scale * Math.sin(angle));
+    const count = 144;
+    for (const y of this.isSpace ? [-half, half] : [0])
+      for (const scale of this.isSpace ? [1] : [1, 1.004, 1.008, 1.012, 1.016])
+        for (let k = 0; k < count; ++k)
+          for (const end of [k, k + 1]) add((2 * Math.PI * end) / count, scale, y);
+    for (let k = 0; k < 12; ++k)
+      for (const y of [-half, half])
+        for (const scale of [1, 1.05]) add((2 * Math.PI * k) / 12, scale, y);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners), 3));
+    drum.add(shell, new LineSegments(geometry, new LineBasicMaterial({ color: movingColour })));
+    drum.userData = { isDrum: true, radius, moves: w[7] !== 0, isSpace: this.isSpace };
+    return drum;
+  }
+  removeWall(wall) {
+    this.walls.remove(wall);
+    for (const part of wall.children) {
+      part.material.dispose();
+      if (part.geometry !== this.box && part.geometry !== this.edges) part.geometry.dispose();
+    }
+  }
+
+  updateSegments(segments, count) {
+    this.chains.count = this.points.count = 0;
+    if (this.options.chains) this.updateChains(segments, count);
+    if (this.options.contacts) this.updatePoints(segments, count);
+  }
+  updateChains(segments, count) {
+    const { position, size, turn, matrix, way, colour } = scratch;
+    this.chains = this.withRoom(this.chains, count);
+    let sum = 0;
+    for (let k = 0; k < count; ++k) sum += segments[11 * k + 9];
+    const mean = count > 0 ? sum / count : 0;
+    this.forceScale = this.forceScale === 0 ? mean : this.forceScale + 0.05 * (mean - this.forceScale);
+    const most = 6 * this.forceScale, front = this.isSpace ? 0 : -0.02;
+    let shown = 0;
+    for (let k = 0; k < count; ++k) {
+      const s = 11 * k, strength = Math.min(1, segments[s + 9] / most);
+      if (!(strength > 0.01)) continue;
+      way.set(segments[s + 3] - segments[s], segments[s + 4] - segments[s + 1], segments[s + 5] - segments[s + 2]);
+      const length = way.length();
+      if (!(length > 0)) continue;
+      position.set(
+        (segments[s] + segments[s + 3]) / 2, (segments[s + 1] + segments[s + 4]) / 2 + front, (segments[s + 2] + segments[s + 5]) / 2);
+      turn.setFromUnitVectors(upright, way.divideScalar(length));
+      const radius = this.grainSize * (0.03 + 0.42 * strength);
+      matrix.compose(position, turn, size.set(radius, length, radius)).toArray(this.chains.instanceMatrix.array, 16 * shown);
+      // From orange to dark red.
+      colour.setRGB(0.95 - 0.4 * strength, 0.55 * (1 - strength) * (1 - 0.4 * strength), 0.12 * (1 - strength));
+      colour.toArray(this.chains.instanceColor.array, 3 * shown);
+      ++shown;
+    }
+    this.chains.count = shown;
+    this.chains.instanceMatrix.needsUpdate = this.chains.instanceColor.needsUpdate = true;
+  }
+  updatePoints(segments, count) {
+    const { position, size, turn, matrix } = scratch;
+    this.points = this.withRoom(this.points, count);
+    const front = this.isSpace ? 0 : -0.05;
+    turn.identity();
+    size.setScalar(0.14 * this.grainSize);
+    for (let k = 0; k < count; ++k) {
+      const s = 11 * k;
+      position.set(segments[s + 6], segments[s + 7] + front, segments[s + 8]);
+      matrix.compose(position, turn, size).toArray(this.points.instanceMatrix.array, 16 * k);
+      (segments[s + 10] !== 0 ? slideColour : stickColour).toArray(this.points.instanceColor.array, 3 * k);
+    }
+    this.points.count = count;
+    this.points.instanceMatrix.needsUpdate = this.points.instanceColor.needsUpdate = true;
+  }
+
+  // The hand. A grain is held at the point that the pointer has hit; it moves in the plane through this
+  // point that faces the camera.
+  ray(event) {
+    const frame = this.canvas.getBoundingClientRect();
+    const at = new Vector2(
+      ((event.clientX - frame.left) / frame.width) * 2 - 1, 1 - ((event.clientY - frame.top) / frame.height) * 2);
+    const caster = new Raycaster();
+    caster.setFromCamera(at, this.camera);
+    return caster;
+  }
+  grab(event) {
+    if (event.button !== 0 || !this.poses || event.shiftKey) return;
+    const caster = this.ray(event);
+    for (const mesh of this.meshes) mesh.computeBoundingSphere();
+    const [hit] = caster.intersectObjects(this.meshes, false);
+    if (!hit) return;
+    const grain = this.grainsOf[this.meshes.indexOf(hit.object)][hit.instanceId];
+    this.controls.enabled = false;
+    this.canvas.setPointerCapture(event.pointerId);
+    const normal = this.camera.getWorldDirection(new Vector3());
+    const centre = this.centreOf(grain);
+    this.held = {
+      grain,
+      plane: new Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
+      offset: hit.point.clone().sub(centre),
+      target: centre,
+    };
+    this.canvas.style.cursor = "grabbing";
+    this.drag(event);
+  }
+  drag(event) {
+    if (!this.held) return;
+    const point = this.ray(event).ray.intersectPlane(this.held.plane, new Vector3());
+    if (!point) return;
+    this.held.target = point.sub(this.held.offset);
+    this.onPull(this.held.grain, this.held.target);
+    this.updateHand();
+  }
+  letLoose() {
+    if (!this.held) return;
+    this.held = null;
+    this.controls.enabled = true;
+    this.canvas.style.cursor = "";
+    this.hand.visible = false;
+    this.onRelease();
+  }
+  centreOf(grain) {
+    return new Vector3(this.poses[7 * grain], this.poses[7 * grain + 1], this.poses[7 * grain + 2]);
+  }
+  updateHand() {
+    this.hand.visible = Boolean(this.held);
+    if (!this.held || !this.poses) return;
+    const line = this.hand.geometry.attributes.position;
+    const centre = this.centreOf(this.held.grain), front = this.isSpace ? 0 : -0.1;
+    line.setXYZ(0, centre.x, centre.y + front, centre.z);
+    line.setXYZ(1, this.held.target.x, this.held.target.y + front, this.held.target.z);
+    line.needsUpdate = true;
+  }
+
+  render() {
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+const upright = new Vector3(0, 1, 0);
+const scratch = {
+  position: new Vector3(), turn: new Quaternion(), size: new Vector3(), matrix: new Matrix4(),
+  way: new Vector3(), colour: new Color(),
+};
+
+function shadeOctants(triangles, shades) {
+  for (let k = 0; k < triangles.length; k += 9) {
+    let sign = 1;
+    for (let axis = 0; axis < 3; ++axis)
+      sign *= triangles[k + axis] + triangles[k + 3 + axis] + triangles[k + 6 + axis] >= 0 ? 1 : -1;
+    if (sign < 0) shades.fill(0.78, k, k + 9);
+  }
+}
+/** Of a ball, the normal is the direction from the centre. */
+function smoothNormals(geometry) {
+  const { position, normal } = geometry.attributes;
+  const direction = new Vector3();
+  for (let k = 0; k < position.count; ++k) {
+    direction.fromBufferAttribute(position, k).normalize();
+    normal.setXYZ(k, direction.x, direction.y, direction.z);
+  }
+}
+/** The outline without the seams between the parts of a concave grain; of a disk with a radius, which
+ *  shows how it rolls. */
+function visibleOutline({ outline, isRound }) {
+  if (isRound) return Float32Array.from([...outline, 0, 0, 0, outline[0], outline[1], outline[2]]);
+  const key = (k) => `${outline[k].toFixed(5)} ${outline[k + 2].toFixed(5)}`;
+  const count = new Map();
+  const name = (k) => [key(k), key(k + 3)].sort().join();
+  for (let k = 0; k < outline.length; k += 6) count.set(name(k), (count.get(name(k)) ?? 0) + 1);
+  const kept = [];
+  for (let k = 0; k < outline.length; k += 6)
+    if (count.get(name(k)) === 1) kept.push(...outline.subarray(k, k + 6));
+  return Float32Array.from(kept);
+}
