@@ -26,14 +26,14 @@ class Arch final : public Scene<ShapeT> {
     simulation_.add_wall(Vector::Unit(up), Vector::Zero(), Base::rough());
     this->set_gravity();
     Vector lower = Vector::Constant(-depth), upper = Vector::Constant(depth);
-    lower[0] = -1.6 * outer, upper[0] = 1.6 * outer;
+    lower[0] = -1.3 * outer, upper[0] = 1.3 * outer;
     lower[up] = 0, upper[up] = 1.15 * outer;
     this->set_bounds(lower, upper);
     crown_ = position(keystone)[up];
     this->channels_ = {{"t", "time", "s", 1},
-                       {"x", "sinking of the keystone", "mm", 1e3},
-                       {"thrust", "horizontal thrust H", "N", 1},
-                       {"load", "vertical load V", "N", 1},
+                       {"x", "sinking", "mm", 1e3},
+                       {"thrust", "thrust H", "N", 1},
+                       {"load", "load V", "N", 1},
                        {"sweeps", "sweeps", "per step", 1},
                        {"residual", "residual", "-", 1}};
     this->plots_ = {{"Sinking of the keystone", 0, 1, -1, false, false},
@@ -48,11 +48,12 @@ class Arch final : public Scene<ShapeT> {
     target[up] += outer / 2;
     this->release();
     this->pulled_ = typename Base::Pull{simulation_.grain(keystone), target};
+    acted_ = simulation_.time();
   }
 
  private:
   static constexpr std::size_t blocks = 13, keystone = blocks / 2;
-  static constexpr double inner = 0.42, outer = 0.58, depth = 0.08, block = 0.1;  // [m]
+  static constexpr double inner = 0.21, outer = 0.29, depth = 0.04, block = 0.05;  // [m]
 
   static double angle(double k) { return std::numbers::pi * (1 - k / double(blocks)); }
   Vector position(std::size_t k) const { return simulation_.pose(simulation_.grain(k)).position; }
@@ -122,11 +123,18 @@ class Arch final : public Scene<ShapeT> {
   void write_walls() override {
     Vector lower = Vector::Constant(-3 * depth), upper = Vector::Constant(3 * depth);
     lower[0] = -2 * outer, upper[0] = 2 * outer;
-    lower[up] = -0.02, upper[up] = 0;
+    lower[up] = -0.01, upper[up] = 0;
     this->show_wall(lower, upper, false);
   }
 
-  double crown_ = 0;
+  /// The button pulls for a second.
+  void drive() override {
+    if (acted_ < 0 || simulation_.time() < acted_ + 1) return;
+    this->release();
+    acted_ = -1;
+  }
+
+  double crown_ = 0, acted_ = -1;
 };
 
 }  // namespace testbed

@@ -43,19 +43,20 @@ class Box final : public Scene<ShapeT> {
     simulation_.add_wall(Vector::Unit(up), Vector::Zero(), Base::rough());
     lid_ = simulation_.add_wall(-Vector::Unit(up), height_ * Vector::Unit(up), Base::rough());
     Vector upper = Vector::Constant(length_);
-    upper[0] *= 1.15;
+    upper[0] *= 1.3;  // room for the arrow of the force
     this->set_bounds(Vector::Zero(), upper);
     this->channels_ = {{"t", "time", "s", 1},
                        {"x", "wall position x", "mm", 1e3},
-                       {"f", "applied force f", "N", 1},
-                       {"fg", "force of the grains f_g", "N", 1},
+                       {"f", "force f", "N", 1},
+                       {"fg", "force f_g", "N", 1},
                        {"rho", "solid fraction ρ", "-", 1},
                        {"sweeps", "sweeps", "per step", 1},
                        {"residual", "residual", "-", 1}};
-    this->plots_ = {{"Wall position and applied force", 0, 1, 2, false, false},
-                    {"Force of the grains on the wall, over its position", 1, 3, -1, false, true},
-                    {"Solid fraction in the box", 0, 4, -1, false, false},
-                    {"Solver: sweeps and residual of each step", 0, 5, 6, true, false}};
+    this->plots_ = {
+        {"Wall position x and applied force f", 0, 1, 2, false, false},
+        {"Force f_g of the grains on the wall over its position", 1, 3, -1, false, true},
+        {"Solid fraction in the box", 0, 4, -1, false, false},
+        {"Solver: sweeps and residual of each step", 0, 5, 6, true, false}};
     if (settings.packing == 1)
       close_lid();
     else
@@ -151,7 +152,7 @@ class Box final : public Scene<ShapeT> {
                                        : "the wall is free";
   }
   void write_walls() override {
-    constexpr double thin = 0.004;
+    constexpr double thin = Base::wall_thickness;
     const double x = wall_position(), high = lid_height();
     Vector lower = Vector::Zero(), upper = Vector::Constant(length_);
     upper[0] = x, upper[up] = high;

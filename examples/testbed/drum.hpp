@@ -42,9 +42,9 @@ class Drum final : public Scene<ShapeT> {
     for (int k = 1; k < up; ++k) lower[k] = 0, upper[k] = depth;
     this->set_bounds(lower, upper);
     this->channels_ = {{"t", "time", "s", 1},
-                       {"x", "angle of the surface", "degrees", 1},
+                       {"x", "angle", "°", 1},
                        {"energy", "kinetic energy", "J", 1},
-                       {"power", "power of the drum", "W", 1},
+                       {"power", "power", "W", 1},
                        {"sweeps", "sweeps", "per step", 1},
                        {"residual", "residual", "-", 1}};
     this->plots_ = {{"Angle of the surface", 0, 1, -1, false, false},

@@ -89,7 +89,8 @@ class Scene : public AnyScene {
   /// The grains of the plane are plates of this thickness [m]. Forces and masses are then of the
   /// magnitude of those in space.
   static constexpr double thickness = up == 1 ? 0.04 : 1;
-  static constexpr double density = 2700 * thickness;  ///< [kg/m^D]
+  static constexpr double wall_thickness = up == 1 ? 0.004 : 0.0005;  ///< in the picture [m]
+  static constexpr double density = 2700 * thickness;                 ///< [kg/m^D]
 
   void step() final {
     pull_grain();
@@ -139,11 +140,12 @@ class Scene : public AnyScene {
   }
 
  protected:
-  /// @param size of the smallest grain [m]
-  Scene(const Settings& settings, double size)
+  /// @param size   of the smallest grain [m]
+  /// @param margin of detection, relative to the size; at the default step it is the way of 2.5 m/s
+  Scene(const Settings& settings, double size, double margin = 0.05)
       : settings_(settings),
         random_(static_cast<std::uint64_t>(settings.seed)),
-        simulation_(size, materials(settings), solver_of(settings), tolerances()) {
+        simulation_(size, materials(settings), solver_of(settings), tolerances(margin)) {
     require_whole(settings);
   }
 
@@ -257,10 +259,9 @@ class Scene : public AnyScene {
     options.check_interval = 10;
     return moreau::ColouredGaussSeidel(options);
   }
-  /// A larger margin than the default, for grains that fall at 2 m/s.
-  static moreau::Tolerances tolerances() {
+  static moreau::Tolerances tolerances(double margin) {
     moreau::Tolerances tolerances;
-    tolerances.margin = 0.05;
+    tolerances.margin = margin;
     return tolerances;
   }
   /// A critically damped spring at the centre of the grain, which carries its weight and is no stronger than the

@@ -57,7 +57,7 @@ Vector from_page(const std::array<double, 3>& x) {
 struct Mesh {
   Floats
       triangles;  ///< 9 numbers per triangle, counter-clockwise seen from outside; in the plane from -y
-  Floats outline;  ///< 6 numbers per segment: the outline of a shape in the plane; empty in space
+  Floats outline;  ///< 6 numbers per segment: the edges of all faces
   bool is_round = false;
 };
 
@@ -75,11 +75,10 @@ void triangulate(const moreau::SurfaceMesh<S>& surface, Mesh& mesh) {
       push(mesh.triangles, corner(k));
       push(mesh.triangles, corner(k + 1));
     }
-    if (S::dim == 2)
-      for (std::size_t k = begin; k < last; ++k) {
-        push(mesh.outline, corner(k));
-        push(mesh.outline, corner(k + 1 < last ? k + 1 : begin));
-      }
+    for (std::size_t k = begin; k < last; ++k) {
+      push(mesh.outline, corner(k));
+      push(mesh.outline, corner(k + 1 < last ? k + 1 : begin));
+    }
     begin = last;
   }
 }

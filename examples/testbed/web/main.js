@@ -18,6 +18,7 @@ let waiting = false; // for a frame
 let arrays = []; // that go to and fro
 let latest = null; // a frame that is not drawn yet
 let stepOnce = false;
+let refresh = false; // a frame without a step
 const waitingRuns = [];
 
 // Settings
@@ -30,7 +31,22 @@ function makeSlider(setting, index) {
   holder.className = "slider";
   holder.title = setting.help;
   const id = `setting-${setting.key}`;
-  holder.innerHTML = `<div class="head"><label for="${id}"></label><input type="text" inputmode="decimal" id="${id}"><span></span></div><input type="range" aria-label="">`;
+  const propose = (value, again) => {
+    if (setting.rebuilds && !again) return;
+    worker.postMessage({ type: "set", index, value, answer: true });
+    if (setting.rebuilds) load();
+  };
+  setting.holder = holder;
+  if (setting.whole && setting.low === 0 && setting.high === 1) {
+    holder.innerHTML = `<label><input type="checkbox" id="${id}"> <span></span></label>`;
+    const box = holder.querySelector("input");
+    holder.querySelector("span").textContent = setting.label;
+    setting.show = (value) => (box.checked = value === 1);
+    setting.refuse = () => {};
+    box.addEventListener("change", () => propose(box.checked ? 1 : 0, true));
+    return holder;
+  }
+  holder.innerHTML = `<div class="head"><label for="${id}"></label><input type="text" inputmode="decimal" id="${id}"><span></span></div><input type="range">`;
   const [label, number, unit] = holder.firstChild.children, range = holder.lastChild;
   label.textContent = setting.label;
   unit.textContent = setting.unit === "-" ? "" : setting.unit;
@@ -45,11 +61,6 @@ function makeSlider(setting, index) {
     holder.classList.remove("wrong");
   };
   setting.refuse = () => holder.classList.add("wrong");
-  const propose = (value, again) => {
-    if (setting.rebuilds && !again) return;
-    worker.postMessage({ type: "set", index, value, answer: true });
-    if (setting.rebuilds) load();
-  };
   const ofRange = () => {
     const value = toValue(Number(range.value));
     return setting.whole ? Math.round(value) : Number(value.toPrecision(3));
@@ -60,7 +71,6 @@ function makeSlider(setting, index) {
   });
   range.addEventListener("change", () => propose(ofRange(), true));
   number.addEventListener("change", () => propose(number.value.trim() === "" ? NaN : Number(number.value.replace(",", ".")), true));
-  setting.holder = holder;
   return holder;
 }
 function setValue(key, value) {
@@ -137,6 +147,7 @@ function tick(now) {
   // What was too short for a step is kept for the next frame.
   rest = Math.min(rest + real, 0.1);
   const duration = stepOnce ? step : rest;
+  if (!moves && !refresh) return;
   if (moves && duration < step) return;
   rest = 0;
   waiting = true;
@@ -144,7 +155,7 @@ function tick(now) {
     { type: "frame", arrays, duration: moves ? duration : 0, step, budget: Math.min(100, Math.max(8, 0.8 * interval)) },
     arrays.map((array) => array.buffer));
   arrays = [];
-  stepOnce = false;
+  stepOnce = refresh = false;
 }
 let rest = 0;
 
@@ -215,7 +226,7 @@ worker.onmessage = ({ data }) => {
       plots.load(data.description);
       element("loading").hidden = true;
       element("error").hidden = true;
-      stepOnce = !state.playing;
+      refresh = true;
       break;
     case "frame":
       waiting = false;
@@ -239,6 +250,8 @@ worker.onmessage = ({ data }) => {
       if (/Simulation::step/.test(data.text)) play(false);
       break;
     case "run":
+      plots.add(data.rows, data.rows.length, state.values.step);
+      refresh = true;
       waitingRuns.shift()?.(data);
       break;
     case "fatal":
@@ -299,6 +312,7 @@ element("colour").addEventListener("change", (event) => showOption("colour", eve
 function showOption(name, value) {
   view.options[name] = value;
   view.colourMax = 0;
+  refresh = true;
 }
 element("legendBar").style.background = scaleGradient;
 

@@ -94,14 +94,22 @@ export class Plots {
       side, scale, stroke, font, labelFont: font, labelSize: 16, size: side === 2 ? 26 : 46,
       gap: 3, label: label(channel), grid: { stroke: "#e2e5ea", width: 1 }, ticks: { size: 4, stroke: "#c8cdd5" }, ...more,
     });
-    const logScale = { distr: 3, range: (u, low, high) => (low > 0 ? uPlot.rangeLog(low, high, 10, true) : [1e-6, 1]) };
-    const linear = { range: (u, low, high) => (low === null ? [0, 1] : uPlot.rangeNum(low, high === low ? low + 1e-9 + Math.abs(low) * 1e-3 : high, 0.08, true)) };
+    const logScale = { distr: 3, range: (u, low, high) => (low > 0 ? uPlot.rangeLog(Math.max(low, 1e-7), Math.max(high, 1e-5), 10, true) : [1e-6, 1]) };
+    // Not narrower than 1e-3 of the value, nor than 0.01 units: rounding is not worth a plot.
+    const linear = {
+      range: (u, low, high) => {
+        if (low === null || !Number.isFinite(low + high)) return [0, 1];
+        const least = Math.max(0.01, 1e-2 * Math.abs(high)), middle = (low + high) / 2;
+        return high - low < least ? [middle - least, middle + least] : uPlot.rangeNum(low, high, 0.08, true);
+      },
+    };
+    const counts = { range: (u, low, high) => [0, Math.max(20, 1.1 * (high ?? 0))] };
     const options = {
       ...this.size(),
       legend: { show: false },
       cursor: { show: false },
       padding: [4, spec.y2 < 0 ? 10 : 0, 0, 0],
-      scales: { x: { time: false, ...linear }, y: spec.logarithmic && spec.y2 < 0 ? logScale : linear },
+      scales: { x: { time: false, ...linear }, y: channels[spec.y].key === "sweeps" ? counts : spec.logarithmic && spec.y2 < 0 ? logScale : linear },
       axes: [
         axis(2, "x", channels[spec.x], "#333", { label: label(channels[spec.x]) }),
         axis(3, "y", channels[spec.y], blue),
@@ -119,6 +127,7 @@ export class Plots {
       options.scales.y2 = spec.logarithmic ? logScale : linear;
       options.series.push({ scale: "y2", stroke: second, width: 1.2, points: { show: false } });
       options.axes.push(axis(1, "y2", channels[spec.y2], second, { grid: { show: false }, ...(spec.logarithmic ? { size: 50 } : {}) }));
+      if (spec.logarithmic) options.axes.at(-1).ticks = { show: false };
       if (spec.logarithmic) options.axes.at(-1).values = (u, splits) => splits.map((v) => (v === null || Math.log10(v) % 1 !== 0 ? null : `1e${Math.round(Math.log10(v))}`));
     }
     return options;

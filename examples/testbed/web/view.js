@@ -112,15 +112,16 @@ export class View {
     this.scene.add(grains);
     return grains;
   }
-  /** In the plane all outlines are one set of lines, which is computed anew for every frame. */
+  /** All outlines are one set of lines, which is computed anew for every frame. */
   makeOutlines(meshes) {
     if (this.outlines) {
       this.scene.remove(this.outlines);
       this.outlines.geometry.dispose();
     }
     this.outlines = null;
-    if (this.isSpace) return;
-    this.outlineOf = meshes.map((shape) => visibleOutline(shape));
+    // In space they help to see the blocks of the arch; among many grains they would be in the way.
+    if (this.isSpace && (this.count > 50 || meshes[0].isRound)) return;
+    this.outlineOf = meshes.map((shape) => visibleOutline(shape, this.isSpace));
     let numbers = 0;
     for (let k = 0; k < this.count; ++k) numbers += this.outlineOf[this.meshOf[k]].length;
     const geometry = new BufferGeometry();
@@ -179,19 +180,24 @@ export class View {
   /** Puts the camera where it sees the whole scene. */
   frameScene() {
     if (!this.bounds) return;
+    this.applyAspect();
     const b = this.bounds;
     const centre = new Vector3((b[0] + b[3]) / 2, (b[1] + b[4]) / 2, (b[2] + b[5]) / 2);
     const size = new Vector3(b[3] - b[0], b[4] - b[1], b[5] - b[2]);
-    const aspect = this.camera.isPerspectiveCamera ? this.camera.aspect : this.aspect || 1;
+    const aspect = this.aspect || 1;
     this.controls.target.copy(centre);
     if (this.isSpace) {
-      const way = new Vector3(0.42, -1, 0.5).normalize();
-      // Width and height of the bounds as seen along `way`.
-      const wide = Math.abs(size.x * way.y) + Math.abs(size.y * way.x) * 1.1, high = size.z * 0.87 + (size.x + size.y) * 0.22;
-      const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
-      const distance = 1.12 * Math.max(high / 2 / tangent, wide / 2 / tangent / aspect) + size.y / 2;
-      this.camera.position.copy(centre).addScaledVector(way, distance);
-      this.camera.near = distance / 50, this.camera.far = distance * 20;
+      // From the right, the front and above; of a long scene, more from the front.
+      const isLong = size.x > 2.5 * size.z;
+      const way = new Vector3(isLong ? 0.16 : 0.42, -1, isLong ? 0.3 : 0.5).normalize();
+      let low = 0.1 * size.length(), high = 20 * size.length();
+      for (let k = 0; k < 30; ++k) {
+        const distance = Math.sqrt(low * high);
+        this.lookFrom(centre, way, distance);
+        if (this.showsBounds()) high = distance;
+        else low = distance;
+      }
+      this.lookFrom(centre, way, high);
     } else {
       const half = 0.56 * Math.max(size.z, size.x / aspect);
       this.half = half;
@@ -200,6 +206,22 @@ export class View {
     }
     this.applyAspect();
     this.controls.update();
+  }
+  lookFrom(centre, way, distance) {
+    this.camera.position.copy(centre).addScaledVector(way, distance);
+    this.camera.near = distance / 50;
+    this.camera.far = distance * 20;
+    this.camera.lookAt(centre);
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
+  }
+  showsBounds() {
+    const b = this.bounds, corner = scratch.position;
+    for (let k = 0; k < 8; ++k) {
+      corner.set(b[k & 1 ? 3 : 0], b[k & 2 ? 4 : 1], b[k & 4 ? 5 : 2]).project(this.camera);
+      if (!(Math.abs(corner.x) < 0.94 && corner.y < 0.84 && corner.y > -0.9 && corner.z < 1)) return false;
+    }
+    return true;
   }
   applyAspect() {
     if (this.camera.isPerspectiveCamera) {
@@ -256,7 +278,7 @@ export class View {
     for (const mesh of this.meshes) {
       mesh.instanceMatrix.needsUpdate = true;
       mesh.instanceColor.needsUpdate = true;
-      const opacity = faded ? (this.isSpace ? 0.2 : 0.45) : 1;
+      const opacity = faded ? (this.isSpace ? 0.33 : 0.45) : 1;
       if (mesh.material.opacity !== opacity) {
         mesh.material.opacity = opacity;
         mesh.material.transparent = opacity < 1;
@@ -264,20 +286,20 @@ export class View {
         mesh.material.needsUpdate = true;
       }
     }
-    if (this.outlines) this.updateOutlines(poses);
+    if (this.outlines) this.updateOutlines();
   }
-  updateOutlines(poses) {
+  updateOutlines() {
     const out = this.outlines.geometry.attributes.position.array;
     let at = 0;
+    const { position, matrix } = scratch, front = this.isSpace ? 0 : -0.001;
     for (let k = 0; k < this.count; ++k) {
-      const outline = this.outlineOf[this.meshOf[k]], p = 7 * k, scale = this.scaleOf[k];
-      // The quaternion is (0, y, 0, w): a turn in the plane y = 0.
-      const y = poses[p + 4], w = poses[p + 6], cos = w * w - y * y, sin = -2 * y * w;
+      const m = this.meshOf[k], outline = this.outlineOf[m];
+      matrix.fromArray(this.meshes[m].instanceMatrix.array, 16 * this.slotOf[k]);
       for (let i = 0; i < outline.length; i += 3) {
-        const x = scale * outline[i], z = scale * outline[i + 2];
-        out[at++] = poses[p] + cos * x - sin * z;
-        out[at++] = -0.001;
-        out[at++] = poses[p + 2] + sin * x + cos * z;
+        position.fromArray(outline, i).applyMatrix4(matrix);
+        out[at++] = position.x;
+        out[at++] = position.y + front;
+        out[at++] = position.z;
       }
     }
     this.outlines.geometry.attributes.position.needsUpdate = true;
@@ -304,7 +326,7 @@ export class View {
       wall.scale.set(2 * w[4], Math.max(2 * w[5], thick), 2 * w[6]);
       // The free wall of the box has the largest x: the arrow shows the force on it.
       if (w[7] !== 0 && force !== null && w[4] < w[6]) {
-        const length = 0.3 * (this.bounds[3] - this.bounds[0]) * force;
+        const length = 0.2 * (this.bounds[3] - this.bounds[0]) * force;
         const unit = this.bounds[3] - this.bounds[0];
         this.arrow.visible = length > 0.01 * unit;
         this.arrow.position.set(w[1] + w[4] + 0.06 * unit, w[2], w[3]);
@@ -496,16 +518,19 @@ function smoothNormals(geometry) {
     normal.setXYZ(k, direction.x, direction.y, direction.z);
   }
 }
-/** The outline without the seams between the parts of a concave grain; of a disk with a radius, which
- *  shows how it rolls. */
-function visibleOutline({ outline, isRound }) {
+/** The outline of a shape in the plane, without the seams between the parts of a concave grain; of a
+ *  disk with a radius, which shows how it rolls. In space, each edge once. */
+function visibleOutline({ outline, isRound }, isSpace) {
   if (isRound) return Float32Array.from([...outline, 0, 0, 0, outline[0], outline[1], outline[2]]);
-  const key = (k) => `${outline[k].toFixed(5)} ${outline[k + 2].toFixed(5)}`;
-  const count = new Map();
+  const key = (k) => `${outline[k].toFixed(5)} ${outline[k + 1].toFixed(5)} ${outline[k + 2].toFixed(5)}`;
   const name = (k) => [key(k), key(k + 3)].sort().join();
+  const count = new Map();
   for (let k = 0; k < outline.length; k += 6) count.set(name(k), (count.get(name(k)) ?? 0) + 1);
-  const kept = [];
-  for (let k = 0; k < outline.length; k += 6)
-    if (count.get(name(k)) === 1) kept.push(...outline.subarray(k, k + 6));
+  const kept = [], seen = new Set();
+  for (let k = 0; k < outline.length; k += 6) {
+    if (isSpace ? seen.has(name(k)) : count.get(name(k)) > 1) continue;
+    seen.add(name(k));
+    kept.push(...outline.subarray(k, k + 6));
+  }
   return Float32Array.from(kept);
 }
