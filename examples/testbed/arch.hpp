@@ -119,7 +119,11 @@ class Arch final : public Scene<ShapeT> {
                   -on_floor[0] / settings_.step, -on_floor[up] / settings_.step,
                   report.solve.sweeps, report.solve.residual);
   }
-  std::string stage() const override { return "the arch carries itself"; }
+  bool can_act() const override { return acted_ < 0; }
+  std::string stage() const override {
+    return std::abs(crown_ - position(keystone)[up]) < block ? "the arch carries itself"
+                                                             : "the arch has fallen";
+  }
   void write_walls() override {
     Vector lower = Vector::Constant(-3 * depth), upper = Vector::Constant(3 * depth);
     lower[0] = -2 * outer, upper[0] = 2 * outer;

@@ -52,11 +52,10 @@ class Box final : public Scene<ShapeT> {
                        {"rho", "solid fraction ρ", "-", 1},
                        {"sweeps", "sweeps", "per step", 1},
                        {"residual", "residual", "-", 1}};
-    this->plots_ = {
-        {"Wall position x and applied force f", 0, 1, 2, false, false},
-        {"Force f_g of the grains on the wall over its position", 1, 3, -1, false, true},
-        {"Solid fraction in the box", 0, 4, -1, false, false},
-        {"Solver: sweeps and residual of each step", 0, 5, 6, true, false}};
+    this->plots_ = {{"Wall position x and applied force f", 0, 1, 2, false, false},
+                    {"Force f_g of the grains over wall position x", 1, 3, -1, false, true},
+                    {"Solid fraction in the box", 0, 4, -1, false, false},
+                    {"Solver: sweeps and residual of each step", 0, 5, 6, true, false}};
     if (settings.packing == 1)
       close_lid();
     else
@@ -146,6 +145,7 @@ class Box final : public Scene<ShapeT> {
       if (settled || pressed > longest_press) free_wall();
     }
   }
+  bool can_act() const override { return stage_ != Stage::shaking; }
   std::string stage() const override {
     return stage_ == Stage::closing    ? "packing: the lid closes"
            : stage_ == Stage::pressing ? "packing: the lid presses"

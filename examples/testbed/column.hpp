@@ -101,6 +101,7 @@ class Column final : public Scene<ShapeT> {
                   report.solve.sweeps, report.solve.residual);
     if (simulation_.time() > settling) act();
   }
+  bool can_act() const override { return !open_; }
   std::string stage() const override {
     return open_ ? "the gate is open" : "the grains settle behind the gate";
   }

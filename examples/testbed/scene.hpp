@@ -121,6 +121,7 @@ class Scene : public AnyScene {
   void release() final {
     if (pulled_) simulation_.set_force(pulled_->grain, Vector::Zero());
     pulled_.reset();
+    status_.hand = 0;
   }
   void write_frame() final {
     frame_.clear();
@@ -133,6 +134,7 @@ class Scene : public AnyScene {
     write_walls();
     status_.time = simulation_.time();
     status_.points = simulation_.contacts().size();
+    status_.can_act = can_act();
     status_.stage = stage();
     status_.advice.clear();
     for (const std::string& sentence : moreau::check(simulation_, last_))
@@ -152,8 +154,9 @@ class Scene : public AnyScene {
   // What differs between the scenes.
   virtual void drive() {}                                     ///< before a step
   virtual void record(const moreau::StepReport& report) = 0;  ///< after it: adds a row of samples
-  virtual void check(const Settings&) const {}  ///< throws if the scene cannot take them
-  virtual void adopt() { set_gravity(); }       ///< takes settings_
+  virtual void check(const Settings&) const {}   ///< throws if the scene cannot take them
+  virtual void adopt() { set_gravity(); }        ///< takes settings_
+  virtual bool can_act() const { return true; }  ///< whether act() has an effect
   virtual std::string stage() const { return ""; }
   virtual void write_walls() = 0;
 
@@ -276,6 +279,7 @@ class Scene : public AnyScene {
     // Jammed grains need more than their inertia: the stiffness grows with the strength of the hand.
     force += settings_.hand / 0.1 * way;
     if (const double norm = force.norm(); norm > settings_.hand) force *= settings_.hand / norm;
+    status_.hand = force.norm();
     simulation_.set_force(pulled_->grain, force);
   }
   /// Force chains, and the colours of the grains: the sum of the normal forces on a grain, and the

@@ -88,7 +88,7 @@ struct Settings {
   double packing = 1;       ///< 1: the lid packs the grains first; 0: the wall is free at once
   double aspect = 2;        ///< height / length of the column [-]
   double drum_speed = 8;    ///< [revolutions/min]
-  double hand = 50;         ///< largest force of the hand [N]
+  double hand = 100;        ///< largest force of the hand [N]
 };
 
 /// One slider. `scenes` has bit k for scene k.

@@ -133,6 +133,8 @@ struct Status {
   double time = 0;         ///< [s]
   std::size_t points = 0;  ///< contact points
   std::size_t capped = 0;  ///< steps, since the scene began, that ended with most sweeps
+  double hand = 0;         ///< force with which the hand pulls [N]
+  bool can_act = true;     ///< whether the button of the scene has an effect
   std::string stage;       ///< of the scene, e.g. "packing"
   std::string advice;      ///< sentences of moreau::check() on the last step
 };

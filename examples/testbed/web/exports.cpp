@@ -143,6 +143,13 @@ TESTBED_EXPORT(testbed_stage) const char* testbed_stage() {
 TESTBED_EXPORT(testbed_advice) const char* testbed_advice() {
   return scene->status().advice.c_str();
 }
+TESTBED_EXPORT(testbed_can_act) int testbed_can_act() {
+  return scene->status().can_act;
+}
+/// The force of the hand [N].
+TESTBED_EXPORT(testbed_hand) double testbed_hand() {
+  return scene->status().hand;
+}
 /// Bytes that the program has allocated.
 TESTBED_EXPORT(testbed_heap_used) double testbed_heap_used() {
   return double(mallinfo().uordblks);

@@ -8,7 +8,13 @@ import { scaleGradient } from "./colours.js";
 
 const element = (id) => document.getElementById(id);
 const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
-const view = new View(element("canvas"));
+let view = null;
+try {
+  view = new View(element("canvas"));
+} catch (error) {
+  element("loading").textContent = `The page cannot draw, because WebGL is not available: ${error.message}`;
+  throw error;
+}
 const plots = new Plots(element("plots"));
 
 let tables = null;
@@ -33,8 +39,7 @@ function makeSlider(setting, index) {
   const id = `setting-${setting.key}`;
   const propose = (value, again) => {
     if (setting.rebuilds && !again) return;
-    worker.postMessage({ type: "set", index, value, answer: true });
-    if (setting.rebuilds) load();
+    worker.postMessage({ type: "set", index, value, rebuild: setting.rebuilds === 1 });
   };
   setting.holder = holder;
   if (setting.whole && setting.low === 0 && setting.high === 1) {
@@ -75,7 +80,7 @@ function makeSlider(setting, index) {
 }
 function setValue(key, value) {
   const index = tables.settings.findIndex((setting) => setting.key === key);
-  worker.postMessage({ type: "set", index, value, answer: true });
+  worker.postMessage({ type: "set", index, value });
 }
 
 function makeChoice(id, entries, current, choose) {
@@ -116,6 +121,10 @@ function load() {
   const scene = tables.scenes[state.scene];
   element("tryThis").textContent = scene.tryThis;
   element("action").textContent = scene.action;
+  element("newSeed").disabled = scene.key === "arch";
+  element("hint").textContent = state.dimension === 3
+    ? "Drag a grain to pull it. Drag beside the grains to turn the picture, wheel to zoom."
+    : "Drag a grain to pull it. Drag beside the grains to move the picture, wheel to zoom.";
   for (const setting of tables.settings) setting.holder.hidden = (setting.scenes & (1 << state.scene)) === 0;
   location.replace(`#scene=${scene.key}&shape=${tables.shapes[shapeIndex()].key}`);
 }
@@ -196,7 +205,9 @@ function showStatus(status, steps, now) {
     `<span>${status.stage}</span><span>t = ${status.time.toFixed(3)} s</span>${rate.shown}` +
     `<span>${view.count} grains, ${status.points} contact points</span>` +
     `<span>${residual === null ? "" : `residual ${residual.toExponential(0)}`}</span>` +
+    (status.hand > 0 ? `<span class="hand">the hand pulls with ${short(status.hand)} N${status.hand > 0.99 * state.values.hand ? ", its full strength" : ""}</span>` : "") +
     (status.capped > 0 ? `<span>${status.capped} steps not solved to the tolerance</span>` : "");
+  element("action").disabled = !status.canAct;
   element("advice").textContent = status.advice;
   const colour = view.options.colour;
   element("legend").hidden = colour === "size";
@@ -239,6 +250,7 @@ worker.onmessage = ({ data }) => {
         state.values[setting.key] = data.value;
         setting.show(data.value);
         element("error").hidden = true;
+        if (data.rebuild) load();
       } else {
         setting.refuse();
       }

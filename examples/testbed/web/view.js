@@ -15,6 +15,7 @@ import { scaleColour, stoneColour } from "./colours.js";
 ColorManagement.enabled = false;
 
 const background = 0xf3f4f6, wallColour = 0x8a93a0, movingColour = 0x2f6fb3;
+const heldColour = new Color(0xf06595);
 const stickColour = new Color(0x1f4e79), slideColour = new Color(0xe07b00);
 
 export class View {
@@ -35,10 +36,11 @@ export class View {
     this.makeSegments();
     this.makeHand();
     this.setSpace(true);
-    canvas.addEventListener("pointerdown", (event) => this.grab(event));
-    canvas.addEventListener("pointermove", (event) => this.drag(event));
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
-      canvas.addEventListener(name, () => this.letLoose());
+    // Before the controls of the camera, which do not see a pointer that holds a grain.
+    canvas.parentElement.addEventListener("pointerdown", (event) => this.grab(event), { capture: true });
+    window.addEventListener("pointermove", (event) => this.drag(event));
+    for (const name of ["pointerup", "pointercancel", "blur"])
+      window.addEventListener(name, () => this.letLoose());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
 
@@ -86,7 +88,7 @@ export class View {
     this.makeOutlines(meshes);
     this.colourMax = 0;
     this.forceScale = 0;
-    this.poses = null;
+    this.isPlaced = false;
     if (this.framedFor !== `${isSpace} ${this.bounds}`) this.frameScene();
     this.framedFor = `${isSpace} ${this.bounds}`;
   }
@@ -168,11 +170,12 @@ export class View {
     return this.makeInstances(instances.geometry, 2 * count);
   }
   makeHand() {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(new Float32Array(6), 3));
-    this.hand = new LineSegments(geometry, new LineBasicMaterial({ color: 0xd6336c, depthTest: false }));
-    this.hand.frustumCulled = false;
-    this.hand.renderOrder = 5;
+    const paint = new MeshBasicMaterial({ color: 0xd6336c, depthTest: false, transparent: true });
+    this.hand = new Group();
+    this.handLine = new Mesh(new CylinderGeometry(1, 1, 1, 8), paint);
+    this.handEnd = new Mesh(new SphereGeometry(1, 12, 8), paint);
+    this.handLine.renderOrder = this.handEnd.renderOrder = 5;
+    this.hand.add(this.handLine, this.handEnd);
     this.hand.visible = false;
     this.scene.add(this.hand);
   }
@@ -246,7 +249,7 @@ export class View {
 
   /** Takes the buffers of a frame. `force` is f(t) relative to its largest value, or null. */
   update({ poses, colours, walls, segments, segmentCount, wallCount }, force) {
-    this.poses = poses;
+    this.isPlaced = true;
     this.updateGrains(poses, colours);
     this.updateWalls(walls, wallCount, force);
     this.updateSegments(segments, segmentCount);
@@ -271,14 +274,16 @@ export class View {
       size.setScalar(this.scaleOf[k]);
       matrix.compose(position, turn, size).toArray(mesh.instanceMatrix.array, 16 * slot);
       const out = mesh.instanceColor.array;
-      if (which === undefined) stoneColour(k, out, 3 * slot);
+      if (k === this.held?.grain) heldColour.toArray(out, 3 * slot);
+      else if (which === undefined) stoneColour(k, out, 3 * slot);
       else scaleColour(this.colourMax > 0 ? colours[3 * k + which] / this.colourMax : 0, out, 3 * slot);
     }
     const faded = this.options.chains || this.options.contacts;
     for (const mesh of this.meshes) {
       mesh.instanceMatrix.needsUpdate = true;
       mesh.instanceColor.needsUpdate = true;
-      const opacity = faded ? (this.isSpace ? 0.33 : 0.45) : 1;
+      // Colours that mean something are faded less.
+    const opacity = !faded ? 1 : which === undefined ? (this.isSpace ? 0.33 : 0.45) : this.isSpace ? 0.6 : 0.75;
       if (mesh.material.opacity !== opacity) {
         mesh.material.opacity = opacity;
         mesh.material.transparent = opacity < 1;
@@ -442,14 +447,14 @@ export class View {
     return caster;
   }
   grab(event) {
-    if (event.button !== 0 || !this.poses || event.shiftKey) return;
+    if (event.target !== this.canvas || event.button !== 0 || !this.isPlaced || event.shiftKey) return;
     const caster = this.ray(event);
     for (const mesh of this.meshes) mesh.computeBoundingSphere();
     const [hit] = caster.intersectObjects(this.meshes, false);
     if (!hit) return;
     const grain = this.grainsOf[this.meshes.indexOf(hit.object)][hit.instanceId];
-    this.controls.enabled = false;
-    this.canvas.setPointerCapture(event.pointerId);
+    event.stopPropagation();
+    event.preventDefault();
     const normal = this.camera.getWorldDirection(new Vector3());
     const centre = this.centreOf(grain);
     this.held = {
@@ -472,22 +477,27 @@ export class View {
   letLoose() {
     if (!this.held) return;
     this.held = null;
-    this.controls.enabled = true;
     this.canvas.style.cursor = "";
     this.hand.visible = false;
     this.onRelease();
   }
   centreOf(grain) {
-    return new Vector3(this.poses[7 * grain], this.poses[7 * grain + 1], this.poses[7 * grain + 2]);
+    const { array } = this.meshes[this.meshOf[grain]].instanceMatrix;
+    return new Vector3().fromArray(array, 16 * this.slotOf[grain] + 12);
   }
   updateHand() {
     this.hand.visible = Boolean(this.held);
-    if (!this.held || !this.poses) return;
-    const line = this.hand.geometry.attributes.position;
-    const centre = this.centreOf(this.held.grain), front = this.isSpace ? 0 : -0.1;
-    line.setXYZ(0, centre.x, centre.y + front, centre.z);
-    line.setXYZ(1, this.held.target.x, this.held.target.y + front, this.held.target.z);
-    line.needsUpdate = true;
+    if (!this.held || !this.isPlaced) return;
+    const { way } = scratch, front = this.isSpace ? 0 : -0.1;
+    const centre = this.centreOf(this.held.grain), { target } = this.held;
+    way.copy(target).sub(centre);
+    const length = way.length(), thick = 0.1 * this.grainSize;
+    this.handLine.visible = length > 0;
+    if (length > 0) this.handLine.quaternion.setFromUnitVectors(upright, way.divideScalar(length));
+    this.handLine.position.set((centre.x + target.x) / 2, (centre.y + target.y) / 2 + front, (centre.z + target.z) / 2);
+    this.handLine.scale.set(thick, length, thick);
+    this.handEnd.position.set(target.x, target.y + front, target.z);
+    this.handEnd.scale.setScalar(3 * thick);
   }
 
   render() {

@@ -46,6 +46,8 @@ function sendFrame(arrays, spent, steps) {
         time: program.get("time"),
         points: program.get("points"),
         capped: program.get("capped"),
+        hand: program.get("hand"),
+        canAct: program.get("can_act") !== 0,
         stage: program.text(program.get("stage")),
         advice: program.text(program.get("advice")),
         heap: program.get("heap_used"),
@@ -77,9 +79,9 @@ const handlers = {
       description: JSON.parse(program.text(program.get("describe_scene"))),
     });
   },
-  set({ index, value, answer }) {
+  set({ index, value, rebuild }) {
     const accepted = attempt(() => program.call("set", index, value));
-    post({ type: "set", index, value, accepted, answer });
+    post({ type: "set", index, value, accepted, rebuild });
   },
   /** At most `duration` of simulated time, and at most `budget` ms of work, but one step at least. */
   frame({ arrays, duration, budget, step }) {
