@@ -148,7 +148,12 @@ function tick(now) {
   before = now;
   if (latest) draw(now);
   if (waiting || generation < 0) return;
-  if (passed < 200) interval += 0.1 * (passed - interval);
+  if (passed < 1000) interval += 0.1 * (passed - interval);
+  // Without a graphics card drawing takes the time of the steps: fewer pixels then.
+  if (interval > 80 && ++slowFrames > 15) {
+    view.coarsen();
+    slowFrames = 0;
+  }
   // A slow machine runs in slow motion: at most the time of one frame is made up for.
   const real = Math.min(passed, 100) / 1000;
   const moves = state.playing || stepOnce;
@@ -161,12 +166,12 @@ function tick(now) {
   rest = 0;
   waiting = true;
   worker.postMessage(
-    { type: "frame", arrays, duration: moves ? duration : 0, step, budget: Math.min(100, Math.max(8, 0.8 * interval)) },
+    { type: "frame", arrays, duration: moves ? duration : 0, step, budget: Math.min(250, Math.max(8, 0.8 * interval)) },
     arrays.map((array) => array.buffer));
   arrays = [];
   stepOnce = refresh = false;
 }
-let rest = 0;
+let rest = 0, slowFrames = 0;
 
 function draw(now) {
   const { arrays: got, sizes, status, steps } = latest;

@@ -30,6 +30,7 @@ export class View {
     sun.position.set(0.5, -1, 1.6);
     this.scene.add(sun);
     this.options = { chains: true, contacts: false, colour: "size" };
+    this.quality = 1; // pixels along a side, relative to those of the screen
     this.colourMax = 0; // upper end of the colour scale
     this.meshes = [];
     this.makeWalls();
@@ -240,11 +241,18 @@ export class View {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (width < 2 || height < 2) return;
     this.aspect = width / height;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(this.quality * Math.min(2, window.devicePixelRatio));
     this.renderer.setSize(width, height, false);
     this.applyAspect();
     this.frameScene();
     this.render();
+  }
+
+  /** Fewer pixels, for a machine that draws slowly. */
+  coarsen() {
+    if (this.quality < 0.6) return;
+    this.quality *= 0.75;
+    this.renderer.setPixelRatio(this.quality * Math.min(2, window.devicePixelRatio));
   }
 
   /** Takes the buffers of a frame. `force` is f(t) relative to its largest value, or null. */
