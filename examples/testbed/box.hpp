@@ -43,7 +43,7 @@ class Box final : public Scene<ShapeT> {
     simulation_.add_wall(Vector::Unit(up), Vector::Zero(), Base::rough());
     lid_ = simulation_.add_wall(-Vector::Unit(up), height_ * Vector::Unit(up), Base::rough());
     Vector upper = Vector::Constant(length_);
-    upper[0] *= 1.3;  // room for the arrow of the force
+    upper[0] *= 1.25;  // room for the arrow of the force
     this->set_bounds(Vector::Zero(), upper);
     this->channels_ = {{"t", "time", "s", 1},
                        {"x", "wall position x", "mm", 1e3},

@@ -418,7 +418,7 @@ export class View {
       position.set(
         (segments[s] + segments[s + 3]) / 2, (segments[s + 1] + segments[s + 4]) / 2 + front, (segments[s + 2] + segments[s + 5]) / 2);
       turn.setFromUnitVectors(upright, way.divideScalar(length));
-      const radius = this.grainSize * (0.03 + 0.42 * strength);
+      const radius = this.grainSize * (0.03 + 0.34 * strength);
       matrix.compose(position, turn, size.set(radius, length, radius)).toArray(this.chains.instanceMatrix.array, 16 * shown);
       // From orange to dark red.
       colour.setRGB(0.95 - 0.4 * strength, 0.55 * (1 - strength) * (1 - 0.4 * strength), 0.12 * (1 - strength));
