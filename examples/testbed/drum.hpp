@@ -105,7 +105,7 @@ class Drum final : public Scene<ShapeT> {
     Vector centre = Vector::Zero();
     for (const moreau::BodyId grain : simulation_.grains())
       centre +=
-          simulation_.bodies().weight[grain.index()] * Vector(simulation_.pose(grain).position);
+          simulation_.bodies().grain_mass[grain.index()] * Vector(simulation_.pose(grain).position);
     angle_ += rate() * settings_.step;
     this->add_row(simulation_.time(), std::atan2(centre[0], -centre[up]) * 180 / std::numbers::pi,
                   this->kinetic_energy(), power(), report.solve.sweeps, report.solve.residual);

@@ -207,7 +207,7 @@ class Scene : public AnyScene {
                                      [&](std::size_t k) {
                                        const std::size_t i = simulation_.grain(k).index();
                                        return moreau::BodyMotion<S>{
-                                           bodies.weight[i],
+                                           bodies.grain_mass[i],
                                            bodies.inertia(i, bodies.pose[i].rotation),
                                            bodies.pose[i].position, bodies.velocity[i]};
                                      })
@@ -272,7 +272,7 @@ class Scene : public AnyScene {
   void pull_grain() {
     if (!pulled_) return;
     constexpr double rate = 40;  // [1/s]
-    const double mass = simulation_.bodies().weight[pulled_->grain.index()];
+    const double mass = simulation_.bodies().grain_mass[pulled_->grain.index()];
     const Vector way = pulled_->target - Vector(simulation_.pose(pulled_->grain).position);
     Vector force = mass * (rate * rate * way - 2 * rate * simulation_.velocity(pulled_->grain));
     force[up] += mass * settings_.gravity;
