@@ -208,8 +208,9 @@ void run(const std::string& name, std::size_t count, const Series& series,
     if (n > 1) std::cout << " +- " << error;
     std::cout << ", end after " << duration << " s; " << unsolved << " of " << steps
               << " steps not solved" << std::endl;
+    const bool round = moreau::is_ball<Shape>;
     file.row(double(moreau::SpaceOf<Shape>::dim), double(count), aspect, mean, error, n, duration,
-             length);
+             length, double(round));
   }
 }
 
@@ -235,7 +236,8 @@ int main(int count, char** arguments) try {
                                                                  "standard_error",
                                                                  "samples",
                                                                  {"duration", "s"},
-                                                                 {"length", "m"}});
+                                                                 {"length", "m"},
+                                                                 "round"});
   run<moreau::Polygon<double>>("polygons", plane, series, file);
   run<moreau::Disk<double>>("disks", plane, series, file);
   run<moreau::Polyhedron<double>>("polyhedra", space, series, file);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # gnuplot plane_and_space.gp, in the folder of plane_and_space.csv. Columns: dimension, grains,
-# aspect, run-out, standard error, samples, duration.
+# aspect, run-out, standard error, samples, duration, length, 1 for disks and balls.
 set datafile separator ","
 set terminal pngcairo size 900,560 font "sans,13"
 set output "plane_and_space.png"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tuple>
+
 #include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
 
@@ -22,6 +24,7 @@ struct MassProperties {
   MassProperties(typename S::Scalar m, const VectorArgument<S>& c,
                  const typename S::Inertia& about_c)
       : mass(m), center(c), inertia(about_c) {}
+  auto serialized_members() { return std::tie(mass, center, inertia); }  ///< see core/serialize.hpp
 };
 
 }  // namespace moreau
