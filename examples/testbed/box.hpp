@@ -42,9 +42,6 @@ class Box final : public Scene<ShapeT> {
     }
     simulation_.add_wall(Vector::Unit(up), Vector::Zero(), Base::rough());
     lid_ = simulation_.add_wall(-Vector::Unit(up), height_ * Vector::Unit(up), Base::rough());
-    Vector upper = Vector::Constant(length_);
-    upper[0] *= 1.25;  // room for the arrow of the force
-    this->set_bounds(Vector::Zero(), upper);
     this->channels_ = {{"t", "time", "s", 1},
                        {"x", "wall position x", "mm", 1e3},
                        {"f", "force f", "N", 1},
@@ -54,12 +51,13 @@ class Box final : public Scene<ShapeT> {
                        {"residual", "residual", "-", 1}};
     this->plots_ = {{"Wall position x and applied force f", 0, 1, 2, false, false},
                     {"Force f_g of the grains over wall position x", 1, 3, -1, false, true},
-                    {"Solid fraction in the box", 0, 4, -1, false, false},
+                    {"Volume of the grains / volume of the box", 0, 4, -1, false, false},
                     {"Solver: sweeps and residual of each step", 0, 5, 6, true, false}};
     if (settings.packing == 1)
       close_lid();
     else
       free_wall();
+    show_all();
   }
 
   /// Ends the packing.
@@ -106,6 +104,14 @@ class Box final : public Scene<ShapeT> {
     pose.position[up] += lid_raise;
     simulation_.set_pose(lid_, pose);
     adopt();
+    show_all();
+  }
+  /// Sets the bounds of the picture: the lid, the wall, and room for the arrow of the force.
+  void show_all() {
+    Vector upper = Vector::Constant(length_);
+    upper[0] = std::max(wall_position(), length_) + 0.5 * length_;
+    upper[up] = 1.05 * lid_height();
+    this->set_bounds(Vector::Zero(), upper);
   }
   moreau::HarmonicForce force(const Settings& settings) const {
     return {0, settings.fmax, settings.frequency, begin_};
@@ -133,6 +139,15 @@ class Box final : public Scene<ShapeT> {
     const double room = wall_position() * std::pow(length_, S::dim - 2) * lid_height();
     this->add_row(simulation_.time(), wall_position() - length_, applied_, fg, this->volume_ / room,
                   report.solve.sweeps, report.solve.residual);
+    fault_ = wall_position() <= 0
+                 ? "The wall has passed the opposite wall: the time step or the contact stiffness "
+                   "does not suit this force. Reset begins anew."
+             : this->volume_ > room
+                 ? "The grains overlap: their volume exceeds that of the box. The time step or the "
+                   "contact stiffness does not suit this force. Reset begins anew."
+                 : "";
+    // The wall is about to leave the picture.
+    if (wall_position() + 0.4 * length_ > this->bounds_[3]) show_all();
     if (stage_ == Stage::closing) {
       const double now = simulation_.contact_impulse(lid_)[up] / settings_.step;
       reaction_ += 0.05 * (now - reaction_);
@@ -147,9 +162,16 @@ class Box final : public Scene<ShapeT> {
   }
   bool can_act() const override { return stage_ != Stage::shaking; }
   std::string stage() const override {
-    return stage_ == Stage::closing    ? "packing: the lid closes"
-           : stage_ == Stage::pressing ? "packing: the lid presses"
-                                       : "the wall is free";
+    if (stage_ == Stage::shaking) return "the wall is free";
+    if (stage_ == Stage::pressing) return "packing: the lid presses (no gravity yet)";
+    // About: the box is as high as it is long if the solid fraction is that of `packed`.
+    const double part = (height_ - lid_height()) / std::max(height_ - length_, 1e-9);
+    return "packing: the lid closes (no gravity yet), " +
+           std::to_string(int(100 * std::clamp(part, 0., 0.99))) + " %";
+  }
+  std::string fault() const override { return fault_; }
+  double paths_from() const override {
+    return stage_ == Stage::shaking ? begin_ : std::numeric_limits<double>::infinity();
   }
   void write_walls() override {
     constexpr double thin = Base::wall_thickness;
@@ -170,6 +192,7 @@ class Box final : public Scene<ShapeT> {
 
   Stage stage_ = Stage::closing;
   double length_ = 0, height_ = 0, begin_ = 0, reaction_ = 0, applied_ = 0;
+  std::string fault_;
   moreau::BodyId wall_, lid_;
 };
 

@@ -47,7 +47,7 @@ class Drum final : public Scene<ShapeT> {
                        {"power", "power", "W", 1},
                        {"sweeps", "sweeps", "per step", 1},
                        {"residual", "residual", "-", 1}};
-    this->plots_ = {{"Angle of the surface", 0, 1, -1, false, false},
+    this->plots_ = {{"Angle of the centre of mass", 0, 1, -1, false, false},
                     {"Power that the drum gives to the grains", 0, 3, -1, false, false},
                     {"Kinetic energy of the grains", 0, 2, -1, false, false},
                     {"Solver: sweeps and residual of each step", 0, 4, 5, true, false}};

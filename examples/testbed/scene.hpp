@@ -136,6 +136,9 @@ class Scene : public AnyScene {
     status_.points = simulation_.contacts().size();
     status_.can_act = can_act();
     status_.stage = stage();
+    status_.fault = fault();
+    status_.mass = mass();
+    status_.paths_from = paths_from();
     status_.advice.clear();
     for (const std::string& sentence : moreau::check(simulation_, last_))
       status_.advice += (status_.advice.empty() ? "" : "; ") + sentence;
@@ -158,6 +161,8 @@ class Scene : public AnyScene {
   virtual void adopt() { set_gravity(); }        ///< takes settings_
   virtual bool can_act() const { return true; }  ///< whether act() has an effect
   virtual std::string stage() const { return ""; }
+  virtual std::string fault() const { return ""; }  ///< Status::fault
+  virtual double paths_from() const { return 0; }   ///< Status::paths_from
   virtual void write_walls() = 0;
 
   /// Materials of bodies: grains, walls with friction, walls without.

@@ -25,26 +25,24 @@ struct SceneEntry {
 };
 inline constexpr std::array<SceneEntry, 4> scenes{{
     {"box", "Ratcheting box",
-     "A lid packs the grains, then the wall on the right is pushed by the force f(t). While f is "
-     "small "
-     "the grains push the wall out; when f rises the packing jams and the wall stops. Lower fmax, "
-     "or "
-     "pull a grain out of a force chain.",
+     "A lid packs the grains, then the wall on the right is pushed by the force f(t). x > 0 is "
+     "outwards. In each period the wall comes in while f is large and is pushed out while f is "
+     "small. With a small fmax the grains push it out far. Lower fmax, or pull a grain out of a "
+     "force chain.",
      "End the packing now"},
     {"column", "Column collapse",
-     "A column stands behind a gate. When the gate is gone the grains run out over the floor. "
-     "Compare "
-     "angular with round grains: without edges nothing stops them.",
+     "A column stands behind a gate, which opens by itself at 0.7 s. Then the grains run out over "
+     "the floor. Compare angular with round grains: round grains roll farther.",
      "Open the gate now"},
     {"drum", "Rotating drum",
-     "The drum turns, and the surface stays at the angle of repose. Change friction and shape and "
-     "watch "
-     "the angle; make the drum faster until the grains are thrown.",
+     "At first the bed turns with the drum; then it slides, and the surface keeps about the angle "
+     "of repose. The large grains begin below, so that you see how the drum mixes them with the "
+     "small ones. Change friction and shape and watch the angle; make the drum faster until the "
+     "grains are thrown.",
      "Turn the other way"},
     {"arch", "Arch",
      "The blocks carry one another by contact and friction alone. Pull a block out by hand, or "
-     "lower the "
-     "friction until the arch slides apart. Concave blocks have teeth.",
+     "lower the friction until the arch slides apart. Concave blocks have teeth.",
      "Pull out the keystone"},
 }};
 

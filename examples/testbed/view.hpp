@@ -135,6 +135,9 @@ struct Status {
   std::size_t capped = 0;  ///< steps, since the scene began, that ended with most sweeps
   double hand = 0;         ///< force with which the hand pulls [N]
   bool can_act = true;     ///< whether the button of the scene has an effect
+  double mass = 0;         ///< of the grains [kg]
+  double paths_from = 0;   ///< a plot that is a path shows the steps from this time on [s]
+  std::string fault;       ///< a sentence, if the state is none that grains can have
   std::string stage;       ///< of the scene, e.g. "packing"
   std::string advice;      ///< sentences of moreau::check() on the last step
 };

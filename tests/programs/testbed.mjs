@@ -48,6 +48,9 @@ try {
   await page.goto(address);
   await page.waitForFunction("window.testbed?.isReady()", { timeout: 60000 });
 
+  // The page begins in the plane.
+  check(await page.evaluate(() => testbed.state.dimension === 2), "the page does not begin in the plane");
+
   const bytes = fs.readdirSync(folder).reduce((sum, name) => sum + fs.statSync(path.join(folder, name)).size, 0);
   console.log(`the page has ${(bytes / 1e6).toFixed(2)} MB`);
   check(bytes < 3e6, `${bytes} bytes are more than 3 MB`);
@@ -121,12 +124,18 @@ try {
     console.log(`position of the wall over 100 steps: ${worst.toExponential(1)} m from the native run at most`);
   }
 
+  // The keys work after a click on a button.
+  await page.click("#camera");
+  const wasPlaying = await page.evaluate(() => testbed.state.playing);
+  await page.keyboard.press("Space");
+  check((await page.evaluate(() => testbed.state.playing)) !== wasPlaying, "after a click the space key does not play or pause");
+
   // Values that the library refuses, and what is not a number at all: the text is shown, the scene goes on.
   await load("box", "polygon", { grains: 80 });
   for (const [key, value, expected] of [
-    ["friction", "-1", /friction = -1/], ["step", "0", /step = 0/], ["grains", "1e9", /grains = 1e\+09/],
-    ["fmax", "-5", /fmax = -5/], ["gravity", "pull", /gravity = nan/], ["wall_mass", "", /wall_mass = nan/],
-    ["seed", "1.5", /seed = 1.5/],
+    ["friction", "-1", /Friction μ = -1 must/], ["step", "0", /Time step h = 0 must/], ["grains", "1e9", /Grains = 1e\+09 must/],
+    ["fmax", "-5", /Largest force fmax = -5 must/], ["gravity", "pull", /Gravity g: »pull« is not a number/],
+    ["wall_mass", "", /Wall mass \/ grains: »« is not a number/], ["seed", "1.5", /Seed = 1.5 must/],
   ]) {
     const before = await page.evaluate((name) => testbed.state.values[name], key);
     await page.evaluate((name, text) => {

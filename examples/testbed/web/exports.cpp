@@ -143,6 +143,20 @@ TESTBED_EXPORT(testbed_stage) const char* testbed_stage() {
 TESTBED_EXPORT(testbed_advice) const char* testbed_advice() {
   return scene->status().advice.c_str();
 }
+TESTBED_EXPORT(testbed_fault) const char* testbed_fault() {
+  return scene->status().fault.c_str();
+}
+/// Of the grains [kg].
+TESTBED_EXPORT(testbed_mass) double testbed_mass() {
+  return scene->status().mass;
+}
+TESTBED_EXPORT(testbed_paths_from) double testbed_paths_from() {
+  return scene->status().paths_from;
+}
+/// The bounds of the picture, which a scene can change: lower, upper [m].
+TESTBED_EXPORT(testbed_bound) double testbed_bound(int k) {
+  return scene->bounds()[static_cast<std::size_t>(k)];
+}
 TESTBED_EXPORT(testbed_can_act) int testbed_can_act() {
   return scene->status().can_act;
 }

@@ -18,7 +18,7 @@ try {
 const plots = new Plots(element("plots"));
 
 let tables = null;
-const state = { scene: 0, dimension: 3, label: "angular", playing: true, values: {} };
+const state = { scene: 0, dimension: 2, label: "angular", playing: true, values: {} };
 let generation = -1; // of the scene that is shown
 let waiting = false; // for a frame
 let arrays = []; // that go to and fro
@@ -31,6 +31,8 @@ const waitingRuns = [];
 
 /** Four digits, as short as possible. */
 const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3 ? Number(x.toPrecision(4)).toExponential() : String(Number(x.toPrecision(4))));
+
+const three = (x) => String(Number(x.toPrecision(3)));
 
 function makeSlider(setting, index) {
   const holder = document.createElement("div");
@@ -75,7 +77,12 @@ function makeSlider(setting, index) {
     propose(ofRange(), false);
   });
   range.addEventListener("change", () => propose(ofRange(), true));
-  number.addEventListener("change", () => propose(number.value.trim() === "" ? NaN : Number(number.value.replace(",", ".")), true));
+  number.addEventListener("change", () => {
+    const text = number.value.trim(), value = text === "" ? NaN : Number(text.replace(",", "."));
+    if (!Number.isNaN(value)) return propose(value, true);
+    setting.refuse();
+    showError(`${setting.label}: »${text}« is not a number.`);
+  });
   return holder;
 }
 function setValue(key, value) {
@@ -91,6 +98,7 @@ function makeChoice(id, entries, current, choose) {
     button.setAttribute("role", "radio");
     button.setAttribute("aria-checked", String(value === current()));
     button.addEventListener("click", () => {
+      showBuilding();
       choose(value);
       for (const other of holder.children) other.setAttribute("aria-checked", String(other === button));
       load();
@@ -122,12 +130,26 @@ function load() {
   element("tryThis").textContent = scene.tryThis;
   element("action").textContent = scene.action;
   element("newSeed").disabled = scene.key === "arch";
-  element("hint").textContent = state.dimension === 3
+  element("hint").textContent = element("touchHint").textContent = state.dimension === 3
     ? "Drag a grain to pull it. Drag beside the grains to turn the picture, wheel to zoom."
     : "Drag a grain to pull it. Drag beside the grains to move the picture, wheel to zoom.";
   for (const setting of tables.settings) setting.holder.hidden = (setting.scenes & (1 << state.scene)) === 0;
   location.replace(`#scene=${scene.key}&shape=${tables.shapes[shapeIndex()].key}`);
 }
+/** Says that the scene is being built, if that takes longer than an eye notices. */
+function showBuilding() {
+  clearTimeout(building);
+  building = setTimeout(() => {
+    element("loading").textContent = "Building the scene…";
+    element("loading").className = "over";
+    element("loading").hidden = false;
+  }, 150);
+}
+function hideBuilding() {
+  clearTimeout(building);
+  element("loading").hidden = true;
+}
+let building = 0;
 function play(on) {
   state.playing = on;
   element("play").textContent = on ? "Pause" : "Play";
@@ -147,10 +169,12 @@ function tick(now) {
   const passed = now - before;
   before = now;
   if (latest) draw(now);
+  else if (view.stale) view.render();
   if (waiting || generation < 0) return;
   if (passed < 1000) interval += 0.1 * (passed - interval);
   // Without a graphics card drawing takes the time of the steps: fewer pixels then.
-  if (interval > 80 && ++slowFrames > 15) {
+  if (interval < 80 || !state.playing) slowFrames = 0;
+  else if (++slowFrames > 15) {
     view.coarsen();
     slowFrames = 0;
   }
@@ -177,14 +201,24 @@ function draw(now) {
   const { arrays: got, sizes, status, steps } = latest;
   latest = null;
   const force = plots.last("f");
+  view.setBounds(status.bounds);
+  plots.pathsFrom = status.pathsFrom;
+  plots.setSpan(tables.scenes[state.scene].key === "box" ? Math.max(3, 5 / state.values.frequency) : 3);
   view.update(
     {
       poses: got[0], colours: got[1], walls: got[2], wallCount: sizes[2] / 8, segments: got[3], segmentCount: sizes[3] / 11,
     },
-    force === null ? null : Math.min(1, force / state.values.fmax));
+    force === null ? null : { now: force, most: state.values.fmax },
+    steps * state.values.step);
   plots.add(got[4], sizes[4], state.values.step);
   arrays = got;
   view.render();
+  // A fault is said once: who goes on nevertheless may look at it.
+  if (status.fault && !fault) {
+    play(false);
+    showError(`Paused. ${status.fault}`);
+  }
+  fault = status.fault;
   if (now - plotsDrawn > 90) {
     plotsDrawn = now;
     plots.draw();
@@ -192,6 +226,15 @@ function draw(now) {
   showStatus(status, steps, now);
 }
 
+let fault = "";
+
+/** The speed of the clock as text. */
+function speedText(factor) {
+  if (factor >= 0.9) return "real time";
+  if (factor >= 0.1) return `slow motion: ${factor.toPrecision(2)} × real time`;
+  const [value, unit] = factor > 1 / 120 ? [1 / factor, "s"] : factor > 1 / 7200 ? [1 / 60 / factor, "min"] : [1 / 3600 / factor, "h"];
+  return `slow motion: 1 s takes ${Number.isFinite(value) ? Number(value.toPrecision(2)) : "very many"} ${unit}`;
+}
 function showStatus(status, steps, now) {
   rate.steps += steps;
   rate.simulated += steps * state.values.step;
@@ -199,7 +242,7 @@ function showStatus(status, steps, now) {
   if (rate.real > 0.5) {
     const factor = rate.simulated / rate.real;
     rate.shown = state.playing
-      ? `<span>${(rate.steps / rate.real).toFixed(0)} steps/s</span><span class="${factor < 0.9 ? "slow" : ""}">${factor < 0.9 ? `slow motion: ${factor.toPrecision(2)} × real time` : "real time"}</span>`
+      ? `<span>${(rate.steps / rate.real).toFixed(0)} steps/s</span><span>${speedText(factor)}</span>`
       : "<span>paused</span>";
     rate.steps = rate.simulated = 0;
     rate.begin = now;
@@ -208,7 +251,9 @@ function showStatus(status, steps, now) {
   const residual = last("residual");
   element("status").innerHTML =
     `<span>${status.stage}</span><span>t = ${status.time.toFixed(3)} s</span>${rate.shown}` +
-    `<span>${view.count} grains, ${status.points} contact points</span>` +
+    `<span>${view.count} ${tables.scenes[state.scene].key === "arch" ? "blocks" : "grains"}${state.dimension === 2 ? ", 4 cm thick" : ""}, ` +
+    `${three(status.mass)} kg, weight ${three(status.mass * state.values.gravity)} N</span>` +
+    `<span>${status.points} contact points</span>` +
     `<span>${residual === null ? "" : `residual ${residual.toExponential(0)}`}</span>` +
     (status.hand > 0 ? `<span class="hand">the hand pulls with ${short(status.hand)} N${status.hand > 0.99 * state.values.hand ? ", its full strength" : ""}</span>` : "") +
     (status.capped > 0 ? `<span>${status.capped} steps not solved to the tolerance</span>` : "");
@@ -217,6 +262,9 @@ function showStatus(status, steps, now) {
   const colour = view.options.colour;
   element("legend").hidden = colour === "size";
   element("contactLegend").hidden = !view.options.contacts;
+  element("chainLegend").hidden = !(view.options.chains && view.fullForce > 0);
+  element("drawnLegend").hidden = element("contactLegend").hidden && element("chainLegend").hidden;
+  element("chainLegend").textContent = `force chains: full width = ${short(view.fullForce)} N`;
   if (colour !== "size") {
     const [title, unit] = { speed: ["speed", "m/s"], force: ["sum of the normal forces on a grain", "N"], residual: ["residual, as a velocity", "m/s"] }[colour];
     element("legendTitle").textContent = title;
@@ -240,7 +288,8 @@ worker.onmessage = ({ data }) => {
       latest = null;
       view.load(data.shapes, data.description, tables.shapes[data.shape].dimension === 3);
       plots.load(data.description);
-      element("loading").hidden = true;
+      hideBuilding();
+      fault = "";
       element("error").hidden = true;
       refresh = true;
       break;
@@ -251,23 +300,27 @@ worker.onmessage = ({ data }) => {
       break;
     case "set": {
       const setting = tables.settings[data.index];
-      if (data.accepted) {
+      if (!data.refused) {
         state.values[setting.key] = data.value;
         setting.show(data.value);
         element("error").hidden = true;
         if (data.rebuild) load();
       } else {
         setting.refuse();
+        // "testbed: fmax = -5 must ...": the page has the label of the slider instead of the names of the program.
+        showError(data.refused.replace(/^[\w:]+: \w+ = /, `${setting.label} = `));
       }
       break;
     }
     case "error":
       waiting = false;
+      hideBuilding();
       showError(data.text);
       if (/Simulation::step/.test(data.text)) play(false);
       break;
     case "run":
       plots.add(data.rows, data.rows.length, state.values.step);
+      view.meanForce = view.fullForce = 0;
       refresh = true;
       waitingRuns.shift()?.(data);
       break;
@@ -292,7 +345,7 @@ function readAddress() {
 
 view.onPull = (grain, { x, y, z }) => {
   worker.postMessage({ type: "pull", grain, x, y, z });
-  element("hint").classList.add("used");
+  for (const id of ["hint", "touchHint"]) element(id).classList.add("used");
 };
 view.onRelease = () => worker.postMessage({ type: "release" });
 const actions = {
@@ -301,7 +354,10 @@ const actions = {
     play(false);
     stepOnce = true;
   },
-  reset: () => load(),
+  reset() {
+    showBuilding();
+    load();
+  },
   newSeed() {
     setValue("seed", (state.values.seed % 100) + 1);
     load();
@@ -317,15 +373,26 @@ const actions = {
 for (const [id, act] of Object.entries(actions)) element(id).addEventListener("click", () => tables && act());
 const keys = { " ": "play", s: "step", r: "reset", n: "newSeed", c: "camera" };
 addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || /INPUT|SELECT|BUTTON|SUMMARY/.test(document.activeElement?.tagName)) return;
+  const at = document.activeElement;
+  if (event.ctrlKey || event.metaKey || event.altKey || at?.matches("input[type=text], select")) return;
+  // Who walks over the controls by the Tab key presses them by space.
+  if (event.key === " " && at?.matches("button, summary, input")) return;
   const id = keys[event.key];
   if (!id || !tables) return;
   event.preventDefault();
   actions[id]();
 });
+// A control that was pressed by the pointer does not keep the keys.
+addEventListener("click", (event) => {
+  const at = document.activeElement;
+  if (event.detail > 0 && at?.matches("button, summary, input:not([type=text])")) at.blur();
+});
 element("chains").addEventListener("change", (event) => showOption("chains", event.target.checked));
 element("contacts").addEventListener("change", (event) => showOption("contacts", event.target.checked));
-element("colour").addEventListener("change", (event) => showOption("colour", event.target.value));
+element("colour").addEventListener("change", (event) => {
+  showOption("colour", event.target.value);
+  event.target.blur();
+});
 function showOption(name, value) {
   view.options[name] = value;
   view.colourMax = 0;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The live plots. A scene says which channels they show (PlotSpec in view.hpp). The last `span` seconds
-// of simulated time are kept, as means over equal numbers of steps; the buffers have a fixed size.
+// of simulated time are shown, as means over equal numbers of steps; the buffers have a fixed size.
 import uPlot from "uplot";
 
 const capacity = 1500; // points of a plot
-const span = 3; // [s]
 const blue = "#1f5fa8", orange = "#c2410c", green = "#15803d";
 const font = "11px system-ui, sans-serif";
 
@@ -35,8 +34,11 @@ class History {
       this.sums.fill(0);
     }
   }
-  column(c) {
-    return this.columns[c].subarray(Math.max(0, this.end - capacity), this.end);
+  /** @param from time of the first point; column 0 is the time */
+  column(c, from = -Infinity) {
+    let begin = Math.max(0, this.end - capacity);
+    while (begin < this.end && this.columns[0][begin] < from) ++begin;
+    return this.columns[c].subarray(begin, this.end);
   }
   get length() {
     return Math.min(capacity, this.end);
@@ -45,43 +47,78 @@ class History {
 
 const label = ({ label: text, unit }) => (unit === "-" ? text : `${text} [${unit}]`);
 
+/** Texts of ticks with as many digits as their distance needs; large values with a prefix or an exponent. */
+function ticks(splits, step, unit) {
+  const most = Math.max(...splits.map((v) => Math.abs(v ?? 0)));
+  if (most >= 1e4) {
+    // mm has a prefix already.
+    const [factor, prefix] = unit === "mm" || most >= 1e10 ? [1, ""] : most >= 1e9 ? [1e-9, "G"] : most >= 1e6 ? [1e-6, "M"] : [1e-3, "k"];
+    if (prefix === "") return splits.map((v) => (v ? Number(v.toPrecision(3)).toExponential() : "0"));
+    return splits.map((v) => (v ? `${Number((v * factor).toPrecision(4))} ${prefix}` : "0"));
+  }
+  let digits = 0;
+  while (digits < 6 && Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) > 1e-6 * step * 10 ** digits) ++digits;
+  return splits.map((v) => (v === null ? null : v.toFixed(digits).replace(/^-(0(?:\.0*)?)$/, "$1")));
+}
+
 export class Plots {
   constructor(element) {
     this.element = element;
     this.plots = [];
+    this.span = 3; // [s]
+    this.pathsFrom = 0; // time from which on a path is drawn [s]
+    this.note = document.createElement("p");
+    this.note.className = "span";
     new ResizeObserver(() => this.resize()).observe(element);
   }
 
   load(description) {
     for (const { plot } of this.plots) plot.destroy();
-    this.element.replaceChildren();
+    this.element.replaceChildren(this.note);
+    this.setSpan(this.span);
     this.channels = description.channels;
     this.history = new History(this.channels.length);
-    this.plots = description.plots.map((spec) => this.make(spec));
+    this.plots = description.plots.map((spec, k) => this.make(spec, k));
     this.draw();
   }
+  setSpan(span) {
+    this.span = span;
+    this.note.textContent = `The last ${Number(span.toPrecision(3))} s of simulated time`;
+  }
   add(rows, count, step) {
-    this.history?.add(rows, count, Math.max(1, Math.round(span / (step * capacity))));
+    this.history?.add(rows, count, Math.max(1, Math.ceil(this.span / (step * capacity))));
   }
   last(key) {
     const c = this.channels?.findIndex((channel) => channel.key === key) ?? -1;
     return c < 0 || this.history.length === 0 ? null : this.history.column(c).at(-1);
   }
 
-  make(spec) {
+  make(spec, k) {
     const holder = document.createElement("figure");
     const title = document.createElement("figcaption");
     title.textContent = spec.title;
+    const [first, second] = [spec.y, spec.y2].map((c) => this.channels[c]);
+    if (second?.unit === first.unit)
+      for (const [channel, colour] of [[first, blue], [second, orange]]) {
+        const name = document.createElement("span");
+        name.textContent = ` — ${channel.label}`;
+        name.style.color = colour;
+        title.append(name);
+      }
     const canvas = document.createElement("div");
     holder.append(title, canvas);
     this.element.append(holder);
-    const plot = new uPlot(this.options(spec, canvas), this.data(spec), canvas);
+    const plot = new uPlot(this.options(spec, canvas), this.data(spec, k), canvas);
     return { spec, plot, holder };
   }
   size() {
     const columns = getComputedStyle(this.element).gridTemplateColumns.split(" ").length;
     const width = Math.max(220, Math.floor(this.element.clientWidth / columns) - 14);
-    return { width, height: Math.max(120, Math.min(190, Math.round(width * 0.48))) };
+    let height = Math.max(120, Math.min(190, Math.round(width * 0.48)));
+    // Beside the picture all plots fit into the height of the window, if they stay legible.
+    const besides = getComputedStyle(this.element).overflowY === "auto" && columns === 1 && window.innerWidth > 1120;
+    if (besides) height = Math.max(130, Math.min(height, Math.floor((this.element.clientHeight - 40) / 4) - 28));
+    return { width, height };
   }
   resize() {
     const size = this.size();
@@ -91,8 +128,8 @@ export class Plots {
   options(spec) {
     const { channels } = this;
     const axis = (side, scale, channel, stroke, more = {}) => ({
-      side, scale, stroke, font, labelFont: font, labelSize: 16, size: side === 2 ? 26 : 46,
-      gap: 3, label: label(channel), grid: { stroke: "#e2e5ea", width: 1 }, ticks: { size: 4, stroke: "#c8cdd5" }, ...more,
+      side, scale, stroke, font, labelFont: font, labelSize: 16, size: side === 2 ? 26 : 46, space: side === 2 ? 50 : 24,
+      gap: 3, label: label(channel), values: (u, splits, k, space, step) => ticks(splits, step, channel.unit), grid: { stroke: "#e2e5ea", width: 1 }, ticks: { size: 4, stroke: "#c8cdd5" }, ...more,
     });
     const logScale = { distr: 3, range: (u, low, high) => (low > 0 ? uPlot.rangeLog(Math.max(low, 1e-7), Math.max(high, 1e-5), 10, true) : [1e-6, 1]) };
     // Not narrower than 1e-3 of the value, nor than 0.01 units: rounding is not worth a plot.
@@ -108,7 +145,7 @@ export class Plots {
       ...this.size(),
       legend: { show: false },
       cursor: { show: false },
-      padding: [4, spec.y2 < 0 ? 10 : 0, 0, 0],
+      padding: [10, spec.y2 < 0 ? 10 : 0, 0, 0],
       scales: { x: { time: false, ...linear }, y: channels[spec.y].key === "sweeps" ? counts : spec.logarithmic && spec.y2 < 0 ? logScale : linear },
       axes: [
         axis(2, "x", channels[spec.x], "#333", { label: label(channels[spec.x]) }),
@@ -125,7 +162,13 @@ export class Plots {
     if (spec.y2 >= 0) {
       const second = spec.logarithmic ? green : orange;
       options.scales.y2 = spec.logarithmic ? logScale : linear;
-      options.series.push({ scale: "y2", stroke: second, width: 1.2, points: { show: false } });
+      // Two quantities of one unit share the axis.
+      const shared = channels[spec.y].unit === channels[spec.y2].unit;
+      if (shared) options.axes[1].label = `${channels[spec.y].label}, ${channels[spec.y2].label} [${channels[spec.y].unit}]`;
+      if (shared) options.scales.y = linear;
+      options.padding[1] = shared ? 10 : 0;
+      options.series.push({ scale: shared ? "y" : "y2", stroke: second, width: 1.2, points: { show: false } });
+      if (shared) return options;
       options.axes.push(axis(1, "y2", channels[spec.y2], second, { grid: { show: false }, ...(spec.logarithmic ? { size: 50 } : {}) }));
       if (spec.logarithmic) options.axes.at(-1).ticks = { show: false };
       if (spec.logarithmic) options.axes.at(-1).values = (u, splits) => splits.map((v) => (v === null || Math.log10(v) % 1 !== 0 ? null : `1e${Math.round(Math.log10(v))}`));
@@ -133,21 +176,23 @@ export class Plots {
     return options;
   }
 
-  /** The columns in the unit of the plot. Factors other than 1 are applied to a buffer of the column's own. */
-  values(c) {
-    const column = this.history.column(c), { factor } = this.channels[c];
+  /** A column of plot k in its unit. Factors other than 1 are applied to a buffer of its own. */
+  values(k, c, from) {
+    const column = this.history.column(c, from), { factor } = this.channels[c];
     if (factor === 1) return column;
-    this.scaled ??= [];
-    this.scaled[c] ??= new Float64Array(capacity);
-    for (let k = 0; k < column.length; ++k) this.scaled[c][k] = factor * column[k];
-    return this.scaled[c].subarray(0, column.length);
+    this.scaled ??= {};
+    const scaled = (this.scaled[`${k} ${c}`] ??= new Float64Array(capacity));
+    for (let i = 0; i < column.length; ++i) scaled[i] = factor * column[i];
+    return scaled.subarray(0, column.length);
   }
-  data(spec) {
-    const columns = [spec.x, spec.y, ...(spec.y2 < 0 ? [] : [spec.y2])].map((c) => this.values(c));
+  data(spec, k) {
+    const last = this.history.length > 0 ? this.history.column(0).at(-1) : 0;
+    const from = Math.max(last - this.span, spec.isPath ? this.pathsFrom : 0);
+    const columns = [spec.x, spec.y, ...(spec.y2 < 0 ? [] : [spec.y2])].map((c) => this.values(k, c, from));
     return spec.isPath ? [null, columns] : columns;
   }
   draw() {
-    for (const { spec, plot } of this.plots) plot.setData(this.data(spec));
+    this.plots.forEach(({ spec, plot }, k) => plot.setData(this.data(spec, k)));
   }
 }
 

@@ -21,6 +21,10 @@ const stickColour = new Color(0x1f4e79), slideColour = new Color(0xe07b00);
 export class View {
   constructor(canvas) {
     this.canvas = canvas;
+    this.forceLabel = document.createElement("span");
+    this.forceLabel.className = "force";
+    this.forceLabel.hidden = true;
+    canvas.parentElement.append(this.forceLabel);
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setClearColor(background);
@@ -32,6 +36,8 @@ export class View {
     this.options = { chains: true, contacts: false, colour: "size" };
     this.quality = 1; // pixels along a side, relative to those of the screen
     this.colourMax = 0; // upper end of the colour scale
+    this.moved = false; // whether the user has moved the camera
+    this.stale = false; // whether the camera or the hand has moved since the picture was drawn
     this.meshes = [];
     this.makeWalls();
     this.makeSegments();
@@ -60,6 +66,14 @@ export class View {
     // In the plane every button moves the picture.
     if (!isSpace) this.controls.mouseButtons = { LEFT: 2, MIDDLE: 1, RIGHT: 2 };
     this.controls.zoomSpeed = 1.5;
+    this.moved = false;
+    let byUser = false;
+    this.controls.addEventListener("start", () => (byUser = true));
+    this.controls.addEventListener("end", () => (byUser = false));
+    this.controls.addEventListener("change", () => {
+      this.moved ||= byUser;
+      this.stale = true;
+    });
   }
 
   /** Takes a new scene: meshes of the shapes, placements of the grains, bounds. */
@@ -88,9 +102,15 @@ export class View {
       this.grainSize = Math.min(this.grainSize, scale[k] * this.sizeOf[mesh[k]]);
     this.makeOutlines(meshes);
     this.colourMax = 0;
-    this.forceScale = 0;
+    this.meanForce = this.fullForce = 0;
     this.isPlaced = false;
-    if (this.framedFor !== `${isSpace} ${this.bounds}`) this.frameScene();
+    this.arrowUnit = this.bounds[3] - this.bounds[0];
+    if (this.quality !== 1) {
+      this.quality = 1;
+      this.resize();
+    }
+    // The user's camera is kept if the same scene begins anew.
+    if (!this.moved || this.framedFor !== `${isSpace} ${this.bounds}`) this.frameScene();
     this.framedFor = `${isSpace} ${this.bounds}`;
   }
 
@@ -181,9 +201,16 @@ export class View {
     this.scene.add(this.hand);
   }
 
+  /** Takes other bounds of the scene that is shown. */
+  setBounds(bounds) {
+    if (bounds.every((x, k) => x === this.bounds[k])) return;
+    this.bounds = bounds;
+    if (!this.moved) this.frameScene();
+  }
   /** Puts the camera where it sees the whole scene. */
   frameScene() {
     if (!this.bounds) return;
+    this.moved = false;
     this.applyAspect();
     const b = this.bounds;
     const centre = new Vector3((b[0] + b[3]) / 2, (b[1] + b[4]) / 2, (b[2] + b[5]) / 2);
@@ -244,7 +271,7 @@ export class View {
     this.renderer.setPixelRatio(this.quality * Math.min(2, window.devicePixelRatio));
     this.renderer.setSize(width, height, false);
     this.applyAspect();
-    this.frameScene();
+    if (!this.moved) this.frameScene();
     this.render();
   }
 
@@ -253,11 +280,14 @@ export class View {
     if (this.quality < 0.6) return;
     this.quality *= 0.75;
     this.renderer.setPixelRatio(this.quality * Math.min(2, window.devicePixelRatio));
+    this.render(); // the canvas is empty after a change of its size
   }
 
-  /** Takes the buffers of a frame. `force` is f(t) relative to its largest value, or null. */
-  update({ poses, colours, walls, segments, segmentCount, wallCount }, force) {
+  /** Takes the buffers of a frame. `force` is f(t) [N] and its largest value, or null; `passed` is the simulated time
+   *  since the last frame [s]. */
+  update({ poses, colours, walls, segments, segmentCount, wallCount }, force, passed) {
     this.isPlaced = true;
+    this.passed = passed;
     this.updateGrains(poses, colours);
     this.updateWalls(walls, wallCount, force);
     this.updateSegments(segments, segmentCount);
@@ -291,7 +321,7 @@ export class View {
       mesh.instanceMatrix.needsUpdate = true;
       mesh.instanceColor.needsUpdate = true;
       // Colours that mean something are faded less.
-    const opacity = !faded ? 1 : which === undefined ? (this.isSpace ? 0.33 : 0.45) : this.isSpace ? 0.6 : 0.75;
+      const opacity = !faded ? 1 : which === undefined ? (this.isSpace ? 0.33 : 0.45) : this.isSpace ? 0.6 : 0.75;
       if (mesh.material.opacity !== opacity) {
         mesh.material.opacity = opacity;
         mesh.material.transparent = opacity < 1;
@@ -339,8 +369,8 @@ export class View {
       wall.scale.set(2 * w[4], Math.max(2 * w[5], thick), 2 * w[6]);
       // The free wall of the box has the largest x: the arrow shows the force on it.
       if (w[7] !== 0 && force !== null && w[4] < w[6]) {
-        const length = 0.2 * (this.bounds[3] - this.bounds[0]) * force;
-        const unit = this.bounds[3] - this.bounds[0];
+        const unit = this.arrowUnit, length = 0.2 * unit * Math.min(1, force.now / force.most);
+        this.forceLabel.textContent = `f = ${Number(force.now.toPrecision(2))} N`;
         this.arrow.visible = length > 0.01 * unit;
         this.arrow.position.set(w[1] + w[4] + 0.06 * unit, w[2], w[3]);
         this.arrow.rotation.set(0, 0, Math.PI / 2);
@@ -406,8 +436,11 @@ export class View {
     let sum = 0;
     for (let k = 0; k < count; ++k) sum += segments[11 * k + 9];
     const mean = count > 0 ? sum / count : 0;
-    this.forceScale = this.forceScale === 0 ? mean : this.forceScale + 0.05 * (mean - this.forceScale);
-    const most = 6 * this.forceScale, front = this.isSpace ? 0 : -0.02;
+    // The mean over about 0.05 s of simulated time. The scale is held until it is wrong by a factor of 2.
+    this.meanForce = this.meanForce === 0 ? mean : this.meanForce + (1 - Math.exp(-this.passed / 0.05)) * (mean - this.meanForce);
+    const wanted = 6 * this.meanForce;
+    if (!(wanted < 2 * this.fullForce && wanted > this.fullForce / 2)) this.fullForce = Number(wanted.toPrecision(2));
+    const most = this.fullForce, front = this.isSpace ? 0 : -0.02;
     let shown = 0;
     for (let k = 0; k < count; ++k) {
       const s = 11 * k, strength = Math.min(1, segments[s + 9] / most);
@@ -418,7 +451,8 @@ export class View {
       position.set(
         (segments[s] + segments[s + 3]) / 2, (segments[s + 1] + segments[s + 4]) / 2 + front, (segments[s + 2] + segments[s + 5]) / 2);
       turn.setFromUnitVectors(upright, way.divideScalar(length));
-      const radius = this.grainSize * (0.03 + 0.34 * strength);
+      // Short rods, of a grain that lies at a wall, are not thicker than a third of their length.
+      const radius = Math.min(this.grainSize * (0.03 + 0.25 * strength), length / 3);
       matrix.compose(position, turn, size.set(radius, length, radius)).toArray(this.chains.instanceMatrix.array, 16 * shown);
       // From orange to dark red.
       colour.setRGB(0.95 - 0.4 * strength, 0.55 * (1 - strength) * (1 - 0.4 * strength), 0.12 * (1 - strength));
@@ -433,7 +467,7 @@ export class View {
     this.points = this.withRoom(this.points, count);
     const front = this.isSpace ? 0 : -0.05;
     turn.identity();
-    size.setScalar(0.14 * this.grainSize);
+    size.setScalar(Math.max(0.14 * this.grainSize, 2.2 * this.pixel()));
     for (let k = 0; k < count; ++k) {
       const s = 11 * k;
       position.set(segments[s + 6], segments[s + 7] + front, segments[s + 8]);
@@ -442,6 +476,14 @@ export class View {
     }
     this.points.count = count;
     this.points.instanceMatrix.needsUpdate = this.points.instanceColor.needsUpdate = true;
+  }
+
+  /** The size of a pixel in the middle of the picture [m]. */
+  pixel() {
+    const height = this.canvas.parentElement.clientHeight || 1, { camera } = this;
+    if (!this.isSpace) return (2 * this.half) / camera.zoom / height;
+    const distance = camera.position.distanceTo(this.controls.target);
+    return (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / height;
   }
 
   // The hand. A grain is held at the point that the pointer has hit; it moves in the plane through this
@@ -480,6 +522,7 @@ export class View {
     if (!point) return;
     this.held.target = point.sub(this.held.offset);
     this.onPull(this.held.grain, this.held.target);
+    this.stale = true;
     this.updateHand();
   }
   letLoose() {
@@ -509,7 +552,17 @@ export class View {
   }
 
   render() {
+    this.stale = false;
     this.renderer.render(this.scene, this.camera);
+    this.forceLabel.hidden = !this.arrow.visible;
+    if (!this.arrow.visible) return;
+    // Above the middle of the arrow, within the picture.
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement, at = scratch.position;
+    at.copy(this.arrow.position);
+    at.x += 0.09 * this.arrowUnit, at.z += 0.05 * this.arrowUnit;
+    at.project(this.camera);
+    const x = Math.min(((at.x + 1) / 2) * width, width - 80), y = ((1 - at.y) / 2) * height - 18;
+    this.forceLabel.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 }
 

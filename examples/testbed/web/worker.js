@@ -50,6 +50,10 @@ function sendFrame(arrays, spent, steps) {
         canAct: program.get("can_act") !== 0,
         stage: program.text(program.get("stage")),
         advice: program.text(program.get("advice")),
+        fault: program.text(program.get("fault")),
+        mass: program.get("mass"),
+        pathsFrom: program.get("paths_from"),
+        bounds: [0, 1, 2, 3, 4, 5].map((k) => program.get("bound", k)),
         heap: program.get("heap_used"),
         memory: program.memory.buffer.byteLength,
       },
@@ -80,8 +84,13 @@ const handlers = {
     });
   },
   set({ index, value, rebuild }) {
-    const accepted = attempt(() => program.call("set", index, value));
-    post({ type: "set", index, value, accepted, rebuild });
+    let refused = "";
+    try {
+      program.call("set", index, value);
+    } catch (error) {
+      refused = error.message;
+    }
+    post({ type: "set", index, value, refused, rebuild });
   },
   /** At most `duration` of simulated time, and at most `budget` ms of work, but one step at least. */
   frame({ arrays, duration, budget, step }) {
