@@ -153,6 +153,11 @@ let building = 0;
 function play(on) {
   state.playing = on;
   element("play").textContent = on ? "Pause" : "Play";
+  // A frame without a step shows it in the line below the picture.
+  rate.shown = on ? "" : "<span>paused</span>";
+  rate.steps = rate.simulated = 0;
+  rate.begin = performance.now();
+  refresh = true;
 }
 function showError(text) {
   element("error").hidden = false;
@@ -200,17 +205,17 @@ let rest = 0, slowFrames = 0;
 function draw(now) {
   const { arrays: got, sizes, status, steps } = latest;
   latest = null;
-  const force = plots.last("f");
   view.setBounds(status.bounds);
   plots.pathsFrom = status.pathsFrom;
   plots.setSpan(tables.scenes[state.scene].key === "box" ? Math.max(3, 5 / state.values.frequency) : 3);
+  plots.add(got[4], sizes[4], state.values.step);
+  const force = plots.last("f");
   view.update(
     {
       poses: got[0], colours: got[1], walls: got[2], wallCount: sizes[2] / 8, segments: got[3], segmentCount: sizes[3] / 11,
     },
     force === null ? null : { now: force, most: state.values.fmax },
     steps * state.values.step);
-  plots.add(got[4], sizes[4], state.values.step);
   arrays = got;
   view.render();
   // A fault is said once: who goes on nevertheless may look at it.

@@ -145,7 +145,7 @@ export class Plots {
       ...this.size(),
       legend: { show: false },
       cursor: { show: false },
-      padding: [10, spec.y2 < 0 ? 10 : 0, 0, 0],
+      padding: [10, spec.y2 < 0 ? 14 : 0, 0, 0],
       scales: { x: { time: false, ...linear }, y: channels[spec.y].key === "sweeps" ? counts : spec.logarithmic && spec.y2 < 0 ? logScale : linear },
       axes: [
         axis(2, "x", channels[spec.x], "#333", { label: label(channels[spec.x]) }),
@@ -166,7 +166,7 @@ export class Plots {
       const shared = channels[spec.y].unit === channels[spec.y2].unit;
       if (shared) options.axes[1].label = `${channels[spec.y].label}, ${channels[spec.y2].label} [${channels[spec.y].unit}]`;
       if (shared) options.scales.y = linear;
-      options.padding[1] = shared ? 10 : 0;
+      options.padding[1] = shared ? 14 : 0;
       options.series.push({ scale: shared ? "y" : "y2", stroke: second, width: 1.2, points: { show: false } });
       if (shared) return options;
       options.axes.push(axis(1, "y2", channels[spec.y2], second, { grid: { show: false }, ...(spec.logarithmic ? { size: 50 } : {}) }));

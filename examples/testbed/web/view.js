@@ -230,7 +230,7 @@ export class View {
       }
       this.lookFrom(centre, way, high);
     } else {
-      const half = 0.56 * Math.max(size.z, size.x / aspect);
+      const half = 0.6 * Math.max(size.z, size.x / aspect);
       this.half = half;
       this.camera.zoom = 1;
       this.camera.position.set(centre.x, -10, centre.z);
