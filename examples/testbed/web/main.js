@@ -98,7 +98,6 @@ function makeChoice(id, entries, current, choose) {
     button.setAttribute("role", "radio");
     button.setAttribute("aria-checked", String(value === current()));
     button.addEventListener("click", () => {
-      showBuilding();
       choose(value);
       for (const other of holder.children) other.setAttribute("aria-checked", String(other === button));
       load();
@@ -125,6 +124,7 @@ function makeControls() {
 const shapeIndex = () => tables.shapes.findIndex((shape) => shape.dimension === state.dimension && shape.label === state.label);
 function load() {
   view.letLoose();
+  showBuilding();
   worker.postMessage({ type: "load", scene: state.scene, shape: shapeIndex() });
   const scene = tables.scenes[state.scene];
   element("tryThis").textContent = scene.tryThis;
@@ -221,7 +221,7 @@ function draw(now) {
   // A fault is said once: who goes on nevertheless may look at it.
   if (status.fault && !fault) {
     play(false);
-    showError(`Paused. ${status.fault}`);
+    showError(`Paused, because ${status.fault}: begin anew with a smaller force, a shorter time step or stiffer contacts.`);
   }
   fault = status.fault;
   if (now - plotsDrawn > 90) {
@@ -359,10 +359,7 @@ const actions = {
     play(false);
     stepOnce = true;
   },
-  reset() {
-    showBuilding();
-    load();
-  },
+  reset: () => load(),
   newSeed() {
     setValue("seed", (state.values.seed % 100) + 1);
     load();
