@@ -139,9 +139,11 @@ class Box final : public Scene<ShapeT> {
     const double room = wall_position() * std::pow(length_, S::dim - 2) * lid_height();
     this->add_row(simulation_.time(), wall_position() - length_, applied_, fg, this->volume_ / room,
                   report.solve.sweeps, report.solve.residual);
-    fault_ = wall_position() <= 0   ? "the wall has passed the opposite wall"
-             : this->volume_ > room ? "the volume of the grains exceeds that of the box"
-                                    : "";
+    // It is kept: the step may lie between two frames.
+    if (fault_.empty() && wall_position() <= 0)
+      fault_ = "the wall has passed the opposite wall";
+    else if (fault_.empty() && this->volume_ > room)
+      fault_ = "the volume of the grains exceeds that of the box";
     // The wall is about to leave the picture.
     if (wall_position() + 0.4 * length_ > this->bounds_[3]) show_all();
     if (stage_ == Stage::closing) {

@@ -137,7 +137,7 @@ struct Status {
   bool can_act = true;     ///< whether the button of the scene has an effect
   double mass = 0;         ///< of the grains [kg]
   double paths_from = 0;   ///< a plot that is a path shows the steps from this time on [s]
-  std::string fault;       ///< a clause, if the state is one that grains cannot have
+  std::string fault;       ///< a clause, if the state was one that grains cannot have
   std::string stage;       ///< of the scene, e.g. "packing"
   std::string advice;      ///< sentences of moreau::check() on the last step
 };
