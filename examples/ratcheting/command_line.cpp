@@ -127,10 +127,10 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
                               ->check(below_one);
   std::string test = "qm16";
   const auto* stop_test =
-      app.add_option(
-             "--stop-test", test,
-             "stopping test. qm16: change of the impulses in a sweep, as in LMGC90; residual: "
-             "natural map of the contact law, for compliant contacts unless set")
+      app.add_option("--stop-test", test,
+                     "stopping test. qm16: change of the relative velocities in a sweep, as in "
+                     "LMGC90; residual: "
+                     "natural map of the contact law, for compliant contacts unless set")
           ->check(CLI::IsMember({"qm16", "residual"}));
   app.add_option("--max-sweeps", p.max_sweeps,
                  "largest number of sweeps in a step; run.json counts the steps that reach it")
