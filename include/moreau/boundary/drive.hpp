@@ -141,7 +141,8 @@ class ForceDrive : public detail::Drive<VectorT, F> {
 };
 
 /// A velocity f(t) [m/s] along a fixed direction of a body whose motion is prescribed: a wall without
-/// set_wall_mass(), or a grain after prescribe_motion(). The velocity replaces the velocity that set_velocity() has set.
+/// set_wall_mass(), or a grain after prescribe_motion(). It replaces the velocity that set_velocity()
+/// has set.
 template <class VectorT, class F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
@@ -157,7 +158,8 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   /// Sets the velocity for the next step.
   /// @param step length of the next step [s]
   /// @throws std::invalid_argument for a body that is not in the simulation, a body that
-  ///                               forces along the direction accelerate, a velocity that is not finite, or a step
+  ///                               forces along the direction accelerate, a velocity that is not
+  ///                               finite, or a step
   ///                               that is not finite or not positive
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";

@@ -239,7 +239,7 @@ class Placement<Segment<S>> {
 
 /// A shape at a pose. Its functions are update(shape, pose), which places the shape again,
 /// center(), support(direction), bounding_box() and the other functions of its detail::Placement.
-/// It refers to the shape, so the shape must not be a temporary object.
+/// It may refer to the shape, so the shape must not be a temporary object.
 template <class ShapeT>
 class Placed : public detail::Placement<ShapeT> {
  public:

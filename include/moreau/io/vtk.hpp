@@ -5,7 +5,7 @@
 //  - Grains are faces. Their arrays belong to the cells.
 //  - If all grains are spheres, they are points, and their arrays belong to the points. The file is
 //    then about a hundred times smaller. Use the filter Glyph or the representation Point Gaussian,
-//    scaled by `size`. With VtkOptions::balls_as_points = false, spheres are written as faces.
+//    scaled by `size`. With VtkOptions::balls_as_points = false, balls are written as faces.
 //  - A contact is a line between the two centres, or from a centre to a wall. Use the filter Tube
 //    and vary its radius by `normal_force`.
 //  - Fields are points. Use the filter Glyph.
@@ -38,8 +38,8 @@ namespace moreau {
 struct VtkOptions {
   /// Fineness of curved surfaces, 0 to 6 (SurfaceMesher). With 2, a sphere has 320 triangles.
   int fineness = 2;
-  bool balls_as_points = true;  ///< whether spheres are written as points if all grains are
-                                ///< spheres
+  bool balls_as_points = true;  ///< whether balls are written as points if all grains are
+                                ///< balls
 };
 
 /// Writes .vtp files. Each file is written as a whole or not at all. The object uses its buffers
