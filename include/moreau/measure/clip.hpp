@@ -174,20 +174,19 @@ void add_ring(Space<2, T>, std::span<const Vector> ring, const Vector& origin, T
   }
 }
 
-/// Adds six times the volume of the cone from the origin over a ring [m^3] to a sum. The volume is
-/// positive if the ring is counter-clockwise, seen from outside of the cone.
+/// Adds six times the volume of the pyramid from the origin to a plane ring [m^3] to a sum. The volume is
+/// positive if the ring is counter-clockwise, seen from the side away from the origin.
 template <class T, class Vector>
 void add_ring(Space<3, T>, std::span<const Vector> ring, const Vector& origin, T& sixfold) {
-  Vector normal =
-      Vector::Zero();  // sum of the normals of the triangles, its length is twice the area
-                       // of the ring
+  // The sum of the normals of the triangles. Its length is twice the area of the ring.
+  Vector normal = Vector::Zero();
   for (std::size_t i = 1; i + 1 < ring.size(); ++i)
     normal += (ring[i] - ring[0]).cross(ring[i + 1] - ring[0]);
   sixfold += (ring[0] - origin).dot(normal);
 }
 
-/// The volume inside the rings, in the plane the area [m^D]. The rings of the plane are
-/// counter-clockwise, those of space too, seen from outside.
+/// The volume inside the rings, in the plane the area [m^D]. The rings must be counter-clockwise, in
+/// space seen from outside.
 template <class S>
 typename S::Scalar enclosed_volume(const Rings<S>& rings) {
   typename S::Scalar sum = 0;
