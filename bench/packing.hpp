@@ -6,13 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
-#include <type_traits>
 #include <vector>
 
-#include "moreau/sample/ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"
-#include "moreau/sample/size_distribution.hpp"
 #include "moreau/world/simulation.hpp"
+
+#include "ballast_grains.hpp"
 
 namespace bench {
 
@@ -32,22 +31,15 @@ class Packing {
   Packing(std::size_t count, const Law& law, const Solver& solver = Solver{})
       : world(0.025, Materials<Law>(1, law), solver) {
     std::mt19937_64 random(1);
-    std::vector<ShapeT> shapes;
-    std::vector<double> radii;
-    double volume = 0;
-    for (const double diameter : SizeDistribution::azema2008().sample(count, random)) {
-      shapes.push_back(Ballast<ShapeT>::draw(random).scaled(diameter / 2));
-      radii.push_back(diameter / 2);
-      volume += shapes.back().volume();
-    }
-    length_ = std::pow(volume / 0.6, 1.0 / S::dim);
-    const auto poses = random_deposition<S>(radii, length_, random);
+    const BallastGrains<ShapeT> grains(count, random);
+    length_ = std::pow(grains.volume / 0.6, 1.0 / S::dim);
+    const auto poses = random_deposition<S>(grains.radii, length_, random);
     double top = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      world.add_grain(world.add_shape(shapes[k]), poses[k], density() * depth());
-      top = std::max(top, poses[k].position[up] + radii[k]);
+      world.add_grain(world.add_shape(grains.shapes[k]), poses[k], density<S>);
+      top = std::max(top, poses[k].position[up] + grains.radii[k]);
     }
-    mass_ = density() * depth() * volume;
+    mass_ = density<S> * grains.volume;
     for (int axis = 0; axis < S::dim; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
     for (int axis = 0; axis < up; ++axis)
       world.add_wall(-Vector::Unit(axis), length_ * Vector::Unit(axis));
@@ -74,11 +66,7 @@ class Packing {
   World world;
 
  private:
-  static constexpr double density() { return 2700; }    // of the grains [kg/m^3]
-  static constexpr double pressure() { return 1e4; }    // on the lid [Pa]
-  static constexpr double thickness() { return 0.05; }  // of the plane [m]
-  static constexpr double depth() { return std::is_same_v<S, Space<2>> ? thickness() : 1; }
-  double force() const { return pressure() * depth() * std::pow(length_, up); }
+  double force() const { return pressure * depth<S> * std::pow(length_, up); }
 
   double length_ = 0, mass_ = 0;
   BodyId lid_;

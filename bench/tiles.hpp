@@ -11,16 +11,15 @@
 #include <numeric>
 #include <random>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
-#include "moreau/sample/ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"
-#include "moreau/sample/size_distribution.hpp"
 #include "moreau/sample/spatial_order.hpp"
 #include "moreau/world/simulation.hpp"
+
+#include "ballast_grains.hpp"
 
 namespace bench {
 
@@ -85,7 +84,8 @@ class Tiles {
       const BodyId grain = tile.world.grain(places[i].first);
       Pose<S> pose = tile.world.pose(grain);
       pose.position = places[i].second;
-      world.add_grain(world.add_shape(tile.world.shape_of_grain(places[i].first)), pose, density());
+      world.add_grain(world.add_shape(tile.world.shape_of_grain(places[i].first)), pose,
+                      density<S>);
     }
     height_ = tile.height_ * counts[std::size_t(up)];
     area_ = 1;
@@ -105,17 +105,13 @@ class Tiles {
   }
   /// Sets the force on the lid, relative to that of the pressure.
   void load(double share) {
-    world.set_force(lid_, -share * pressure() * depth() * area_ * Vector::Unit(up));
+    world.set_force(lid_, -share * pressure * depth<S> * area_ * Vector::Unit(up));
   }
 
   World world;
 
  private:
   static constexpr double size = 0.025;
-  static constexpr double density_of_stone = 2700, thickness = 0.05;  // [kg/m^3], [m]
-  static constexpr double depth() { return up == 1 ? thickness : 1; }
-  static constexpr double density() { return density_of_stone * depth(); }
-  static constexpr double pressure() { return 1e4; }  // on the lid [Pa]
 
   static std::vector<std::size_t> numbered(
       const std::vector<std::pair<std::size_t, Vector>>& places, Order order) {
@@ -133,19 +129,12 @@ class Tiles {
 
   void deposit(std::size_t count) {
     std::mt19937_64 random(1);
-    std::vector<ShapeT> shapes;
-    std::vector<double> radii;
-    double volume = 0;
-    for (const double diameter : SizeDistribution::azema2008().sample(count, random)) {
-      shapes.push_back(Ballast<ShapeT>::draw(random).scaled(diameter / 2));
-      radii.push_back(diameter / 2);
-      volume += shapes.back().volume();
-    }
-    length_ = std::pow(volume / (up == 1 ? 0.8 : 0.6), 1.0 / S::dim);
-    const auto poses = random_deposition<S>(radii, length_, random);
+    const BallastGrains<ShapeT> grains(count, random);
+    length_ = std::pow(grains.volume / (up == 1 ? 0.8 : 0.6), 1.0 / S::dim);
+    const auto poses = random_deposition<S>(grains.radii, length_, random);
     for (std::size_t k = 0; k < count; ++k) {
-      world.add_grain(world.add_shape(shapes[k]), poses[k], density());
-      height_ = std::max(height_, poses[k].position[up] + radii[k]);
+      world.add_grain(world.add_shape(grains.shapes[k]), poses[k], density<S>);
+      height_ = std::max(height_, poses[k].position[up] + grains.radii[k]);
     }
     area_ = std::pow(length_, up);
     for (int axis = 0; axis < up; ++axis) world.set_periodic(axis, 0, length_);
@@ -167,7 +156,7 @@ class Tiles {
   void compress() {
     constexpr double coarse = 5e-4;  // [s]
     world.set_velocity(lid_, -1.0 * Vector::Unit(up));
-    const double force = pressure() * depth() * area_;
+    const double force = pressure * depth<S> * area_;
     for (double reaction = 0; reaction < force;) {
       world.step(coarse);
       reaction += 0.1 * (world.contact_impulse(lid_)[up] / coarse - reaction);

@@ -51,17 +51,6 @@ void add_grains(Simulation& simulation, const moreau::SizeDistribution& distribu
   for (std::size_t k = 0; k < count; ++k) simulation.add_grain(shapes[k], poses[k], density);
 }
 
-/// Kinetic energy of all grains [J].
-double kinetic_energy(const Simulation& simulation) {
-  const auto& bodies = simulation.bodies();
-  const auto motion_of = [&](std::size_t k) {
-    const std::size_t i = simulation.grain(k).index();
-    return moreau::BodyMotion<S>(bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
-                                 bodies.pose[i].position, bodies.velocity[i]);
-  };
-  return moreau::kinetic_energy<S>(simulation.grain_count(), motion_of).total();
-}
-
 /// Weight of all grains [N].
 double weight(const Simulation& simulation) {
   double mass = 0;
@@ -82,7 +71,7 @@ double carried(const Simulation& simulation) {
 bool is_calm(const Simulation& simulation, const moreau::StepReport& report) {
   const double load = weight(simulation);
   return report.solve.converged &&
-         kinetic_energy(simulation) <= 1e-5 * load * simulation.grain_size() &&
+         moreau::kinetic_energy(simulation).total() <= 1e-5 * load * simulation.grain_size() &&
          std::abs(carried(simulation) - load) <= 0.01 * load;
 }
 
@@ -115,7 +104,7 @@ int main() {
     overlap = report.max_overlap;
     if (step % 200 == 0)
       std::cout << "t = " << simulation.time() << " s: kinetic energy "
-                << kinetic_energy(simulation) << " J, carried "
+                << moreau::kinetic_energy(simulation).total() << " J, carried "
                 << carried(simulation) / weight(simulation) << " of the weight\n";
   }
   const bool at_rest = calm >= 100;

@@ -192,18 +192,7 @@ class Experiment {
   /// Force of the grains on the wall over the last step, outward positive [N].
   double wall_force() const { return simulation_.contact_impulse(wall_)[0] / parameters_.step; }
   /// Kinetic energy of the grains [J].
-  double kinetic_energy() const {
-    const auto& bodies = simulation_.bodies();
-    return moreau::kinetic_energy<S>(simulation_.grain_count(),
-                                     [&](std::size_t k) {
-                                       const std::size_t i = simulation_.grain(k).index();
-                                       return moreau::BodyMotion<S>{
-                                           bodies.grain_mass[i],
-                                           bodies.inertia(i, bodies.pose[i].rotation),
-                                           bodies.pose[i].position, bodies.velocity[i]};
-                                     })
-        .total();
-  }
+  double kinetic_energy() const { return moreau::kinetic_energy(simulation_).total(); }
 
   const Simulation& simulation() const { return simulation_; }
   /// Displacement of the wall by the overlap correction in the last step, outward positive [m].

@@ -52,6 +52,17 @@ class Json {
     out_ += bracket;
     return *this;
   }
+  /// A list of objects, one for each entry of the range: write(entry) writes the members of its object.
+  template <class Range, class Write>
+  Json& list(const char* key, const Range& range, const Write& write) {
+    open(key, '[');
+    for (const auto& entry : range) {
+      open("", '{');
+      write(entry);
+      close('}');
+    }
+    return close(']');
+  }
   const std::string& str() const { return out_; }
 
  private:
@@ -69,26 +80,18 @@ class Json {
 
 std::string describe() {
   Json json;
-  json.open("", '{').open("scenes", '[');
-  for (const SceneEntry& scene : scenes)
-    json.open("", '{')
-        .text("key", scene.key)
+  json.open("", '{').list("scenes", scenes, [&](const SceneEntry& scene) {
+    json.text("key", scene.key)
         .text("label", scene.label)
         .text("tryThis", scene.try_this)
-        .text("action", scene.action)
-        .close('}');
-  json.close(']').open("shapes", '[');
-  for (const ShapeEntry& shape : shapes)
-    json.open("", '{')
-        .text("key", shape.key)
-        .text("label", shape.label)
-        .number("dimension", shape.dimension)
-        .close('}');
-  json.close(']').open("settings", '[');
+        .text("action", scene.action);
+  });
+  json.list("shapes", shapes, [&](const ShapeEntry& shape) {
+    json.text("key", shape.key).text("label", shape.label).number("dimension", shape.dimension);
+  });
   const Settings defaults;
-  for (const SettingEntry& entry : setting_table)
-    json.open("", '{')
-        .text("key", entry.key)
+  json.list("settings", setting_table, [&](const SettingEntry& entry) {
+    json.text("key", entry.key)
         .text("label", entry.label)
         .text("unit", entry.unit)
         .text("help", entry.help)
@@ -98,32 +101,28 @@ std::string describe() {
         .number("logarithmic", entry.logarithmic)
         .number("whole", entry.whole)
         .number("rebuilds", entry.rebuilds)
-        .number("scenes", entry.scenes)
-        .close('}');
-  return json.close(']').close('}').str();
+        .number("scenes", entry.scenes);
+  });
+  return json.close('}').str();
 }
 
 std::string describe(const AnyScene& scene) {
   Json json;
-  json.open("", '{').open("channels", '[');
-  for (const Channel& channel : scene.channels())
-    json.open("", '{')
-        .text("key", channel.key)
+  json.open("", '{').list("channels", scene.channels(), [&](const Channel& channel) {
+    json.text("key", channel.key)
         .text("label", channel.label)
         .text("unit", channel.unit)
-        .number("factor", channel.factor)
-        .close('}');
-  json.close(']').open("plots", '[');
-  for (const PlotSpec& plot : scene.plots())
-    json.open("", '{')
-        .text("title", plot.title)
+        .number("factor", channel.factor);
+  });
+  json.list("plots", scene.plots(), [&](const PlotSpec& plot) {
+    json.text("title", plot.title)
         .number("x", plot.x)
         .number("y", plot.y)
         .number("y2", plot.y2)
         .number("logarithmic", plot.logarithmic)
-        .number("isPath", plot.is_path)
-        .close('}');
-  json.close(']').open("bounds", '[');
+        .number("isPath", plot.is_path);
+  });
+  json.open("bounds", '[');
   for (const double x : scene.bounds()) json.number("", x);
   return json.close(']').close('}').str();
 }

@@ -206,18 +206,7 @@ class Scene : public AnyScene {
     return sum;
   }
   double mass() const { return density * volume_; }
-  double kinetic_energy() const {
-    const auto& bodies = simulation_.bodies();
-    return moreau::kinetic_energy<S>(simulation_.grain_count(),
-                                     [&](std::size_t k) {
-                                       const std::size_t i = simulation_.grain(k).index();
-                                       return moreau::BodyMotion<S>{
-                                           bodies.grain_mass[i],
-                                           bodies.inertia(i, bodies.pose[i].rotation),
-                                           bodies.pose[i].position, bodies.velocity[i]};
-                                     })
-        .total();
-  }
+  double kinetic_energy() const { return moreau::kinetic_energy(simulation_).total(); }
   void set_bounds(const Vector& lower, const Vector& upper) {
     Floats both;
     push(both, lower), push(both, upper);

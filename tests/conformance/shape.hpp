@@ -223,13 +223,19 @@ void check_members(const ShapeT& shape, const std::vector<typename ShapeT::Space
   }
 }
 
+/// The distance from the origin within which a shape lies, by its bounding box [m].
+template <class ShapeT>
+double extent(const ShapeT& shape) {
+  const auto box = shape.bounding_box({});
+  return box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
+}
+
 /// Runs the checks that apply to a grain of parts.
 template <moreau::CompoundShape ShapeT>
 void check_grain(const ShapeT& grain) {
   using S = typename ShapeT::Space;
   std::mt19937_64 random(1);
-  const moreau::Aabb<S> box = grain.bounding_box({});
-  const double size = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
+  const double size = extent(grain);
   check_mass(grain, size);
   std::vector<typename S::Vector> points;
   for (const auto& part : grain.parts())
@@ -266,10 +272,8 @@ void check_box_is_tight(const ShapeT& shape) {
 /// Runs all checks that apply to the shape.
 template <moreau::ConvexShape ShapeT>
 void check_shape(const ShapeT& shape) {
-  using S = typename ShapeT::Space;
   std::mt19937_64 random(1);
-  const moreau::Aabb<S> box = shape.bounding_box({});
-  const double size = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
+  const double size = extent(shape);
   check_mass(shape, size);
   std::mt19937_64 of_grid(3);
   check_mass_of_support(shape, size, of_grid);

@@ -97,11 +97,7 @@ class Assembly {
   moreau::Momentum<S> momentum() const {
     return moreau::momentum<S>(simulation.grain_count(), [&](std::size_t k) { return motion(k); });
   }
-  double kinetic_energy() const {
-    return double(moreau::kinetic_energy<S>(simulation.grain_count(), [&](std::size_t k) {
-                    return motion(k);
-                  }).total());
-  }
+  double kinetic_energy() const { return double(moreau::kinetic_energy(simulation).total()); }
   double potential_energy() const {
     double sum = 0;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {

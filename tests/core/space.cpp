@@ -54,6 +54,20 @@ auto distance(const Matrix& a, const Matrix& b) {
   return (a - b).norm();
 }
 
+/// The step of a difference quotient, for which its error and its rounding are about equal.
+template <class S>
+const typename S::Scalar difference_step = std::cbrt(epsilon<S>);
+
+/// The derivative of a function of a scalar at 0, by a central difference. If the values of the function
+/// are about 1, the error is about difference_error<S>.
+template <class S>
+const typename S::Scalar difference_error = difference_step<S>* difference_step<S>;
+template <class S, class F>
+auto derivative(const F& f) {
+  const auto h = difference_step<S>;
+  return ((f(h) - f(-h)) / (2 * h)).eval();
+}
+
 template <class S>
 auto matrix_of(const typename S::Rotation& q) {
   return typename S::Matrix(q.toRotationMatrix());
@@ -109,16 +123,13 @@ TEST_CASE_TEMPLATE("positive rotations go from x to y", S, MOREAU_SPACES) {
 }
 
 TEST_CASE_TEMPLATE("spin is the derivative of exp", S, MOREAU_SPACES) {
-  using T = typename S::Scalar;
   Draw<S> draw;
-  const T h = std::cbrt(epsilon<S>);
   for (int i = 0; i < 50; ++i) {
     const auto r = draw.vector();
     const auto w = draw.angular();
-    const typename S::Vector forward = S::exp(h * w) * r;
-    const typename S::Vector backward = S::exp(-h * w) * r;
-    const typename S::Vector difference = (forward - backward) / (2 * h);
-    CHECK(distance(difference, S::spin(w, r)) <= 10 * h * h);
+    const typename S::Vector difference = derivative<S>(
+        [&](typename S::Scalar angle) { return typename S::Vector(S::exp(angle * w) * r); });
+    CHECK(distance(difference, S::spin(w, r)) <= 10 * difference_error<S>);
   }
 }
 
@@ -215,20 +226,17 @@ TEST_CASE_TEMPLATE("gyroscopic term does no work and is w x I w", S, MOREAU_SPAC
 
 TEST_CASE_TEMPLATE("gyroscopic_jacobian is the derivative of I(q) w along a rotation", S,
                    MOREAU_SPACES) {
-  using T = typename S::Scalar;
   Draw<S> draw;
-  const T h = std::cbrt(epsilon<S>);
   for (int i = 0; i < 50; ++i) {
     const auto inertia = draw.inertia();
     const auto w = draw.angular();
     const auto dw = draw.angular();
-    const auto momentum = [&](const typename S::Angular& turn) {
-      const auto ad = S::adjoint(S::exp(turn));
+    const typename S::Angular difference = derivative<S>([&](typename S::Scalar angle) {
+      const auto ad = S::adjoint(S::exp(angle * dw));
       return typename S::Angular(ad * inertia * ad.transpose() * w);
-    };
-    const typename S::Angular difference = (momentum(h * dw) - momentum(-h * dw)) / (2 * h);
-    const typename S::Angular derivative = S::gyroscopic_jacobian(inertia, w) * dw;
-    CHECK(distance(difference, derivative) <= 100 * h * h);
+    });
+    const typename S::Angular along_dw = S::gyroscopic_jacobian(inertia, w) * dw;
+    CHECK(distance(difference, along_dw) <= 100 * difference_error<S>);
     // For a rotation along w, the derivative equals the gyroscopic term d(I w)/dt at fixed w.
     const typename S::Angular along_w = S::gyroscopic_jacobian(inertia, w) * w;
     CHECK(distance(along_w, S::gyroscopic(inertia, w)) <= 32 * epsilon<S>);

@@ -18,6 +18,7 @@
 #include "moreau/shape/convex_of_mesh.hpp"
 #include "moreau/shape/regular_shape.hpp"
 
+#include "conformance/random_direction.hpp"
 #include "types.hpp"
 
 namespace {
@@ -56,14 +57,18 @@ double least_gap(const std::vector<Point<S>>& points) {
   return gap;
 }
 
+/// Random directions.
+template <class S>
+std::vector<typename S::Vector> directions(int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<typename S::Vector> points;
+  for (int k = 0; k < count; ++k) points.push_back(conformance::random_direction<S>(random));
+  return points;
+}
+
 /// A random convex body as a mesh: the surface of the hull of a pebble, divided into facets.
 FacetMesh<Volume> convex_mesh(Volume, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::vector<Volume::Vector> points;
-  for (int k = 0; k < 12; ++k)
-    points.push_back(Volume::Vector(normal(random), normal(random), normal(random)).normalized());
-  const Polyhedron<> hull(points);
+  const Polyhedron<> hull(directions<Volume>(12, seed));
   FacetMesh<Volume> mesh;
   for (Eigen::Index i = 0; i < hull.vertices().rows(); ++i)
     mesh.vertices.push_back(hull.vertices().row(i).transpose());
@@ -73,12 +78,7 @@ FacetMesh<Volume> convex_mesh(Volume, std::uint64_t seed) {
   return mesh;
 }
 FacetMesh<Plane> convex_mesh(Plane, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::vector<Plane::Vector> points;
-  for (int k = 0; k < 8; ++k)
-    points.push_back(Plane::Vector(normal(random), normal(random)).normalized());
-  const Polygon<> hull(points);
+  const Polygon<> hull(directions<Plane>(8, seed));
   FacetMesh<Plane> mesh;
   const auto count = std::uint32_t(hull.vertex_count());
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -6,23 +6,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "moreau/shape/ball.hpp"
+
+#include "conformance/support_only.hpp"
 #include "detect/shapes.hpp"
 
 using namespace moreau;
 
 namespace {
-
-/// A shape with a support function only.
-template <class S>
-struct Opaque {
-  using Space = S;
-  using Vector = typename S::Vector;
-  Vector support(const Vector& direction) const { return 2 * direction.normalized(); }
-  MassProperties<S> mass_properties(typename S::Scalar) const { return {}; }
-  Aabb<S> bounding_box(const Pose<S>& pose) const {
-    return {pose.position.array() - 2, pose.position.array() + 2};
-  }
-};
 
 template <class S>
 void check_polytope(std::mt19937_64& random) {
@@ -97,9 +88,10 @@ TEST_CASE("scans over rows find the first of the largest") {
 
 TEST_CASE("a shape of one's own is placed by its support") {
   using S = Space<3>;
-  const Opaque<S> shape;
+  using Shape = conformance::SupportOnly<Ball<>>;
+  const Shape shape(Ball<>(2));
   const Pose<S> pose{S::Vector(1, 2, 3), S::exp(S::Angular(0.3, 0.2, 0.1))};
-  const Placed<Opaque<S>> placed(shape, pose);
+  const Placed<Shape> placed(shape, pose);
   CHECK((placed.support(S::Vector(0, 0, 5)) - S::Vector(0, 0, 2)).norm() < 1e-14);
   CHECK(placed.center() == pose.position);
   CHECK(placed.bounding_box().upper == S::Vector(3, 4, 5));

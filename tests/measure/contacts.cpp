@@ -188,12 +188,19 @@ TEST_CASE("stress of a balanced cell is that of the loads on its boundary") {
   CHECK(sigma(0, 1) == doctest::Approx(sigma(1, 0)));
 }
 
+/// Two grains at these positions, and a wall (body 2).
+Assembly<Space<3>> two_grains_and_wall(const Space<3>::Vector& first,
+                                       const Space<3>::Vector& second) {
+  Assembly<Space<3>> all;
+  all.position = {first, second, Space<3>::Vector(50, 50, 0)};
+  all.grain = {true, true, false};
+  return all;
+}
+
 TEST_CASE("force chains run from centre to centre, to the wall's contact point") {
   using S = Space<3>;
   using V = S::Vector;
-  Assembly<S> all;
-  all.position = {V(0, 0, 1), V(0, 0, 3), V(50, 50, 0)};
-  all.grain = {true, true, false};
+  auto all = two_grains_and_wall(V(0, 0, 1), V(0, 0, 3));
   all.add(0, 1, V(0, 0.25, 2), V::UnitZ(), V(0.3, 0.4, 2), -0.01);
   all.add(0, 2, V(0.5, 0, 0), -V::UnitZ(), V(0, 0, -4));
   all.add(1, 2, V(0.5, 0, 0), -V::UnitZ(), V::Zero());
@@ -217,9 +224,7 @@ TEST_CASE("force chains run from centre to centre, to the wall's contact point")
 TEST_CASE("the points of a pair carry one force") {
   using S = Space<3>;
   using V = S::Vector;
-  Assembly<S> all;
-  all.position = {V(0, 0, 0), V(0, 0, 2), V(50, 50, 0)};
-  all.grain = {true, true, false};
+  auto all = two_grains_and_wall(V(0, 0, 0), V(0, 0, 2));
   all.add(0, 1, V(1, 0, 1), V::UnitZ(), V(0, 1, 3));
   all.add(0, 1, V(-1, 0, 1), V::UnitZ(), V(4, -1, 1));
   all.add(0, 1, V(0, 1, 1), V::UnitZ(), V::Zero());  // a point without force

@@ -5,6 +5,10 @@
 #include <doctest/doctest.h>
 #include <random>
 
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
 using namespace moreau;
 
 TEST_CASE_TEMPLATE("energy and momentum of bodies are those of the particles they consist of", S,
@@ -55,4 +59,18 @@ TEST_CASE("the parts of the energy") {
   CHECK(energy.translation == 5);
   CHECK(energy.rotation == 24);
   CHECK(momentum(disk).angular[0] == 3 * -4 + 2 * (7 * 2 - 7 * 1));
+}
+
+TEST_CASE("kinetic energy of a simulation: of its grains, not of its walls") {
+  using S = Space<2>;
+  using Law = SignoriniCoulomb<>;
+  Simulation<Disk<>, Law> world(1, Materials<Law>(1, Law(0.5)));
+  world.set_velocity(world.add_wall(S::Vector(0, 1), S::Vector(0, -5)), S::Vector(0, 7));
+  const BodyId grain = world.add_grain(world.add_shape(Disk<>(0.5)), {S::Vector(1, 2)}, 1000);
+  world.set_velocity(grain, S::Vector(0, 2));
+  world.set_spin(grain, S::Angular(3));
+  const double mass = world.bodies().grain_mass[grain.index()];
+  const KineticEnergy<S> energy = kinetic_energy(world);
+  CHECK(energy.translation == 2 * mass);
+  CHECK(energy.rotation == doctest::Approx(mass * 0.25 / 2 * 9 / 2).epsilon(1e-14));
 }

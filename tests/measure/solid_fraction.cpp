@@ -18,6 +18,9 @@ namespace {
 
 using namespace moreau;
 
+#define MOREAU_SHAPES_IN_DOUBLE \
+  MOREAU_TYPES((Polyhedron<double>, Disk<double>), (Polygon<double>, Ball<double>))
+
 template <class T>
 constexpr T tolerance = std::numeric_limits<T>::epsilon() * T(1000);
 
@@ -147,8 +150,7 @@ TEST_CASE_TEMPLATE("clipped volume adds up over the parts of a box", Shape,
 }
 
 TEST_CASE_TEMPLATE("the cells of a grid around a shape share its whole volume", Shape,
-                   MOREAU_TYPES((Polyhedron<double>, Disk<double>),
-                                (Polygon<double>, Ball<double>))) {
+                   MOREAU_SHAPES_IN_DOUBLE) {
   using S = SpaceOf<Shape>;
   std::mt19937_64 random(2);
   ClipWorkspace<S> workspace;
@@ -187,9 +189,7 @@ TEST_CASE("a clipped polyhedron has the volume of the hull of its corners") {
   CHECK(cut > 25);
 }
 
-TEST_CASE_TEMPLATE("clipped volume agrees with random sampling", Shape,
-                   MOREAU_TYPES((Polyhedron<double>, Disk<double>),
-                                (Polygon<double>, Ball<double>))) {
+TEST_CASE_TEMPLATE("clipped volume agrees with random sampling", Shape, MOREAU_SHAPES_IN_DOUBLE) {
   using S = SpaceOf<Shape>;
   std::mt19937_64 random(4);
   ClipWorkspace<S> workspace;

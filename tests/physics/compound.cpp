@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <initializer_list>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -64,15 +65,44 @@ double lowest(const Compound<Part>& grain) {
   return least;
 }
 
+/// A cube with edges of 1 m.
+template <class Part>
+Part unit_cube() {
+  using Vector = typename SpaceOf<Part>::Vector;
+  return compounds::box<Part>(Vector::Constant(-0.5), Vector::Constant(0.5));
+}
+
+/// A convex shape as a grain of two parts, cut by the plane through a point with the normal (0.6, 0.8)
+/// in the plane of the first and the last axis.
+template <class Part>
+Compound<Part> cut_in_two(const Part& shape, const typename SpaceOf<Part>::Vector& through) {
+  const auto parts =
+      compounds::halves<Part>(shape, compounds::point<SpaceOf<Part>>(0.6, 0.8), through);
+  return Compound<Part>{std::span<const Part>(parts)};
+}
+
+/// Checks for each share that a grain on a floor stands if the share is below 1, and tips if it is
+/// above: scene_of(share) is the OnFloor.
+template <class SceneOf>
+void check_tips_above_one(std::initializer_list<double> shares, const SceneOf& scene_of) {
+  for (const double share : shares) {
+    auto scene = scene_of(share);
+    scene.run(2.0 / sanitizer_share);
+    CAPTURE(share);
+    if (share < 1)
+      CHECK(scene.turn() < 1e-7);
+    else
+      CHECK(scene.turn() > 0.01);
+  }
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("a cube cut in two flies as the cube", Part,
                    MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
-  const Part cube = compounds::box<Part>(S::Vector::Constant(-0.5), S::Vector::Constant(0.5));
-  const auto parts =
-      compounds::halves<Part>(cube, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0.02));
-  const Compound<Part> cut{std::span<const Part>(parts)};
+  const Part cube = unit_cube<Part>();
+  const Compound<Part> cut = cut_in_two(cube, compounds::point<S>(0.1, 0.02));
   OnFloor<Part> whole(cube, -100, 0.5, 0);
   OnFloor<Compound<Part>> halves(cut, -100, 0.5, 0);
   whole.world.set_spin(whole.grain, S::Angular::Constant(2));
@@ -88,10 +118,8 @@ TEST_CASE_TEMPLATE("a cube cut in two flies as the cube", Part,
 TEST_CASE_TEMPLATE("a cube cut in two slides as the cube", Part,
                    MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
-  const Part cube = compounds::box<Part>(S::Vector::Constant(-0.5), S::Vector::Constant(0.5));
-  const auto parts =
-      compounds::halves<Part>(cube, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0.02));
-  const Compound<Part> cut{std::span<const Part>(parts)};
+  const Part cube = unit_cube<Part>();
+  const Compound<Part> cut = cut_in_two(cube, compounds::point<S>(0.1, 0.02));
   OnFloor<Part> whole(cube, -0.5, 0.3, 0.1);
   OnFloor<Compound<Part>> halves(cut, -0.5, 0.3, 0.1);
   whole.world.set_velocity(whole.grain, compounds::point<S>(1, 0));
@@ -110,16 +138,10 @@ TEST_CASE_TEMPLATE("a cube cut in two slides as the cube", Part,
 // the column if its centre of mass lies beyond: (1 + b^2) / (2 (1 + b)) = 1, b = 1 + sqrt(2).
 TEST_CASE_TEMPLATE("a gamma stands or tips as its centre of mass says", Part,
                    MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
-  for (const double share : {0.99, 1.01}) {
+  check_tips_above_one({0.99, 1.01}, [](double share) {
     const auto gamma = compounds::gamma<Part>(share * (1 + std::numbers::sqrt2));
-    OnFloor<Compound<Part>> scene(gamma, lowest(gamma), 0.8, 0);
-    scene.run(2.0 / sanitizer_share);
-    CAPTURE(share);
-    if (share < 1)
-      CHECK(scene.turn() < 1e-7);
-    else
-      CHECK(scene.turn() > 0.01);
-  }
+    return OnFloor<Compound<Part>>(gamma, lowest(gamma), 0.8, 0);
+  });
 }
 
 // On a slope an L tips about the edge of its foot as soon as the direction of gravity from its centre
@@ -132,15 +154,9 @@ TEST_CASE_TEMPLATE("an L stands on a slope or tips", Part,
        compounds::box<Part>(compounds::point<S>(0, 1), compounds::point<S>(1, 3, 1))});
   const auto centre = l.centroid_of_input();
   const double angle = std::atan2(2 - centre[0], centre[S::dim - 1]);
-  for (const double share : {0.99, 1.01}) {
-    OnFloor<Compound<Part>> scene(l, lowest(l), 2, share * angle);
-    scene.run(2.0 / sanitizer_share);
-    CAPTURE(share);
-    if (share < 1)
-      CHECK(scene.turn() < 1e-7);
-    else
-      CHECK(scene.turn() > 0.01);
-  }
+  check_tips_above_one({0.99, 1.01}, [&](double share) {
+    return OnFloor<Compound<Part>>(l, lowest(l), 2, share * angle);
+  });
 }
 
 // A tetrapod (in the plane a tripod) stands on its lower feet. It tips over the edge between two of
@@ -163,15 +179,9 @@ TEST_CASE_TEMPLATE("a tetrapod stands on a slope or tips", Part,
     }
   const double angle = std::atan2(reach, -low);
   REQUIRE(angle > 0.1);
-  for (const double share : {0.0, 0.98, 1.02}) {
-    OnFloor<Compound<Part>> scene(tetrapod, low, 3, share * angle);
-    scene.run(2.0 / sanitizer_share);
-    CAPTURE(share);
-    if (share < 1)
-      CHECK(scene.turn() < 1e-7);
-    else
-      CHECK(scene.turn() > 0.01);
-  }
+  check_tips_above_one({0.0, 0.98, 1.02}, [&](double share) {
+    return OnFloor<Compound<Part>>(tetrapod, low, 3, share * angle);
+  });
 }
 
 // A regular hexagon (in space a prism) of two halves rolls down a slope steeper than 30 degrees, over
@@ -187,9 +197,7 @@ TEST_CASE_TEMPLATE("a hexagon of two halves rolls on a slope of more than 30 deg
       if (S::dim == 2) break;
     }
   const Part hexagon = compounds::hull<Part>(corners);
-  const auto parts =
-      compounds::halves<Part>(hexagon, compounds::point<S>(0.6, 0.8), compounds::point<S>(0.1, 0));
-  const Compound<Part> grain{std::span<const Part>(parts)};
+  const Compound<Part> grain = cut_in_two(hexagon, compounds::point<S>(0.1, 0));
   for (const double share : {0.99, 1.01}) {
     OnFloor<Compound<Part>> scene(grain, lowest(grain), 2, share * std::numbers::pi / 6);
     scene.run(4.0 / sanitizer_share);

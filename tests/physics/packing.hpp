@@ -6,7 +6,8 @@
 #include <doctest/doctest.h>
 #include <limits>
 
-#include "physics/motion.hpp"
+#include "moreau/measure/energy.hpp"
+
 #include "world/assemblies.hpp"
 
 namespace packing {
@@ -35,7 +36,7 @@ void check_rests(double duration) {
   for (int k = 0; k < 2 * half; ++k) {
     const moreau::StepReport report = box.simulation.step(h);
     overlap[k / half] = std::max(overlap[k / half], report.max_overlap);
-    energy[k / half] = std::max(energy[k / half], scenes::kinetic_energy(box.simulation));
+    energy[k / half] = std::max(energy[k / half], moreau::kinetic_energy(box.simulation).total());
     capped += report.solve.capped;
   }
   const double slop = moreau::OverlapCorrectionOptions{}.slop * size;

@@ -8,8 +8,9 @@
 #include <doctest/doctest.h>
 #include <vector>
 
+#include "moreau/measure/energy.hpp"
+
 #include "physics/masonry.hpp"
-#include "physics/motion.hpp"
 
 namespace masonry {
 
@@ -51,7 +52,8 @@ void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle,
   CHECK(failed == 0);
   CHECK(residual <= tolerance);
   CHECK(moved <= allowed + corrected);
-  CHECK(scenes::kinetic_energy(structure.simulation) <= structure.mass() * velocity * velocity / 2);
+  CHECK(moreau::kinetic_energy(structure.simulation).total() <=
+        structure.mass() * velocity * velocity / 2);
 }
 
 }  // namespace masonry

@@ -46,27 +46,52 @@ inline Team eager(int size) {
   return Team(std::make_shared<EagerThreads>(size));
 }
 
+inline constexpr double size = 0.02;  // of the grains [m]
+
+/// A lattice of wide x wide x high (in the plane wide x high) cubic cells.
+template <class S>
+struct Lattice {
+  int wide, high;
+  double cell;       ///< width of a cell [m]
+  double shift = 0;  ///< by which every second layer is moved along x, over the width of a cell
+
+  double width() const { return wide * cell; }
+  /// Calls use(centre, i, j, k): cell i along x, cell j along the other horizontal axis, layer k.
+  template <class Use>
+  void for_each(const Use& use) const {
+    for (int k = 0; k < high; ++k)
+      for (int i = 0; i < wide; ++i)
+        for (int j = 0; j < (S::dim > 2 ? wide : 1); ++j) {
+          typename S::Vector centre = S::Vector::Constant(cell * (j + 0.5));
+          centre[0] = cell * (i + 0.5 + shift * (k % 2));
+          centre[S::dim - 1] = cell * (k + 0.5);
+          use(centre, i, j, k);
+        }
+  }
+};
+
+/// Appends the positions of all bodies to the results of a simulation.
+void append_positions(const auto& world, std::vector<double>& results) {
+  for (const auto& pose : world.bodies().pose)
+    for (const double x : pose.position) results.push_back(x);
+}
+
 /// 6 x 6 x 8 (in the plane 20 x 20) grains fall into a box, which is periodic along x.
 template <class ShapeT, class Law>
 std::vector<double> fall(const Law& law, const Team& team) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
-  constexpr int up = S::dim - 1, wide = up == 1 ? 20 : 6, high = up == 1 ? 20 : 8;
-  constexpr double size = 0.02, cell = 0.024;
+  constexpr int up = S::dim - 1;
+  const Lattice<S> lattice{up == 1 ? 20 : 6, up == 1 ? 20 : 8, 0.024, 0.1};
   Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
   world.set_team(team);
   const ShapeId shape = world.add_shape(regular_shape<ShapeT>(size));
-  world.set_periodic(0, 0.0, wide * cell);
+  world.set_periodic(0, 0.0, lattice.width());
   for (int axis = 1; axis < S::dim; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
-  if (up > 1) world.add_wall(-Vector::Unit(1), wide * cell * Vector::Unit(1));
-  for (int k = 0; k < high; ++k)
-    for (int i = 0; i < wide; ++i)
-      for (int j = 0; j < (up > 1 ? wide : 1); ++j) {
-        Vector position = Vector::Constant(cell * (j + 0.5));
-        position[0] = cell * (i + 0.5 + 0.1 * (k % 2));
-        position[up] = cell * (k + 0.5);
-        world.add_grain(shape, {position, S::exp(S::Angular::Constant(0.1 * k + 0.3 * i))}, 2700);
-      }
+  if (up > 1) world.add_wall(-Vector::Unit(1), lattice.width() * Vector::Unit(1));
+  lattice.for_each([&](const Vector& centre, int i, int, int k) {
+    world.add_grain(shape, {centre, S::exp(S::Angular::Constant(0.1 * k + 0.3 * i))}, 2700);
+  });
   world.set_gravity(-9.81 * Vector::Unit(up));
   std::vector<double> results;
   for (int step = 0; step < steps; ++step) {
@@ -76,8 +101,7 @@ std::vector<double> fall(const Law& law, const Team& team) {
     results.push_back(report.dissipation);
     results.push_back(double(report.points));
   }
-  for (const Pose<S>& pose : world.bodies().pose)
-    for (const double x : pose.position) results.push_back(x);
+  append_positions(world, results);
   return results;
 }
 
@@ -88,26 +112,21 @@ template <class ShapeT, class Law>
 std::vector<double> press(const Law& law, const Team& team) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
-  constexpr int up = S::dim - 1, wide = up == 1 ? 60 : 9, high = up == 1 ? 4 : 3;
-  constexpr double size = 0.02, cell = 0.0205;
+  constexpr int up = S::dim - 1;
+  const Lattice<S> lattice{up == 1 ? 60 : 9, up == 1 ? 4 : 3, 0.0205};
   Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
   world.set_team(team);
   const BodyId floor = world.add_wall(Vector::Unit(up), Vector::Zero());
-  for (int axis = 0; axis < up; ++axis) world.set_periodic(axis, 0.0, wide * cell);
+  for (int axis = 0; axis < up; ++axis) world.set_periodic(axis, 0.0, lattice.width());
   const ShapeT regular = regular_shape<ShapeT>(size);
   const ShapeId shape = world.add_shape(regular);
   double mass = 0, top = 0;  // mass of the grains, height of their highest point
-  for (int k = 0; k < high; ++k)
-    for (int i = 0; i < wide; ++i)
-      for (int j = 0; j < (up > 1 ? wide : 1); ++j) {
-        Vector position = Vector::Constant(cell * (j + 0.5));
-        position[0] = cell * (i + 0.5);
-        position[up] = cell * (k + 0.5);
-        const Pose<S> pose{position, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))};
-        const BodyId grain = world.add_grain(shape, pose, 2700);
-        mass += world.bodies().grain_mass[grain.index()];
-        top = std::max(top, regular.bounding_box(pose).upper[up]);
-      }
+  lattice.for_each([&](const Vector& centre, int i, int j, int) {
+    const Pose<S> pose{centre, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))};
+    const BodyId grain = world.add_grain(shape, pose, 2700);
+    mass += world.bodies().grain_mass[grain.index()];
+    top = std::max(top, regular.bounding_box(pose).upper[up]);
+  });
   const BodyId lid = world.add_wall(-Vector::Unit(up), (top + size / 20) * Vector::Unit(up));
   world.set_wall_mass(lid, mass);
   world.set_force(lid, -100 * mass * Vector::Unit(up));
@@ -124,8 +143,7 @@ std::vector<double> press(const Law& law, const Team& team) {
   }
   CHECK(most > 48);
   results.push_back(world.contact_impulse(floor)[up]);
-  for (const Pose<S>& pose : world.bodies().pose)
-    for (const double x : pose.position) results.push_back(x);
+  append_positions(world, results);
   return results;
 }
 

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
-#include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/measure/coordination.hpp"
 
 #include "sanitized.hpp"
 #include "types.hpp"
 #include "world/assemblies.hpp"
+#include "world/spring_world.hpp"
 
 using namespace moreau;
 using scenes::BoxOfGrains;
@@ -251,8 +251,7 @@ TEST_CASE_TEMPLATE("a restart amid removals continues with the same bits", Shape
 #ifdef MOREAU_TEST_FURTHER_TYPES
 TEST_CASE("springs of a regularized law: the other contacts keep their memory") {
   using S = Space<2>;
-  using Law = LinearSpringDashpot<double>;
-  Simulation<Disk<>, Law> world(0.02, Materials<Law>(1, Law(1e5, 5e4, 0.4, 0.5)));
+  auto world = scenes::spring_world<Disk<>>();
   const ShapeId shape = world.add_shape(Disk<>(0.01));
   world.set_gravity(S::Vector(0, -9.81));
   world.add_wall(S::Vector::UnitY(), S::Vector::Zero());

@@ -3,13 +3,13 @@
 #include <doctest/doctest.h>
 #include <vector>
 
-#include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/measure/energy_balance.hpp"
 
 #include "sanitized.hpp"
 #include "types.hpp"
 #include "world/assemblies.hpp"
+#include "world/spring_world.hpp"
 
 using namespace moreau;
 using scenes::BoxOfGrains;
@@ -184,8 +184,7 @@ TEST_CASE("a wall with a mass rests on a grain of prescribed motion") {
 #ifdef MOREAU_TEST_FURTHER_TYPES
 TEST_CASE("a regularized law pushes grains away from an intruder, and not the intruder") {
   using S = Space<3>;
-  using Law = LinearSpringDashpot<double>;
-  Simulation<Ball<>, Law> world(0.02, Materials<Law>(1, Law(1e5, 5e4, 0.4, 0.5)));
+  auto world = scenes::spring_world<Ball<>>();
   const ShapeId shape = world.add_shape(Ball<>(0.01));
   const BodyId intruder = world.add_grain(shape, {S::Vector::Zero(), S::identity()}, 1000);
   const BodyId other = world.add_grain(shape, {S::Vector(0.021, 0, 0), S::identity()}, 1000);

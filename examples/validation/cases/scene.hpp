@@ -138,9 +138,7 @@ moreau::BodyMotion<SpaceOf<ShapeT>> motion_of(const World<ShapeT, Law>& world, s
 /// Kinetic energy of all grains [J].
 template <class ShapeT, class Law>
 double kinetic_energy(const World<ShapeT, Law>& world) {
-  return moreau::kinetic_energy<SpaceOf<ShapeT>>(world.grain_count(),
-                                                 [&](std::size_t k) { return motion_of(world, k); })
-      .total();
+  return moreau::kinetic_energy(world).total();
 }
 /// Kinetic and potential energy of all grains [J].
 template <class ShapeT, class Law>

@@ -163,37 +163,38 @@ void clip(const Rings<S>& rings, const AxisPlane<S>& plane, Rings<S>& kept, Ring
   for (const std::size_t end : caps.ends) kept.ends.push_back(shift + end);
 }
 
-/// The area inside the rings [m^2]. The area of a counter-clockwise ring is positive.
-template <class T>
-T enclosed_volume(const Rings<Space<2, T>>& rings) {
-  using Vector = typename Space<2, T>::Vector;
-  T doubled = 0;
-  rings.for_each_ring([&](std::size_t start, std::size_t end) {
-    const Vector& origin = rings.points.front();
-    for (std::size_t i = start; i < end; ++i) {
-      const Vector a = rings.points[i] - origin;
-      const Vector b = rings.points[i + 1 < end ? i + 1 : start] - origin;
-      doubled += a.x() * b.y() - a.y() * b.x();
-    }
-  });
-  return doubled / 2;
+/// Adds twice the area of a ring [m^2] to a sum. The area of a counter-clockwise ring is positive.
+/// @param origin any point; one near the ring keeps rounding small
+template <class T, class Vector>
+void add_ring(Space<2, T>, std::span<const Vector> ring, const Vector& origin, T& doubled) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector a = ring[i] - origin;
+    const Vector b = ring[i + 1 < ring.size() ? i + 1 : 0] - origin;
+    doubled += a.x() * b.y() - a.y() * b.x();
+  }
 }
 
-/// The volume inside the rings [m^3]. Seen from outside, the rings are counter-clockwise.
-template <class T>
-T enclosed_volume(const Rings<Space<3, T>>& rings) {
-  using Vector = typename Space<3, T>::Vector;
-  T sixfold = 0;
+/// Adds six times the volume of the pyramid from the origin to a plane ring [m^3] to a sum. The volume is
+/// positive if the ring is counter-clockwise, seen from the side away from the origin.
+template <class T, class Vector>
+void add_ring(Space<3, T>, std::span<const Vector> ring, const Vector& origin, T& sixfold) {
+  // The sum of the normals of the triangles. Its length is twice the area of the ring.
+  Vector normal = Vector::Zero();
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    normal += (ring[i] - ring[0]).cross(ring[i + 1] - ring[0]);
+  sixfold += (ring[0] - origin).dot(normal);
+}
+
+/// The volume inside the rings, in the plane the area [m^D]. The rings must be counter-clockwise, in
+/// space seen from outside.
+template <class S>
+typename S::Scalar enclosed_volume(const Rings<S>& rings) {
+  typename S::Scalar sum = 0;
   rings.for_each_ring([&](std::size_t start, std::size_t end) {
-    const Vector& origin = rings.points.front();
-    const Vector& corner = rings.points[start];
-    Vector normal = Vector::Zero();  // sum of the normals of the triangles, its length is twice the
-                                     // area of the ring
-    for (std::size_t i = start + 1; i + 1 < end; ++i)
-      normal += (rings.points[i] - corner).cross(rings.points[i + 1] - corner);
-    sixfold += (corner - origin).dot(normal);
+    const std::span<const typename S::Vector> points = rings.points;
+    add_ring(S{}, points.subspan(start, end - start), points.front(), sum);
   });
-  return sixfold / 6;
+  return sum / (S::dim == 2 ? 2 : 6);
 }
 
 /// Appends the outline of a polygon as one ring.

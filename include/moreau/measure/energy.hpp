@@ -77,6 +77,19 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   return sum;
 }
 
+/// Kinetic energy of all grains of a simulation [J]. Grains whose motion is prescribed count too.
+/// @param simulation a Simulation
+template <class Simulation>
+KineticEnergy<typename Simulation::S> kinetic_energy(const Simulation& simulation) {
+  using S = typename Simulation::S;
+  const auto& bodies = simulation.bodies();
+  return kinetic_energy<S>(simulation.grain_count(), [&](std::size_t k) {
+    const std::size_t i = simulation.grain(k).index();
+    return BodyMotion<S>{bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
+                         bodies.pose[i].position, bodies.velocity[i]};
+  });
+}
+
 /// Sum of the momenta of many bodies.
 /// @param count     number of bodies
 /// @param motion_of function: k -> BodyMotion of body k, for k < count

@@ -73,6 +73,17 @@ def every_shape(runs):
     return found
 
 
+def panel_per_course(runs, x_label, y_label, commands, add):
+    """A panel for each run of every_course(), into which add(panel, shape, run) draws. Returns the
+    panels and the first of the runs."""
+    panels, found = [], every_course(runs)
+    for shape, run in found:
+        panel = Panel(TITLE[shape], x_label, y_label if not panels else "", commands)
+        add(panel, shape, run)
+        panels.append(panel)
+    return panels, found[0][1]
+
+
 def x_t(runs, path):
     panels, found = [], every_course(runs)
     for shape, run in found:
@@ -97,10 +108,9 @@ def period_of(run, number):
 
 
 def one_period(runs, path):
-    panels, found, number = [], every_course(runs), 1
-    for shape, run in found:
-        panel = Panel(TITLE[shape], "time since f = fmax / period",
-                      "x − x_j  [mm]" if not panels else "", ["set key off"])
+    number = 1
+
+    def add(panel, shape, run):
         rows = period_of(run, number)
         panel.curve([(r[0], 1e3 * r[1]) for r in rows], COLOR[shape])
         nu, start = run["parameters"]["frequency"], run["periods"]["t_start"][number]
@@ -110,10 +120,12 @@ def one_period(runs, path):
         panel.points(marks, BLACK, 6)
         panel.commands += ['set arrow from 0.5, graph 0 to 0.5, graph 1 nohead dt 3 lc rgb "#7a7a7a"',
                            "set xrange [0:1]"]
-        panels.append(panel)
-    draw(path, panels, 1, len(found), 1500, 420, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(found[0][1], "The second period after the filling. Circles: the wall starts, and turns back. f is "
-                   "smallest at the dotted line.")
+
+    panels, run = panel_per_course(runs, "time since f = fmax / period", "x − x_j  [mm]",
+                                   ["set key off"], add)
+    draw(path, panels, 1, len(panels), 1500, 420, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(run, "The second period after the filling. Circles: the wall starts, and turns back. f is "
+                        "smallest at the dotted line.")
 
 
 def field(runs, path, table, names, unit, what):
@@ -153,10 +165,7 @@ def displacement_field(runs, path):
 
 
 def f_g_x(runs, path):
-    panels, found = [], every_course(runs)
-    for shape, run in found:
-        panel = Panel(TITLE[shape], "(x − x_j) / Δx_{max}", "f_g / mg" if not panels else "",
-                      ["set key bottom left"])
+    def add(panel, shape, run):
         weight, colors = run["weight"], ("#9db9d9", "#5f8fc4", "#2f66a3", "#16335b")
         for number in range(min(4, len(run["periods"]["x_j"]))):
             rows = period_of(run, number)
@@ -164,11 +173,13 @@ def f_g_x(runs, path):
             panel.curve([(r[1] / peak, r[3] / weight) for r in rows], colors[number],
                         f"period {number + 1}", 1.2)
         panel.commands += ["set yrange [0:6]", "set xrange [-2.6:1.1]"]
-        panels.append(panel)
-    draw(path, panels, 1, len(found), 1500, 460, "0.05, 0.99, 0.14, 0.89", "0.04, 0.1")
-    return caption(found[0][1], "Force of the grains on the wall over its displacement, four periods. "
-                   "The wall moves outward along the lower branch and in along the upper one; jammed, "
-                   "it bears up to fmax, 8 to 22 mg, above the frame.")
+
+    panels, run = panel_per_course(runs, "(x − x_j) / Δx_{max}", "f_g / mg",
+                                   ["set key bottom left"], add)
+    draw(path, panels, 1, len(panels), 1500, 460, "0.05, 0.99, 0.14, 0.89", "0.04, 0.1")
+    return caption(run, "Force of the grains on the wall over its displacement, four periods. "
+                        "The wall moves outward along the lower branch and in along the upper one; jammed, "
+                        "it bears up to fmax, 8 to 22 mg, above the frame.")
 
 
 def force_chains(runs, path):
@@ -198,26 +209,20 @@ def force_chains(runs, path):
 
 
 def rho_t(runs, path):
-    panels, found = [], every_course(runs)
-    for shape, run in found:
-        panel = Panel(TITLE[shape], "t  [s]", "ρ − ρ(0)" if not panels else "",
-                      ["set key bottom right"])
+    def add(panel, shape, run):
         for name, color, title in (("rho_inner", COLOR[shape], "inner volume"),
                                    ("rho_box", GREY, "whole box")):
             rows = columns(run, "packing", "t", name)
             panel.curve([(t, rho - rows[0][1]) for t, rho in rows], color,
                         f"{title}, ρ(0) = {rows[0][1]:.3f}")
-        panels.append(panel)
-    draw(path, panels, 1, len(found), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(found[0][1], "Change of the solid fraction.")
+
+    panels, run = panel_per_course(runs, "t  [s]", "ρ − ρ(0)", ["set key bottom right"], add)
+    draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(run, "Change of the solid fraction.")
 
 
 def rho_x(runs, path):
-    panels, found = [], every_course(runs)
-    for shape, run in found:
-        p = run["parameters"]
-        panel = Panel(TITLE[shape], "(x − x_j) / Δx_{max}", "ρ − ρ_j  [1e-4]" if not panels else "",
-                      ["set key bottom left", "set xtics 0.5"])
+    def add(panel, shape, run):
         packing = columns(run, "packing", "t", "rho_inner", "rho_box")
         wall = columns(run, "wall", "t", "x")
         start, finish = run["periods"]["t_start"][1], run["periods"]["t_finish"][1]
@@ -227,11 +232,12 @@ def rho_x(runs, path):
                 if start - 1e-9 <= t <= finish + 1e-9 and round(t, 4) in x_of]
         for k, color, title in ((1, COLOR[shape], "inner volume"), (2, GREY, "whole box")):
             panel.curve([(r[0] / peak, 1e4 * (r[k] - rows[0][k])) for r in rows], color, title)
-        panels.append(panel)
-        del p
-    draw(path, panels, 1, len(found), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(found[0][1], "Solid fraction over the displacement of the wall in the second period: "
-                   "from (0, 0) to the right end in extension, then to the left in contraction.")
+
+    panels, run = panel_per_course(runs, "(x − x_j) / Δx_{max}", "ρ − ρ_j  [1e-4]",
+                                   ["set key bottom left", "set xtics 0.5"], add)
+    draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
+    return caption(run, "Solid fraction over the displacement of the wall in the second period: "
+                        "from (0, 0) to the right end in extension, then to the left in contraction.")
 
 
 def phase_portrait(runs, path):

@@ -94,16 +94,7 @@ class OrderedRankSharing : public RankSharing<S, OrderedSharing> {
   template <class Combine>
   void combine(std::span<std::uint64_t> values, std::size_t width, const Combine& both) {
     const std::size_t bytes = width * sizeof values[0];
-    for (std::size_t other = 0; other < peers_.size(); ++other) {
-      Peer& peer = peers_[other];
-      peer.in.resize(peer.receive.size() * bytes);
-      peer.out.resize(peer.send.size() * bytes);
-      processes_.receive(peer.in.data(), peer.in.size(), int(other));
-      for (std::size_t k = 0; k < peer.send.size(); ++k)
-        std::memcpy(peer.out.data() + k * bytes, &values[peer.send[k] * width], bytes);
-      processes_.send(peer.out.data(), peer.out.size(), int(other));
-    }
-    processes_.wait();
+    this->exchange(std::span<const std::uint64_t>(values), width, bytes);
     for (Peer& peer : peers_)
       for (std::size_t k = 0; k < peer.receive.size(); ++k)
         for (std::size_t e = 0; e < width; ++e) {

@@ -212,19 +212,27 @@ class RankSharing : public Base {
     }
   }
 
+  /// Sends the values of the bodies in the list `send` of each rank, and receives those of the bodies
+  /// in its list `receive`, which then lie in `in`, one after another.
+  /// @param width number of values per body, the distance of two bodies in `values`
+  /// @param bytes how much of the values of a body is exchanged
   template <class T>
-  void average_all(std::span<T> velocities, std::size_t width) {
-    constexpr std::size_t entries = S::dofs, bytes = entries * sizeof(T);
+  void exchange(std::span<const T> values, std::size_t width, std::size_t bytes) {
     for (std::size_t other = 0; other < peers_.size(); ++other) {
       Peer& peer = peers_[other];
       peer.in.resize(peer.receive.size() * bytes);
       peer.out.resize(peer.send.size() * bytes);
       processes_.receive(peer.in.data(), peer.in.size(), int(other));
       for (std::size_t k = 0; k < peer.send.size(); ++k)
-        std::memcpy(peer.out.data() + k * bytes, &velocities[peer.send[k] * width], bytes);
+        std::memcpy(peer.out.data() + k * bytes, &values[peer.send[k] * width], bytes);
       processes_.send(peer.out.data(), peer.out.size(), int(other));
     }
     processes_.wait();
+  }
+  template <class T>
+  void average_all(std::span<T> velocities, std::size_t width) {
+    constexpr std::size_t entries = S::dofs, bytes = entries * sizeof(T);
+    exchange(std::span<const T>(velocities), width, bytes);
     for (const Shared& one : shared_) {
       std::array<T, entries> sum{}, copy{};
       T* own = &velocities[one.body * width];

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Grains of the shapes of ballast for benchmarks, and their material and load.
+#pragma once
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "moreau/sample/ballast.hpp"
+#include "moreau/sample/size_distribution.hpp"
+
+namespace bench {
+
+inline constexpr double pressure = 1e4;  // on a lid [Pa]
+
+/// Depth of a packing [m]: of the plane, or 1, so that volumes and areas of space remain as they are.
+template <class S>
+constexpr double depth = S::dim == 2 ? 0.05 : 1;
+/// Density of the grains [kg/m^D].
+template <class S>
+constexpr double density = 2700 * depth<S>;
+
+/// Shapes of grains, their circumradii [m], and their volume, in the plane their area [m^D].
+template <class ShapeT>
+struct BallastGrains {
+  std::vector<ShapeT> shapes;
+  std::vector<double> radii;
+  double volume = 0;
+
+  BallastGrains(std::size_t count, std::mt19937_64& random) {
+    for (const double diameter : moreau::SizeDistribution::azema2008().sample(count, random)) {
+      shapes.push_back(moreau::Ballast<ShapeT>::draw(random).scaled(diameter / 2));
+      radii.push_back(diameter / 2);
+      volume += shapes.back().volume();
+    }
+  }
+};
+
+}  // namespace bench
