@@ -22,6 +22,8 @@
 #include "moreau/distributed/distributed_simulation.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/compliant.hpp"
+#include "moreau/measure/solid_fraction.hpp"
+#include "moreau/measure/stress.hpp"
 #include "moreau/moreau.hpp"
 
 #include "packing.hpp"
@@ -69,6 +71,27 @@ Result run(Simulation& world, int steps, double force) {
 void print(const char* who, int size, std::size_t grains, const Result& result) {
   std::printf("%-12s %2d  N %6zu  sweeps %6.1f  residual %.1e  capped %d  ms %8.2f\n", who, size,
               grains, result.sweeps, result.worst, result.capped, result.milliseconds);
+}
+
+/// Prints where the lid is, and the solid fraction and vertical stress within 0.8 times its lengths.
+template <class World>
+void print_state(const World& world) {
+  using S = typename World::S;
+  const double length = world.pose(world.walls()[3]).position[0];
+  const double height = world.pose(world.walls().back()).position[2];
+  const Aabb<S> inner({0.1 * length, 0.1 * length, 0.1 * height},
+                      {0.9 * length, 0.9 * length, 0.9 * height});
+  ClipWorkspace<S> workspace;
+  const double fraction = solid_fraction(
+      inner,
+      world.grain_count(), [&](std::size_t k) -> const auto& { return world.shape_of_grain(k); },
+      [&](std::size_t k) -> const auto& { return world.pose(world.grain(k)); }, workspace);
+  const auto stress = contact_stress(
+      world.contacts(), bench::packing_step, inner,
+      [&](std::uint32_t body) { return world.bodies().pose[body].position; },
+      [&](std::uint32_t body) { return world.is_grain(body); });
+  std::printf("  lid at %.8f m, solid fraction %.7f, vertical stress %.2f Pa\n", height, fraction,
+              stress(2, 2));
 }
 
 /// A packing of `count` grains at rest under a lid; read from a file if there is one.
@@ -133,6 +156,7 @@ void measure(std::size_t count, int side, int steps, double tolerance) {
     force = -world.bodies().force[world.walls().back().index()][2];
     World alone = world;
     print("one process", 1, alone.grain_count(), run(alone, steps, force));
+    print_state(alone);
     if (const int threads = all.size(); threads > 1) {
       World shared = world;
       shared.set_team(ThreadTeam(threads));
@@ -147,7 +171,11 @@ void measure(std::size_t count, int side, int steps, double tolerance) {
   const Result result = run(packing, steps, force);
   const Traffic traffic = packing.traffic() - before;
   const DistributionReport own = packing.distribution();
-  if (all.rank() == 0) print("processes", all.size(), grains, result);
+  const auto whole = packing.gather();
+  if (all.rank() == 0) {
+    print("processes", all.size(), grains, result);
+    print_state(*whole);
+  }
   // The model: cuts in turn along the axes give each process about log2 P faces with a neighbour. A
   // cube of n grains has n^(2/3) grains at each of them. Both sides send 6 numbers for each grain that
   // is shared across a face, once per sweep.
