@@ -142,17 +142,18 @@ void run(const Arguments& given) {
   for (int threads = 1; threads <= given.threads; ++threads) teams.push_back(ThreadTeam(threads));
   std::vector<std::array<std::vector<double>, stages.size()>> times(teams.size());
   const int rounds = is_small ? 12 : 4, steps = is_small ? 8 : 3;
+  constexpr int trial = 20;  // steps in which a team learns what is faster
   double points = 0, free = 0;
   int done = 0;
   for (int round = 0; round < rounds; ++round) {
     free += spin(1) * double(given.threads) / spin(given.threads) / rounds;
     for (std::size_t t = 0; t < teams.size(); ++t) {
       packing.world.set_team(teams[t]);
-      for (int k = 0; k < steps; ++k) {
+      for (int k = 0; k < (round == 0 ? trial : steps); ++k) {
         packing.load(1 + 0.05 * std::sin(0.3 * done++));
         const StepReport report = packing.world.step(Tiles::step);
         points += double(report.points);
-        if (round == 0) continue;  // the team learns what is faster
+        if (round == 0) continue;
         const auto all = times_of(report);
         for (std::size_t s = 0; s < stages.size(); ++s) times[t][s].push_back(all[s]);
       }
