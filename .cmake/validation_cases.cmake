@@ -18,11 +18,12 @@ if(NOT TARGET validation_cases)
 
   file(GLOB case_sources CONFIGURE_DEPENDS ${cases}/in_float/*.cpp)
   add_library(validation_cases_in_float STATIC EXCLUDE_FROM_ALL ${case_sources})
+  # The cases state their numbers in double, whatever the scalar. Options of a source come last: to
+  # clang++, -Wconversion after these would switch them on again.
+  set_source_files_properties(${case_sources} PROPERTIES COMPILE_OPTIONS
+    "-Wno-float-conversion;$<$<CXX_COMPILER_ID:Clang>:-Wno-implicit-float-conversion>")
   foreach(kind ${kinds})
-    set_source_files_properties(${cases}/in_float/${kind}.cpp PROPERTIES COMPILE_OPTIONS ${fast})
+    set_property(SOURCE ${cases}/in_float/${kind}.cpp APPEND PROPERTY COMPILE_OPTIONS ${fast})
   endforeach()
   target_link_libraries(validation_cases_in_float PUBLIC validation_cases)
-  # The cases state their numbers in double, whatever the scalar.
-  target_compile_options(validation_cases_in_float PRIVATE -Wno-float-conversion
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-implicit-float-conversion>)
 endif()
