@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <stdexcept>
 #include <type_traits>
+
+#include "moreau/boundary/drive.hpp"
 
 #include "distributed/worlds.hpp"
 
@@ -101,4 +104,35 @@ TEST_CASE("Overlaps across processes only shrink" * doctest::should_fail()) {
   double largest = 0;
   for (int k = 0; k < 200; ++k) largest = std::max(largest, packing.step(step).max_overlap);
   CHECK(largest <= 0.0101 * size);
+}
+
+TEST_CASE("Drives move walls as those of one process") {
+  using Vector = Space<2>::Vector;
+  const auto build = [] { return box_of_grains<Polygons>(60, 1e-4); };
+  DistributedSimulation<Polygons> packing(MPI_COMM_WORLD, on_first_rank<Polygons>(build));
+  Polygons alone = build();
+  const BodyId pushed = alone.walls().back(), floor = alone.walls()[1];
+  const ForceDrive push(pushed, -Vector::UnitX(), HarmonicForce(1, 5, 50));
+  const VelocityDrive shake(floor, Vector::UnitY(),
+                            [](double t) { return 0.1 * std::cos(300 * t); });
+  for (int k = 0; k < 40; ++k) {
+    push.apply(packing, step);
+    push.apply(alone, step);
+    shake.apply(packing, step);
+    shake.apply(alone, step);
+    packing.step(step);
+    alone.step(step);
+  }
+  for (const BodyId wall : {pushed, floor}) {
+    CHECK(alone.velocity(wall).norm() > 1e-3);
+    CHECK((packing.velocity(wall) - alone.velocity(wall)).norm() <=
+          2e-2 * alone.velocity(wall).norm());
+    CHECK((packing.pose(wall).position - alone.pose(wall).position).norm() <= 1e-3 * size);
+  }
+  CHECK_THROWS_AS(shake.apply(packing, 0), std::invalid_argument);
+  CHECK_THROWS_AS(ForceDrive(floor, Vector::UnitY(), HarmonicForce(1, 5, 50)).apply(packing, step),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(VelocityDrive(alone.grain(0), Vector::UnitY(), [](double) { return 1.0; })
+                      .apply(packing, step),
+                  std::invalid_argument);
 }

@@ -95,15 +95,24 @@ class Drive {
   /// until set_wall_mass() is called; then a force can accelerate it, but only along its normal.
   void require_mass(const auto& simulation, bool expected, const char* self,
                     const char* expectation) const {
-    const auto& bodies = simulation.bodies();
-    require(body_.index() < bodies.size() && bodies.id[body_.index()] == body_, self, "body", body_,
-            "must be the id of a body");
-    const auto root = bodies.mobility_root(body_.index()).linear;
+    const auto root = linear_root(simulation, self);
     const bool accelerates = (root * direction_).norm() > Scalar(1e-5) * root.norm();
     require(accelerates == expected, self, "body", body_, expectation);
   }
 
  private:
+  /// M^-1/2 of the linear motion of the body.
+  auto linear_root(const auto& simulation, const char* self) const {
+    if constexpr (requires { simulation.mobility_root(body_); }) {  // of several processes
+      return simulation.mobility_root(body_).linear;
+    } else {
+      const auto& bodies = simulation.bodies();
+      require(body_.index() < bodies.size() && bodies.id[body_.index()] == body_, self, "body",
+              body_, "must be the id of a body");
+      return bodies.mobility_root(body_.index()).linear;
+    }
+  }
+
   BodyId body_;
   VectorT direction_;
   F f_;
@@ -112,7 +121,8 @@ class Drive {
 }  // namespace detail
 
 /// A force f(t) [N] on a body along a fixed direction. The body is a grain whose motion is not
-/// prescribed, or a wall to which set_wall_mass has given a mass. The force replaces the force that set_force() has set.
+/// prescribed, or a wall to which set_wall_mass has given a mass; of a DistributedSimulation, a wall. The
+/// force replaces the force that set_force() has set.
 template <class VectorT, class F>
 class ForceDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;

@@ -171,6 +171,10 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   void set_wall_mass(BodyId wall, Scalar mass) { world_.set_wall_mass(local(wall), mass); }
   /// Sets the acceleration of gravity on grains, world axes [m/s^2].
   void set_gravity(const VectorArgument<S>& gravity) { world_.set_gravity(gravity); }
+  /// M^-1/2 of a wall, world axes: what drives need.
+  MobilityRoot<S> mobility_root(BodyId wall) const {
+    return world_.bodies().mobility_root(local(wall).index());
+  }
   /// Sum of the impulses that a wall received from all contacts in the last step, world axes [N s].
   Vector contact_impulse(BodyId wall) {
     Vector sum = world_.contact_impulse(local(wall));
