@@ -46,7 +46,7 @@ inline Team eager(int size) {
   return Team(std::make_shared<EagerThreads>(size));
 }
 
-inline constexpr double size = 0.02;  // of the grains [m]
+inline constexpr double grain_size = 0.02;  // of the grains [m]
 
 /// A lattice of wide x wide x high (in the plane wide x high) cubic cells.
 template <class S>
@@ -83,9 +83,9 @@ std::vector<double> fall(const Law& law, const Team& team) {
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
   const Lattice<S> lattice{up == 1 ? 20 : 6, up == 1 ? 20 : 8, 0.024, 0.1};
-  Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
+  Simulation<ShapeT, Law> world(grain_size, Materials<Law>(1, law));
   world.set_team(team);
-  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(size));
+  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(grain_size));
   world.set_periodic(0, 0.0, lattice.width());
   for (int axis = 1; axis < S::dim; ++axis) world.add_wall(Vector::Unit(axis), Vector::Zero());
   if (up > 1) world.add_wall(-Vector::Unit(1), lattice.width() * Vector::Unit(1));
@@ -114,11 +114,11 @@ std::vector<double> press(const Law& law, const Team& team) {
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
   const Lattice<S> lattice{up == 1 ? 60 : 9, up == 1 ? 4 : 3, 0.0205};
-  Simulation<ShapeT, Law> world(size, Materials<Law>(1, law));
+  Simulation<ShapeT, Law> world(grain_size, Materials<Law>(1, law));
   world.set_team(team);
   const BodyId floor = world.add_wall(Vector::Unit(up), Vector::Zero());
   for (int axis = 0; axis < up; ++axis) world.set_periodic(axis, 0.0, lattice.width());
-  const ShapeT regular = regular_shape<ShapeT>(size);
+  const ShapeT regular = regular_shape<ShapeT>(grain_size);
   const ShapeId shape = world.add_shape(regular);
   double mass = 0, top = 0;  // mass of the grains, height of their highest point
   lattice.for_each([&](const Vector& centre, int i, int j, int) {
@@ -127,7 +127,7 @@ std::vector<double> press(const Law& law, const Team& team) {
     mass += world.bodies().grain_mass[grain.index()];
     top = std::max(top, regular.bounding_box(pose).upper[up]);
   });
-  const BodyId lid = world.add_wall(-Vector::Unit(up), (top + size / 20) * Vector::Unit(up));
+  const BodyId lid = world.add_wall(-Vector::Unit(up), (top + grain_size / 20) * Vector::Unit(up));
   world.set_wall_mass(lid, mass);
   world.set_force(lid, -100 * mass * Vector::Unit(up));
   world.set_gravity(-9.81 * Vector::Unit(up));
