@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
 
   for (int k = 1; k <= steps; ++k) {
     const moreau::StepReport report = packing.step(step);
-    if (k % 100 != 0) continue;
+    if (k % 100 != 0 && k != steps) continue;
     const moreau::DistributionReport own = packing.distribution();
     if (all.rank() == 0)
       std::printf("t = %.2f s: %zu points, %d sweeps, residual %.1e, %zu grains in process 0\n",
