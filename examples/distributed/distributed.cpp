@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Grains fall into a box. The program runs in any number of processes:
 //
-//   mpirun -n 2 distributed 2000
+//   mpirun -n 2 distributed [GRAINS [STEPS [FOLDER]]]     500, 1000, distributed-output
 //
-// A run that is started again goes on from its last snapshot, also with another number of processes.
+// A run that is started again goes on from its last snapshot for STEPS more steps, also with another
+// number of processes; then the snapshot says how many grains there are.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <moreau/distributed/distributed_simulation.hpp>
 #include <moreau/distributed/write_pieces.hpp>
@@ -50,15 +52,10 @@ void build(World& world, std::size_t count) {
   world.set_gravity(-9.81 * S::Vector::Unit(up));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const moreau::MpiSession mpi(argc, argv);
-  const std::size_t count = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 500;
-  const int steps = argc > 2 ? std::atoi(argv[2]) : 1000;
-  const std::filesystem::path folder = argc > 3 ? argv[3] : "distributed-output";
+/// Lets `count` grains fall, or goes on from the snapshot in the folder.
+void run(moreau::Communicator& all, std::size_t count, int steps,
+         const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "packing.snapshot";
-  const moreau::Communicator all;
 
   // The same simulation in all processes; its content comes from the first.
   World world(size, moreau::Materials<Law>(1, Law(moreau::SignoriniCoulomb<>(0.5), 1e7)));
@@ -81,5 +78,25 @@ int main(int argc, char** argv) {
                   own.grains);
     moreau::write_pieces(folder / "packing", packing, step);
     if (const std::optional<World> whole = packing.gather()) moreau::write_snapshot(file, *whole);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const moreau::MpiSession mpi(argc, argv);
+  const long count = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 500;
+  const int steps = argc > 2 ? std::atoi(argv[2]) : 1000;
+  moreau::Communicator all;
+  if (count < 1 || steps < 1 || argc > 4) {
+    if (all.rank() == 0)
+      std::fprintf(stderr,
+                   "usage: distributed [GRAINS [STEPS [FOLDER]]], both numbers at least 1\n");
+    return 2;
+  }
+  try {
+    run(all, std::size_t(count), steps, argc > 3 ? argv[3] : "distributed-output");
+  } catch (const std::exception& error) {
+    all.end_all(error.what());
   }
 }
