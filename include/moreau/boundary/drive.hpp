@@ -101,7 +101,7 @@ class Drive {
   }
 
  private:
-  /// M^-1/2 of the linear motion of the body.
+  /// M^-1/2 of the linear motion of the body [kg^-1/2], D x D, world axes.
   auto linear_root(const auto& simulation, const char* self) const {
     if constexpr (requires { simulation.mobility_root(body_); }) {  // of several processes
       return simulation.mobility_root(body_).linear;
@@ -169,8 +169,7 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   /// @param step length of the next step [s]
   /// @throws std::invalid_argument for a body that is not in the simulation, a body that
   ///                               forces along the direction accelerate, a velocity that is not
-  ///                               finite, or a step
-  ///                               that is not finite or not positive
+  ///                               finite, or a step that is not finite or not positive
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
     const VectorT velocity = this->value(simulation, step, self);

@@ -171,7 +171,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   void set_wall_mass(BodyId wall, Scalar mass) { world_.set_wall_mass(local(wall), mass); }
   /// Sets the acceleration of gravity on grains, world axes [m/s^2].
   void set_gravity(const VectorArgument<S>& gravity) { world_.set_gravity(gravity); }
-  /// M^-1/2 of a wall, world axes: what drives need.
+  /// M^-1/2 of a wall, world axes [kg^-1/2, kg^-1/2 m^-1]. Drives ask for it.
   MobilityRoot<S> mobility_root(BodyId wall) const {
     return world_.bodies().mobility_root(local(wall).index());
   }

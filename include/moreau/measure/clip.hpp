@@ -163,7 +163,7 @@ void clip(const Rings<S>& rings, const AxisPlane<S>& plane, Rings<S>& kept, Ring
   for (const std::size_t end : caps.ends) kept.ends.push_back(shift + end);
 }
 
-/// Adds twice the area of a ring [m^2] to a sum. The area of a counter-clockwise ring is positive.
+/// Adds twice (D!) the area of a ring [m^2] to a sum. The area of a counter-clockwise ring is positive.
 /// @param origin any point; one near the ring keeps rounding small
 template <class T, class Vector>
 void add_ring(Space<2, T>, std::span<const Vector> ring, const Vector& origin, T& doubled) {
@@ -174,7 +174,7 @@ void add_ring(Space<2, T>, std::span<const Vector> ring, const Vector& origin, T
   }
 }
 
-/// Adds six times the volume of the pyramid from the origin to a plane ring [m^3] to a sum. The volume is
+/// Adds six times (D!) the volume of the pyramid from the origin to a plane ring [m^3] to a sum. It is
 /// positive if the ring is counter-clockwise, seen from the side away from the origin.
 template <class T, class Vector>
 void add_ring(Space<3, T>, std::span<const Vector> ring, const Vector& origin, T& sixfold) {
@@ -194,7 +194,7 @@ typename S::Scalar enclosed_volume(const Rings<S>& rings) {
     const std::span<const typename S::Vector> points = rings.points;
     add_ring(S{}, points.subspan(start, end - start), points.front(), sum);
   });
-  return sum / (S::dim == 2 ? 2 : 6);
+  return sum / (S::dim * (S::dim - 1));  // D!
 }
 
 /// Appends the outline of a polygon as one ring.
