@@ -78,11 +78,18 @@ struct Wide {
   }
   /// Bit l: whether a comparison holds in lane l.
   static std::uint32_t bits(const Indices& mask) {
+    constexpr bool of_doubles = sizeof(T) == 8;
 #if defined(__AVX__)
-    if constexpr (Bytes == 32 && lanes == 4) {
+    if constexpr (Bytes == 32 && of_doubles) {
       typedef double Doubles __attribute__((vector_size(32)));
       return static_cast<std::uint32_t>(
           __builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(mask)));
+    }
+#endif
+#if defined(__SSE2__)
+    if constexpr (Bytes == 16 && of_doubles) {
+      typedef double Doubles __attribute__((vector_size(16)));
+      return static_cast<std::uint32_t>(__builtin_ia32_movmskpd(reinterpret_cast<Doubles>(mask)));
     }
 #endif
     std::uint32_t bits = 0;

@@ -99,16 +99,33 @@ bool edge_is_top(const Placed<Polyhedron<T>>& shape, std::uint32_t edge,
          count_top(shape, direction, top, angle) == 2;
 }
 
+/// Whether so many vertices count as top vertices that a face can be perpendicular to the direction.
+/// @param vertex  the top vertex
+template <std::floating_point T>
+bool has_face_near_top(const Placed<Polyhedron<T>>& shape, std::uint32_t vertex,
+                       const typename Space<3, T>::Vector& direction, T angle) {
+  return count_top(shape, direction, direction.dot(shape.vertices()[vertex]), angle) >= 3;
+}
+/// For polygons: the second highest vertex is a neighbour of the top vertex.
+template <std::floating_point T>
+bool has_face_near_top(const Placed<Polygon<T>>& shape, std::uint32_t vertex,
+                       const typename Space<2, T>::Vector& direction, T angle) {
+  const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
+  const auto [before, after] = neighbours(shape, vertex);
+  return std::max(height(before), height(after)) >= height(vertex) - T(2) * angle * shape.radius();
+}
+
 /// Proves an axis of a face of a. The full search takes a face of a unless another axis separates
 /// by more than rounding beyond it. So the only further condition is that no two faces of a have
 /// nearly the same normal.
+/// @param vertex  of b, the deepest in the previous step
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pair,
-                                                  std::uint32_t face) {
+                                                  std::uint32_t face, std::uint32_t vertex) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   using Vector = typename SpaceOf<ShapeT>::Vector;
   if (pair.a.shape().normal_spacing() < T(2) * DetectionTolerance<T>::distinct) return std::nullopt;
-  const auto axis = axis_of_face_a(pair, face);
+  const auto axis = axis_of_face_a(pair, face, vertex);
   if (!projects_onto(pair.a, face, Vector(pair.b.vertices()[axis.b] + pair.offset),
                      needed_clearance(pair, axis)))
     return std::nullopt;
@@ -117,17 +134,18 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pa
 /// Proves an axis of a face of b. In addition, no face of a may be nearly perpendicular to the
 /// axis. A face has at least as many vertices as the space has dimensions, so the number of a's
 /// vertices near the top must be smaller than that.
+/// @param vertex  of a, the deepest in the previous step
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_face_b(const PolytopePair<ShapeT>& pair,
-                                                  std::uint32_t face) {
+                                                  std::uint32_t vertex, std::uint32_t face) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   constexpr auto distinct = DetectionTolerance<typename S::Scalar>::distinct;
   if (pair.b.shape().normal_spacing() < 2 * distinct) return std::nullopt;
-  const auto axis = axis_of_face_b(pair, face);
+  const auto axis = axis_of_face_b(pair, face, vertex);
   const Vector deepest = pair.a.vertices()[axis.a];
   if (!projects_onto(pair.b, face, Vector(deepest - pair.offset), needed_clearance(pair, axis)) ||
-      count_top(pair.a, axis.normal, axis.normal.dot(deepest), distinct) >= S::dim)
+      has_face_near_top(pair.a, axis.a, axis.normal, distinct))
     return std::nullopt;
   return axis;
 }
@@ -255,9 +273,9 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_axis(const PolytopePair<ShapeT>& pair
     return std::nullopt;
   switch (features.kind) {
     case AxisKind::face_a:
-      return prove_face_a(pair, features.a);
+      return prove_face_a(pair, features.a, features.b);
     case AxisKind::face_b:
-      return prove_face_b(pair, features.b);
+      return prove_face_b(pair, features.a, features.b);
     case AxisKind::vertices:
       return prove_vertices(pair, features.a, features.b);
     default:

@@ -37,28 +37,60 @@ struct FaceSeparation {
   bool is_found;               ///< whether a search found a separation larger than its lower limit
 };
 
+/// The vertices before and after a vertex of a polygon.
+template <std::floating_point T>
+std::array<std::uint32_t, 2> neighbours(const Placed<Polygon<T>>& shape, std::uint32_t vertex) {
+  const auto count = static_cast<std::uint32_t>(shape.vertices().size());
+  return {(vertex > 0 ? vertex : count) - 1, vertex + 1 < count ? vertex + 1 : 0};
+}
+
+/// The vertex farthest along a direction. The guess is returned if both its neighbours are lower by
+/// more than rounding: along a convex outline all other vertices are then lower, too.
+/// @param guess  index of any vertex
+template <std::floating_point T>
+std::uint32_t farthest_vertex(const Placed<Polygon<T>>& shape,
+                              const typename Space<2, T>::Vector& direction, std::uint32_t guess) {
+  const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
+  const auto [before, after] = neighbours(shape, guess);
+  const T least =
+      std::max(height(before), height(after)) + DetectionTolerance<T>::rounding * shape.radius();
+  return height(guess) > least ? guess : shape.vertices().farthest(direction).index;
+}
+/// For polyhedra the guess is not used: all vertices take no longer than the neighbours of one.
+template <std::floating_point T>
+std::uint32_t farthest_vertex(const Placed<Polyhedron<T>>& shape,
+                              const typename Space<3, T>::Vector& direction, std::uint32_t) {
+  return shape.vertices().farthest(direction).index;
+}
+
 /// The separation of two shapes along the normal of a face of one of them.
 /// @param offset  centre of other minus centre of own, world axes [m]
+/// @param guess   index of a vertex of other that may be the deepest
 template <class ShapeT>
 [[gnu::noinline]] FaceSeparation<typename SpaceOf<ShapeT>::Scalar> measure_face(
     const Placed<ShapeT>& own, std::uint32_t face, const Placed<ShapeT>& other,
-    const typename SpaceOf<ShapeT>::Vector& offset) {
-  const typename SpaceOf<ShapeT>::Vector normal = own.normals()[face];
-  const std::uint32_t vertex = other.vertices().farthest(-normal).index;
+    const typename SpaceOf<ShapeT>::Vector& offset, std::uint32_t guess = 0) {
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  const Vector normal = own.normals()[face];
+  const std::uint32_t vertex = farthest_vertex(other, Vector(-normal), guess);
   return {height_above(own, face, other.vertices()[vertex] + offset), face, vertex, true};
 }
 
 /// The axis of a face of a and the vertex of b that is deepest below it.
+/// @param guess  index of a vertex of b that may be the deepest
 template <class ShapeT>
-Axis<SpaceOf<ShapeT>> axis_of_face_a(const PolytopePair<ShapeT>& pair, std::uint32_t face) {
-  const auto found = measure_face(pair.a, face, pair.b, pair.offset);
+Axis<SpaceOf<ShapeT>> axis_of_face_a(const PolytopePair<ShapeT>& pair, std::uint32_t face,
+                                     std::uint32_t guess = 0) {
+  const auto found = measure_face(pair.a, face, pair.b, pair.offset, guess);
   return {pair.a.normals()[face], found.separation, AxisKind::face_a, face, found.vertex};
 }
 /// The axis of a face of b and the vertex of a that is deepest below it.
+/// @param guess  index of a vertex of a that may be the deepest
 template <class ShapeT>
-Axis<SpaceOf<ShapeT>> axis_of_face_b(const PolytopePair<ShapeT>& pair, std::uint32_t face) {
+Axis<SpaceOf<ShapeT>> axis_of_face_b(const PolytopePair<ShapeT>& pair, std::uint32_t face,
+                                     std::uint32_t guess = 0) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
-  const auto found = measure_face(pair.b, face, pair.a, Vector(-pair.offset));
+  const auto found = measure_face(pair.b, face, pair.a, Vector(-pair.offset), guess);
   return {-pair.b.normals()[face], found.separation, AxisKind::face_b, found.vertex, face};
 }
 

@@ -8,8 +8,8 @@
 // A vertex on a face. The shape of the vertex lies in the cone spanned by the edges at the vertex.
 // Suppose that each of these edges rises by more than `slab`. An edge of a given length that rises
 // by `rise` leaves the slab at a lateral distance of at most slab * length / rise from the vertex.
-// The largest of these distances bounds the part of the shape in the slab. The code takes the
-// largest over all vertices of the shape, which is a bound as well. If the projection of the vertex
+// The largest of these distances bounds the part of the shape in the slab. For polyhedra the code
+// takes the largest over all vertices of the shape, which is a bound as well. If the projection of the vertex
 // is farther than that from the rim of the face, this part does not reach the rim, and the vertex
 // is the only contact point.
 //
@@ -30,6 +30,27 @@
 
 namespace moreau::detail {
 
+/// The square of the largest ratio of distance to rise from a vertex along the edges at it, or from
+/// it to all other vertices [-]. Infinite if one of them rises by `least` [m] or less.
+template <std::floating_point T>
+T spread2(const Placed<Polyhedron<T>>& shape, std::uint32_t vertex,
+          const typename Space<3, T>::Vector& up, T least) {
+  return shape.vertices().spread2(shape.vertices()[vertex], up, least);
+}
+template <std::floating_point T>
+T spread2(const Placed<Polygon<T>>& shape, std::uint32_t vertex,
+          const typename Space<2, T>::Vector& up, T least) {
+  using Vector = typename Space<2, T>::Vector;
+  T widest = 0;
+  for (const std::uint32_t w : neighbours(shape, vertex)) {
+    const Vector along = shape.vertices()[w] - shape.vertices()[vertex];
+    const T rise = up.dot(along);
+    if (!(rise > least)) return std::numeric_limits<T>::infinity();
+    widest = std::max(widest, along.squaredNorm() / (rise * rise));
+  }
+  return widest;
+}
+
 /// Whether a vertex above a face is the only point of the contact.
 /// @param up    unit normal of the face, towards the shape of the vertex, world axes
 /// @param apex  the vertex relative to the centre of `ground`, the face's shape, world axes [m]
@@ -39,9 +60,9 @@ template <class ShapeT, class Vector, class T>
 bool touches_only_at_vertex(const Placed<ShapeT>& shape, std::uint32_t vertex, const Vector& up,
                             const Placed<ShapeT>& ground, std::uint32_t face, const Vector& apex,
                             T slab, T near) {
-  const T spread2 = shape.vertices().spread2(shape.vertices()[vertex], up, slab);
-  return spread2 < std::numeric_limits<T>::infinity() &&
-         projects_within(ground, face, apex, T(2) * (slab * slab * spread2 + near * near));
+  const T widest2 = spread2(shape, vertex, up, slab);
+  return widest2 < std::numeric_limits<T>::infinity() &&
+         projects_within(ground, face, apex, T(2) * (slab * slab * widest2 + near * near));
 }
 
 /// Whether the vertex and the face that make the axis touch only at the vertex. False if the axis
