@@ -103,7 +103,7 @@ Errors follow(double p, double gap) {
     Couple<S> couple(p, random);
     couple.put_at(gap * Couple<S>::size, random);
     typename S::Vector axis = S::Vector::Zero();
-    couple.quick(axis);
+    static_cast<void>(couple.quick(axis));
     for (int step = 0; step < 10; ++step) {
       couple.move(random);
       const double exact = couple.exact();

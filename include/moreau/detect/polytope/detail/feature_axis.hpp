@@ -44,17 +44,23 @@ std::array<std::uint32_t, 2> neighbours(const Placed<Polygon<T>>& shape, std::ui
   return {(vertex > 0 ? vertex : count) - 1, vertex + 1 < count ? vertex + 1 : 0};
 }
 
+/// In place of the index of a vertex: there is none.
+inline constexpr std::uint32_t no_guess = std::numeric_limits<std::uint32_t>::max();
+
 /// The vertex farthest along a direction. The guess is returned if both its neighbours are lower by
 /// more than rounding: along a convex outline all other vertices are then lower, too.
-/// @param guess  index of any vertex
+/// @param guess  index of any vertex, or no_guess
 template <std::floating_point T>
 std::uint32_t farthest_vertex(const Placed<Polygon<T>>& shape,
                               const typename Space<2, T>::Vector& direction, std::uint32_t guess) {
-  const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
-  const auto [before, after] = neighbours(shape, guess);
-  const T least =
-      std::max(height(before), height(after)) + DetectionTolerance<T>::rounding * shape.radius();
-  return height(guess) > least ? guess : shape.vertices().farthest(direction).index;
+  if (guess != no_guess) {
+    const auto height = [&](std::uint32_t v) { return direction.dot(shape.vertices()[v]); };
+    const auto [before, after] = neighbours(shape, guess);
+    const T least =
+        std::max(height(before), height(after)) + DetectionTolerance<T>::rounding * shape.radius();
+    if (height(guess) > least) return guess;
+  }
+  return shape.vertices().farthest(direction).index;
 }
 /// For polyhedra the guess is not used: all vertices take no longer than the neighbours of one.
 template <std::floating_point T>
@@ -65,11 +71,11 @@ std::uint32_t farthest_vertex(const Placed<Polyhedron<T>>& shape,
 
 /// The separation of two shapes along the normal of a face of one of them.
 /// @param offset  centre of other minus centre of own, world axes [m]
-/// @param guess   index of a vertex of other that may be the deepest
+/// @param guess   index of a vertex of other that may be the deepest, or no_guess
 template <class ShapeT>
 [[gnu::noinline]] FaceSeparation<typename SpaceOf<ShapeT>::Scalar> measure_face(
     const Placed<ShapeT>& own, std::uint32_t face, const Placed<ShapeT>& other,
-    const typename SpaceOf<ShapeT>::Vector& offset, std::uint32_t guess = 0) {
+    const typename SpaceOf<ShapeT>::Vector& offset, std::uint32_t guess = no_guess) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
   const Vector normal = own.normals()[face];
   const std::uint32_t vertex = farthest_vertex(other, Vector(-normal), guess);
@@ -77,18 +83,18 @@ template <class ShapeT>
 }
 
 /// The axis of a face of a and the vertex of b that is deepest below it.
-/// @param guess  index of a vertex of b that may be the deepest
+/// @param guess  index of a vertex of b that may be the deepest, or no_guess
 template <class ShapeT>
 Axis<SpaceOf<ShapeT>> axis_of_face_a(const PolytopePair<ShapeT>& pair, std::uint32_t face,
-                                     std::uint32_t guess = 0) {
+                                     std::uint32_t guess = no_guess) {
   const auto found = measure_face(pair.a, face, pair.b, pair.offset, guess);
   return {pair.a.normals()[face], found.separation, AxisKind::face_a, face, found.vertex};
 }
 /// The axis of a face of b and the vertex of a that is deepest below it.
-/// @param guess  index of a vertex of a that may be the deepest
+/// @param guess  index of a vertex of a that may be the deepest, or no_guess
 template <class ShapeT>
 Axis<SpaceOf<ShapeT>> axis_of_face_b(const PolytopePair<ShapeT>& pair, std::uint32_t face,
-                                     std::uint32_t guess = 0) {
+                                     std::uint32_t guess = no_guess) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
   const auto found = measure_face(pair.b, face, pair.a, Vector(-pair.offset), guess);
   return {-pair.b.normals()[face], found.separation, AxisKind::face_b, found.vertex, face};
