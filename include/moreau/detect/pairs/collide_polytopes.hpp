@@ -47,7 +47,12 @@ template <std::floating_point T>
 Proximity quick_proximity(const PolytopePair<Polyhedron<T>>& pair) {
   using Vector = typename Space<3, T>::Vector;
   Vector axis = pair.start();
-  Simplex<T> simplex(pair.support(axis));
+  const auto first = pair.support(axis);
+  // GJK does not test its first direction.
+  if (const T s = axis.dot(first.point);
+      s > T(0) && s * s > pair.rounding() * pair.rounding() * axis.squaredNorm())
+    return Proximity::beyond;
+  Simplex<T> simplex(first);
   const auto proximity = gjk<T>([&](const Vector& n) { return pair.support(n); }, simplex, axis,
                                 pair.rounding(), pair.size, all_steps);
   if (proximity == Proximity::beyond) return proximity;
