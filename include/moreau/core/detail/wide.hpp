@@ -71,6 +71,8 @@ struct Wide {
       typedef float Floats __attribute__((vector_size(32)));
       return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)) != 0;
 #endif
+    } else if constexpr (Bytes == 16 && sizeof(T) == 8) {
+      return bits(mask) != 0;
     } else {
       return fold<lanes / 2>(
                  mask, [](const Indices& x, const Indices& y) -> Indices { return x | y; })[0] != 0;

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -94,10 +93,11 @@ std::uint32_t facing_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kin
     // high vertices.
     if (shape.vertices().size() <= 64) {
       const std::uint64_t high = shape.vertices().bits_above(direction, top - slab);
-      return std::popcount(high) <= own
-                 ? most_aligned(shape, candidates, direction)
-                 : topmost_face(shape, candidates, direction,
-                                [&](std::uint32_t v) { return (high >> v & 1) != 0; });
+      std::uint64_t others = high;
+      for (int k = 0; k < own; ++k) others &= others - 1;  // without its lowest bit
+      return others == 0 ? most_aligned(shape, candidates, direction)
+                         : topmost_face(shape, candidates, direction,
+                                        [&](std::uint32_t v) { return (high >> v & 1) != 0; });
     }
     return shape.vertices().count_above(direction, top - slab) <= own
                ? most_aligned(shape, candidates, direction)

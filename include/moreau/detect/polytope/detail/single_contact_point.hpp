@@ -102,9 +102,9 @@ bool touches_only_at_corner(const Placed<Polyhedron<T>>& shape, std::uint32_t ve
     return rise > slab &&
            projects_within(ground, face, Vector(apex + slab / rise * along), near * near);
   };
-  return projects_within(ground, face, apex, near * near) &&
-         leaves(loop[at + 1 < loop.size() ? at + 1 : 0]) &&
-         leaves(loop[(at > 0 ? at : loop.size()) - 1]);
+  return leaves(loop[at + 1 < loop.size() ? at + 1 : 0]) &&
+         leaves(loop[(at > 0 ? at : loop.size()) - 1]) &&
+         projects_within(ground, face, apex, near * near);
 }
 
 /// Whether an edge of one shape leaves the slab above a face of `ground`, the other shape, before
