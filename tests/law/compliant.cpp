@@ -313,3 +313,26 @@ TEST_CASE("compliant: the energy of springs leaves with a removed grain") {
           doctest::Approx(before * (4 + 9) / 14).epsilon(1e-6));
   }
 }
+
+TEST_CASE("compliant: the stiffness of a pair does not depend on the detection margin") {
+  // A square of 2 cm that touches the floor with one corner; another one is open by 3 % of its size.
+  const auto relative_compliance = [](double margin) {
+    Tolerances tolerances;
+    tolerances.margin = margin;
+    Simulation<Polygon<double>, Spring> world(0.02, Materials<Spring>(1, Spring(Coulomb(0.5), 1e7)),
+                                              tight(), tolerances);
+    const std::vector<Eigen::Vector2d> corners{
+        {-0.01, -0.01}, {0.01, -0.01}, {0.01, 0.01}, {-0.01, 0.01}};
+    const double angle = 0.03;
+    Pose<Space<2>> pose;
+    pose.rotation = Eigen::Rotation2Dd(angle);
+    pose.position = {0, 0.01 * (std::cos(angle) + std::sin(angle)) - 1e-7};
+    world.add_grain(world.add_shape(Polygon<double>(corners)), pose, 36);
+    world.add_wall({0, 1}, {0, 0});
+    world.set_gravity({0, -gravity});
+    const StepReport report = world.step(step);
+    CHECK(report.points == 2);
+    return report.relative_compliance;
+  };
+  CHECK(relative_compliance(0.04) == doctest::Approx(relative_compliance(0.2)).epsilon(1e-12));
+}

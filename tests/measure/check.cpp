@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "moreau/law/compliant.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/world/simulation.hpp"
@@ -76,4 +77,24 @@ TEST_CASE("check: a grain inside another") {
   pose.position = {0, 0, 0.025};
   world.add_grain(world.add_shape(cube_shape()), pose, 2000);
   CHECK(one_contains(run(world, 1e-3, 1), "overlap of 0.005 m"));
+}
+
+TEST_CASE("check: a tolerance that says little about the forces of stiff contacts") {
+  using Soft = Compliant<Law>;
+  ColouredOptions options;
+  options.tolerance = 1e-2;
+  Simulation<Polyhedron<double>, Soft> world(0.02, Materials<Soft>(1, Soft(Law(0.5), 1e9)),
+                                             ColouredGaussSeidel(options));
+  const ShapeId shape = world.add_shape(cube_shape());
+  for (int k = 0; k < 12; ++k) {
+    Pose<Space<3>> pose;
+    pose.position = {0.002 * (k % 3), 0, 0.01 + 0.0201 * k};
+    world.add_grain(shape, pose, 2000);
+  }
+  world.add_wall({0, 0, 1}, {0, 0, 0});
+  world.set_gravity({0, 0, -9.81});
+  std::vector<std::string> all;
+  for (int k = 0; k < 50; ++k)
+    for (const std::string& sentence : check(world, world.step(1e-3))) all.push_back(sentence);
+  CHECK(one_contains(all, "of the relative compliance"));
 }

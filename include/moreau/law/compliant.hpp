@@ -61,7 +61,8 @@ namespace moreau {
 /// A set-valued law with elastic springs in series; the head of this file has its equations. The
 /// stiffness is that of a pair of bodies: if the pair has n contact points, each has 1/n of it, so
 /// that the stiffness of a contact between faces does not depend on the number of its points. Open
-/// points within the detection margin count in part, from 0 at the margin to 1 where they touch.
+/// points count in part, from 1 where they touch to 0 at a gap of 2 % of the grain size, or of the
+/// detection margin if that is smaller.
 /// All points of a contact between faces are used, unless Simulation::set_contact_points() says few.
 /// Model of CompliantLaw.
 /// @tparam Law    the set-valued law: SignoriniCoulomb, Frictionless, Cohesive, RollingResistance
@@ -84,8 +85,9 @@ class Compliant : public Law {
             "tangential_stiffness", tangential_stiffness, "must be finite and > 0");
   }
   /// With k_t = k_n.
-  explicit Compliant(const Law& law = Law{}, Scalar stiffness = Scalar(1e8))
-      : Compliant(law, stiffness, stiffness) {}
+  Compliant(const Law& law, Scalar stiffness) : Compliant(law, stiffness, stiffness) {}
+  /// A placeholder, for containers: the law's default and k = 1e8 N/m.
+  Compliant() : Compliant(Law{}, Scalar(1e8)) {}
 
   Scalar stiffness() const { return stiffness_; }                   ///< k_n [N/m]
   Scalar tangential_stiffness() const { return tangential_; }       ///< k_t [N/m]

@@ -21,11 +21,13 @@ namespace moreau {
 /// @returns one sentence with numbers for each of the following faults; empty if there are none:
 ///          - the surfaces of a contact that was found approached by more than the detection margin
 ///            in the step: others may have been missed
-///          - the smallest grain is ten times smaller or larger than the grain size, to which all
+///          - the smallest grain is five times smaller or larger than the grain size, to which all
 ///            tolerances are relative (for shapes that have a circumradius())
 ///          - an overlap beyond 1 % of the grain size: grains were added inside one another, the
 ///            step is too long, or compliant contacts are too soft
 ///          - the solver did not reach its tolerance
+///          - compliant contacts: the residual is not small against relative_compliance, so that the
+///            forces are not accurate to 10 %
 template <class Simulation>
 [[nodiscard]] std::vector<std::string> check(const Simulation& simulation,
                                              const StepReport& report) {
@@ -45,7 +47,7 @@ template <class Simulation>
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < simulation.grain_count(); ++k)
       smallest = std::min(smallest, 2 * double(simulation.shape_of_grain(k).circumradius()));
-    if (simulation.grain_count() > 0 && !(smallest > 0.1 * size && smallest < 10 * size))
+    if (simulation.grain_count() > 0 && !(smallest > 0.2 * size && smallest < 5 * size))
       say("grain size ", size, " m, but the smallest grain has a diameter of ", smallest,
           " m; all tolerances are relative to the grain size");
   }
@@ -56,6 +58,12 @@ template <class Simulation>
   if (report.solve.capped)
     say("the solver stopped after ", report.solve.sweeps, " sweeps at a residual of ",
         report.solve.residual, ", above its tolerance");
+  if (report.solve.residual > 0.1 * report.relative_compliance && report.relative_compliance > 0)
+    say("the residual ", report.solve.residual, " is ",
+        report.solve.residual / report.relative_compliance,
+        " of the relative compliance 1 / (k h^2 W_nn) = ", report.relative_compliance,
+        " of the stiffest contact: its force is known only to about this part. Use a smaller "
+        "tolerance, a shorter step or softer contacts");
   return found;
 }
 

@@ -35,6 +35,10 @@ struct StepReport {
   double elastic_energy = 0;
   double elastic_work = 0;         ///< energy that these springs took in the step [J]
   double max_elastic_overlap = 0;  ///< largest compression of a normal spring, >= 0 [m]
+  /// Of a compliant law: the smallest C_n / (h^2 W_nn) of the loaded contacts [-], C_n being the
+  /// compliance of a contact point and W_nn that of the bodies at it; 0 under other laws. The forces are
+  /// known to about solve.residual over this number.
+  double relative_compliance = 0;
   /// Of a compliant law: the natural-map residual of the law without its springs [-].
   double rigid_residual = 0;
   SolveReport solve;                   ///< how well the contact problem was solved

@@ -28,14 +28,17 @@ inline void reduce(StepReport& report, Communicator& processes) {
                               &report.ms_assemble,
                               &report.ms_correct,
                               &report.ms_contacts};
+  // The smallest relative compliance is the inverse of the largest relative stiffness.
+  const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
   double depth = report.mean_overlap * double(report.overlapping);
-  double added[std::size(counts) + std::size(sums) + 1], largest[std::size(extremes)];
+  double added[std::size(counts) + std::size(sums) + 1], largest[std::size(extremes) + 1];
   double* next = added;
   for (const std::size_t* count : counts) *next++ = double(*count);
   for (const double* sum : sums) *next++ = *sum;
   *next = depth;
   next = largest;
   for (const double* extreme : extremes) *next++ = *extreme;
+  *next = inverse(report.relative_compliance);
   processes.sum(std::span(added));
   processes.largest(std::span(largest));
   next = added;
@@ -45,6 +48,7 @@ inline void reduce(StepReport& report, Communicator& processes) {
   report.mean_overlap = report.overlapping > 0 ? depth / double(report.overlapping) : 0;
   next = largest;
   for (double* extreme : extremes) *extreme = *next++;
+  report.relative_compliance = inverse(*next);
 }
 
 }  // namespace moreau::detail

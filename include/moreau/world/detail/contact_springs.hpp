@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -35,18 +36,20 @@ class ContactSprings {
   using Row = typename Operator::Vector;
 
   /// c = C / h^2 of every contact [1/kg]. The points of a pair share its stiffness: C is that of the
-  /// pair times the number of its points. A point that is open by the gap g counts as 1 - g / margin,
-  /// so that the stiffness does not jump when a point comes within the margin.
+  /// pair times the number of its points. A point that is open by the gap g counts as 1 - g / l, so
+  /// that the stiffness does not jump when a point comes near; l is open_length of the grain size, or
+  /// the detection margin if that is smaller.
   std::span<const Row> compliances(const StepContext<S, Law>& context) {
     const Contacts<S>& contacts = context.contacts;
     compliance_.resize(contacts.size());
+    const Scalar length = std::min(context.margin, Scalar(open_length) * context.grain_size);
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
       const Contact<S>& point = contacts.points[first];
       Scalar count = 0;
       for (last = first; last < contacts.size(); ++last) {
         const Contact<S>& other = contacts.points[last];
         if (other.a != point.a || other.b != point.b) break;
-        const Scalar open = std::max(Scalar(0), other.gap) / context.margin;
+        const Scalar open = std::max(Scalar(0), other.gap) / length;
         count += std::max(Scalar(0), 1 - open);
       }
       const Law& law = context.materials.laws()[point.law];
@@ -89,6 +92,7 @@ class ContactSprings {
     double sums[] = {0, 0};
     auto& [map, norm] = sums;
     const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus, shared));
+    double stiffest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Row& r = impulses[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
@@ -98,6 +102,10 @@ class ContactSprings {
           std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
       Row u = problem.delassus.velocity(c) - stretch - relaxation_[c];
       if (!std::isfinite(u[0])) continue;
+      if (r[0] > 0) {
+        const Scalar own = compliance_[c][0];
+        stiffest = std::min(stiffest, double(own / (problem.delassus.block(c).normal - own)));
+      }
       const Contact<S>& point = context.contacts.points[c];
       if (!problem.law(c).keeps_normal_impulse())
         u[0] -= std::min(Scalar(0), point.gap) / context.step;
@@ -108,6 +116,7 @@ class ContactSprings {
     }
     if (shared) shared->sum(sums);
     report.rigid_residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
+    report.relative_compliance = std::isfinite(stiffest) ? stiffest : 0;
     report.elastic_energy = energy.total();
     report.elastic_work = energy.total() - energy_.total();
     report.friction -= energy.tangential - energy_.tangential;
@@ -126,6 +135,9 @@ class ContactSprings {
   bool are_valid(std::size_t contacts) const { return energies_.size() == contacts; }
 
  private:
+  /// Gap from which an open point does not count, over the grain size [-]: the default margin.
+  static constexpr double open_length = 0.02;
+
   /// Energy of normal springs, of tangential springs and of those of rolling [J].
   struct Energy {
     double normal = 0, tangential = 0, rolling = 0;
