@@ -41,9 +41,13 @@ class Column final : public Scene<ShapeT> {
     upper_ = Vector::Constant(depth);
     upper_[0] = far;
     upper_[up] = std::max(1.3 * length_ * settings.aspect, 4 * widest);
-    Vector shown = upper_;
-    shown[0] = std::min(far, 4.5 * length_ + 2 * widest);
-    this->set_bounds(Vector::Zero(), shown);
+    // Before the gate opens, the picture shows the grains that fall into the column.
+    shown_ = upper_;
+    shown_[0] = std::min(far, 4.5 * length_ + 2 * widest);
+    Vector all = shown_;
+    for (const moreau::BodyId grain : simulation_.grains())
+      all[up] = std::max(all[up], simulation_.pose(grain).position[up] + widest / 2);
+    this->set_bounds(Vector::Zero(), all);
     this->channels_ = {{"t", "time", "s", 1},
                        {"x", "front", "m", 1},
                        {"height", "height", "m", 1},
@@ -60,6 +64,7 @@ class Column final : public Scene<ShapeT> {
   void act() override {
     if (open_) return;
     open_ = true;
+    this->set_bounds(Vector::Zero(), shown_);
     moreau::Pose<S> pose = simulation_.pose(gate_);
     pose.position += 1000 * Vector::UnitX();
     simulation_.set_pose(gate_, pose);
@@ -123,7 +128,7 @@ class Column final : public Scene<ShapeT> {
 
   bool open_ = false;
   double length_ = 0;
-  Vector upper_;
+  Vector upper_, shown_;  // of the walls; of the picture when the gate is open
   std::vector<double> reaches_;
   moreau::BodyId gate_;
 };

@@ -125,7 +125,7 @@ const shapeIndex = () => tables.shapes.findIndex((shape) => shape.dimension === 
 function load() {
   view.letLoose();
   showBuilding();
-  worker.postMessage({ type: "load", scene: state.scene, shape: shapeIndex() });
+  sendLoad();
   const scene = tables.scenes[state.scene];
   element("tryThis").textContent = scene.tryThis;
   element("action").textContent = scene.action;
@@ -136,11 +136,26 @@ function load() {
   for (const setting of tables.settings) setting.holder.hidden = (setting.scenes & (1 << state.scene)) === 0;
   location.replace(`#scene=${scene.key}&shape=${tables.shapes[shapeIndex()].key}`);
 }
+/** One scene is built at a time. Of the choices made meanwhile only the last is built. */
+function sendLoad() {
+  wanted = loading;
+  if (!loading) worker.postMessage({ type: "load", scene: state.scene, shape: shapeIndex() });
+  loading = true;
+}
+/** After an answer to "load": builds what was chosen meanwhile. Returns whether there is such a choice. */
+function loadWanted() {
+  loading = false;
+  const again = wanted;
+  if (again) sendLoad();
+  return again;
+}
+let loading = false, wanted = false, isNew = false; // a scene without a frame
 /** Says that the scene is being built, if that takes longer than an eye notices. */
 function showBuilding() {
   clearTimeout(building);
   building = setTimeout(() => {
     element("loading").textContent = "Building the scene…";
+    element("status").textContent = "";
     element("loading").className = "over";
     element("loading").hidden = false;
   }, 150);
@@ -205,6 +220,8 @@ let rest = 0, slowFrames = 0;
 function draw(now) {
   const { arrays: got, sizes, status, steps } = latest;
   latest = null;
+  if (isNew) hideBuilding();
+  isNew = false;
   view.setBounds(status.bounds);
   plots.pathsFrom = status.pathsFrom;
   plots.setSpan(tables.scenes[state.scene].key === "box" ? Math.max(3, 5 / state.values.frequency) : 3);
@@ -255,9 +272,9 @@ function showStatus(status, steps, now) {
   const last = (key) => plots.last(key);
   const residual = last("residual");
   element("status").innerHTML =
-    `<span>${status.stage}</span><span>t = ${status.time.toFixed(3)} s</span>${rate.shown}` +
+    `<span>${status.stage}</span><span>t = ${status.time.toFixed(state.playing ? 3 : 4)} s</span>${rate.shown}` +
     `<span>${view.count} ${tables.scenes[state.scene].key === "arch" ? "blocks" : "grains"}${state.dimension === 2 ? ", 4 cm thick" : ""}, ` +
-    `${three(status.mass)} kg, weight ${three(status.mass * state.values.gravity)} N</span>` +
+    `${three(status.mass)} kg, weight ${three(status.mass * Math.abs(state.values.gravity))} N</span>` +
     `<span>${status.points} contact points</span>` +
     `<span>${residual === null ? "" : `residual ${residual.toExponential(0)}`}</span>` +
     (status.hand > 0 ? `<span class="hand">the hand pulls with ${short(status.hand)} N${status.hand > 0.99 * state.values.hand ? ", its full strength" : ""}</span>` : "") +
@@ -289,11 +306,12 @@ worker.onmessage = ({ data }) => {
       load();
       break;
     case "scene":
+      if (loadWanted()) break;
       generation = data.generation;
       latest = null;
       view.load(data.shapes, data.description, tables.shapes[data.shape].dimension === 3);
       plots.load(data.description);
-      hideBuilding();
+      isNew = true;
       fault = "";
       element("error").hidden = true;
       refresh = true;
@@ -319,7 +337,7 @@ worker.onmessage = ({ data }) => {
     }
     case "error":
       waiting = false;
-      hideBuilding();
+      if (!loading || !loadWanted()) hideBuilding();
       showError(data.text);
       if (/Simulation::step/.test(data.text)) play(false);
       break;

@@ -131,6 +131,7 @@ export class View {
     grains.instanceMatrix.setUsage(DynamicDrawUsage);
     grains.frustumCulled = false;
     for (let k = 0; k < count; ++k) grains.setColorAt(k, new Color(1, 1, 1));
+    grains.visible = false; // until the first frame says where the grains are
     grains.instanceColor?.setUsage(DynamicDrawUsage);
     this.scene.add(grains);
     return grains;
@@ -151,6 +152,7 @@ export class View {
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(numbers), 3).setUsage(DynamicDrawUsage));
     this.outlines = new LineSegments(geometry, new LineBasicMaterial({ color: 0x30343b }));
     this.outlines.frustumCulled = false;
+    this.outlines.visible = false;
     this.scene.add(this.outlines);
   }
   makeWalls() {
@@ -318,6 +320,7 @@ export class View {
     }
     const faded = this.options.chains || this.options.contacts;
     for (const mesh of this.meshes) {
+      mesh.visible = true;
       mesh.instanceMatrix.needsUpdate = true;
       mesh.instanceColor.needsUpdate = true;
       // Colours that mean something are faded less.
@@ -346,6 +349,7 @@ export class View {
       }
     }
     this.outlines.geometry.attributes.position.needsUpdate = true;
+    this.outlines.visible = true;
   }
   updateWalls(walls, count, force) {
     while (this.walls.children.length > count) this.removeWall(this.walls.children[this.walls.children.length - 1]);
