@@ -252,7 +252,8 @@ TEST_CASE_TEMPLATE("compliant: a normal force that turns makes no tangential for
 TEST_CASE("compliant: no friction means no tangential spring") {
   using Law = Compliant<Frictionless<double>>;
   using Vector = Eigen::Vector2d;
-  Simulation<Disk<double>, Law> world(2 * radius, Materials<Law>(1, Law(Frictionless<double>())));
+  Simulation<Disk<double>, Law> world(2 * radius,
+                                      Materials<Law>(1, Law(Frictionless<double>(), 1e8)));
   Pose<Space<2>> pose;
   pose.position = {0, radius};
   const BodyId disk =

@@ -29,13 +29,13 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   set_valued_law<S>(Greased{0.3});
   lane_law<S>(Frictionless<T>());
   lane_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
-  set_valued_law<S>(Compliant<SignoriniCoulomb<T>>(coulomb));
-  lane_law<S>(Compliant<SignoriniCoulomb<T>>(coulomb));
-  set_valued_law<S>(Compliant<RollingResistance<T>>(rolling));
+  set_valued_law<S>(Compliant<SignoriniCoulomb<T>>(coulomb, T(1e8)));
+  lane_law<S>(Compliant<SignoriniCoulomb<T>>(coulomb, T(1e8)));
+  set_valued_law<S>(Compliant<RollingResistance<T>>(rolling, T(1e8)));
   const Cohesive<SignoriniCoulomb<T>> sticky(coulomb, T(1), T(1e-4));
-  attractive_law<S>(Compliant<Cohesive<SignoriniCoulomb<T>>>(sticky), T(1e-4));
+  attractive_law<S>(Compliant<Cohesive<SignoriniCoulomb<T>>>(sticky, T(1e8)), T(1e-4));
   const SignoriniCoulomb<T> two_frictions(T(0.3), T(0.5), T(0.4));
-  stateful_law<S>(Compliant<SignoriniCoulomb<T>>(two_frictions));
+  stateful_law<S>(Compliant<SignoriniCoulomb<T>>(two_frictions, T(1e8)));
   stateful_law<S>(SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)));
   attractive_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1), T(1e-4)), T(1e-4));
 }
