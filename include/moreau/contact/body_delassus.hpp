@@ -65,6 +65,8 @@ class BodyDelassus {
     rows_.resize(contacts.size());
     heads_.resize(contacts.size());
     scaled_.assign(roots.size(), PaddedTwist::Zero());
+    contacts_ = contacts;
+    roots_ = roots;
     team.share(contacts.size(), 64, [&](std::size_t begin, std::size_t end) {
       assemble_some(begin, end, contacts, roots, free, compliance);
     });
@@ -77,6 +79,10 @@ class BodyDelassus {
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
+  /// A contact as assemble() left it, and M^-1/2 of a body: in the arrays that assemble() was given,
+  /// which must still exist.
+  const Contact<S>& contact(std::size_t c) const { return contacts_[c]; }
+  const MobilityRoot<S>& root(std::size_t body) const { return roots_[body]; }
   /// Trace of W_cc [1/kg].
   Scalar trace(std::size_t c) const { return heads_[c].trace; }
   /// Ja^T, padded: width x D, one column for each axis of the frame [kg^-1/2]. An impulse dr
@@ -233,6 +239,8 @@ class BodyDelassus {
     }
   }
 
+  std::span<const Contact<S>> contacts_;  // of the caller
+  std::span<const MobilityRoot<S>> roots_;
   std::vector<Row> rows_;
   std::vector<Head> heads_;
   std::vector<PaddedTwist> scaled_;

@@ -28,10 +28,12 @@
 #include <span>
 #include <vector>
 
+#include "moreau/contact/contact.hpp"
 #include "moreau/contact/lane_block.hpp"
 #include "moreau/core/detail/sort_by_key.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/law/detail/law_lanes.hpp"
+#include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
 #include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -53,7 +55,8 @@ struct PointPack : PackedCompliance<typename LaneBlock<S>::Vector, CompliantLaw<
   using Values = typename Block::Values;
   using Vector = typename Block::Vector;
 
-  std::array<Vector, S::dofs> rows_a{}, rows_b{};  ///< J M^-1/2; first index: entry of y
+  std::array<Vector, S::dim> frame{};  ///< first index: world axis, second: axis of the frame
+  Vector lever_a{}, lever_b{};         ///< world axes [m]
   Block block = Block::unit();
   Vector free{Values{} + 1};
   LawLanes<Law, S> law{};
@@ -73,6 +76,8 @@ struct PairPack {
   std::uint32_t phase;
   static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase
   Hub hub;
+  std::uint32_t matrices;  ///< index into ContactGroups::mass_matrices; isotropic: none is needed
+  static constexpr std::uint32_t isotropic = std::numeric_limits<std::uint32_t>::max();
 
   /// Whether the hub is changed after the phase, not by the group.
   bool delays_hub() const { return hub != Hub::none && phase != serial; }
@@ -95,8 +100,10 @@ class ContactGroups {
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
   static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
-  std::vector<Pairs> pairs;    ///< sorted by phase
-  std::vector<Points> points;  ///< in the order of pairs
+  std::vector<Pairs> pairs;                        ///< sorted by phase
+  std::vector<Points> points;                      ///< in the order of pairs
+  std::vector<std::array<LaneMass<S>, 2>> masses;  ///< of the bodies a and b of each group
+  std::vector<LaneMassMatrices<S>> mass_matrices;  ///< of groups with a body that needs them
 
   /// Number of rows of LaneVelocities: one per body, and one per group for unused lanes and bodies
   /// that cannot move, so that groups of one colour never write the same row.
@@ -116,19 +123,21 @@ class ContactGroups {
     pairs.clear();
     phase_points_.clear();
     begin_.clear();
-    point_count_ = 0;
+    point_count_ = matrices_ = 0;
     for (std::size_t k = 0; k < order_.size();) {
       const std::uint64_t kind = order_[k].key & kind_mask;
       std::size_t end = k + 1;
       while (kind != alone_kind && end < order_.size() && end - k < lanes &&
              (order_[end].key & kind_mask) == kind)
         ++end;
-      lay_out(k, end);
+      lay_out(op, k, end);
       k = end;
     }
     begin_.push_back(order_.size());
     points.resize(point_count_);
     contact_of_.resize(point_count_ * lanes, none);
+    masses.resize(pairs.size());
+    mass_matrices.resize(matrices_);
     team.share_each(pairs.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
     of_bodies_are_valid_ = false;
   }
@@ -251,14 +260,17 @@ class ContactGroups {
   }
 
   /// Adds the group of the pairs order_[begin] .. order_[end - 1], without its contacts.
-  void lay_out(std::size_t begin, std::size_t end) {
+  void lay_out(const Operator& op, std::size_t begin, std::size_t end) {
     const std::uint32_t pair = order_[begin].pair;
     Pairs group;
     group.first = point_count_;
     group.count = group.active = 0;
     group.hub = hub_of(pair);
     std::uint32_t together = 0;
+    bool all_isotropic = true;
     for (std::size_t k = begin; k < end; ++k) {
+      for (const std::uint32_t body : bodies_[order_[k].pair])
+        all_isotropic = all_isotropic && is_isotropic(op.root(body));
       group.count = std::max(group.count, points_of(order_[k].pair));
       together += points_of(order_[k].pair);
     }
@@ -268,6 +280,7 @@ class ContactGroups {
                       ? phase_of_hub(bodies_[pair][group.hub == Hub::a ? 0 : 1], together)
                   : colouring_[pair] == PairColouring::colours ? Pairs::serial
                                                                : colouring_[pair];
+    group.matrices = all_isotropic ? Pairs::isotropic : matrices_++;
     pairs.push_back(group);
   }
   /// Whether a hub is so heavy that a phase has room for enough points to be worth it.
@@ -305,6 +318,15 @@ class ContactGroups {
     const auto still = static_cast<std::uint32_t>(body_count_ + number);
     group.a.fill(group.hub == Hub::a ? bodies_[members[0].pair][0] : still);
     group.b.fill(group.hub == Hub::b ? bodies_[members[0].pair][1] : still);
+    masses[number] = {};
+    if (group.matrices != Pairs::isotropic) mass_matrices[group.matrices] = {};
+    for (std::size_t lane = 0; lane < members.size(); ++lane) {
+      const auto& [a, b] = bodies_[members[lane].pair];
+      masses[number][0].set(lane, op.root(a));
+      masses[number][1].set(lane, op.root(b));
+      if (group.matrices != Pairs::isotropic)
+        mass_matrices[group.matrices].set(lane, op.root(a), op.root(b));
+    }
     std::uint32_t together = 0;  // points of the group
     for (const Ordered& member : members) together += points_of(member.pair);
     const std::uint32_t with_hub =
@@ -342,14 +364,13 @@ class ContactGroups {
 
   static void set(Points& point, std::size_t lane, const Operator& op, const LocalBlock<S>& block,
                   const Law& law, const Impulse& impulse, std::uint32_t c) {
-    const auto& rows_a = op.rows_a(c);
-    const auto& rows_b = op.rows_b(c);
+    const Contact<S>& contact = op.contact(c);
     for (std::size_t d = 0; d < S::dim; ++d) {
       const auto column = Eigen::Index(d);
-      for (std::size_t k = 0; k < S::dofs; ++k) {
-        point.rows_a[k][d][lane] = rows_a(Eigen::Index(k), column);
-        point.rows_b[k][d][lane] = rows_b(Eigen::Index(k), column);
-      }
+      for (std::size_t k = 0; k < S::dim; ++k)
+        point.frame[k][d][lane] = contact.frame(Eigen::Index(k), column);
+      point.lever_a[d][lane] = contact.lever_a[column];
+      point.lever_b[d][lane] = contact.lever_b[column];
       point.free[d][lane] = op.free_velocity(c)[column];
       if constexpr (CompliantLaw<Law, S>) point.compliance[d][lane] = op.compliance(c)[column];
       point.impulse[d][lane] = point.before[d][lane] = impulse[column];
@@ -360,6 +381,7 @@ class ContactGroups {
 
   std::size_t body_count_ = 0;
   std::uint32_t point_count_ = 0;  // PointPacks
+  std::uint32_t matrices_ = 0;     // groups with mass_matrices
   std::vector<std::size_t>
       begin_;  // of the pairs of each group in order_; at the end, their number
   std::vector<std::array<std::uint32_t, 2>> bodies_;

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -18,8 +20,8 @@ namespace moreau::detail {
 /// register. The pairs of a group share no body that can move, except a hub (contact_groups.hpp).
 /// visit() takes the points of a pair one after another. It computes the relative velocity of b with
 /// respect to a without the impulse of the point itself, in the contact frame [m/s], asks the law for
-/// the new impulse [N s], and adds its change to the scaled velocities of both bodies. The scaled
-/// velocity of a body is M^1/2 v, so rows_a and rows_b are rows of J M^-1/2.
+/// the new impulse [N s], and adds what its change does to the velocities of both bodies
+/// (lane_masses.hpp). The velocities are the changes by the impulses alone.
 template <class Operator, class Law>
 class GroupKernel {
  public:
@@ -51,16 +53,21 @@ class GroupKernel {
                     SharedBodies* shared) {
     groups_.set_impulses(op, impulses, team, shared);
     velocity_.reset(groups_.rows());
-    team.share_each(op.body_count(), 256,
-                    [&](std::size_t i) { velocity_.set(i, op.scaled_velocity(i)); });
+    team.share_each(op.body_count(), 256, [&](std::size_t i) {
+      const typename S::Twist y = op.scaled_velocity(i);
+      typename S::Twist v;
+      linear<S>(v) = product(op.root(i).linear, linear<S>(y));
+      angular<S>(v) = product(op.root(i).angular, angular<S>(y));
+      velocity_.set(i, v);
+    });
     velocity_.settle();
   }
   /// Computes the velocities of the bodies from the impulses alone.
   void recompute_velocities() {
     velocity_.reset(groups_.rows());
-    for (Pairs& group : groups_.pairs) {
-      apply(group);
-      update_active(group);
+    for (std::size_t k = 0; k < groups_.pairs.size(); ++k) {
+      apply(k);
+      update_active(groups_.pairs[k]);
     }
   }
   void unpack(std::span<Impulse> impulses, const Team& team) const {
@@ -106,6 +113,7 @@ class GroupKernel {
 
  private:
   using BodyLanes = typename LaneVelocities<S, W>::BodyLanes;
+  using Algebra = LaneAlgebra<S>;
 
   /// Groups between the present one and that whose velocities are loaded into the cache: more than
   /// memory takes to answer. The groups of a colour are visited in their order, but their bodies lie
@@ -120,19 +128,53 @@ class GroupKernel {
   }
 
   /// Adds what the impulses of a group do to its bodies.
-  void apply(const Pairs& group) {
+  void apply(std::size_t number) {
+    const Pairs& group = groups_.pairs[number];
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
-      push(groups_.points[p], groups_.points[p].impulse, a, b);
+      push(number, groups_.points[p], groups_.points[p].impulse, a, b);
     velocity_.scatter(group, a, b);
   }
-  /// Adds what impulses at a point do to the velocities of its bodies.
-  static void push(const Points& point, const Vector& impulse, BodyLanes& a, BodyLanes& b) {
-    for (std::size_t k = 0; k < S::dofs; ++k)
-      for (std::size_t d = 0; d < S::dim; ++d) {
-        a[k] -= point.rows_a[k][d] * impulse[d];
-        b[k] += point.rows_b[k][d] * impulse[d];
+  /// Adds what impulses at a point of group `number` do to the velocities of its bodies.
+  void push(std::size_t number, const Points& point, const Vector& impulse, BodyLanes& a,
+            BodyLanes& b) const {
+    Vector p;
+    for (std::size_t k = 0; k < S::dim; ++k) {
+      p[k] = point.frame[k][0] * impulse[0];
+      for (std::size_t d = 1; d < S::dim; ++d) p[k] += point.frame[k][d] * impulse[d];
+    }
+    const auto& [mass_a, mass_b] = groups_.masses[number];
+    const auto turn_a = Algebra::template product<Algebra::angular>(
+        mass_a.angular, Algebra::moment(point.lever_a, p));
+    const auto turn_b = Algebra::template product<Algebra::angular>(
+        mass_b.angular, Algebra::moment(point.lever_b, p));
+    const std::uint32_t matrices = groups_.pairs[number].matrices;
+    if (matrices == Pairs::isotropic) {
+      for (std::size_t k = 0; k < S::dim; ++k) {
+        a[k] -= mass_a.linear * p[k];
+        b[k] += mass_b.linear * p[k];
       }
+    } else {
+      const auto& masses = groups_.mass_matrices[matrices];
+      const auto of_a = Algebra::template product<Algebra::dim>(masses.a, p);
+      const auto of_b = Algebra::template product<Algebra::dim>(masses.b, p);
+      for (std::size_t k = 0; k < S::dim; ++k) {
+        a[k] -= of_a[k];
+        b[k] += of_b[k];
+      }
+    }
+    for (std::size_t k = 0; k < Algebra::angular; ++k) {
+      a[S::dim + k] -= turn_a[k];
+      b[S::dim + k] += turn_b[k];
+    }
+  }
+  /// Relative velocity of b with respect to a at a point, world axes [m/s].
+  static Vector relative(const Points& point, const BodyLanes& a, const BodyLanes& b) {
+    const Vector of_a = Algebra::point_velocity(a, point.lever_a);
+    const Vector of_b = Algebra::point_velocity(b, point.lever_b);
+    Vector between;
+    for (std::size_t k = 0; k < S::dim; ++k) between[k] = of_b[k] - of_a[k];
+    return between;
   }
 
   /// A point is active if it has an impulse or had one before its last visit; the points of a group
@@ -153,9 +195,9 @@ class GroupKernel {
     typename W::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
       const Points& point = groups_.points[p];
+      const Vector between = relative(point, a, b);
       Values u = point.free[0];
-      for (std::size_t k = 0; k < S::dofs; ++k)
-        u += point.rows_b[k][0] * b[k] - point.rows_a[k][0] * a[k];
+      for (std::size_t k = 0; k < S::dim; ++k) u += point.frame[k][0] * between[k];
       some |= u < Values{};
     }
     return W::any(some);
@@ -174,21 +216,14 @@ class GroupKernel {
       Vector guess;
       for (std::size_t d = 0; d < S::dim; ++d)
         guess[d] = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
-      // Two sums side by side: half the latency.
-      const Vector own = point.block * guess;
-      Vector of_a, of_b;
-      for (std::size_t d = 0; d < S::dim; ++d) {
-        of_a[d] = own[d];
-        of_b[d] = point.free[d];
-        if constexpr (CompliantLaw<Law, S>) of_b[d] += point.compliance[d] * guess[d];
-      }
-      for (std::size_t k = 0; k < S::dofs; ++k)
-        for (std::size_t d = 0; d < S::dim; ++d) {
-          of_a[d] += point.rows_a[k][d] * a[k];
-          of_b[d] += point.rows_b[k][d] * b[k];
-        }
+      const Vector own = point.block * guess, between = relative(point, a, b);
       Vector u;
-      for (std::size_t d = 0; d < S::dim; ++d) u[d] = of_b[d] - of_a[d];
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        u[d] = point.free[d] - own[d];
+        if constexpr (CompliantLaw<Law, S>) u[d] += point.compliance[d] * guess[d];
+      }
+      for (std::size_t k = 0; k < S::dim; ++k)
+        for (std::size_t d = 0; d < S::dim; ++d) u[d] += point.frame[k][d] * between[k];
       const Vector impulse = point.law.solve(point.block, u, guess, Measure);
       Vector change;
       for (std::size_t d = 0; d < S::dim; ++d) {
@@ -200,7 +235,7 @@ class GroupKernel {
       // A compiler barrier: the rows are read again from memory. Kept in registers they would be
       // spilled and read from there.
       asm volatile("" : : : "memory");
-      push(point, change, a, b);
+      push(number, point, change, a, b);
       if constexpr (Measure) measure(measures_[number], point.block, change, impulse);
     }
     changes_[number] = change2;

@@ -32,7 +32,7 @@ struct CacheLineAllocator {
   }
 };
 
-/// Scaled velocities y of all bodies, one row per body, read and written for one body per SIMD lane
+/// Velocities y = (v, w) of all bodies, one row per body, read and written for one body per SIMD lane
 /// at once.
 template <class S, class W>
 class LaneVelocities {
