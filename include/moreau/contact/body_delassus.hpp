@@ -79,9 +79,9 @@ class BodyDelassus {
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
-  /// A contact as assemble() left it, and M^-1/2 of a body: in the arrays that assemble() was given,
-  /// which must still exist.
+  /// A contact as assemble() left it: in the array that assemble() was given, which must still exist.
   const Contact<S>& contact(std::size_t c) const { return contacts_[c]; }
+  /// M^-1/2 of a body: in the array that assemble() was given, which must still exist.
   const MobilityRoot<S>& root(std::size_t body) const { return roots_[body]; }
   /// Trace of W_cc [1/kg].
   Scalar trace(std::size_t c) const { return heads_[c].trace; }

@@ -25,7 +25,6 @@ struct LaneAlgebra {
   using Values = typename LaneBlock<S>::Values;
   static constexpr std::size_t dim = S::dim, angular = S::angular_dim;
   using Vector = std::array<Values, dim>;
-  using Angular = std::array<Values, angular>;
   /// The lower triangle, row after row.
   template <std::size_t N>
   using Symmetric = std::array<Values, N*(N + 1) / 2>;
@@ -34,20 +33,19 @@ struct LaneAlgebra {
   /// @param v     v and w of the body [m/s, rad/s]
   /// @param lever from the centre of the body to the point [m]
   static Vector point_velocity(const auto& v, const Vector& lever) {
-    if constexpr (dim == 3)
-      return {v[0] + (v[4] * lever[2] - v[5] * lever[1]),
-              v[1] + (v[5] * lever[0] - v[3] * lever[2]),
-              v[2] + (v[3] * lever[1] - v[4] * lever[0])};
-    else
-      return {v[0] - v[2] * lever[1], v[1] + v[2] * lever[0]};
+    Vector u = spin(v, lever);
+    for (std::size_t k = 0; k < dim; ++k) u[k] += v[k];
+    return u;
   }
   /// lever x p
-  static Angular moment(const Vector& lever, const Vector& p) {
-    if constexpr (dim == 3)
-      return {lever[1] * p[2] - lever[2] * p[1], lever[2] * p[0] - lever[0] * p[2],
-              lever[0] * p[1] - lever[1] * p[0]};
-    else
-      return {lever[0] * p[1] - lever[1] * p[0]};
+  static std::array<Values, 3> moment(const std::array<Values, 3>& lever,
+                                      const std::array<Values, 3>& p) {
+    return {lever[1] * p[2] - lever[2] * p[1], lever[2] * p[0] - lever[0] * p[2],
+            lever[0] * p[1] - lever[1] * p[0]};
+  }
+  static std::array<Values, 1> moment(const std::array<Values, 2>& lever,
+                                      const std::array<Values, 2>& p) {
+    return {lever[0] * p[1] - lever[1] * p[0]};
   }
   template <std::size_t N>
   static std::array<Values, N> product(const Symmetric<N>& m, const std::array<Values, N>& x) {
@@ -68,6 +66,14 @@ struct LaneAlgebra {
   }
 
  private:
+  /// w x lever
+  static std::array<Values, 3> spin(const auto& v, const std::array<Values, 3>& lever) {
+    return {v[4] * lever[2] - v[5] * lever[1], v[5] * lever[0] - v[3] * lever[2],
+            v[3] * lever[1] - v[4] * lever[0]};
+  }
+  static std::array<Values, 2> spin(const auto& v, const std::array<Values, 2>& lever) {
+    return {-(v[2] * lever[1]), v[2] * lever[0]};
+  }
   static constexpr std::size_t entry(std::size_t i, std::size_t k) {
     return i < k ? entry(k, i) : i * (i + 1) / 2 + k;
   }
