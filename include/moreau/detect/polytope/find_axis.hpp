@@ -38,46 +38,21 @@
 namespace moreau::detail {
 
 /// The edge of `own` along whose normal the separation from `other` is largest, and this separation
-/// [m]. Edges are left out that cannot have it: `other` contains a disk about its centre, which bounds
-/// the separation along their normals.
+/// [m].
 /// @param offset  centre of other minus centre of own, world axes [m]
 template <std::floating_point T>
 Extreme<T> best_edge(const Placed<Polygon<T>>& own, const Placed<Polygon<T>>& other,
                      const typename Space<2, T>::Vector& offset) {
   using W = Wide<T>;
-  using Values = typename W::Values;
-  const auto apart = Rows<Space<2, T>>::broadcast(offset);
-  // Height of the centre of other above the edges of block i.
-  const auto height = [&](Eigen::Index i) -> Values {
-    return own.normals().dot(i, apart) - W::load(own.offsets() + i);
-  };
-  const auto separation = [&](Eigen::Index i, const Values& of_center) -> Values {
-    return other.vertices().lowest(own.normals().wide(i)) + of_center;
-  };
-  const Eigen::Index end = own.normals().padded_size();
+  WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
   auto index = W::iota();
-  WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), index};
-  if (end <= 2 * W::lanes) {  // to leave out a block does not pay
-    for (Eigen::Index i = 0; i < end; i += W::lanes, index += W::lanes)
-      best.take(separation(i, height(i)), index);
-    return best.reduce();
-  }
-  Eigen::Index first = 0;
-  Values top = height(0);
-  for (Eigen::Index i = W::lanes; i < end; i += W::lanes)
-    if (const Values here = height(i); W::any(here > W::maximum(top))) {
-      first = i;
-      top = here;
-    }
-  const Values known = separation(first, top);
-  const T needed = W::maximum(known)[0] + other.shape().inradius() -
-                   DetectionTolerance<T>::rounding * (own.radius() + other.radius());
-  for (Eigen::Index i = 0; i < end; i += W::lanes, index += W::lanes) {
-    if (i == first) {
-      best.take(known, index);
-    } else if (const Values here = height(i); W::any(here >= needed)) {
-      best.take(separation(i, here), index);
-    }
+  const auto apart = Rows<Space<2, T>>::broadcast(offset);
+  for (Eigen::Index i = 0; i < own.normals().padded_size(); i += W::lanes) {
+    const auto normals = own.normals().wide(i);
+    best.take(
+        other.vertices().lowest(normals) + own.normals().dot(i, apart) - W::load(own.offsets() + i),
+        index);
+    index += W::lanes;
   }
   return best.reduce();
 }
