@@ -9,6 +9,7 @@
 // What remains of the rows, 1/m and I^-1, belongs to the pair.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
