@@ -95,7 +95,7 @@ TEST_CASE("compliant: stiffness must be positive") {
 
 TEST_CASE("compliant: overlaps are not taken back") {
   using World = Simulation<Disk<double>, Spring>;
-  World world(2 * radius, Materials<Spring>(1, Spring()));
+  World world(2 * radius, Materials<Spring>(1, Spring(Coulomb(0.4), 1e8)));
   OverlapCorrectionOptions on;
   CHECK_THROWS_AS(world.set_correction(on), std::invalid_argument);
   on.enabled = false;
@@ -283,7 +283,8 @@ TEST_CASE("compliant: a restart goes on with the same bits") {
   column.run(50);
   const auto path = std::filesystem::temp_directory_path() / "moreau_compliant.snapshot";
   write_snapshot(path, column.world);
-  Simulation<Ball<double>, Spring> again(2 * radius, Materials<Spring>(1, Spring()));
+  Simulation<Ball<double>, Spring> again(2 * radius,
+                                         Materials<Spring>(1, Spring(Coulomb(0.4), 1e8)));
   read_snapshot(path, again);
   std::filesystem::remove(path);
   column.run(50);

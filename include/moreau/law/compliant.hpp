@@ -86,8 +86,6 @@ class Compliant : public Law {
   }
   /// With k_t = k_n.
   Compliant(const Law& law, Scalar stiffness) : Compliant(law, stiffness, stiffness) {}
-  /// A placeholder, for containers: the law's default and k = 1e8 N/m.
-  Compliant() : Compliant(Law{}, Scalar(1e8)) {}
 
   Scalar stiffness() const { return stiffness_; }                   ///< k_n [N/m]
   Scalar tangential_stiffness() const { return tangential_; }       ///< k_t [N/m]
@@ -116,9 +114,10 @@ class Compliant : public Law {
 
  private:
   friend struct SerializationAccess;
+  Compliant() = default;  // to be read from a snapshot
   auto serialized_members() { return std::tie(static_cast<Law&>(*this), stiffness_, tangential_); }
 
-  Scalar stiffness_, tangential_;
+  Scalar stiffness_ = 0, tangential_ = 0;
 };
 
 }  // namespace moreau

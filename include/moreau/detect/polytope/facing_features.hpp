@@ -32,8 +32,7 @@ template <std::floating_point T>
 std::uint32_t facing_feature(const Placed<Polygon<T>>& shape, FeatureKind kind, std::uint32_t id,
                              const typename Space<2, T>::Vector& direction, T slab) {
   if (kind == FeatureKind::face) return id;
-  const auto count = static_cast<std::uint32_t>(shape.vertices().size());
-  const std::uint32_t before = (id > 0 ? id : count) - 1, after = id + 1 < count ? id + 1 : 0;
+  const auto [before, after] = neighbours(shape, id);
   const T height = direction.dot(shape.vertices()[id]) - slab;
   const bool has_before = direction.dot(shape.vertices()[before]) >= height;
   const bool has_after = direction.dot(shape.vertices()[after]) >= height;

@@ -6,6 +6,7 @@
 // centre of a to the centre of b. So a pair far from the world's origin loses no digits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "moreau/detect/convex/simplex.hpp"
@@ -16,6 +17,13 @@
 #include "moreau/shape/polyhedron.hpp"
 
 namespace moreau::detail {
+
+/// The vertices before and after a vertex of a polygon.
+template <std::floating_point T>
+std::array<std::uint32_t, 2> neighbours(const Placed<Polygon<T>>& shape, std::uint32_t vertex) {
+  const auto count = static_cast<std::uint32_t>(shape.vertices().size());
+  return {(vertex > 0 ? vertex : count) - 1, vertex + 1 < count ? vertex + 1 : 0};
+}
 
 /// A pair of two polygons or of two polyhedra.
 template <class ShapeT>

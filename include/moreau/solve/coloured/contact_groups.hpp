@@ -48,7 +48,7 @@ struct PackedCompliance<Vector, true> {
   Vector compliance{};  ///< diagonal of D, see CompliantDelassus
 };
 
-/// One contact point per lane. Unused lanes have zero rows and a free velocity that separates.
+/// One contact point per lane. Unused lanes have a zero frame and a free velocity that separates.
 template <class S, class Law>
 struct PointPack : PackedCompliance<typename LaneBlock<S>::Vector, CompliantLaw<Law, S>> {
   using Block = LaneBlock<S>;
@@ -130,7 +130,7 @@ class ContactGroups {
       while (kind != alone_kind && end < order_.size() && end - k < lanes &&
              (order_[end].key & kind_mask) == kind)
         ++end;
-      lay_out(op, k, end);
+      lay_out(k, end);
       k = end;
     }
     begin_.push_back(order_.size());
@@ -190,6 +190,8 @@ class ContactGroups {
 
   void find_pairs(const Operator& op) {
     moves_.assign(op.body_count(), 0);
+    isotropic_.resize(op.body_count());
+    for (std::size_t i = 0; i < op.body_count(); ++i) isotropic_[i] = is_isotropic(op.root(i));
     bodies_.clear();
     first_.clear();
     for (std::size_t c = 0; c < op.size(); ++c) {
@@ -260,7 +262,7 @@ class ContactGroups {
   }
 
   /// Adds the group of the pairs order_[begin] .. order_[end - 1], without its contacts.
-  void lay_out(const Operator& op, std::size_t begin, std::size_t end) {
+  void lay_out(std::size_t begin, std::size_t end) {
     const std::uint32_t pair = order_[begin].pair;
     Pairs group;
     group.first = point_count_;
@@ -269,8 +271,8 @@ class ContactGroups {
     std::uint32_t together = 0;
     bool all_isotropic = true;
     for (std::size_t k = begin; k < end; ++k) {
-      for (const std::uint32_t body : bodies_[order_[k].pair])
-        all_isotropic = all_isotropic && is_isotropic(op.root(body));
+      const auto [a, b] = bodies_[order_[k].pair];
+      all_isotropic = all_isotropic && isotropic_[a] && isotropic_[b];
       group.count = std::max(group.count, points_of(order_[k].pair));
       together += points_of(order_[k].pair);
     }
@@ -380,13 +382,11 @@ class ContactGroups {
   }
 
   std::size_t body_count_ = 0;
-  std::uint32_t point_count_ = 0;  // PointPacks
-  std::uint32_t matrices_ = 0;     // groups with mass_matrices
-  std::vector<std::size_t>
-      begin_;  // of the pairs of each group in order_; at the end, their number
+  std::uint32_t point_count_ = 0, matrices_ = 0;  // PointPacks; groups with mass_matrices
+  std::vector<std::size_t> begin_;  // of each group in order_; at the end, the number of pairs
   std::vector<std::array<std::uint32_t, 2>> bodies_;
   std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
-  std::vector<unsigned char> moves_;
+  std::vector<unsigned char> moves_, isotropic_;
   std::vector<typename S::Scalar> share_;    // of each hub, see find_shares()
   std::vector<std::uint32_t> phase_points_;  // points of each phase of a hub
   std::uint32_t phase_hub_ = 0;              // hub of the last phase

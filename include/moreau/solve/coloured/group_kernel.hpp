@@ -232,7 +232,7 @@ class GroupKernel {
         point.before[d] = point.impulse[d];
         point.impulse[d] = impulse[d];
       }
-      // A compiler barrier: the rows are read again from memory. Kept in registers they would be
+      // A compiler barrier: the frame is read again from memory. Kept in registers it would be
       // spilled and read from there.
       asm volatile("" : : : "memory");
       push(number, point, change, a, b);

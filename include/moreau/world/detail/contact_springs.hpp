@@ -20,6 +20,7 @@
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
+#include "moreau/world/tolerances.hpp"
 
 namespace moreau::detail {
 
@@ -37,12 +38,12 @@ class ContactSprings {
 
   /// c = C / h^2 of every contact [1/kg]. The points of a pair share its stiffness: C is that of the
   /// pair times the number of its points. A point that is open by the gap g counts as 1 - g / l, so
-  /// that the stiffness does not jump when a point comes near; l is open_length of the grain size, or
-  /// the detection margin if that is smaller.
+  /// that the stiffness does not jump when a point comes near; l is the default detection margin, or
+  /// that of the simulation if it is smaller.
   std::span<const Row> compliances(const StepContext<S, Law>& context) {
     const Contacts<S>& contacts = context.contacts;
     compliance_.resize(contacts.size());
-    const Scalar length = std::min(context.margin, Scalar(open_length) * context.grain_size);
+    const Scalar length = std::min(context.margin, Tolerances{}.lengths(context.grain_size).margin);
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
       const Contact<S>& point = contacts.points[first];
       Scalar count = 0;
@@ -135,9 +136,6 @@ class ContactSprings {
   bool are_valid(std::size_t contacts) const { return energies_.size() == contacts; }
 
  private:
-  /// Gap from which an open point does not count, over the grain size [-]: the default margin.
-  static constexpr double open_length = 0.02;
-
   /// Energy of normal springs, of tangential springs and of those of rolling [J].
   struct Energy {
     double normal = 0, tangential = 0, rolling = 0;

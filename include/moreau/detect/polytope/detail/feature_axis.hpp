@@ -37,13 +37,6 @@ struct FaceSeparation {
   bool is_found;               ///< whether a search found a separation larger than its lower limit
 };
 
-/// The vertices before and after a vertex of a polygon.
-template <std::floating_point T>
-std::array<std::uint32_t, 2> neighbours(const Placed<Polygon<T>>& shape, std::uint32_t vertex) {
-  const auto count = static_cast<std::uint32_t>(shape.vertices().size());
-  return {(vertex > 0 ? vertex : count) - 1, vertex + 1 < count ? vertex + 1 : 0};
-}
-
 /// In place of the index of a vertex: there is none.
 inline constexpr std::uint32_t no_guess = std::numeric_limits<std::uint32_t>::max();
 

@@ -9,9 +9,9 @@
 // Suppose that each of these edges rises by more than `slab`. An edge of a given length that rises
 // by `rise` leaves the slab at a lateral distance of at most slab * length / rise from the vertex.
 // The largest of these distances bounds the part of the shape in the slab. For polyhedra the code
-// takes the largest over all vertices of the shape, which is a bound as well. If the projection of the vertex
-// is farther than that from the rim of the face, this part does not reach the rim, and the vertex
-// is the only contact point.
+// takes the largest over all vertices of the shape, which is a bound as well. If the projection of
+// the vertex is farther than that from the rim of the face, this part does not reach the rim, and
+// the vertex is the only contact point.
 //
 // Two faces. The gap between them is a linear function over their overlap, which is a polygon. So
 // the lowest corner of the overlap is the only corner in the slab if its two neighbours are not in
