@@ -228,7 +228,8 @@ TEST_CASE_TEMPLATE("a block slides over the seam between two parts", Part,
     off.enabled = false;
     world.set_correction(off);
     world.set_contact_points(ContactPoints::all);
-    world.prescribe_motion(world.add_grain(world.add_shape(cut), {cut.centroid_of_input()}, 1000));
+    world.prescribe_motion(
+        world.add_grain(world.add_shape(cut), {floor.centroid_of_input()}, 1000));
     const BodyId grain = world.add_grain(world.add_shape(block),
                                          {compounds::point<S>(-0.9, 0.5 - overlap, 0)}, 1000);
     world.set_gravity(compounds::point<S>(0, -10));

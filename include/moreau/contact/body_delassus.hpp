@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The Delassus operator W = J M^-1 J^T of a set of contacts. The matrix is not formed. Each contact
-// c keeps its scaled rows J_a M_a^-1/2 and J_b M_b^-1/2, written Ja and Jb; each body the change of
-// its scaled velocity y = M^1/2 (V - V_free). Then
+// The Delassus operator W = J M^-1 J^T of a set of contacts. The matrix is not formed. A contact c has
+// its frame F and the levers l_a, l_b; each body has the change v, w of its velocity by impulses. Then
 //
-//     u_c = b_c + Jb y_b - Ja y_a,      an impulse dr at c:  y_b += Jb^T dr,  y_a -= Ja^T dr,
-//     W_cc = Ja Ja^T + Jb Jb^T,
+//     u_c = b_c + F^T (v_b + w_b x l_b - v_a - w_a x l_a),
+//     an impulse dr at c, p = F dr:   v_b += p / m_b,   w_b += I_b^-1 (l_b x p),   v_a, w_a with -p,
+//     W_cc = sum over both bodies of F^T (1/m + lever(l) I^-1 lever(l)^T) F,
 //
-// so that one sweep is one pass over the contacts. An axis along which a body cannot move has a
-// zero in M^-1/2; the prescribed velocity is in V_free.
+// so that one sweep is one pass over the contacts. An axis along which a body cannot move has a zero in
+// M^-1; the prescribed velocity is in the free velocity.
 #pragma once
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/detail/contact_lanes.hpp"
 #include "moreau/contact/local_block.hpp"
 #include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -44,12 +45,12 @@ class BodyDelassus {
   using Space = S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
   /// Generalized velocity padded to whole SIMD lanes; the padding stays zero.
   static constexpr int width = (S::dofs + 3) / 4 * 4;
   using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
-  using PaddedRows = Eigen::Matrix<Scalar, width, S::dim>;
 
-  /// Computes rows, blocks and free relative velocities; without any impulse.
+  /// Computes blocks and free relative velocities; without any impulse.
   /// @param contacts in: bodies, frames, levers; out: frames with turned tangents, see LocalBlock
   /// @param roots    M^-1/2 of every body
   /// @param free     velocity of every body without contacts, (v, w) in world axes [m/s, rad/s]
@@ -64,32 +65,59 @@ class BodyDelassus {
                 const Team& team = {}) {
     rows_.resize(contacts.size());
     heads_.resize(contacts.size());
-    scaled_.assign(roots.size(), PaddedTwist::Zero());
-    contacts_ = contacts;
-    roots_ = roots;
+    masses_.resize(roots.size());
+    changes_.assign(roots.size(), PaddedTwist::Zero());
+    team.share_each(roots.size(), 128,
+                    [&](std::size_t i) { masses_[i] = InverseMass<S>(roots[i]); });
     team.share(contacts.size(), 64, [&](std::size_t begin, std::size_t end) {
-      assemble_some(begin, end, contacts, roots, free, compliance);
+      for (std::size_t c = begin; c < end; c += Lanes::lanes)
+        assemble_some(c, std::min(end, c + Lanes::lanes), contacts, free, compliance);
     });
   }
 
   std::size_t size() const { return rows_.size(); }          ///< contacts
-  std::size_t body_count() const { return scaled_.size(); }  ///< bodies, walls included
+  std::size_t body_count() const { return masses_.size(); }  ///< bodies, walls included
 
   /// W_cc in the contact's frame [1/kg].
   const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
-  /// A contact as assemble() left it: in the array that assemble() was given, which must still exist.
-  const Contact<S>& contact(std::size_t c) const { return contacts_[c]; }
-  /// M^-1/2 of a body: in the array that assemble() was given, which must still exist.
-  const MobilityRoot<S>& root(std::size_t body) const { return roots_[body]; }
+  /// Frame of a contact as assemble() left it, columns n, t[, s], world axes.
+  const Matrix& frame(std::size_t c) const { return rows_[c].frame; }
+  /// From the centre of body a to the contact point, world axes [m].
+  const Vector& lever_a(std::size_t c) const { return rows_[c].lever_a; }
+  /// From the centre of body b to the contact point, world axes [m].
+  const Vector& lever_b(std::size_t c) const { return rows_[c].lever_b; }
+  /// M^-1 of a body.
+  const InverseMass<S>& inverse_mass(std::size_t body) const { return masses_[body]; }
   /// Trace of W_cc [1/kg].
   Scalar trace(std::size_t c) const { return heads_[c].trace; }
-  /// Ja^T, padded: width x D, one column for each axis of the frame [kg^-1/2]. An impulse dr
-  /// changes y_a by -Ja^T dr.
-  const PaddedRows& rows_a(std::size_t c) const { return rows_[c].ja; }
-  /// Jb^T, padded: an impulse dr changes y_b by Jb^T dr.
-  const PaddedRows& rows_b(std::size_t c) const { return rows_[c].jb; }
+  /// The part of W_cc that belongs to body a: what the impulse at c does to the velocity of a, D x D
+  /// [1/kg].
+  Matrix block_of_a(std::size_t c) const {
+    const Row& row = rows_[c];
+    return block_between(row.frame, row.lever_a, row.frame, row.lever_a, masses_[row.a]);
+  }
+  /// The part of W_cc that belongs to body b.
+  Matrix block_of_b(std::size_t c) const {
+    const Row& row = rows_[c];
+    return block_between(row.frame, row.lever_b, row.frame, row.lever_b, masses_[row.b]);
+  }
+  /// The relative velocity at one contact by a unit impulse at another that acts on the same body, each
+  /// in its own frame, D x D [1/kg].
+  /// @param frame, lever             of the contact whose velocity is meant
+  /// @param other_frame, other_lever of the contact at which the impulse acts
+  static Matrix block_between(const Matrix& frame, const Vector& lever, const Matrix& other_frame,
+                              const Vector& other_lever, const InverseMass<S>& mass) {
+    Matrix block;
+    for (int k = 0; k < S::dim; ++k) {
+      const Vector push = other_frame.col(k);
+      const Vector velocity =
+          mass.velocity_of(push) + S::spin(mass.spin_of(S::moment(other_lever, push)), lever);
+      block.col(k) = transposed_product(frame, velocity);
+    }
+    return block;
+  }
   /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
   /// [m/s].
   const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
@@ -102,43 +130,68 @@ class BodyDelassus {
   /// separates.
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
-    Vector change = row.jb.transpose() * scaled_[row.b];
-    const Vector opposite = row.ja.transpose() * scaled_[row.a];
-    for (int k = 0; k < S::dim; ++k) change[k] = row.free[k] + change[k] - opposite[k];
-    return change;
+    Vector u = transposed_product(row.frame, change_between(row));
+    for (int k = 0; k < S::dim; ++k) u[k] = row.free[k] + u[k];
+    return u;
   }
   /// The normal component of velocity(c) alone [m/s].
   Scalar normal_velocity(std::size_t c) const {
-    const Row& row = rows_[c];
-    return row.free[0] + row.jb.col(0).dot(scaled_[row.b]) - row.ja.col(0).dot(scaled_[row.a]);
+    return rows_[c].free[0] + rows_[c].frame.col(0).dot(change_between(rows_[c]));
   }
   /// Applies an impulse, in the contact's frame, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
-    apply_to_b(c, impulse);
-    apply_to_a(c, impulse);
-  }
-  /// Applies the part of apply() that concerns body a.
-  void apply_to_a(std::size_t c, const Vector& impulse) {
     const Row& row = rows_[c];
-    scaled_[row.a].noalias() -= row.ja * impulse;
+    const Vector push = product(row.frame, impulse), opposite = -push;
+    add_change(row.b, push, S::moment(row.lever_b, push));
+    add_change(row.a, opposite, S::moment(row.lever_a, opposite));
   }
-  /// Applies the part of apply() that concerns body b.
-  void apply_to_b(std::size_t c, const Vector& impulse) {
-    const Row& row = rows_[c];
-    scaled_[row.b].noalias() += row.jb * impulse;
+  /// Applies an angular impulse to a body [N m s], world axes.
+  void apply_spin(std::size_t body, const typename S::Angular& impulse) {
+    angular<S>(changes_[body]) += masses_[body].spin_of(impulse);
   }
-  /// Adds the effect of a couple to the scaled angular velocity of a body [kg^1/2 m/s].
-  void add_scaled_spin(std::size_t body, const typename S::Angular& change) {
-    angular<S>(scaled_[body]) += change;
-  }
+
+  /// @name All impulses at once
+  /// Momenta are added up for each body, and then divided by its mass, which takes less time than
+  /// apply() for every contact. Between clear() and move() only these functions may be called.
+  /// @{
+
   /// Removes all impulses: every body has its free velocity.
-  void clear() { scaled_.assign(scaled_.size(), PaddedTwist::Zero()); }
-  /// y = M^1/2 (V - V_free) of a body, D + A entries, world axes [kg^1/2 m/s].
-  auto scaled_velocity(std::size_t body) const { return scaled_[body].template head<S::dofs>(); }
-  /// The scaled velocities of all bodies, `width` numbers each; they may be changed, if every contact
-  /// sees the same body move.
-  std::span<Scalar> scaled_velocities() {
-    return {scaled_.empty() ? nullptr : scaled_[0].data(), scaled_.size() * std::size_t(width)};
+  void clear() { changes_.assign(changes_.size(), PaddedTwist::Zero()); }
+  /// Gives body a the momentum of an impulse at contact c, in its frame [N s].
+  void push_a(std::size_t c, const Vector& impulse) {
+    const Row& row = rows_[c];
+    const Vector push = product(row.frame, impulse);
+    linear<S>(changes_[row.a]) -= push;
+    angular<S>(changes_[row.a]) -= S::moment(row.lever_a, push);
+  }
+  /// Gives body b the momentum of an impulse.
+  void push_b(std::size_t c, const Vector& impulse) {
+    const Row& row = rows_[c];
+    const Vector push = product(row.frame, impulse);
+    linear<S>(changes_[row.b]) += push;
+    angular<S>(changes_[row.b]) += S::moment(row.lever_b, push);
+  }
+  /// Gives a body an angular momentum, world axes [N m s].
+  void push_spin(std::size_t body, const typename S::Angular& impulse) {
+    angular<S>(changes_[body]) += impulse;
+  }
+  /// Makes velocities of the momenta.
+  void move(const Team& team = {}) {
+    team.share_each(changes_.size(), 256, [&](std::size_t i) {
+      const Vector momentum = linear<S>(changes_[i]);
+      const typename S::Angular spin = angular<S>(changes_[i]);
+      linear<S>(changes_[i]) = masses_[i].velocity_of(momentum);
+      angular<S>(changes_[i]) = masses_[i].spin_of(spin);
+    });
+  }
+  /// @}
+
+  /// Change of the velocity of a body by the impulses, (v, w) in world axes [m/s, rad/s].
+  auto velocity_change(std::size_t body) const { return changes_[body].template head<S::dofs>(); }
+  /// The changes of all bodies, `width` numbers each; they may be changed, if every contact sees the
+  /// same body move.
+  std::span<Scalar> velocity_changes() {
+    return {changes_.empty() ? nullptr : changes_[0].data(), changes_.size() * std::size_t(width)};
   }
 
   /// Begins to load the rows of some contacts into the cache.
@@ -155,8 +208,10 @@ class BodyDelassus {
   }
 
  private:
+  using Lanes = detail::ContactLanes<S>;
   struct Row {
-    PaddedRows ja, jb;
+    Matrix frame;
+    Vector lever_a, lever_b;
     LocalBlock<S> block;
     Vector free;
     std::uint32_t a, b;
@@ -167,83 +222,54 @@ class BodyDelassus {
     Scalar trace;
   };
 
+  /// @param end at most as many contacts as there are lanes
   template <class Compliance>
   void assemble_some(std::size_t begin, std::size_t end, std::span<Contact<S>> contacts,
-                     std::span<const MobilityRoot<S>> roots,
                      std::span<const typename S::Twist> free, const Compliance& compliance) {
-    constexpr int tangents = S::dim - 1;
+    Lanes some;
+    for (std::size_t lane = 0; lane < Lanes::lanes; ++lane) {
+      const std::size_t c = std::min(begin + lane, end - 1);
+      const Contact<S>& contact = contacts[c];
+      some.set_frame(lane, contact.frame);
+      some.a.set(lane, contact.lever_a, masses_[contact.a], free[contact.a]);
+      some.b.set(lane, contact.lever_b, masses_[contact.b], free[contact.b]);
+      if constexpr (!std::same_as<Compliance, detail::RigidContacts>)
+        for (std::size_t d = 0; d < S::dim; ++d)
+          some.compliance[d][lane] = compliance(c)[Eigen::Index(d)];
+    }
+    some.assemble();
     for (std::size_t c = begin; c < end; ++c) {
+      const std::size_t lane = c - begin;
       Contact<S>& contact = contacts[c];
-      Row& row = rows_[c];
-      row.a = contact.a;
-      row.b = contact.b;
-      row.ja = scaled_rows(contact.frame, contact.lever_a, roots[contact.a]);
-      row.jb = scaled_rows(contact.frame, contact.lever_b, roots[contact.b]);
-      typename S::Matrix w = gram(row);
-      if constexpr (!std::same_as<Compliance, detail::RigidContacts>) w.diagonal() += compliance(c);
-      Eigen::Matrix<Scalar, tangents, tangents> turn;
-      row.block = align_tangents<S>(w, turn);
-      make_regular(row.block);
-      turn_tangents(contact.frame, turn);
-      turn_tangents(row.ja, turn);
-      turn_tangents(row.jb, turn);
-      row.free = relative_velocity(contact, free[contact.a], free[contact.b]);
-      heads_[c] = {{row.a, row.b}, row.block.trace()};
+      some.get_frame(lane, contact.frame);
+      rows_[c] = {contact.frame,    contact.lever_a,          contact.lever_b,
+                  some.block(lane), some.free_velocity(lane), contact.a,
+                  contact.b};
+      heads_[c] = {{contact.a, contact.b}, some.trace(lane)};
     }
   }
 
-  /// No impulse changes the tangential velocity of a wall with a mass and a grain of prescribed motion:
-  /// the slip of W_cc is zero. The local solution divides by it. Any positive value leaves the solution
-  /// of the contact problem as it is, because each visit of a contact subtracts W_cc r before it solves
-  /// with the same W_cc. Of other contacts the slip is of the order of w_nn.
-  static void make_regular(LocalBlock<S>& block) {
-    constexpr Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon();
-    for (auto& slip : block.slip)
-      if (slip <= rounding * block.normal) slip = block.normal;
-  }
-  static Vector point_velocity(const typename S::Twist& twist, const Vector& lever) {
+  /// @param twist (v, w), or a longer vector that begins with it
+  static Vector point_velocity(const auto& twist, const Vector& lever) {
     Vector velocity = S::spin(angular<S>(twist), lever);
     for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
     return velocity;
   }
-  static PaddedRows scaled_rows(const typename S::Matrix& frame, const Vector& lever,
-                                const MobilityRoot<S>& root) {
-    PaddedRows rows = PaddedRows::Zero();
-    for (int k = 0; k < S::dim; ++k) {
-      const Vector axis = frame.col(k);
-      const Vector push = product(root.linear, axis);
-      const typename S::Angular turn = product(root.angular, S::moment(lever, axis));
-      auto row = rows.col(k);
-      linear<S>(row) = push;
-      angular<S>(row) = turn;
-    }
-    return rows;
+  /// Change of the relative velocity by the impulses, world axes [m/s].
+  Vector change_between(const Row& row) const {
+    Vector difference = point_velocity(changes_[row.b], row.lever_b);
+    difference -= point_velocity(changes_[row.a], row.lever_a);
+    return difference;
   }
-  /// W_cc = Ja Ja^T + Jb Jb^T.
-  static typename S::Matrix gram(const Row& row) {
-    typename S::Matrix w;
-    for (int i = 0; i < S::dim; ++i)
-      for (int k = 0; k <= i; ++k)
-        w(i, k) = w(k, i) = row.ja.col(i).dot(row.ja.col(k)) + row.jb.col(i).dot(row.jb.col(k));
-    return w;
-  }
-  /// Columns 1.. of m times a rotation.
-  template <class Matrix, class Turn>
-  static void turn_tangents(Matrix& m, const Turn& turn) {
-    constexpr int tangents = Turn::RowsAtCompileTime;
-    for (int k = 0; k < Matrix::RowsAtCompileTime; ++k) {
-      Eigen::Matrix<Scalar, tangents, 1> turned = Eigen::Matrix<Scalar, tangents, 1>::Zero();
-      for (int t = 0; t < tangents; ++t)
-        for (int s = 0; s < tangents; ++s) turned[t] += m(k, 1 + s) * turn(s, t);
-      for (int t = 0; t < tangents; ++t) m(k, 1 + t) = turned[t];
-    }
+  void add_change(std::size_t body, const Vector& push, const typename S::Angular& moment) {
+    linear<S>(changes_[body]) += masses_[body].velocity_of(push);
+    angular<S>(changes_[body]) += masses_[body].spin_of(moment);
   }
 
-  std::span<const Contact<S>> contacts_;  // of the caller
-  std::span<const MobilityRoot<S>> roots_;
   std::vector<Row> rows_;
   std::vector<Head> heads_;
-  std::vector<PaddedTwist> scaled_;
+  std::vector<InverseMass<S>> masses_;
+  std::vector<PaddedTwist> changes_;
 };
 
 }  // namespace moreau

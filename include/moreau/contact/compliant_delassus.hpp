@@ -12,8 +12,8 @@
 
 namespace moreau {
 
-/// The operator of compliant contacts. block(c) is W_cc + D_cc; rows, bodies and scaled velocities
-/// are those of the rigid operator.
+/// The operator of compliant contacts. block(c) is W_cc + D_cc; bodies and their velocities are those
+/// of the rigid operator.
 /// @tparam Rigid BodyDelassus or RollingDelassus
 template <class Rigid>
 class CompliantDelassus : public Rigid {
@@ -44,13 +44,13 @@ class CompliantDelassus : public Rigid {
   Scalar normal_velocity(std::size_t c) const { return Rigid::normal_velocity(c) + stretch_[c][0]; }
   /// Applies an impulse to the bodies and the spring of a contact, in its frame [N s].
   void apply(std::size_t c, const Vector& impulse) {
-    apply_to_b(c, impulse);
-    Rigid::apply_to_a(c, impulse);
+    Rigid::apply(c, impulse);
+    stretch(c, impulse);
   }
-  /// Applies the part of apply() that concerns body b, and the spring.
-  void apply_to_b(std::size_t c, const Vector& impulse) {
-    Rigid::apply_to_b(c, impulse);
-    stretch_[c] += compliance_[c].cwiseProduct(impulse);
+  /// As BodyDelassus::push_b, and stretches the spring.
+  void push_b(std::size_t c, const Vector& impulse) {
+    Rigid::push_b(c, impulse);
+    stretch(c, impulse);
   }
   /// Removes all impulses.
   void clear() {
@@ -59,6 +59,10 @@ class CompliantDelassus : public Rigid {
   }
 
  private:
+  void stretch(std::size_t c, const Vector& impulse) {
+    stretch_[c] += compliance_[c].cwiseProduct(impulse);
+  }
+
   std::vector<Vector> compliance_, stretch_;  // D_cc and D_cc r_c [m/s]
 };
 

@@ -12,8 +12,9 @@
 //     r_t = -(b_t - k b_n) / (slip + alpha)   (entry by entry),     r_n = -b_n / w_nn - k . r_t.
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <concepts>
+#include <cstddef>
 
 #include "moreau/core/space.hpp"
 
@@ -52,22 +53,58 @@ struct LocalBlock {
 
 namespace detail {
 
-/// Orthonormal eigenvectors of a symmetric matrix of one or two rows, as the columns of a rotation:
-/// one Jacobi rotation by the smaller angle.
-template <std::floating_point T, int N>
-Eigen::Matrix<T, N, N> eigenvectors(const Eigen::Matrix<T, N, N>& a) {
-  static_assert(N <= 2, "eigenvectors: of three rows one rotation for each pair is not enough");
-  Eigen::Matrix<T, N, N> q = Eigen::Matrix<T, N, N>::Identity();
-  for (int k = 1; k < N; ++k) {
-    if (a(k, k - 1) == T(0)) continue;
-    const T theta = (a(k, k) - a(k - 1, k - 1)) / (T(2) * a(k, k - 1));
-    const T t = std::copysign(T(1), theta) / (std::abs(theta) + std::sqrt(theta * theta + T(1)));
-    const T c = T(1) / std::sqrt(t * t + T(1));
-    q(k - 1, k - 1) = q(k, k) = c;
-    q(k - 1, k) = t * c;
-    q(k, k - 1) = -t * c;
+/// W of a contact after its tangents are turned, for entries that are numbers or one contact per SIMD
+/// lane. new tangents = old tangents * turn
+template <std::size_t Tangents, class Values>
+struct AlignedBlock {
+  Values normal;
+  std::array<Values, Tangents> coupling, slip;
+  std::array<std::array<Values, Tangents>, Tangents> turn;
+};
+
+/// @param w           lower triangle of W, row after row
+/// @param square_root function of Values
+template <std::size_t Tangents, class Values>
+AlignedBlock<Tangents, Values> aligned_block(
+    const std::array<Values, (Tangents + 1) * (Tangents + 2) / 2>& w, const auto& square_root) {
+  static_assert(Tangents <= 2, "of three rows one rotation for each pair is not enough");
+  const auto entry = [&](std::size_t i, std::size_t k) -> const Values& {
+    return w[i < k ? k * (k + 1) / 2 + i : i * (i + 1) / 2 + k];
+  };
+  const Values zero{}, one = zero + 1;
+  AlignedBlock<Tangents, Values> block;
+  block.normal = entry(0, 0);
+  const Values inverse = one / block.normal;
+  std::array<Values, Tangents> k;  // before the turn
+  for (std::size_t t = 0; t < Tangents; ++t) k[t] = entry(t + 1, 0) * inverse;
+  std::array<std::array<Values, Tangents>, Tangents> schur;
+  for (std::size_t i = 0; i < Tangents; ++i)
+    for (std::size_t j = 0; j < Tangents; ++j) {
+      schur[i][j] = entry(i + 1, j + 1) - entry(i + 1, 0) * k[j];
+      block.turn[i][j] = i == j ? one : zero;
+    }
+  if constexpr (Tangents == 2) {
+    // One Jacobi rotation by the smaller angle.
+    const Values mixed = schur[1][0] + schur[1][0];
+    const Values theta = (schur[1][1] - schur[0][0]) / (mixed == zero ? one : mixed);
+    const Values size = theta < zero ? -theta : theta;
+    const Values least = one / (size + square_root(theta * theta + one));
+    const Values signed_least = theta < zero ? -least : least;
+    const Values tangent = mixed == zero ? zero : signed_least;
+    const Values cosine = one / square_root(tangent * tangent + one);
+    block.turn[0][0] = block.turn[1][1] = cosine;
+    block.turn[0][1] = tangent * cosine;
+    block.turn[1][0] = -(tangent * cosine);
   }
-  return q;
+  for (std::size_t t = 0; t < Tangents; ++t) {
+    block.coupling[t] = block.slip[t] = zero;
+    for (std::size_t i = 0; i < Tangents; ++i) {
+      block.coupling[t] += block.turn[i][t] * k[i];
+      for (std::size_t j = 0; j < Tangents; ++j)
+        block.slip[t] += block.turn[i][t] * schur[i][j] * block.turn[j][t];
+    }
+  }
+  return block;
 }
 
 }  // namespace detail
@@ -79,21 +116,20 @@ Eigen::Matrix<T, N, N> eigenvectors(const Eigen::Matrix<T, N, N>& a) {
 template <class S>
 LocalBlock<S> align_tangents(const typename S::Matrix& w,
                              Eigen::Matrix<typename S::Scalar, S::dim - 1, S::dim - 1>& turn) {
-  constexpr int tangents = S::dim - 1;
-  using Block = Eigen::Matrix<typename S::Scalar, tangents, tangents>;
+  using T = typename S::Scalar;
+  constexpr std::size_t tangents = S::dim - 1;
+  std::array<T, (tangents + 1) * (tangents + 2) / 2> lower;
+  for (int i = 0, e = 0; i < S::dim; ++i)
+    for (int k = 0; k <= i; ++k) lower[std::size_t(e++)] = w(i, k);
+  const auto aligned =
+      detail::aligned_block<tangents, T>(lower, [](const T& x) { return std::sqrt(x); });
   LocalBlock<S> block;
-  block.normal = w(0, 0);
-  Block schur;
-  for (int i = 0; i < tangents; ++i)
-    for (int k = 0; k < tangents; ++k)
-      schur(i, k) = w(i + 1, k + 1) - w(i + 1, 0) * w(k + 1, 0) / block.normal;
-  turn = detail::eigenvectors(schur);
-  for (int t = 0; t < tangents; ++t) {
-    block.coupling[t] = block.slip[t] = 0;
-    for (int i = 0; i < tangents; ++i) {
-      block.coupling[t] += turn(i, t) * w(i + 1, 0) / block.normal;
-      for (int k = 0; k < tangents; ++k) block.slip[t] += turn(i, t) * schur(i, k) * turn(k, t);
-    }
+  block.normal = aligned.normal;
+  for (std::size_t t = 0; t < tangents; ++t) {
+    block.coupling[Eigen::Index(t)] = aligned.coupling[t];
+    block.slip[Eigen::Index(t)] = aligned.slip[t];
+    for (std::size_t i = 0; i < tangents; ++i)
+      turn(Eigen::Index(i), Eigen::Index(t)) = aligned.turn[i][t];
   }
   return block;
 }

@@ -41,21 +41,24 @@ class RollingDelassus {
     rows_.resize(contacts.size());
     team.share_each(contacts.size(), 64, [&](std::size_t c) {
       const Contact<S>& contact = contacts[c];
-      const MobilityRoot<S>&a = roots[contact.a], &b = roots[contact.b];
+      const InverseMass<S>&a = points_.inverse_mass(contact.a),
+            &b = points_.inverse_mass(contact.b);
       Row& row = rows_[c];
-      row.radius = effective_radius(contact, is_round(a), is_round(b));
-      const typename S::Inertia axes = row.radius * S::angular_frame(contact.frame);
-      row.ka = a.angular * axes;
-      row.kb = b.angular * axes;
-      row.free = axes.transpose() * (angular<S>(free[contact.b]) - angular<S>(free[contact.a]));
+      row.radius =
+          effective_radius(contact, is_round(roots[contact.a]), is_round(roots[contact.b]));
+      row.axes = row.radius * S::angular_frame(contact.frame);
+      row.free = row.axes.transpose() * (angular<S>(free[contact.b]) - angular<S>(free[contact.a]));
       row.block.point = points_.block(c);
-      row.block.spin = row.ka.transpose() * row.ka + row.kb.transpose() * row.kb;
+      for (int k = 0; k < S::angular_dim; ++k) {
+        const typename S::Angular spin_a = a.spin_of(row.axes.col(k)),
+                                  spin_b = b.spin_of(row.axes.col(k));
+        row.block.spin.col(k) = row.axes.transpose() * (spin_a + spin_b);
+        row.block.coupling.col(k) = contact.frame.transpose() * (S::spin(spin_a, contact.lever_a) +
+                                                                 S::spin(spin_b, contact.lever_b));
+      }
       if constexpr (!rigid) row.block.spin.diagonal() += angular<S>(compliance(c));
-      // Two bodies whose rotation is prescribed: any positive value will do, see BodyDelassus.
+      // Two bodies whose rotation is prescribed: any positive value will do, see ContactLanes.
       if (row.block.spin.isZero(0)) row.block.spin.diagonal().setConstant(row.block.point.normal);
-      row.block.coupling =
-          points_.rows_a(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.ka +
-          points_.rows_b(c).template middleRows<S::angular_dim>(S::dim).transpose() * row.kb;
     });
   }
 
@@ -87,38 +90,41 @@ class RollingDelassus {
   Vector velocity(std::size_t c) const {
     const Row& row = rows_[c];
     const auto [a, b] = points_.bodies(c);
-    return joined(points_.velocity(c),
-                  row.free + row.kb.transpose() * spin_of(b) - row.ka.transpose() * spin_of(a));
+    return joined(points_.velocity(c), row.free + row.axes.transpose() * (spin_of(b) - spin_of(a)));
   }
   /// The first component of velocity(c) [m/s].
   Scalar normal_velocity(std::size_t c) const { return points_.normal_velocity(c); }
   /// Applies (impulse, couple / R), in the frame of the contact, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
-    apply_to_b(c, impulse);
-    apply_to_a(c, impulse);
-  }
-  /// Applies the part of apply() that concerns body a.
-  void apply_to_a(std::size_t c, const Vector& impulse) {
-    points_.apply_to_a(c, linear<S>(impulse));
-    points_.add_scaled_spin(bodies(c)[0],
-                            -(rows_[c].ka * typename S::Angular(angular<S>(impulse))));
-  }
-  /// Applies the part of apply() that concerns body b.
-  void apply_to_b(std::size_t c, const Vector& impulse) {
-    points_.apply_to_b(c, linear<S>(impulse));
-    points_.add_scaled_spin(bodies(c)[1], rows_[c].kb * typename S::Angular(angular<S>(impulse)));
+    points_.apply(c, linear<S>(impulse));
+    const auto [a, b] = points_.bodies(c);
+    const typename S::Angular couple = couple_of(c, impulse);
+    points_.apply_spin(b, couple);
+    points_.apply_spin(a, -couple);
   }
   /// Removes all impulses.
   void clear() { points_.clear(); }
-  /// As BodyDelassus::scaled_velocity.
-  auto scaled_velocity(std::size_t body) const { return points_.scaled_velocity(body); }
+  /// As BodyDelassus::push_a.
+  void push_a(std::size_t c, const Vector& impulse) {
+    points_.push_a(c, linear<S>(impulse));
+    points_.push_spin(points_.bodies(c)[0], -couple_of(c, impulse));
+  }
+  /// As BodyDelassus::push_b.
+  void push_b(std::size_t c, const Vector& impulse) {
+    points_.push_b(c, linear<S>(impulse));
+    points_.push_spin(points_.bodies(c)[1], couple_of(c, impulse));
+  }
+  /// As BodyDelassus::move.
+  void move(const Team& team = {}) { points_.move(team); }
+  /// As BodyDelassus::velocity_change.
+  auto velocity_change(std::size_t body) const { return points_.velocity_change(body); }
   static constexpr int width = BodyDelassus<S>::width;  ///< as BodyDelassus::width
-  /// As BodyDelassus::scaled_velocities.
-  std::span<Scalar> scaled_velocities() { return points_.scaled_velocities(); }
+  /// As BodyDelassus::velocity_changes.
+  std::span<Scalar> velocity_changes() { return points_.velocity_changes(); }
 
  private:
   struct Row {
-    typename S::Inertia ka, kb;
+    typename S::Inertia axes;  // R times the axes of rotation of the frame, world axes [m]
     typename S::Angular free;
     RollingBlock<S> block;
     Scalar radius;
@@ -133,7 +139,11 @@ class RollingDelassus {
     return u;
   }
   typename S::Angular spin_of(std::size_t body) const {
-    return angular<S>(points_.scaled_velocity(body));
+    return angular<S>(points_.velocity_change(body));
+  }
+  /// The couple of an impulse on b, world axes [N m s].
+  typename S::Angular couple_of(std::size_t c, const Vector& impulse) const {
+    return rows_[c].axes * angular<S>(impulse);
   }
 
   BodyDelassus<S> points_;

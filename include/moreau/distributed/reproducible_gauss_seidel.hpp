@@ -128,7 +128,7 @@ class OrderedSweeps {
   double count() const { return sum_over(sharing_, double(problem_.size())); }
 
  private:
-  std::span<T> velocities() { return base_.scaled_velocities(); }
+  std::span<T> velocities() { return base_.velocity_changes(); }
   double total(ExactSum& sum) const {
     if (sharing_) sharing_->add(sum.parts());
     return sum.value();
@@ -187,11 +187,9 @@ class OrderedSweeps {
   /// The factor of W' for a contact with a moving wall.
   T heavier(std::uint32_t c, const ColouredPair& pair, std::size_t colour) const {
     const auto [a, b] = base_.bodies(c);
-    const auto& rows = a == colours_.walls()[pair.wall] ? base_.rows_a(c) : base_.rows_b(c);
-    const typename S::Matrix inverse = base_.block(c).matrix().inverse();
-    T share = 0;
-    for (int i = 0; i < S::dim; ++i)
-      for (int k = 0; k < S::dim; ++k) share += inverse(i, k) * rows.col(i).dot(rows.col(k));
+    const typename S::Matrix of_wall =
+        a == colours_.walls()[pair.wall] ? base_.block_of_a(c) : base_.block_of_b(c);
+    const T share = base_.block(c).matrix().inverse().cwiseProduct(of_wall).sum();
     const std::int64_t points = points_at_walls_[colour * colours_.walls().size() + pair.wall];
     return 1 + static_cast<T>(points - 1) * share;
   }

@@ -46,9 +46,13 @@ template <class Operator>
 void set_impulses(Operator& delassus, std::span<const typename Operator::Vector> impulses,
                   SharedBodies* shared = nullptr) {
   delassus.clear();
-  for (std::size_t c = 0; c < delassus.size(); ++c)
-    if (!impulses[c].isZero(0)) delassus.apply(c, impulses[c]);
-  if (shared) shared->average(delassus.scaled_velocities(), Operator::width);
+  for (std::size_t c = 0; c < delassus.size(); ++c) {
+    if (impulses[c].isZero(0)) continue;
+    delassus.push_b(c, impulses[c]);
+    delassus.push_a(c, impulses[c]);
+  }
+  delassus.move();
+  if (shared) shared->average(delassus.velocity_changes(), Operator::width);
 }
 
 /// Sets the warm start to zero if the square of an impulse is not finite, in any process.

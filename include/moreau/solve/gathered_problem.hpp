@@ -70,7 +70,7 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
   problem.friction.resize(count);
   struct Touch {
     Eigen::Index contact;
-    Eigen::Matrix<double, Eigen::Dynamic, rows> rows_of_j;  // M^-1/2 J^T of this body
+    bool is_b;  // whether the body is the second body of the contact
   };
   std::vector<std::vector<Touch>> touches(op.body_count());
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -78,8 +78,8 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
     problem.friction[k] = double(step.law(c).friction());
     problem.free_velocity.template segment<rows>(rows * k) =
         op.free_velocity(c).template cast<double>();
-    touches[op.bodies(c)[0]].push_back({k, -op.rows_a(c).template cast<double>()});
-    touches[op.bodies(c)[1]].push_back({k, op.rows_b(c).template cast<double>()});
+    touches[op.bodies(c)[0]].push_back({k, false});
+    touches[op.bodies(c)[1]].push_back({k, true});
   }
   std::vector<Eigen::Triplet<double>> entries;
   if constexpr (requires { op.compliance(0); })
@@ -87,11 +87,20 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
       for (int d = 0; d < rows; ++d)
         entries.emplace_back(int(rows * k) + d, int(rows * k) + d,
                              double(op.compliance(contacts[std::size_t(k)])[d]));
-  for (const std::vector<Touch>& body : touches)
-    for (const Touch& one : body)
-      for (const Touch& other : body)
-        detail::add_block<rows>(one.contact, other.contact,
-                                one.rows_of_j.transpose() * other.rows_of_j, entries);
+  const auto contact = [&](const Touch& touch) { return contacts[std::size_t(touch.contact)]; };
+  const auto lever = [&](const Touch& touch) {
+    return touch.is_b ? op.lever_b(contact(touch)) : op.lever_a(contact(touch));
+  };
+  for (std::size_t body = 0; body < touches.size(); ++body)
+    for (const Touch& one : touches[body])
+      for (const Touch& other : touches[body]) {
+        const typename S::Matrix block =
+            Operator::block_between(op.frame(contact(one)), lever(one), op.frame(contact(other)),
+                                    lever(other), op.inverse_mass(body));
+        const double sign = one.is_b == other.is_b ? 1 : -1;
+        detail::add_block<rows>(one.contact, other.contact, sign * block.template cast<double>(),
+                                entries);
+      }
   problem.delassus.resize(rows * count, rows * count);
   problem.delassus.setFromTriplets(entries.begin(), entries.end());
   return gathered;

@@ -20,10 +20,10 @@ namespace detail {
 /// What the copies of shared bodies add to the trace of W_cc, beyond the whole bodies.
 template <class Operator>
 double trace_of_copies(const Operator& op, std::size_t c, const SharedBodies& shared) {
-  if constexpr (requires { op.rows_a(c); }) {
+  if constexpr (requires { op.block_of_a(c); }) {
     const auto [a, b] = op.bodies(c);
-    return double(op.rows_a(c).squaredNorm()) * (1 - 1.0 / shared.copies(a)) +
-           double(op.rows_b(c).squaredNorm()) * (1 - 1.0 / shared.copies(b));
+    return double(op.block_of_a(c).trace()) * (1 - 1.0 / shared.copies(a)) +
+           double(op.block_of_b(c).trace()) * (1 - 1.0 / shared.copies(b));
   } else {
     return 0;
   }

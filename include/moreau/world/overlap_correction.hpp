@@ -64,17 +64,16 @@ class OverlapCorrection {
   /// Computes the shift of every body, (displacement [m], rotation vector [rad]) in world axes.
   /// @param op         the operator of the contacts
   /// @param contacts   in: gaps; out: gaps after the shift, to first order [m]
-  /// @param roots      M^-1/2 of every body, as op was assembled with
   /// @param grain_size length that the slop is relative to [m]
   /// @param team       threads that share the work around the sweeps
   /// @param shared     bodies that other processes share; null: none
   /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are
   ///          zero. Its work and largest_shift are 0: they need the forces
   OverlapCorrectionReport solve(const BodyDelassus<S>& op, std::span<Contact<S>> contacts,
-                                std::span<const MobilityRoot<S>> roots, Scalar grain_size,
-                                const Team& team = {}, SharedBodies* shared = nullptr) {
+                                Scalar grain_size, const Team& team = {},
+                                SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
-    shifts_.assign(roots.size(), S::Twist::Zero());
+    shifts_.assign(op.body_count(), S::Twist::Zero());
     if (!options_.enabled) return report;
     const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size;
     rows_.resize(contacts.size());
@@ -84,15 +83,10 @@ class OverlapCorrection {
     });
     for (const Row& row : rows_) report.corrected += row.depth > 0;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
-    sweep(op, roots.size(), shared);
-    team.share_each(roots.size(), 256, [&](std::size_t i) {
-      if (!moved_[i]) return;
-      linear<S>(shifts_[i]) = product(roots[i].linear, linear<S>(scaled_[i]));
-      angular<S>(shifts_[i]) = product(roots[i].angular, angular<S>(scaled_[i]));
-    });
+    sweep(op, contacts, shared);
     team.share_each(contacts.size(), 512, [&](std::size_t c) {
       const Row& row = rows_[c];
-      if (moved_[row.a] || moved_[row.b]) contacts[c].gap += closing(op, c, row);
+      if (moved_[row.a] || moved_[row.b]) contacts[c].gap += closing(contacts[c]);
     });
     return report;
   }
@@ -114,43 +108,52 @@ class OverlapCorrection {
   };
 
   /// First-order change of the gap of a contact by the present shifts [m].
-  Scalar closing(const BodyDelassus<S>& op, std::size_t c, const Row& row) const {
-    return op.rows_b(c).col(0).dot(scaled_[row.b]) - op.rows_a(c).col(0).dot(scaled_[row.a]);
+  Scalar closing(const Contact<S>& contact) const {
+    return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
+  }
+  /// Pushes a body at a point.
+  /// @param push  mass times displacement, world axes [kg m]
+  /// @param lever from the centre of the body to the point [m]
+  void shift(const BodyDelassus<S>& op, std::uint32_t body, const typename S::Vector& push,
+             const typename S::Vector& lever) {
+    const InverseMass<S>& mass = op.inverse_mass(body);
+    linear<S>(shifts_[body]) += mass.velocity_of(push);
+    angular<S>(shifts_[body]) += mass.spin_of(S::moment(lever, push));
+    moved_[body] = !shifts_[body].isZero(0);
   }
 
-  void sweep(const BodyDelassus<S>& op, std::size_t body_count, SharedBodies* shared) {
-    scaled_.assign(body_count, BodyDelassus<S>::PaddedTwist::Zero());
-    moved_.assign(body_count, 0);
+  void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
+             SharedBodies* shared) {
+    moved_.assign(op.body_count(), 0);
     for (int k = 0; k < options_.sweeps; ++k) {
       for (std::size_t c = 0; c < rows_.size(); ++c) {
         Row& row = rows_[c];
         // Most contacts are not too deep and between bodies that do not move: nothing to do.
         if (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b]) continue;
+        const Contact<S>& contact = contacts[c];
         const Scalar target =
             row.depth > 0 ? static_cast<Scalar>(options_.rate) * row.depth : row.depth;
-        const Scalar missing = target - closing(op, c, row);
+        const Scalar missing = target - closing(contact);
         const Scalar push = std::max(Scalar(0), row.push + missing / op.block(c).normal);
         const Scalar change = push - row.push;
         if (change == Scalar(0)) continue;
         row.push = push;
-        scaled_[row.b] += change * op.rows_b(c).col(0);
-        scaled_[row.a] -= change * op.rows_a(c).col(0);
-        moved_[row.a] = !scaled_[row.a].isZero(0);
-        moved_[row.b] = !scaled_[row.b].isZero(0);
+        const typename S::Vector along_normal = change * contact.frame.col(0);
+        shift(op, row.b, along_normal, contact.lever_b);
+        shift(op, row.a, -along_normal, contact.lever_a);
       }
       if (shared) average(*shared);
     }
   }
 
   void average(SharedBodies& shared) {
-    constexpr std::size_t width = BodyDelassus<S>::width;
-    shared.average(std::span(scaled_.empty() ? nullptr : scaled_[0].data(), scaled_.size() * width),
-                   width);
-    for (std::size_t i = 0; i < scaled_.size(); ++i) moved_[i] = !scaled_[i].isZero(0);
+    shared.average(
+        std::span(shifts_.empty() ? nullptr : shifts_[0].data(), shifts_.size() * S::dofs),
+        S::dofs);
+    for (std::size_t i = 0; i < shifts_.size(); ++i) moved_[i] = !shifts_[i].isZero(0);
   }
 
   Options options_;
-  std::vector<typename BodyDelassus<S>::PaddedTwist> scaled_;
   std::vector<unsigned char> moved_;  // bodies with a contact that pushed
   std::vector<Row> rows_;
   std::vector<typename S::Twist> shifts_;

@@ -78,17 +78,14 @@ class PairColours {
     const auto id = [&](std::uint32_t body) { return sharing ? sharing->id(body) : body; };
     for (std::uint32_t first = 0, last = 0; first < op.size(); first = last) {
       const std::array<std::uint32_t, 2> pair = op.bodies(first);
-      std::array<bool, 2> moves{};
-      for (last = first; last < op.size() && op.bodies(last) == pair; ++last) {
-        moves[0] = moves[0] || !op.rows_a(last).isZero(0);
-        moves[1] = moves[1] || !op.rows_b(last).isZero(0);
-      }
+      for (last = first; last < op.size() && op.bodies(last) == pair;) ++last;
       ColouredPair one{first, last, ColouredPair::none, ColouredPair::none};
       std::array<std::uint32_t, 2> bodies;
       for (std::size_t k = 0; k < 2; ++k) {
         const auto wall = std::find(walls_.begin(), walls_.end(), pair[k]);
         if (wall != walls_.end()) one.wall = std::uint32_t(wall - walls_.begin());
-        bodies[k] = moves[k] && wall == walls_.end() ? pair[k] : ColouredPair::none;
+        bodies[k] =
+            op.inverse_mass(pair[k]).moves() && wall == walls_.end() ? pair[k] : ColouredPair::none;
       }
       std::fill(wall_of_.begin() + first, wall_of_.begin() + last, one.wall);
       pairs_.push_back(one);

@@ -168,12 +168,13 @@ class ContactGroups {
       for (std::uint32_t c = first_[entry.pair]; c < first_[entry.pair + 1]; ++c) {
         if (impulses[c].isZero(0)) continue;
         if (entry.is_b)
-          op.apply_to_b(c, impulses[c]);
+          op.push_b(c, impulses[c]);
         else
-          op.apply_to_a(c, impulses[c]);
+          op.push_a(c, impulses[c]);
       }
     });
-    if (shared) shared->average(op.scaled_velocities(), Operator::width);
+    op.move(team);
+    if (shared) shared->average(op.velocity_changes(), Operator::width);
   }
 
  private:
@@ -189,9 +190,12 @@ class ContactGroups {
                                  alone_kind = serial << colour_bits;
 
   void find_pairs(const Operator& op) {
-    moves_.assign(op.body_count(), 0);
+    moves_.resize(op.body_count());
     isotropic_.resize(op.body_count());
-    for (std::size_t i = 0; i < op.body_count(); ++i) isotropic_[i] = is_isotropic(op.root(i));
+    for (std::size_t i = 0; i < op.body_count(); ++i) {
+      moves_[i] = op.inverse_mass(i).moves();
+      isotropic_[i] = op.inverse_mass(i).is_isotropic();
+    }
     bodies_.clear();
     first_.clear();
     for (std::size_t c = 0; c < op.size(); ++c) {
@@ -200,8 +204,6 @@ class ContactGroups {
         bodies_.push_back(bodies);
         first_.push_back(static_cast<std::uint32_t>(c));
       }
-      if (!moves_[bodies[0]]) moves_[bodies[0]] = !op.rows_a(c).isZero(0);
-      if (!moves_[bodies[1]]) moves_[bodies[1]] = !op.rows_b(c).isZero(0);
     }
     first_.push_back(static_cast<std::uint32_t>(op.size()));
   }
@@ -249,12 +251,9 @@ class ContactGroups {
   }
   /// tr(W^-1 W_hub), the share of the hub in W.
   static typename S::Scalar share_of_hub(const Operator& op, std::uint32_t c, Hub hub) {
-    const auto& rows = hub == Hub::a ? op.rows_a(c) : op.rows_b(c);
+    const typename S::Matrix of_hub = hub == Hub::a ? op.block_of_a(c) : op.block_of_b(c);
     const typename S::Matrix inverse = op.block(c).matrix().inverse();
-    typename S::Scalar share = 0;
-    for (int i = 0; i < S::dim; ++i)
-      for (int k = 0; k < S::dim; ++k) share += inverse(i, k) * rows.col(i).dot(rows.col(k));
-    return share;
+    return inverse.cwiseProduct(of_hub).sum();
   }
 
   static bool likely(const Operator& op, std::span<const Impulse> impulses, std::uint32_t c) {
@@ -324,10 +323,10 @@ class ContactGroups {
     if (group.matrices != Pairs::isotropic) mass_matrices[group.matrices] = {};
     for (std::size_t lane = 0; lane < members.size(); ++lane) {
       const auto& [a, b] = bodies_[members[lane].pair];
-      masses[number][0].set(lane, op.root(a));
-      masses[number][1].set(lane, op.root(b));
+      masses[number][0].set(lane, op.inverse_mass(a));
+      masses[number][1].set(lane, op.inverse_mass(b));
       if (group.matrices != Pairs::isotropic)
-        mass_matrices[group.matrices].set(lane, op.root(a), op.root(b));
+        mass_matrices[group.matrices].set(lane, op.inverse_mass(a), op.inverse_mass(b));
     }
     std::uint32_t together = 0;  // points of the group
     for (const Ordered& member : members) together += points_of(member.pair);
@@ -366,13 +365,12 @@ class ContactGroups {
 
   static void set(Points& point, std::size_t lane, const Operator& op, const LocalBlock<S>& block,
                   const Law& law, const Impulse& impulse, std::uint32_t c) {
-    const Contact<S>& contact = op.contact(c);
     for (std::size_t d = 0; d < S::dim; ++d) {
       const auto column = Eigen::Index(d);
       for (std::size_t k = 0; k < S::dim; ++k)
-        point.frame[k][d][lane] = contact.frame(Eigen::Index(k), column);
-      point.lever_a[d][lane] = contact.lever_a[column];
-      point.lever_b[d][lane] = contact.lever_b[column];
+        point.frame[k][d][lane] = op.frame(c)(Eigen::Index(k), column);
+      point.lever_a[d][lane] = op.lever_a(c)[column];
+      point.lever_b[d][lane] = op.lever_b(c)[column];
       point.free[d][lane] = op.free_velocity(c)[column];
       if constexpr (CompliantLaw<Law, S>) point.compliance[d][lane] = op.compliance(c)[column];
       point.impulse[d][lane] = point.before[d][lane] = impulse[column];

@@ -6,9 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
-#include "moreau/core/twist.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -53,13 +51,8 @@ class GroupKernel {
                     SharedBodies* shared) {
     groups_.set_impulses(op, impulses, team, shared);
     velocity_.reset(groups_.rows());
-    team.share_each(op.body_count(), 256, [&](std::size_t i) {
-      const typename S::Twist y = op.scaled_velocity(i);
-      typename S::Twist v;
-      linear<S>(v) = product(op.root(i).linear, linear<S>(y));
-      angular<S>(v) = product(op.root(i).angular, angular<S>(y));
-      velocity_.set(i, v);
-    });
+    team.share_each(op.body_count(), 256,
+                    [&](std::size_t i) { velocity_.set(i, op.velocity_change(i)); });
     velocity_.settle();
   }
   /// Computes the velocities of the bodies from the impulses alone.
@@ -113,7 +106,7 @@ class GroupKernel {
 
  private:
   using BodyLanes = typename LaneVelocities<S, W>::BodyLanes;
-  using Algebra = LaneAlgebra<S>;
+  using Algebra = LaneAlgebra<S, Values>;
 
   /// Groups between the present one and that whose velocities are loaded into the cache: more than
   /// memory takes to answer. The groups of a colour are visited in their order, but their bodies lie

@@ -95,21 +95,31 @@ class alignas(64) FoundContacts {
   /// @param at index of the first of them in the list
   void write(const Run& run, std::uint32_t a, std::size_t at, Contacts<S>& out) {
     const std::size_t begin = at;
+    // Pointers of their own: the compiler need not expect that writing a number changes them.
+    const Pair* const pairs = pairs_.data();
+    const ManifoldPoint<S>* const found = points_.data();
+    Contact<S>* const points = out.points.data();
+    ContactKey* const keys_out = out.keys.data();
+    ContactClass* const classes = out.classes.data();
+    Vector* const impulses = out.impulses.data();
     for (std::uint32_t k = run.first; k < run.last; ++k) {
-      const Pair& pair = pairs_[k];
+      const Pair& pair = pairs[k];
       const typename S::Matrix frame = S::contact_frame(pair.normal);
       for (std::uint32_t p = pair.first; p < pair.last; ++p, ++at) {
-        const ManifoldPoint<S>& point = points_[p];
-        out.points[at] = {a,
-                          pair.b,
-                          0,
-                          point.gap,
-                          frame,
-                          point.position - pair.center_a,
-                          point.position - pair.center_b};
-        out.keys[at] = {a, pair.b, point.feature, pair.part_a, pair.part_b};
-        out.classes[at] = pair.contact_class;
-        out.impulses[at].setZero();
+        const ManifoldPoint<S>& point = found[p];
+        Contact<S>& contact = points[at];
+        contact.a = a;
+        contact.b = pair.b;
+        contact.law = 0;
+        contact.gap = point.gap;
+        contact.frame = frame;
+        for (int d = 0; d < S::dim; ++d) {
+          contact.lever_a[d] = point.position[d] - pair.center_a[d];
+          contact.lever_b[d] = point.position[d] - pair.center_b[d];
+          impulses[at][d] = 0;
+        }
+        keys_out[at] = {a, pair.b, point.feature, pair.part_a, pair.part_b};
+        classes[at] = pair.contact_class;
       }
     }
     const auto keys = out.keys.begin();

@@ -235,7 +235,7 @@ class ImpulseDynamics {
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
     OverlapCorrectionReport report =
-        correction_.solve(Unknowns::points(problem_.delassus), context.contacts.points, roots_,
+        correction_.solve(Unknowns::points(problem_.delassus), context.contacts.points,
                           context.grain_size, team_, shared_.get());
     if (shared_ || report.corrected > 0) shift_bodies(context.bodies, context.gravity, report);
     return report;
@@ -293,13 +293,10 @@ class ImpulseDynamics {
     unknowns_.finish(problem_.delassus, context.contacts);
   }
 
-  /// V = V_free + M^-1/2 y. Throws if a velocity is not finite; no body has moved yet.
+  /// V = V_free and what the impulses have changed. Throws if a velocity is not finite; no body has moved yet.
   void velocities_after() {
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
-      const auto y = problem_.delassus.scaled_velocity(i);
-      after_[i] = free_[i];
-      linear<S>(after_[i]) += product(roots_[i].linear, linear<S>(y));
-      angular<S>(after_[i]) += product(roots_[i].angular, angular<S>(y));
+      after_[i] = free_[i] + problem_.delassus.velocity_change(i);
       if (!all_finite(after_[i]))
         throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
     });

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// W_cc, the turned tangents and the free velocities of several contacts, one per SIMD lane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "moreau/body/mobility.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/contact/lane_block.hpp"
+#include "moreau/core/detail/lane_algebra.hpp"
+
+namespace moreau::detail {
+
+/// Contacts of the same step, one per lane.
+template <class S>
+class ContactLanes {
+ public:
+  using W = typename LaneBlock<S>::W;
+  using Values = typename W::Values;
+  using Algebra = LaneAlgebra<S, Values>;
+  using Vector = typename Algebra::Vector;
+  static constexpr std::size_t lanes = W::lanes, dim = S::dim, tangents = dim - 1;
+
+  /// What belongs to one of the two bodies.
+  struct Side {
+    Vector lever;  ///< world axes [m]
+    typename Algebra::template Symmetric<dim> linear;
+    typename Algebra::template Symmetric<Algebra::angular> angular;
+    std::array<Values, std::size_t{S::dofs}> velocity;  ///< without contacts
+
+    void set(std::size_t lane, const typename S::Vector& from_centre, const InverseMass<S>& mass,
+             const typename S::Twist& free) {
+      for (std::size_t k = 0; k < dim; ++k) lever[k][lane] = from_centre[Eigen::Index(k)];
+      for (std::size_t k = 0; k < linear.size(); ++k) linear[k][lane] = mass.linear()[k];
+      for (std::size_t k = 0; k < angular.size(); ++k) angular[k][lane] = mass.angular()[k];
+      for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k][lane] = free[Eigen::Index(k)];
+    }
+  };
+
+  Side a, b;
+  Vector compliance{};  ///< added to the diagonal of W_cc [1/kg]
+
+  void set_frame(std::size_t lane, const typename S::Matrix& frame) {
+    for (std::size_t d = 0; d < dim; ++d)
+      for (std::size_t k = 0; k < dim; ++k)
+        axes_[d][k][lane] = frame(Eigen::Index(k), Eigen::Index(d));
+  }
+  /// Computes the blocks, turns the tangents, and computes the free velocities.
+  void assemble() {
+    typename Algebra::template Symmetric<dim> w{};
+    for (std::size_t d = 0; d < dim; ++d) w[Algebra::entry(d, d)] = compliance[d];
+    add_inertia(a, w);
+    add_inertia(b, w);
+    block_ = aligned_block<tangents, Values>(w, W::square_root);
+    make_regular();
+    turn_tangents();
+    const Vector of_a = Algebra::point_velocity(a.velocity, a.lever);
+    const Vector of_b = Algebra::point_velocity(b.velocity, b.lever);
+    for (std::size_t d = 0; d < dim; ++d) {
+      free_[d] = axes_[d][0] * (of_b[0] - of_a[0]);
+      for (std::size_t k = 1; k < dim; ++k) free_[d] += axes_[d][k] * (of_b[k] - of_a[k]);
+    }
+    Values squares = W::broadcast(1), slips{};
+    for (std::size_t t = 0; t < tangents; ++t) {
+      squares += block_.coupling[t] * block_.coupling[t];
+      slips += block_.slip[t];
+    }
+    trace_ = block_.normal * squares + slips;
+  }
+
+  // Results of assemble().
+  void get_frame(std::size_t lane, typename S::Matrix& frame) const {
+    for (std::size_t d = 1; d < dim; ++d)
+      for (std::size_t k = 0; k < dim; ++k)
+        frame(Eigen::Index(k), Eigen::Index(d)) = axes_[d][k][lane];
+  }
+  LocalBlock<S> block(std::size_t lane) const {
+    LocalBlock<S> block;
+    block.normal = block_.normal[lane];
+    for (std::size_t t = 0; t < tangents; ++t) {
+      block.coupling[Eigen::Index(t)] = block_.coupling[t][lane];
+      block.slip[Eigen::Index(t)] = block_.slip[t][lane];
+    }
+    return block;
+  }
+  typename S::Vector free_velocity(std::size_t lane) const {
+    typename S::Vector free;
+    for (std::size_t d = 0; d < dim; ++d) free[Eigen::Index(d)] = free_[d][lane];
+    return free;
+  }
+  typename S::Scalar trace(std::size_t lane) const { return trace_[lane]; }
+
+ private:
+  using T = typename S::Scalar;
+
+  /// Adds the part of W_cc that belongs to one body.
+  void add_inertia(const Side& side, typename Algebra::template Symmetric<dim>& w) const {
+    for (std::size_t i = 0; i < dim; ++i) {
+      const Vector push = Algebra::template product<dim>(side.linear, axes_[i]);
+      const auto turn = Algebra::template product<Algebra::angular>(
+          side.angular, Algebra::moment(side.lever, axes_[i]));
+      for (std::size_t k = 0; k <= i; ++k) {
+        Values& entry = w[Algebra::entry(i, k)];
+        for (std::size_t d = 0; d < dim; ++d) entry += push[d] * axes_[k][d];
+        const auto moment = Algebra::moment(side.lever, axes_[k]);
+        for (std::size_t d = 0; d < Algebra::angular; ++d) entry += turn[d] * moment[d];
+      }
+    }
+  }
+  /// No impulse changes the tangential velocity of a wall with a mass and a grain of prescribed motion:
+  /// the slip of W_cc is zero. The local solution divides by it. Any positive value leaves the solution
+  /// of the contact problem as it is, because each visit of a contact subtracts W_cc r before it solves
+  /// with the same W_cc. Of other contacts the slip is of the order of w_nn.
+  void make_regular() {
+    constexpr T rounding = 64 * std::numeric_limits<T>::epsilon();
+    for (Values& slip : block_.slip) slip = slip <= rounding * block_.normal ? block_.normal : slip;
+  }
+  void turn_tangents() {
+    std::array<Vector, tangents> turned{};
+    for (std::size_t t = 0; t < tangents; ++t)
+      for (std::size_t s = 0; s < tangents; ++s)
+        for (std::size_t k = 0; k < dim; ++k) turned[t][k] += axes_[1 + s][k] * block_.turn[s][t];
+    for (std::size_t t = 0; t < tangents; ++t) axes_[1 + t] = turned[t];
+  }
+
+  std::array<Vector, dim> axes_;  // of the frame, in world axes
+  AlignedBlock<tangents, Values> block_;
+  Vector free_;
+  Values trace_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace moreau::detail {
+
+/// Products of vectors and symmetric matrices.
+/// @tparam Values of an entry: a number, or a SIMD register with one body per lane
+template <class S, class Values>
+struct LaneAlgebra {
+  static constexpr std::size_t dim = S::dim, angular = S::angular_dim;
+  using Vector = std::array<Values, dim>;
+  /// The lower triangle, row after row.
+  template <std::size_t N>
+  using Symmetric = std::array<Values, N*(N + 1) / 2>;
+
+  /// Velocity of a point of a body [m/s].
+  /// @param v     v and w of the body [m/s, rad/s]
+  /// @param lever from the centre of the body to the point [m]
+  static Vector point_velocity(const auto& v, const Vector& lever) {
+    Vector u = spin(v, lever);
+    for (std::size_t k = 0; k < dim; ++k) u[k] += v[k];
+    return u;
+  }
+  /// lever x p
+  static std::array<Values, 3> moment(const std::array<Values, 3>& lever,
+                                      const std::array<Values, 3>& p) {
+    return {lever[1] * p[2] - lever[2] * p[1], lever[2] * p[0] - lever[0] * p[2],
+            lever[0] * p[1] - lever[1] * p[0]};
+  }
+  static std::array<Values, 1> moment(const std::array<Values, 2>& lever,
+                                      const std::array<Values, 2>& p) {
+    return {lever[0] * p[1] - lever[1] * p[0]};
+  }
+  template <std::size_t N>
+  static std::array<Values, N> product(const Symmetric<N>& m, const std::array<Values, N>& x) {
+    std::array<Values, N> y;
+    for (std::size_t i = 0; i < N; ++i) {
+      y[i] = m[entry(i, 0)] * x[0];
+      for (std::size_t k = 1; k < N; ++k) y[i] += m[entry(i, k)] * x[k];
+    }
+    return y;
+  }
+  /// Where the entry (i, k) of a Symmetric lies.
+  static constexpr std::size_t entry(std::size_t i, std::size_t k) {
+    return i < k ? entry(k, i) : i * (i + 1) / 2 + k;
+  }
+
+ private:
+  /// w x lever
+  static std::array<Values, 3> spin(const auto& v, const std::array<Values, 3>& lever) {
+    return {v[4] * lever[2] - v[5] * lever[1], v[5] * lever[0] - v[3] * lever[2],
+            v[3] * lever[1] - v[4] * lever[0]};
+  }
+  static std::array<Values, 2> spin(const auto& v, const std::array<Values, 2>& lever) {
+    return {-(v[2] * lever[1]), v[2] * lever[0]};
+  }
+};
+
+}  // namespace moreau::detail

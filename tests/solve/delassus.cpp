@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The Delassus operator of contacts: blocks, velocities and impulses agree with one another.
+#include <doctest/doctest.h>
+#include <random>
+#include <vector>
+
+#include "moreau/body/mobility.hpp"
+
+#include "solve/assembly.hpp"
+
+using namespace solve_test;
+
+TEST_CASE_TEMPLATE("a unit impulse changes the velocity of its contact by a column of its block", S,
+                   Space<2>, Space<3>) {
+  Assembly<S> problem(3);
+  auto& op = problem.op;
+  for (std::size_t c = 0; c < op.size(); ++c) {
+    const typename S::Matrix block = op.block(c).matrix();
+    CHECK((op.block_of_a(c) + op.block_of_b(c) - block).norm() < 1e-14 * block.norm());
+    CHECK(op.trace(c) == doctest::Approx(block.trace()).epsilon(1e-14));
+    CHECK((op.frame(c).transpose() * op.frame(c)).isIdentity(1e-14));
+    for (int k = 0; k < S::dim; ++k) {
+      op.clear();
+      op.apply(c, S::Vector::Unit(k));
+      const typename S::Vector change = op.velocity(c) - op.free_velocity(c);
+      CHECK((change - block.col(k)).norm() < 1e-14 * block.norm());
+      CHECK(op.normal_velocity(c) == doctest::Approx(op.velocity(c)[0]).epsilon(1e-14));
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("impulses one after the other and all at once give the same velocities", S,
+                   Space<2>, Space<3>) {
+  Assembly<S> problem(4);
+  auto& op = problem.op;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<typename S::Vector> impulses(op.size());
+  for (auto& impulse : impulses)
+    for (double& x : impulse) x = unit(random);
+  for (std::size_t c = 0; c < op.size(); ++c) op.apply(c, impulses[c]);
+  std::vector<typename S::Twist> expected;
+  for (std::size_t i = 0; i < op.body_count(); ++i) expected.push_back(op.velocity_change(i));
+  op.clear();
+  for (std::size_t c = 0; c < op.size(); ++c) {
+    op.push_a(c, impulses[c]);
+    op.push_b(c, impulses[c]);
+  }
+  op.move();
+  for (std::size_t i = 0; i < op.body_count(); ++i)
+    CHECK((op.velocity_change(i) - expected[i]).norm() < 1e-12);
+}
+
+TEST_CASE("the inverse mass of a wall that moves along one axis") {
+  using S = Space<3>;
+  const MobilityRoot<S> grain{S::Matrix::Identity() / 2, 3 * S::Inertia::Identity(), true};
+  const InverseMass<S> of_grain(grain);
+  CHECK(of_grain.velocity_of({4, 0, 8}) == S::Vector(1, 0, 2));  // impulse / mass
+  CHECK(of_grain.spin_of({0, 1, 0}) == S::Angular(0, 9, 0));
+  CHECK(of_grain.is_isotropic());
+
+  const S::Vector axis = S::Vector(1, 2, 2) / 3;
+  const InverseMass<S> of_wall({axis * axis.transpose(), S::Inertia::Zero()});
+  CHECK((of_wall.velocity_of({3, 0, 0}) - axis).norm() < 1e-15);
+  CHECK(!of_wall.is_isotropic());
+  CHECK(of_wall.moves());
+
+  const InverseMass<S> prescribed;
+  CHECK(!prescribed.moves());
+  CHECK(prescribed.is_isotropic());
+}
