@@ -104,7 +104,8 @@ std::size_t within_margin(const Placed<Grain>& grain, const MeshWall<S>& wall) {
   return count;
 }
 
-void run(benchmark::State& state, double edge, double height) {
+/// @param coherent whether the facets near each grain are known from the step before
+void run(benchmark::State& state, double edge, double height, bool coherent) {
   const MeshWall<S> wall(floor_of(std::size_t(state.range(0)), edge, height));
   std::vector<Grain> shapes;
   const auto grains = grains_on(wall, shapes);
@@ -112,10 +113,17 @@ void run(benchmark::State& state, double edge, double height) {
   for (const auto& grain : grains) triangles += within_margin(grain, wall);
   MeshScratch scratch;
   Manifold<S> manifold;
+  std::vector<MeshNeighbours<S>> near(grains.size());
   for ([[maybe_unused]] auto _ : state) {
     points = 0;
     const auto add = [&](std::uint32_t) { points += manifold.points.size(); };
-    for (const auto& grain : grains) collide_each(grain, wall, margin, scratch, manifold, add);
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      if (coherent) {
+        near[i].update(wall, grains[i].bounding_box().inflated(margin));
+        collide_each(grains[i], wall, margin, near[i], scratch, manifold, add);
+      } else {
+        collide_each(grains[i], wall, margin, scratch, manifold, add);
+      }
     benchmark::DoNotOptimize(points);
   }
   const auto per = [](std::size_t count) {
@@ -137,10 +145,13 @@ int main(int argc, char** argv) {
   };
   for (const Floor floor : {Floor{"flat/edges_of_0.2", 0.2, 0}, Floor{"flat/edges_of_1", 1, 0},
                             Floor{"wavy/edges_of_0.2", 0.2, 0.1}, Floor{"wavy/edges_of_1", 1, 0.3}})
-    for (const std::int64_t count : {1000, 10000, 100000})
-      benchmark::RegisterBenchmark(floor.name, run, floor.edge, floor.height)
-          ->Arg(count)
-          ->Unit(benchmark::kMicrosecond);
+    for (const bool coherent : {false, true})
+      for (const std::int64_t count : {1000, 10000, 100000})
+        benchmark::RegisterBenchmark(
+            (std::string(floor.name) + (coherent ? "/coherent" : "/cold")).c_str(), run, floor.edge,
+            floor.height, coherent)
+            ->Arg(count)
+            ->Unit(benchmark::kMicrosecond);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

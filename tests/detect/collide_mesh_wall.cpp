@@ -164,3 +164,44 @@ TEST_CASE_TEMPLATE("the surface of a convex body has the distance of the body", 
   CHECK(missed <= 2);  // of those deeper than 0.005
   MESSAGE(apart << " apart, " << touching << " overlap by at most 0.02, missed " << missed);
 }
+
+// A grain that wanders over the surface of a concave body: the facets that are known from earlier steps
+// give the same bits as a search among all.
+TEST_CASE_TEMPLATE("facets that are known from earlier steps give the same contacts", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Capsule<>), (Ball<>, Rounded<Polyhedron<>>))) {
+  using S = SpaceOf<ShapeT>;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(pebble_mesh<S>(1, 5, 2), sides);
+    const ShapeT shape = grain<ShapeT>(0.3);
+    const double margin = 0.02;
+    MeshNeighbours<S> near;
+    MeshScratch scratch;
+    Manifold<S> manifold;
+    Pose<S> pose({0, 0, 1.2}, S::identity());
+    std::size_t points = 0;
+    for (int k = 0; k < 2000; ++k) {
+      for (double& x : pose.position) x += 0.01 * normal(random);
+      pose.position *= 1 + 0.1 * (1.1 - pose.position.norm());
+      pose.rotation = S::exp({0.1 * normal(random), 0, 0.1}) * pose.rotation;
+      const Placed<ShapeT> placed(shape, pose);
+      const auto expected = points_of(placed, wall, margin);
+      near.update(wall, placed.bounding_box().inflated(margin));
+      std::size_t at = 0;
+      bool same = true;
+      collide_each(placed, wall, margin, near, scratch, manifold, [&](std::uint32_t) {
+        for (const auto& point : manifold.points) {
+          same = same && at < expected.size() && point.gap == expected[at].at.gap &&
+                 point.position == expected[at].at.position &&
+                 point.feature == expected[at].at.feature && manifold.normal == expected[at].normal;
+          ++at;
+        }
+      });
+      CHECK(same);
+      CHECK(at == expected.size());
+      points += at;
+    }
+    CHECK(points > 500);
+  }
+}

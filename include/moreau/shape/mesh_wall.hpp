@@ -94,11 +94,20 @@ class MeshWall {
   /// The facets in the order of tree(): k < size().
   const Side& side(std::size_t k) const { return facet_sides_[k]; }
   const Facet& facet(std::size_t k) const { return facets_[k]; }           ///< corners of side(k)
+  const Aabb<S>& box(std::size_t k) const { return boxes_[k]; }            ///< around facet(k) [m]
   const Vector& vertex(std::size_t v) const { return mesh_.vertices[v]; }  ///< [m]
   std::size_t ridge_count() const { return ridges_.size(); }               ///< of convex ridges
   const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }     ///< r < ridge_count()
   /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
   bool is_tip(std::size_t v) const { return is_tip_[v] != 0; }
+  /// Whether side(k) has neither a convex ridge nor a tip.
+  bool is_plain(std::size_t k) const {
+    for (const std::uint32_t r : facet_sides_[k].ridge)
+      if (r != none) return false;
+    for (const std::uint32_t v : facets_[k])
+      if (is_tip(v)) return false;
+    return true;
+  }
   /// Whether a direction d is a possible contact normal at a vertex, towards the grain: all facets at
   /// the vertex lie below the plane through it.
   /// @param tolerance sine of the largest angle of a facet above the plane [-]
@@ -137,6 +146,7 @@ class MeshWall {
   WallSides sides_ = WallSides::outside;
   std::vector<Facet> facets_;
   std::vector<Side> facet_sides_;
+  std::vector<Aabb<S>> boxes_;
   std::vector<ConvexRidge> ridges_;
   std::vector<unsigned char> is_tip_;
   std::vector<std::uint32_t> ring_, ring_begin_;  ///< the neighbours of each vertex
@@ -174,9 +184,11 @@ void MeshWall<S>::sort_by_place() {
   const auto facets = facets_;
   const auto sides = facet_sides_;
   std::vector<std::uint32_t> place(facets.size());
+  boxes_.resize(facets.size());
   for (std::uint32_t k = 0; k < facets.size(); ++k) {
     facets_[k] = facets[tree_.order()[k]];
     facet_sides_[k] = sides[tree_.order()[k]];
+    boxes_[k] = boxes[tree_.order()[k]];
     place[tree_.order()[k]] = k;
   }
   for (ConvexRidge& ridge : ridges_)

@@ -22,12 +22,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
 #include "moreau/detect/pairs/mesh_core.hpp"
+#include "moreau/detect/pairs/mesh_neighbours.hpp"
+#include "moreau/detect/pairs/nearest_on_facet.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/shape_kinds.hpp"
 #include "moreau/detect/tolerance.hpp"
@@ -65,43 +68,14 @@ concept MeshCollidable = detail::touches_mesh<ShapeT>;
 
 /// Memory of collisions with mesh walls, used again from one to the next.
 struct MeshScratch {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> facets;  ///< (face, facet)
-  std::vector<std::uint32_t> ridges;                            ///< convex ridges near the shape
-  std::vector<std::uint32_t> low;                               ///< vertices of the shape
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;    ///< (vertex, facet)
+  std::vector<NearFacet> facets;      ///< of the present face
+  std::vector<NearFacet> all;         ///< near the shape, if not known before
+  std::vector<std::uint32_t> ridges;  ///< convex ridges near the shape
+  std::vector<std::uint32_t> low;     ///< vertices of the shape
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
 };
 
 namespace detail {
-
-/// The point of a segment nearest to the origin.
-/// @param corners as columns [m]
-template <std::floating_point T>
-Eigen::Matrix<T, 2, 1> nearest_on_facet(const Eigen::Matrix<T, 2, 2>& corners) {
-  const Eigen::Matrix<T, 2, 1> from = corners.col(0), along = corners.col(1) - from;
-  return from + std::clamp(-from.dot(along) / along.squaredNorm(), T(0), T(1)) * along;
-}
-/// The point of a triangle nearest to the origin. Source: C. Ericson, Real-time collision detection
-/// (2005), section 5.1.5: the region of the triangle follows from six products.
-/// @param corners as columns [m]
-template <std::floating_point T>
-Eigen::Matrix<T, 3, 1> nearest_on_facet(const Eigen::Matrix<T, 3, 3>& corners) {
-  using Vector = Eigen::Matrix<T, 3, 1>;
-  const Vector a = corners.col(0), b = corners.col(1), c = corners.col(2), ab = b - a, ac = c - a;
-  const T a1 = -ab.dot(a), a2 = -ac.dot(a);
-  if (a1 <= 0 && a2 <= 0) return a;
-  const T b1 = -ab.dot(b), b2 = -ac.dot(b);
-  if (b1 >= 0 && b2 <= b1) return b;
-  const T in_c = a1 * b2 - b1 * a2;
-  if (in_c <= 0 && a1 >= 0 && b1 <= 0) return a + a1 / (a1 - b1) * ab;
-  const T c1 = -ab.dot(c), c2 = -ac.dot(c);
-  if (c2 >= 0 && c1 <= c2) return c;
-  const T in_b = c1 * a2 - a1 * c2;
-  if (in_b <= 0 && a2 >= 0 && c2 <= 0) return a + a2 / (a2 - c2) * ac;
-  const T in_a = b1 * c2 - c1 * b2;
-  if (in_a <= 0 && b2 >= b1 && c1 >= c2) return b + (b2 - b1) / ((b2 - b1) + (c1 - c2)) * (c - b);
-  const T all = in_a + in_b + in_c;
-  return a + in_b / all * ab + in_c / all * ac;
-}
 
 template <class ShapeT>
 class MeshCollision {
@@ -125,34 +99,19 @@ class MeshCollision {
         scratch_(scratch),
         out_(out) {}
 
-  /// Collects what may touch.
-  /// @param box around the shape [m]
-  void find(const Aabb<S>& box) {
-    scratch_.facets.clear();
+  /// Calls use(face) for each manifold on a face; collects ridges and tips for touch_points().
+  /// @param near facets among which are those within the margin, face after face
+  template <class Use>
+  bool touch_faces(const Aabb<S>& box, std::span<const NearFacet> near, const Use& use) {
     scratch_.ridges.clear();
     scratch_.tips.clear();
     const Aabb<S> around = box.inflated(margin_ - radius_);
-    wall_.tree().query(
-        [&](const Aabb<S>& node) {
-          return node.overlaps(around) &&
-                 is_within(node.lower.cwiseMax(center_.cwiseMin(node.upper)) - center_);
-        },
-        [&](std::uint32_t k) { consider(k); });
-    std::sort(scratch_.facets.begin(), scratch_.facets.end());
-    unique(scratch_.ridges);
-    unique(scratch_.tips);
-  }
-
-  /// Calls use(face) for each manifold on a face.
-  template <class Use>
-  bool touch_faces(const Use& use) {
     bool touch = false;
-    const auto& facets = scratch_.facets;
-    for (std::size_t begin = 0, end = 0; begin < facets.size(); begin = end) {
-      while (end < facets.size() && facets[end].first == facets[begin].first) ++end;
-      if (!touch_face(begin, end)) continue;
+    for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
+      while (end < near.size() && near[end].face == near[begin].face) ++end;
+      if (!take_face(near.subspan(begin, end - begin), around) || !touch_face()) continue;
       finish();
-      use(facets[begin].first);
+      use(near[begin].face);
       touch = true;
     }
     return touch;
@@ -160,6 +119,8 @@ class MeshCollision {
   /// Calls use(none) for each contact at a ridge or a tip, a manifold of one point.
   template <class Use>
   bool touch_points(const Use& use) {
+    sort_short(scratch_.ridges);
+    sort_short(scratch_.tips);
     bool touch = false;
     const auto add = [&](const Vector& to_shape, T gap, const Vector& x, FeatureKey key) {
       out_.set_single_point(-to_shape, gap, center_ + (x - gap / 2 * to_shape), key);
@@ -174,11 +135,6 @@ class MeshCollision {
   }
 
  private:
-  template <class X>
-  static void unique(std::vector<X>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
   /// Height of the centre above the plane of a facet [m].
   T height(const typename Wall::Side& side) const { return side.normal.dot(center_) - side.offset; }
   /// Whether a convex set, of which `nearest` is the point nearest to the centre, may be within the
@@ -189,41 +145,62 @@ class MeshCollision {
     if (distance2 > farthest * farthest) return false;
     if (!(distance2 > margin_ * margin_)) return true;
     const T distance = std::sqrt(distance2);
-    const Vector d = nearest / distance;
-    if (d != last_direction_) {  // above a flat floor it is often the same
+    return distance - reach(nearest / distance) <= margin_;
+  }
+  /// How far the core reaches along a unit vector. Above a flat floor it is often the same vector.
+  T reach(const Vector& d) {
+    if (d != last_direction_) {
       last_direction_ = d;
       last_reach_ = core_.reach(d);
     }
-    return distance - last_reach_ <= margin_;
+    return last_reach_;
   }
-  /// Takes a facet if the shape is in front of it and near it.
-  void consider(std::uint32_t k) {
+  /// Takes the facets of a face if the shape is in front of it and near it.
+  bool take_face(std::span<const NearFacet> face, const Aabb<S>& around) {
+    scratch_.facets.clear();
+    plane_ = nullptr;
+    for (const NearFacet& facet : face) {
+      if (!wall_.box(facet.place).overlaps(around)) continue;
+      if (!plane_) {
+        plane_ = &wall_.side(facet.place);
+        above_ = height(*plane_);
+        if (!(above_ > 0)) return false;
+        gap_ = above_ - reach(-plane_->normal);
+        if (gap_ > margin_) return false;
+      }
+      // Of a large face most facets have no other feature: touch_face() finds out which are near.
+      if ((facet.is_plain && face.size() > 1) || take_features(facet.place))
+        scratch_.facets.push_back(facet);
+    }
+    return !scratch_.facets.empty();
+  }
+  /// Takes ridges and tips of a facet that may be within the margin.
+  bool take_features(std::uint32_t k) {
     const auto& side = wall_.side(k);
-    if (!(height(side) > 0)) return;
-    if (!is_within(nearest_on_facet(typename S::Matrix(side.corners.colwise() - center_)))) return;
-    scratch_.facets.emplace_back(side.face, k);
+    if (!is_within(nearest_on_facet(typename S::Matrix(side.corners.colwise() - center_))))
+      return false;
     for (const std::uint32_t r : side.ridge)
       if (r != Wall::none) scratch_.ridges.push_back(r);
     for (const std::uint32_t v : wall_.facet(k))
       if (wall_.is_tip(v)) scratch_.tips.emplace_back(v, k);
+    return true;
   }
 
-  /// The points above one face: above the facets begin .. end - 1 of the list.
-  bool touch_face(std::size_t begin, std::size_t end) {
-    const std::uint32_t face = scratch_.facets[begin].first;
-    const auto& plane = wall_.side(scratch_.facets[begin].second);
-    const Vector normal = -plane.normal;  // into the wall
-    const T above = height(plane), gap = above - core_.reach(normal);
-    out_.start(normal, gap);
+  /// The points above the facets of the list, which are of one face.
+  bool touch_face() {
+    const std::uint32_t face = scratch_.facets[0].face;
+    const Vector normal = -plane_->normal;  // into the wall
+    out_.start(normal, gap_);
     // A shape that passes below the plane of the face stands beside it.
-    const bool is_beside = gap < -margin_;
-    const T highest = is_beside ? T(0) : margin_;
-    core_.for_each_above(normal, above - highest - rounding_, [&](std::uint32_t v) {
+    const T highest = gap_ < -margin_ ? T(0) : margin_;
+    core_.for_each_above(normal, above_ - highest - rounding_, [&](std::uint32_t v) {
       const Vector x = core_.vertex(v);
-      const T gap_v = above - normal.dot(x);
+      const T gap_v = above_ - normal.dot(x);
       if (gap_v < -core_.deepest()) return;
-      for (std::size_t k = begin; k < end; ++k) {
-        if (!is_above(scratch_.facets[k].second, center_ + x, gap_v)) continue;
+      const Vector projected = center_ + (x + gap_v * normal);
+      for (const NearFacet& facet : scratch_.facets) {
+        if (!wall_.box(facet.place).inflated(T(1e3) * near_).contains(projected)) continue;
+        if (!is_above(facet.place, center_ + x, gap_v)) continue;
         out_.points.push_back({center_ + (x + T(0.5) * gap_v * normal), gap_v,
                                FeatureKey(vertex_on_face(S{}), v, face)});
         return;
@@ -351,28 +328,39 @@ class MeshCollision {
   const T radius_, margin_, rounding_, near_;
   MeshScratch& scratch_;
   Manifold<S>& out_;
-  Vector last_direction_ = Vector::Zero();  ///< of is_within()
+  // Of reach().
+  Vector last_direction_ = Vector::Zero();
   T last_reach_ = 0;
+  // Of take_face().
+  const typename Wall::Side* plane_ = nullptr;
+  T above_ = 0, gap_ = 0;  // of the centre above the plane, of the shape [m]
 };
 
 /// Collides the core of a shape, with the radius around it.
 template <class ShapeT, class Wall, class T, class Use>
 bool collide_core(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin,
-                  const Aabb<SpaceOf<ShapeT>>& box, MeshScratch& scratch,
-                  Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
+                  const Aabb<SpaceOf<ShapeT>>& box, const MeshNeighbours<SpaceOf<ShapeT>>* near,
+                  MeshScratch& scratch, Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   if constexpr (is_rounded<ShapeT>) {
-    return collide_core(a.core(), radius + a.rounding_radius(), wall, margin, box, scratch, out,
-                        use);
+    return collide_core(a.core(), radius + a.rounding_radius(), wall, margin, box, near, scratch,
+                        out, use);
   } else if constexpr (is_one_of<ShapeT>) {
     return a.visit([&](const auto& held) {
-      return collide_core(held, radius, wall, margin, box, scratch, out, use);
+      return collide_core(held, radius, wall, margin, box, near, scratch, out, use);
     });
   } else {
     T thickness = radius;
     if constexpr (is_ball<ShapeT>) thickness += a.radius();
     MeshCollision<ShapeT> collision(a, thickness, wall, margin, scratch, out);
-    collision.find(box);
-    const bool faces = collision.touch_faces(use), points = collision.touch_points(use);
+    std::span<const NearFacet> facets;
+    if (near) {
+      facets = near->facets();
+    } else {
+      find_facets(wall, box.inflated(margin), scratch.all);
+      facets = scratch.all;
+    }
+    const bool faces = collision.touch_faces(box, facets, use);
+    const bool points = collision.touch_points(use);
     return faces || points;
   }
 }
@@ -394,7 +382,19 @@ bool collide_each(const Placed<ShapeT>& a, const MeshWall<SpaceOf<ShapeT>>& wall
                   Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   MOREAU_ASSERT(margin >= 0);
-  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), scratch, out, use);
+  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), nullptr, scratch, out, use);
+}
+/// The same, among facets that are known.
+/// @param near updated for a box that contains that of the shape, inflated by the margin
+template <class ShapeT, class Use>
+requires MeshCollidable<ShapeT>
+bool collide_each(const Placed<ShapeT>& a, const MeshWall<SpaceOf<ShapeT>>& wall,
+                  typename SpaceOf<ShapeT>::Scalar margin,
+                  const MeshNeighbours<SpaceOf<ShapeT>>& near, MeshScratch& scratch,
+                  Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  MOREAU_ASSERT(margin >= 0);
+  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), &near, scratch, out, use);
 }
 
 }  // namespace moreau

@@ -45,7 +45,7 @@ class MeshWalls {
   using Vector = typename S::Vector;
 
   void add(BodyId body, const MeshWall<S>& shape) {
-    walls_.push_back({body, shape, {}, {}});
+    walls_.push_back({body, shape, {}, {}, {}});
     detect_ = &MeshWalls::detect_all;
   }
   void clear() { walls_.clear(); }
@@ -54,12 +54,13 @@ class MeshWalls {
     for (Wall& wall : walls_) {
       wall.placed.pose = poses[wall.body.index()];
       wall.box = moved(wall.shape.tree().bounds(), wall.placed.pose);
+      wall.near.resize(poses.size());
     }
   }
   /// Finds the contacts of a grain.
   void detect(const GrainInWorld<ShapeT>& grain, Scalar margin, const Bodies<S>& bodies,
               const PairFilter& filter, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
-              FoundContacts<S>& found) const {
+              FoundContacts<S>& found) {
     if (!walls_.empty()) detect_(*this, grain, margin, bodies, filter, previous, buffers, found);
   }
 
@@ -72,7 +73,8 @@ class MeshWalls {
     BodyId body;
     MeshWall<S> shape;
     PlacedFrame placed;
-    Aabb<S> box;  // world axes [m]
+    Aabb<S> box;                          // world axes [m]
+    std::vector<MeshNeighbours<S>> near;  // of every body, used by one thread at a time
   };
 
   /// A box around a box at a pose [m].
@@ -81,12 +83,12 @@ class MeshWalls {
     const Vector center = pose((box.lower + box.upper) / 2);
     return {center - half, center + half};
   }
-  static void detect_all(const MeshWalls& self, const GrainInWorld<ShapeT>& grain, Scalar margin,
+  static void detect_all(MeshWalls& self, const GrainInWorld<ShapeT>& grain, Scalar margin,
                          const Bodies<S>& bodies, const PairFilter& filter,
                          const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
                          FoundContacts<S>& found) {
     const std::size_t body = grain.body.index();
-    for (const Wall& wall : self.walls_) {
+    for (Wall& wall : self.walls_) {
       if (!wall.box.overlaps(grain.box.inflated(margin))) continue;
       if (bodies.is_prescribed(body) && bodies.is_prescribed(wall.body.index())) continue;
       if (filter.leaves_out(grain.body, wall.body)) continue;
@@ -94,7 +96,7 @@ class MeshWalls {
         detect_at(grain, bodies.pose[body], wall, margin, previous, buffers, found);
     }
   }
-  static void detect_at(const GrainInWorld<ShapeT>& grain, const Pose<S>& pose, const Wall& wall,
+  static void detect_at(const GrainInWorld<ShapeT>& grain, const Pose<S>& pose, Wall& wall,
                         Scalar margin, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
                         FoundContacts<S>& found) {
     const Pose<S>& frame = wall.placed.pose;
@@ -104,6 +106,8 @@ class MeshWalls {
       buffers.local->update(grain.shape, local);
     else
       buffers.local.emplace(grain.shape, local);
+    MeshNeighbours<S>& near = wall.near[grain.body.index()];
+    near.update(wall.shape, buffers.local->bounding_box().inflated(margin));
     Manifold<S>& manifold = found.manifold();
     found.add(grain, wall, previous, [&](const auto& add) {
       bool touches = false;
@@ -116,7 +120,7 @@ class MeshWalls {
           add();
         };
         touches |=
-            collide_each(placed, wall.shape, margin, buffers.scratch, manifold, add_in_world);
+            collide_each(placed, wall.shape, margin, near, buffers.scratch, manifold, add_in_world);
       });
       return touches;
     });
@@ -124,7 +128,7 @@ class MeshWalls {
   }
 
   std::vector<Wall> walls_;
-  void (*detect_)(const MeshWalls&, const GrainInWorld<ShapeT>&, Scalar, const Bodies<S>&,
+  void (*detect_)(MeshWalls&, const GrainInWorld<ShapeT>&, Scalar, const Bodies<S>&,
                   const PairFilter&, const Contacts<S>&, MeshBuffers<ShapeT>&,
                   FoundContacts<S>&) = nullptr;
 };
