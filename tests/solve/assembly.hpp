@@ -62,39 +62,32 @@ struct Assembly {
   explicit Assembly(std::uint64_t seed, bool friction = true, T hub = T(0.1),
                     bool on_floor = true) {
     std::mt19937_64 random(seed);
-    std::uniform_real_distribution<T> unit(-1, 1);
-    const auto vector = [&] {
-      Vector v;
-      for (int d = 0; d < S::dim; ++d) v[d] = unit(random);
-      return v;
-    };
     constexpr std::uint32_t count = 120, floor = count;
     const auto touch = [&](std::uint32_t a, std::uint32_t b) {
-      const Vector n = (b == floor ? Vector(-Vector::Unit(S::dim - 1)) : vector()).normalized();
-      const auto points = 1 + random() % 3;
-      for (std::uint64_t p = 0; p < points; ++p) {
-        const auto law = static_cast<std::uint32_t>(friction ? random() % laws.size() : 0);
-        law_of.push_back(law);
-        contacts.push_back(
-            {a, b, law, T(0), S::contact_frame(n), n + T(0.4) * vector(), -n + T(0.4) * vector()});
-      }
+      add(a, b, b == floor, friction, random);
     };
     for (std::uint32_t a = 0; a < count; ++a) {
       if (a % 4 != 0 && a + 1 < count) touch(a, a + 1);
       if (a > 12 && a % 2 == 0) touch(0, a);
       if (a % 3 == 0 && (a > 0 || on_floor)) touch(a, floor);
     }
-    roots.resize(count + 1);
-    free.assign(count + 1, S::Twist::Zero());
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const T light = i == 0 ? hub : T(1);
-      roots[i].linear = S::Matrix::Identity() * light * (T(1) + T(0.5) * unit(random));
-      roots[i].angular = S::Inertia::Identity() * light * (T(1.5) + T(0.5) * unit(random));
-      for (int d = 0; d < S::dofs; ++d) free[i][d] = unit(random);
+    assemble(count, hub, random);
+  }
+  /// A lattice of side x side bodies, each of which touches its neighbours, the lowest the floor. The
+  /// first body touches every tenth body as well.
+  static Assembly lattice(std::uint32_t side, std::uint64_t seed, T hub = T(0.02)) {
+    Assembly made;
+    std::mt19937_64 random(seed);
+    const std::uint32_t count = side * side;
+    for (std::uint32_t a = 0; a < count; ++a) {
+      if (a == 0)
+        for (std::uint32_t b = 10; b < count; b += 10) made.add(0, b, false, true, random);
+      if (a > 0 && (a + 1) % side != 0) made.add(a, a + 1, false, true, random);
+      if (a > 0 && a + side < count) made.add(a, a + side, false, true, random);
+      if (a < side) made.add(a, count, true, true, random);
     }
-    roots[floor].linear.setZero();
-    roots[floor].angular.setZero();
-    op.assemble(contacts, roots, free);
+    made.assemble(count, hub, random);
+    return made;
   }
 
   /// A copy of the problem in the form that solvers take.
@@ -111,12 +104,47 @@ struct Assembly {
     return report;
   }
   SolveReport measure(const std::vector<Vector>& impulses) {
-    op.clear();
-    for (std::size_t c = 0; c < op.size(); ++c) op.apply(c, impulses[c]);
+    detail::set_impulses(op, std::span<const Vector>(impulses));
     SolveReport report;
     measure_residual(problem(), std::span<const Vector>(impulses), report);
     return report;
   }
+
+ private:
+  Assembly() = default;
+  /// One to three points between two bodies; b: the floor?
+  void add(std::uint32_t a, std::uint32_t b, bool is_floor, bool friction,
+           std::mt19937_64& random) {
+    const auto vector = [&] {
+      Vector v;
+      for (int d = 0; d < S::dim; ++d) v[d] = unit_(random);
+      return v;
+    };
+    const Vector n = (is_floor ? Vector(-Vector::Unit(S::dim - 1)) : vector()).normalized();
+    const auto points = 1 + random() % 3;
+    for (std::uint64_t p = 0; p < points; ++p) {
+      const auto law = static_cast<std::uint32_t>(friction ? random() % laws.size() : 0);
+      law_of.push_back(law);
+      contacts.push_back(
+          {a, b, law, T(0), S::contact_frame(n), n + T(0.4) * vector(), -n + T(0.4) * vector()});
+    }
+  }
+  void assemble(std::uint32_t count, T hub, std::mt19937_64& random) {
+    const std::uint32_t floor = count;
+    roots.resize(count + 1);
+    free.assign(count + 1, S::Twist::Zero());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const T light = i == 0 ? hub : T(1);
+      roots[i].linear = S::Matrix::Identity() * light * (T(1) + T(0.5) * unit_(random));
+      roots[i].angular = S::Inertia::Identity() * light * (T(1.5) + T(0.5) * unit_(random));
+      for (int d = 0; d < S::dofs; ++d) free[i][d] = unit_(random);
+    }
+    roots[floor].linear.setZero();
+    roots[floor].angular.setZero();
+    op.assemble(contacts, roots, free);
+  }
+
+  std::uniform_real_distribution<T> unit_{-1, 1};
 };
 
 template <class S>

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <memory>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "moreau/solve/coloured/pairs_of_bodies.hpp"
@@ -17,8 +18,9 @@ using namespace moreau::detail;
 namespace {
 
 struct Group {
-  static constexpr std::uint32_t serial = ~std::uint32_t{0};
+  static constexpr std::uint32_t serial = ~std::uint32_t{0}, shared = serial;
   std::uint32_t phase;
+  std::uint32_t block;
 };
 
 /// Members that work one after another.
@@ -42,11 +44,15 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
     std::vector<std::uint32_t> points;
     for (std::uint64_t k = random() % 80; k > 0; --k) {
       constexpr std::uint32_t phases[] = {0, 1, 2, PairColouring::colours, Group::serial};
-      groups.push_back({phases[random() % 5]});
+      const std::uint64_t phase = random() % 5;
+      const bool inside = phase < 3 && random() % 2 == 0;
+      groups.push_back(
+          {phases[phase], inside ? static_cast<std::uint32_t>(random() % 3) : Group::shared});
       points.push_back(static_cast<std::uint32_t>(random() % 4));
     }
-    std::sort(groups.begin(), groups.end(),
-              [](const Group& l, const Group& r) { return l.phase < r.phase; });
+    std::sort(groups.begin(), groups.end(), [](const Group& l, const Group& r) {
+      return std::tie(l.block, l.phase) < std::tie(r.block, r.phase);
+    });
     Schedule schedule;
     schedule.assign(groups, [&](std::uint32_t k) { return points[k]; });
     for (const int size : {1, 2, 3, 8})
@@ -55,11 +61,20 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
         const auto wait = [] {};
         const auto visit = [&](std::uint32_t k) { ++visits[k]; };
         const auto settle = [&](std::uint32_t k) { ++settled[k]; };
-        for (int rank = 0; rank < size; ++rank)
+        std::vector<int> member(3, -1);  // of each block
+        int rank = 0;
+        const auto visit_in_blocks = [&](std::uint32_t k) {
+          visit(k);
+          if (groups[k].block == Group::shared) return;
+          int& owner = member[groups[k].block];
+          CHECK((owner == -1 || owner == rank));
+          owner = rank;
+        };
+        for (; rank < size; ++rank)
           if (back)
-            schedule.backward(rank, size, wait, visit, settle);
+            schedule.backward(rank, size, wait, visit_in_blocks, settle);
           else
-            schedule.forward(rank, size, wait, visit, settle);
+            schedule.forward(rank, size, wait, visit_in_blocks, settle);
         for (std::size_t k = 0; k < groups.size(); ++k) {
           CHECK(visits[k] == (points[k] > 0));
           CHECK(settled[k] == (points[k] > 0 && groups[k].phase == PairColouring::colours));

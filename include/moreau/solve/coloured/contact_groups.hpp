@@ -16,6 +16,10 @@
 // The groups of a hub that is heavier still form phases of their own: all groups of such a phase read
 // the velocity of the hub before the phase, so that the members of a team divide them, and n is the
 // number of points in the phase. All pairs of one hub have different partners.
+//
+// Pairs whose bodies belong to one block come first, block after block, so that each member of a team
+// works on blocks of its own: between two barriers it visits all colours of a block, and the velocities
+// of the bodies stay in the cache of its core.
 #pragma once
 
 #include <Eigen/LU>
@@ -28,61 +32,17 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/contact.hpp"
-#include "moreau/contact/lane_block.hpp"
+#include "moreau/contact/local_block.hpp"
 #include "moreau/core/detail/sort_by_key.hpp"
 #include "moreau/core/team.hpp"
-#include "moreau/law/detail/law_lanes.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
+#include "moreau/solve/coloured/packs.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
 #include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
 
 namespace moreau::detail {
-
-/// The compliance of one contact per lane; nothing for rigid contacts.
-template <class Vector, bool Compliant>
-struct PackedCompliance {};
-template <class Vector>
-struct PackedCompliance<Vector, true> {
-  Vector compliance{};  ///< diagonal of D, see CompliantDelassus
-};
-
-/// One contact point per lane. Unused lanes have a zero frame and a free velocity that separates.
-template <class S, class Law>
-struct PointPack : PackedCompliance<typename LaneBlock<S>::Vector, CompliantLaw<Law, S>> {
-  using Block = LaneBlock<S>;
-  using Values = typename Block::Values;
-  using Vector = typename Block::Vector;
-
-  std::array<Vector, S::dim> frame{};  ///< first index: world axis, second: axis of the frame
-  Vector lever_a{}, lever_b{};         ///< world axes [m]
-  Block block = Block::unit();
-  Vector free{Values{} + 1};
-  LawLanes<Law, S> law{};
-  Vector impulse{}, before{};  ///< after the last visit and the visit before
-};
-
-/// Which body of their pairs the lanes of a group share.
-enum class Hub : std::uint8_t { none, a, b };
-
-/// A group: one pair per lane. No two pairs share a body that can move, except the hub.
-template <int Lanes>
-struct PairPack {
-  std::uint32_t first, count;  ///< PointPacks
-  std::uint32_t active;        ///< number of them, from the first, that the active set contains
-  /// Colour; PairColouring::colours or more for groups of a hub that form a phase. Groups of one
-  /// phase are visited in any order.
-  std::uint32_t phase;
-  static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase
-  Hub hub;
-  std::uint32_t matrices;  ///< index into ContactGroups::mass_matrices; isotropic: none is needed
-  static constexpr std::uint32_t isotropic = std::numeric_limits<std::uint32_t>::max();
-
-  /// Whether the hub is changed after the phase, not by the group.
-  bool delays_hub() const { return hub != Hub::none && phase != serial; }
-  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of LaneVelocities
-};
 
 /// The groups of a contact problem, with the data of their contacts.
 template <class Operator, class Law>
@@ -117,7 +77,8 @@ class ContactGroups {
     const Operator& op = problem.delassus;
     body_count_ = op.body_count();
     find_pairs(op);
-    colouring_.assign(bodies_, moves_);
+    colouring_.assign(bodies_, moves_,
+                      [this](std::size_t k) { return block_of(k) != Pairs::shared; });
     find_shares(op);
     sort(op, impulses, team);
     pairs.clear();
@@ -178,16 +139,23 @@ class ContactGroups {
   }
 
  private:
-  /// Sorted by colour, hub, pairs with most points that are likely to act, pairs with most points.
+  /// Pairs inside a block come first, sorted by block and colour; then the others, sorted by colour and
+  /// hub. Of equal pairs, those with most points that are likely to act come first, then those with most
+  /// points.
   struct Ordered {
     std::uint64_t key;
     std::uint32_t pair;
   };
   static constexpr int hub_bits = 16, side_bits = hub_bits + 32, colour_bits = side_bits + 2;
+  static constexpr int inner_colour_bits = 16, block_bits = inner_colour_bits + 8;
+  static constexpr std::uint64_t not_inside = std::uint64_t{1} << 63;
   static constexpr std::uint64_t kind_mask = ~((std::uint64_t{1} << hub_bits) - 1);
   /// In place of a colour: pairs without a phase. Those without a hub share no group.
   static constexpr std::uint64_t serial = PairColouring::colours + 1,
-                                 alone_kind = serial << colour_bits;
+                                 alone_kind = not_inside | serial << colour_bits;
+  /// Bodies of a block: consecutive ones, so that they lie together if the bodies are in the order of a
+  /// space-filling curve. A member of a team visits the pairs inside a block without waiting for others.
+  static constexpr std::size_t block_size = 600;
 
   void find_pairs(const Operator& op) {
     moves_.resize(op.body_count());
@@ -216,17 +184,33 @@ class ContactGroups {
       for (std::uint32_t c = first_[k]; c < first_[k + 1]; ++c) acting += likely(op, impulses, c);
       const std::uint64_t fewer = 255 - std::min<std::uint32_t>(255, first_[k + 1] - first_[k]);
       const std::uint64_t idle = 255 - std::min<std::uint32_t>(255, acting);
+      const std::uint32_t block = block_of(k);
+      if (block != Pairs::shared && colouring_[k] != PairColouring::colours) {
+        order_[k] = {std::uint64_t{block} << block_bits |
+                         std::uint64_t{colouring_[k]} << inner_colour_bits | idle << 8 | fewer,
+                     k};
+        return;
+      }
       const Hub hub = hub_of(k);
       const std::uint64_t body =
           hub == Hub::none ? 0 : bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}];
       const bool is_serial = colouring_[k] == PairColouring::colours &&
                              (hub == Hub::none || !forms_phases(bodies_[k][hub == Hub::a ? 0 : 1]));
-      order_[k] = {(is_serial ? serial : std::uint64_t{colouring_[k]}) << colour_bits |
+      order_[k] = {not_inside | (is_serial ? serial : std::uint64_t{colouring_[k]}) << colour_bits |
                        std::uint64_t{static_cast<std::uint8_t>(hub)} << side_bits |
                        body << hub_bits | idle << 8 | fewer,
                    k};
     });
     sort_by_key(order_, sorted_);
+  }
+  /// The block of all bodies of a pair that move; `shared` if there are two.
+  std::uint32_t block_of(std::size_t k) const {
+    const std::size_t blocks = body_count_ / block_size;
+    if (blocks < 2) return Pairs::shared;
+    const auto [a, b] = bodies_[k];
+    const std::size_t of_a = a * blocks / body_count_, of_b = b * blocks / body_count_;
+    if (moves_[a] && moves_[b] && of_a != of_b) return Pairs::shared;
+    return static_cast<std::uint32_t>(moves_[a] ? of_a : of_b);
   }
   /// The heavy hub of a pair; none if the pair has no hub, a light hub or two hubs.
   Hub hub_of(std::uint32_t k) const {
@@ -267,6 +251,8 @@ class ContactGroups {
     group.first = point_count_;
     group.count = group.active = 0;
     group.hub = hub_of(pair);
+    const std::uint64_t key = order_[begin].key;
+    group.block = key & not_inside ? Pairs::shared : static_cast<std::uint32_t>(key >> block_bits);
     std::uint32_t together = 0;
     bool all_isotropic = true;
     for (std::size_t k = begin; k < end; ++k) {

@@ -10,7 +10,8 @@
 
 namespace moreau::detail {
 
-/// Colours pairs of bodies: no two pairs of one colour share a body that can move.
+/// Colours pairs of bodies: no two pairs of one colour share a body that can move, unless one of them
+/// lies inside a block and the other does not.
 class PairColouring {
  public:
   static constexpr std::uint32_t colours = 64;
@@ -20,10 +21,11 @@ class PairColouring {
 
   /// @param pairs  the two bodies of each pair
   /// @param moves  whether a body can move, one entry per body
+  /// @param is_inside function: pair -> whether it lies inside a block
   void assign(std::span<const std::array<std::uint32_t, 2>> pairs,
-              std::span<const unsigned char> moves) {
+              std::span<const unsigned char> moves, const auto& is_inside) {
     degree_.assign(moves.size(), 0);
-    used_.assign(moves.size(), 0);
+    used_.assign(moves.size(), {});
     colour_.resize(pairs.size());
     for (const auto& [a, b] : pairs) degree_[a] += moves[a], degree_[b] += moves[b];
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -32,12 +34,14 @@ class PairColouring {
         colour_[k] = colours;
         continue;
       }
-      const std::uint64_t taken = (moves[a] ? used_[a] : 0) | (moves[b] ? used_[b] : 0);
+      const std::size_t kind = is_inside(k) ? 1 : 0;
+      std::uint64_t &of_a = used_[a][kind], &of_b = used_[b][kind];
+      const std::uint64_t taken = (moves[a] ? of_a : 0) | (moves[b] ? of_b : 0);
       const auto free = static_cast<std::uint32_t>(std::countr_one(taken));
       colour_[k] = free;
       if (free == colours) continue;
-      used_[a] |= std::uint64_t{1} << free;
-      used_[b] |= std::uint64_t{1} << free;
+      of_a |= std::uint64_t{1} << free;
+      of_b |= std::uint64_t{1} << free;
     }
   }
 
@@ -48,7 +52,7 @@ class PairColouring {
 
  private:
   std::vector<std::uint32_t> degree_, colour_;
-  std::vector<std::uint64_t> used_;
+  std::vector<std::array<std::uint64_t, 2>> used_;  // colours at each body
 };
 
 }  // namespace moreau::detail

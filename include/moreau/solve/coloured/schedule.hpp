@@ -11,14 +11,15 @@
 
 namespace moreau::detail {
 
-/// An order in which groups of contacts are visited. The groups of one phase share no body that
-/// moves, except a hub, so that the members of a team divide them: each has about as many points.
-/// After a phase of groups of a hub, one member adds up their changes of its velocity. Groups without
-/// a phase follow one after another.
+/// An order in which groups of contacts are visited. Groups inside a block of bodies come first: each
+/// block has one member of the team, who visits them one after another, and blocks share no body. The
+/// groups of one phase share no body that moves, except a hub, so that the members divide them. All
+/// members have about as many points. After a phase of groups of a hub, one member adds up their changes
+/// of its velocity. Groups without a phase follow one after another.
 class Schedule {
  public:
   /// Takes those groups k = 0, 1, .. for which points(k) > 0, the points that a visit solves.
-  /// @param groups sorted by phase
+  /// @param groups sorted: those inside blocks by block, then the others by phase
   template <class Group>
   void assign(const std::vector<Group>& groups, const auto& points) {
     list_.clear();
@@ -29,7 +30,13 @@ class Schedule {
         before_.push_back(before_.back() + own);
       }
     phases_.clear();
+    blocks_.assign(1, 0);
     std::size_t i = 0;
+    while (i < list_.size() && groups[list_[i]].block != Group::shared) {
+      const std::uint32_t block = groups[list_[i]].block;
+      while (i < list_.size() && groups[list_[i]].block == block) ++i;
+      blocks_.push_back(i);
+    }
     while (i < list_.size() && groups[list_[i]].phase != Group::serial) {
       const std::uint32_t phase = groups[list_[i]].phase;
       const std::size_t begin = i;
@@ -44,6 +51,11 @@ class Schedule {
   /// @param wait   returns when all members have called it
   /// @param settle function: settle(k) adds up what group k of a hub has changed
   void forward(int rank, int size, auto&& wait, auto&& visit, auto&& settle) const {
+    if (has_blocks()) {
+      const Share own = blocks_of(rank, size);
+      for (std::size_t i = own.begin; i < own.end; ++i) visit(list_[i]);
+      wait();
+    }
     for (const Phase& phase : phases_) {
       visit_share(phase, rank, size, visit);
       wait();
@@ -66,6 +78,11 @@ class Schedule {
       wait();
       if (rank == 0) settle_all(phase, settle);
     }
+    if (has_blocks()) {
+      wait();
+      const Share own = blocks_of(rank, size);
+      for (std::size_t i = own.end; i-- > own.begin;) visit(list_[i]);
+    }
   }
 
  private:
@@ -74,6 +91,23 @@ class Schedule {
     bool of_hub;
   };
 
+  bool has_blocks() const { return blocks_.size() > 1; }
+  /// The groups in the blocks of a member: those whose middle point lies in its share of the points.
+  Share blocks_of(int rank, int size) const {
+    const auto bound = [&](int members) {
+      const std::size_t points = before_[blocks_.back()] * std::size_t(members);
+      std::size_t block = 0;
+      while (block + 1 < blocks_.size() &&
+             (before_[blocks_[block]] + before_[blocks_[block + 1]]) * std::size_t(size) <
+                 2 * points)
+        ++block;
+      return blocks_[block];
+    };
+    Share own(0, 0, 1);
+    own.begin = bound(rank);
+    own.end = rank + 1 == size ? blocks_.back() : bound(rank + 1);
+    return own;
+  }
   void visit_share(const Phase& phase, int rank, int size, auto&& visit) const {
     const std::size_t end = bound(phase, rank + 1, size);
     for (std::size_t i = bound(phase, rank, size); i < end; ++i) visit(list_[i]);
@@ -93,6 +127,8 @@ class Schedule {
 
   std::vector<std::uint32_t> list_;
   std::vector<std::size_t> before_;  // points before each group in the list; at the end, all points
+  std::vector<std::size_t>
+      blocks_;  // first group of each block in the list; at the end, their number
   std::vector<Phase> phases_;
   std::size_t serial_ = 0;  // first group without a phase, in the list
 };

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Contact points and pairs of bodies, one per SIMD lane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "moreau/contact/lane_block.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/detail/law_lanes.hpp"
+
+namespace moreau::detail {
+
+/// The compliance of one contact per lane; nothing for rigid contacts.
+template <class Vector, bool Compliant>
+struct PackedCompliance {};
+template <class Vector>
+struct PackedCompliance<Vector, true> {
+  Vector compliance{};  ///< diagonal of D, see CompliantDelassus
+};
+
+/// One contact point per lane. Unused lanes have a zero frame and a free velocity that separates.
+template <class S, class Law>
+struct PointPack : PackedCompliance<typename LaneBlock<S>::Vector, CompliantLaw<Law, S>> {
+  using Block = LaneBlock<S>;
+  using Values = typename Block::Values;
+  using Vector = typename Block::Vector;
+
+  std::array<Vector, S::dim> frame{};  ///< first index: world axis, second: axis of the frame
+  Vector lever_a{}, lever_b{};         ///< world axes [m]
+  Block block = Block::unit();
+  Vector free{Values{} + 1};
+  LawLanes<Law, S> law{};
+  Vector impulse{}, before{};  ///< after the last visit and the visit before
+};
+
+/// Which body of their pairs the lanes of a group share.
+enum class Hub : std::uint8_t { none, a, b };
+
+/// A group: one pair per lane. No two pairs share a body that can move, except the hub.
+template <int Lanes>
+struct PairPack {
+  std::uint32_t first, count;  ///< PointPacks
+  std::uint32_t active;        ///< number of them, from the first, that the active set contains
+  /// Colour; PairColouring::colours or more for groups of a hub that form a phase. Groups of one
+  /// phase are visited in any order.
+  std::uint32_t phase;
+  static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase
+  std::uint32_t block;  ///< that all bodies of the group belong to, or `shared`
+  static constexpr std::uint32_t shared = std::numeric_limits<std::uint32_t>::max();
+  Hub hub;
+  std::uint32_t matrices;  ///< index into ContactGroups::mass_matrices; isotropic: none is needed
+  static constexpr std::uint32_t isotropic = std::numeric_limits<std::uint32_t>::max();
+
+  /// Whether the hub is changed after the phase, not by the group.
+  bool delays_hub() const { return hub != Hub::none && phase != serial; }
+  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of LaneVelocities
+};
+
+}  // namespace moreau::detail
