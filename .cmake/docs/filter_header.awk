@@ -11,7 +11,7 @@
 # The number of lines stays the same, so that warnings name the right line.
 BEGIN {
   short_names = "Space|S|Scalar|Vector|Matrix|Angular|Inertia|Twist|Lever|Rotation|Options|Tangent|W|Values|" \
-    "PaddedTwist|PaddedRows|Types|Sample|Edge|Coupling|Cells|FaceOffsets"
+    "PaddedTwist|Types|Sample|Edge|Coupling|Cells|FaceOffsets"
 }
 # A line up to its first parenthesis.
 function declarator(line) {

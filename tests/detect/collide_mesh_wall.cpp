@@ -205,3 +205,34 @@ TEST_CASE_TEMPLATE("facets that are known from earlier steps give the same conta
     CHECK(points > 500);
   }
 }
+
+// Files hold coordinates in single precision: the corners of a plane floor lie off its plane by more than the
+// rounding of the grain.
+TEST_CASE("a large floor with rounded coordinates holds grains everywhere") {
+  using S = Volume;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr int n = 20;
+  for (const double size : {40.0, 1000.0}) {
+    FacetMesh<S> mesh;
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        mesh.vertices.push_back({size * i / n, size * j / n, 1e-8 * size * uniform(random)});
+    const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+    const MeshWall<S> wall(mesh);
+    const Ball<> ball(0.5);
+    int missed = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+      const double x = size * (0.5 + 0.45 * uniform(random)),
+                   y = size * (0.5 + 0.45 * uniform(random));
+      missed += points_of(Placed<Ball<>>(ball, {{x, y, 0.499}, S::identity()}), wall, 0.01).empty();
+    }
+    CAPTURE(size);
+    CHECK(missed == 0);
+  }
+}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The Delassus operator of contacts: blocks, velocities and impulses agree with one another.
 #include <doctest/doctest.h>
+#include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "moreau/body/mobility.hpp"
@@ -68,4 +70,28 @@ TEST_CASE("the inverse mass of a wall that moves along one axis") {
   const InverseMass<S> prescribed;
   CHECK(!prescribed.moves());
   CHECK(prescribed.is_isotropic());
+}
+
+// A wall that moves along x alone and a grain of prescribed motion touch along z: no impulse changes their
+// normal velocity.
+TEST_CASE("a contact at which no impulse changes the normal velocity does not act") {
+  using S = Space<3>;
+  const S::Vector x = S::Vector::UnitX();
+  const std::vector<MobilityRoot<S>> roots{{x * x.transpose(), S::Inertia::Zero()},
+                                           {S::Matrix::Zero(), S::Inertia::Zero()}};
+  std::vector<S::Twist> free(2, S::Twist::Zero());
+  free[1][2] = -1;  // they approach
+  std::vector<Contact<S>> contacts{
+      {0, 1, 0, 0, S::contact_frame(S::Vector::UnitZ()), S::Vector::UnitZ(), -S::Vector::UnitZ()}};
+  ContactProblem<BodyDelassus<S>, SignoriniCoulomb<>> problem;
+  problem.delassus.assemble(contacts, roots, free);
+  problem.laws = {SignoriniCoulomb<>(0.5)};
+  problem.law_of = {0};
+  CHECK(problem.delassus.block(0).matrix().allFinite());
+  CHECK(problem.delassus.free_velocity(0)[0] == std::numeric_limits<double>::infinity());
+  std::vector<S::Vector> impulses{S::Vector::Zero()};
+  ColouredGaussSeidel::Workspace<BodyDelassus<S>, SignoriniCoulomb<>> workspace;
+  const SolveReport report = ColouredGaussSeidel().solve(problem, std::span(impulses), workspace);
+  CHECK(report.converged);
+  CHECK(impulses[0].isZero(0));
 }

@@ -26,7 +26,7 @@ World<ShapeT, Law> column(int count, const Law& law, double tilt, double theta =
 
 /// Contact k of a column of N, counted from the floor, carries (N - k) m g h. If the impulses are
 /// unique (one point per contact), the impulses of the last step solve a step at rest, and the
-/// first check of the solver, after 20 sweeps, passes. On springs the forces are compared after the
+/// first check of the solver passes. On springs the forces are compared after the
 /// column has come to rest.
 template <class ShapeT, class Law>
 void column(Record& record, int count, const Law& law, double theta = 0.5) {

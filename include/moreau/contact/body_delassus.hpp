@@ -63,7 +63,7 @@ class BodyDelassus {
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
                 std::span<const typename S::Twist> free, const Compliance& compliance = {},
                 const Team& team = {}) {
-    rows_.resize(contacts.size());
+    points_.resize(contacts.size());
     heads_.resize(contacts.size());
     masses_.resize(roots.size());
     changes_.assign(roots.size(), PaddedTwist::Zero());
@@ -75,19 +75,19 @@ class BodyDelassus {
     });
   }
 
-  std::size_t size() const { return rows_.size(); }          ///< contacts
+  std::size_t size() const { return points_.size(); }        ///< contacts
   std::size_t body_count() const { return masses_.size(); }  ///< bodies, walls included
 
   /// W_cc in the contact's frame [1/kg].
-  const LocalBlock<S>& block(std::size_t c) const { return rows_[c].block; }
+  const LocalBlock<S>& block(std::size_t c) const { return points_[c].block; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
   /// Frame of a contact as assemble() left it, columns n, t[, s], world axes.
-  const Matrix& frame(std::size_t c) const { return rows_[c].frame; }
+  const Matrix& frame(std::size_t c) const { return points_[c].frame; }
   /// From the centre of body a to the contact point, world axes [m].
-  const Vector& lever_a(std::size_t c) const { return rows_[c].lever_a; }
+  const Vector& lever_a(std::size_t c) const { return points_[c].lever_a; }
   /// From the centre of body b to the contact point, world axes [m].
-  const Vector& lever_b(std::size_t c) const { return rows_[c].lever_b; }
+  const Vector& lever_b(std::size_t c) const { return points_[c].lever_b; }
   /// M^-1 of a body.
   const InverseMass<S>& inverse_mass(std::size_t body) const { return masses_[body]; }
   /// Trace of W_cc [1/kg].
@@ -95,13 +95,13 @@ class BodyDelassus {
   /// The part of W_cc that belongs to body a: what the impulse at c does to the velocity of a, D x D
   /// [1/kg].
   Matrix block_of_a(std::size_t c) const {
-    const Row& row = rows_[c];
-    return block_between(row.frame, row.lever_a, row.frame, row.lever_a, masses_[row.a]);
+    const Point& point = points_[c];
+    return block_between(point.frame, point.lever_a, point.frame, point.lever_a, masses_[point.a]);
   }
   /// The part of W_cc that belongs to body b.
   Matrix block_of_b(std::size_t c) const {
-    const Row& row = rows_[c];
-    return block_between(row.frame, row.lever_b, row.frame, row.lever_b, masses_[row.b]);
+    const Point& point = points_[c];
+    return block_between(point.frame, point.lever_b, point.frame, point.lever_b, masses_[point.b]);
   }
   /// The relative velocity at one contact by a unit impulse at another that acts on the same body, each
   /// in its own frame, D x D [1/kg].
@@ -120,30 +120,30 @@ class BodyDelassus {
   }
   /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
   /// [m/s].
-  const Vector& free_velocity(std::size_t c) const { return rows_[c].free; }
+  const Vector& free_velocity(std::size_t c) const { return points_[c].free; }
   /// Adds to the free normal velocity of a contact, > 0 separates [m/s].
-  void offset_normal(std::size_t c, Scalar offset) { rows_[c].free[0] += offset; }
+  void offset_normal(std::size_t c, Scalar offset) { points_[c].free[0] += offset; }
   /// Adds to the free velocity of a contact, in its frame [m/s].
-  void offset(std::size_t c, const Vector& offset) { rows_[c].free += offset; }
+  void offset(std::size_t c, const Vector& offset) { points_[c].free += offset; }
 
   /// Relative velocity u under the impulses applied so far, in the contact's frame [m/s]; u_n > 0
   /// separates.
   Vector velocity(std::size_t c) const {
-    const Row& row = rows_[c];
-    Vector u = transposed_product(row.frame, change_between(row));
-    for (int k = 0; k < S::dim; ++k) u[k] = row.free[k] + u[k];
+    const Point& point = points_[c];
+    Vector u = transposed_product(point.frame, change_between(point));
+    for (int k = 0; k < S::dim; ++k) u[k] = point.free[k] + u[k];
     return u;
   }
   /// The normal component of velocity(c) alone [m/s].
   Scalar normal_velocity(std::size_t c) const {
-    return rows_[c].free[0] + rows_[c].frame.col(0).dot(change_between(rows_[c]));
+    return points_[c].free[0] + points_[c].frame.col(0).dot(change_between(points_[c]));
   }
   /// Applies an impulse, in the contact's frame, to b and its opposite to a [N s].
   void apply(std::size_t c, const Vector& impulse) {
-    const Row& row = rows_[c];
-    const Vector push = product(row.frame, impulse), opposite = -push;
-    add_change(row.b, push, S::moment(row.lever_b, push));
-    add_change(row.a, opposite, S::moment(row.lever_a, opposite));
+    const Point& point = points_[c];
+    const Vector push = product(point.frame, impulse), opposite = -push;
+    add_change(point.b, push, S::moment(point.lever_b, push));
+    add_change(point.a, opposite, S::moment(point.lever_a, opposite));
   }
   /// Applies an angular impulse to a body [N m s], world axes.
   void apply_spin(std::size_t body, const typename S::Angular& impulse) {
@@ -159,17 +159,17 @@ class BodyDelassus {
   void clear() { changes_.assign(changes_.size(), PaddedTwist::Zero()); }
   /// Gives body a the momentum of an impulse at contact c, in its frame [N s].
   void push_a(std::size_t c, const Vector& impulse) {
-    const Row& row = rows_[c];
-    const Vector push = product(row.frame, impulse);
-    linear<S>(changes_[row.a]) -= push;
-    angular<S>(changes_[row.a]) -= S::moment(row.lever_a, push);
+    const Point& point = points_[c];
+    const Vector push = product(point.frame, impulse);
+    linear<S>(changes_[point.a]) -= push;
+    angular<S>(changes_[point.a]) -= S::moment(point.lever_a, push);
   }
   /// Gives body b the momentum of an impulse.
   void push_b(std::size_t c, const Vector& impulse) {
-    const Row& row = rows_[c];
-    const Vector push = product(row.frame, impulse);
-    linear<S>(changes_[row.b]) += push;
-    angular<S>(changes_[row.b]) += S::moment(row.lever_b, push);
+    const Point& point = points_[c];
+    const Vector push = product(point.frame, impulse);
+    linear<S>(changes_[point.b]) += push;
+    angular<S>(changes_[point.b]) += S::moment(point.lever_b, push);
   }
   /// Gives a body an angular momentum, world axes [N m s].
   void push_spin(std::size_t body, const typename S::Angular& impulse) {
@@ -194,9 +194,9 @@ class BodyDelassus {
     return {changes_.empty() ? nullptr : changes_[0].data(), changes_.size() * std::size_t(width)};
   }
 
-  /// Begins to load the rows of some contacts into the cache.
+  /// Begins to load some contacts into the cache.
   void prefetch(std::size_t first, std::size_t count) const {
-    detail::prefetch(rows_.data() + first, count * sizeof(Row));
+    detail::prefetch(points_.data() + first, count * sizeof(Point));
   }
 
   /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
@@ -209,14 +209,14 @@ class BodyDelassus {
 
  private:
   using Lanes = detail::ContactLanes<S>;
-  struct Row {
+  struct Point {
     Matrix frame;
     Vector lever_a, lever_b;
     LocalBlock<S> block;
     Vector free;
     std::uint32_t a, b;
   };
-  /// What passes over all contacts need that do not need the rows: less memory to read.
+  /// What passes over all contacts need that do not need the points: less memory to read.
   struct Head {
     std::array<std::uint32_t, 2> bodies;
     Scalar trace;
@@ -242,9 +242,9 @@ class BodyDelassus {
       const std::size_t lane = c - begin;
       Contact<S>& contact = contacts[c];
       some.get_frame(lane, contact.frame);
-      rows_[c] = {contact.frame,    contact.lever_a,          contact.lever_b,
-                  some.block(lane), some.free_velocity(lane), contact.a,
-                  contact.b};
+      points_[c] = {contact.frame,    contact.lever_a,          contact.lever_b,
+                    some.block(lane), some.free_velocity(lane), contact.a,
+                    contact.b};
       heads_[c] = {{contact.a, contact.b}, some.trace(lane)};
     }
   }
@@ -256,9 +256,9 @@ class BodyDelassus {
     return velocity;
   }
   /// Change of the relative velocity by the impulses, world axes [m/s].
-  Vector change_between(const Row& row) const {
-    Vector difference = point_velocity(changes_[row.b], row.lever_b);
-    difference -= point_velocity(changes_[row.a], row.lever_a);
+  Vector change_between(const Point& point) const {
+    Vector difference = point_velocity(changes_[point.b], point.lever_b);
+    difference -= point_velocity(changes_[point.a], point.lever_a);
     return difference;
   }
   void add_change(std::size_t body, const Vector& push, const typename S::Angular& moment) {
@@ -266,7 +266,7 @@ class BodyDelassus {
     angular<S>(changes_[body]) += masses_[body].spin_of(moment);
   }
 
-  std::vector<Row> rows_;
+  std::vector<Point> points_;
   std::vector<Head> heads_;
   std::vector<InverseMass<S>> masses_;
   std::vector<PaddedTwist> changes_;

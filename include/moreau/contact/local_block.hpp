@@ -73,7 +73,8 @@ AlignedBlock<Tangents, Values> aligned_block(
   };
   const Values zero{}, one = zero + 1;
   AlignedBlock<Tangents, Values> block;
-  block.normal = entry(0, 0);
+  // No impulse changes the normal velocity: the contact cannot act (ContactLanes), any value will do.
+  block.normal = entry(0, 0) == zero ? (entry(1, 1) == zero ? one : entry(1, 1)) : entry(0, 0);
   const Values inverse = one / block.normal;
   std::array<Values, Tangents> k;  // before the turn
   for (std::size_t t = 0; t < Tangents; ++t) k[t] = entry(t + 1, 0) * inverse;

@@ -98,6 +98,8 @@ class MeshWall {
   const Vector& vertex(std::size_t v) const { return mesh_.vertices[v]; }  ///< [m]
   std::size_t ridge_count() const { return ridges_.size(); }               ///< of convex ridges
   const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }     ///< r < ridge_count()
+  /// How far facets of one face may lie beside its plane [m].
+  Scalar flatness() const { return flat_; }
   /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
   bool is_tip(std::size_t v) const { return is_tip_[v] != 0; }
   /// Whether side(k) has neither a convex ridge nor a tip.

@@ -53,8 +53,8 @@ struct ColouredOptions {
   /// warm start can lie far from every solution. The result with the smaller residual is kept. 0: no
   /// second attempt; without acceleration there is none.
   int cold_sweeps = 0;
-  /// Sweeps from one stopping test to the next, >= 1. There is one more test after the first quarter of
-  /// them, which ends the sweeps at a tenth of the tolerance.
+  /// Sweeps from one stopping test to the next, >= 1. From 4 on there is one more test after the first
+  /// quarter of them, which ends the sweeps at a tenth of the tolerance.
   int check_interval = 20;
   bool accelerate = true;  ///< false: plain sweeps
 };

@@ -12,7 +12,11 @@
 #include <span>
 #include <vector>
 
+#include "moreau/body/mobility.hpp"
+#include "moreau/core/detail/lane_algebra.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/friction_problem.hpp"
@@ -34,6 +38,23 @@ struct GatheredProblem {
 };
 
 namespace detail {
+
+/// M^-1 of a body as a matrix, D + A rows.
+template <class Exact, class S>
+Eigen::Matrix<double, Exact::dofs, Exact::dofs> dense(const InverseMass<S>& mass) {
+  using Algebra = LaneAlgebra<S, typename S::Scalar>;
+  Eigen::Matrix<double, Exact::dofs, Exact::dofs> m;
+  m.setZero();
+  for (int i = 0; i < S::dofs; ++i)
+    for (int k = 0; k < S::dofs; ++k) {
+      const bool turns = i >= S::dim;
+      if (turns != (k >= S::dim)) continue;
+      const int first = turns ? S::dim : 0;
+      const std::size_t entry = Algebra::entry(std::size_t(i - first), std::size_t(k - first));
+      m(i, k) = double(turns ? mass.angular()[entry] : mass.linear()[entry]);
+    }
+  return m;
+}
 
 /// Adds the entries of one block of W.
 template <int rows, class Block>
@@ -68,9 +89,12 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
   FrictionProblem<S>& problem = gathered.problem;
   problem.free_velocity.resize(rows * count);
   problem.friction.resize(count);
+  using Exact = Space<S::dim, double>;
   struct Touch {
     Eigen::Index contact;
-    bool is_b;  // whether the body is the second body of the contact
+    // In double: the impulses along the axes of the contact as forces and torques on the body, and the
+    // velocities that they cause.
+    Eigen::Matrix<double, S::dofs, rows> forces, velocities;
   };
   std::vector<std::vector<Touch>> touches(op.body_count());
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -78,8 +102,23 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
     problem.friction[k] = double(step.law(c).friction());
     problem.free_velocity.template segment<rows>(rows * k) =
         op.free_velocity(c).template cast<double>();
-    touches[op.bodies(c)[0]].push_back({k, false});
-    touches[op.bodies(c)[1]].push_back({k, true});
+    const auto [a, b] = op.bodies(c);
+    const auto touch = [&](std::uint32_t body, const typename S::Vector& lever, double sign) {
+      const InverseMass<S>& mass = op.inverse_mass(body);
+      if (!mass.moves()) return;
+      Touch one{k, {}, {}};
+      for (int d = 0; d < rows; ++d) {
+        const typename Exact::Vector force = sign * op.frame(c).col(d).template cast<double>();
+        auto column = one.forces.col(d);
+        linear<Exact>(column) = force;
+        angular<Exact>(column) =
+            Exact::moment(typename Exact::Vector(lever.template cast<double>()), force);
+      }
+      one.velocities = detail::dense<Exact>(mass) * one.forces;
+      touches[body].push_back(one);
+    };
+    touch(a, op.lever_a(c), -1);
+    touch(b, op.lever_b(c), 1);
   }
   std::vector<Eigen::Triplet<double>> entries;
   if constexpr (requires { op.compliance(0); })
@@ -87,19 +126,14 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
       for (int d = 0; d < rows; ++d)
         entries.emplace_back(int(rows * k) + d, int(rows * k) + d,
                              double(op.compliance(contacts[std::size_t(k)])[d]));
-  const auto contact = [&](const Touch& touch) { return contacts[std::size_t(touch.contact)]; };
-  const auto lever = [&](const Touch& touch) {
-    return touch.is_b ? op.lever_b(contact(touch)) : op.lever_a(contact(touch));
-  };
-  for (std::size_t body = 0; body < touches.size(); ++body)
-    for (const Touch& one : touches[body])
-      for (const Touch& other : touches[body]) {
-        const typename S::Matrix block =
-            Operator::block_between(op.frame(contact(one)), lever(one), op.frame(contact(other)),
-                                    lever(other), op.inverse_mass(body));
-        const double sign = one.is_b == other.is_b ? 1 : -1;
-        detail::add_block<rows>(one.contact, other.contact, sign * block.template cast<double>(),
-                                entries);
+  for (const std::vector<Touch>& body : touches)
+    for (std::size_t i = 0; i < body.size(); ++i)
+      for (std::size_t k = 0; k <= i; ++k) {
+        Eigen::Matrix<double, rows, rows> block = body[i].forces.transpose() * body[k].velocities;
+        if (i == k) block = (block + block.transpose()).eval() / 2;
+        detail::add_block<rows>(body[i].contact, body[k].contact, block, entries);
+        if (i != k)
+          detail::add_block<rows>(body[k].contact, body[i].contact, block.transpose(), entries);
       }
   problem.delassus.resize(rows * count, rows * count);
   problem.delassus.setFromTriplets(entries.begin(), entries.end());

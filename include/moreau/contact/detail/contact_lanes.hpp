@@ -62,6 +62,10 @@ class ContactLanes {
       free_[d] = axes_[d][0] * (of_b[0] - of_a[0]);
       for (std::size_t k = 1; k < dim; ++k) free_[d] += axes_[d][k] * (of_b[k] - of_a[k]);
     }
+    // No impulse changes the normal velocity, as between a wall that moves along the tangent and a grain of
+    // prescribed motion: the contact does not act.
+    constexpr T never = std::numeric_limits<T>::infinity();
+    free_[0] = w[0] == Values{} ? W::broadcast(never) : free_[0];
     Values squares = W::broadcast(1), slips{};
     for (std::size_t t = 0; t < tangents; ++t) {
       squares += block_.coupling[t] * block_.coupling[t];

@@ -192,14 +192,14 @@ class MeshCollision {
     const Vector normal = -plane_->normal;  // into the wall
     out_.start(normal, gap_);
     // A shape that passes below the plane of the face stands beside it.
-    const T highest = gap_ < -margin_ ? T(0) : margin_;
+    const T highest = gap_ < -margin_ ? T(0) : margin_, off = wall_.flatness() + T(1e3) * near_;
     core_.for_each_above(normal, above_ - highest - rounding_, [&](std::uint32_t v) {
       const Vector x = core_.vertex(v);
       const T gap_v = above_ - normal.dot(x);
       if (gap_v < -core_.deepest()) return;
       const Vector projected = center_ + (x + gap_v * normal);
       for (const NearFacet& facet : scratch_.facets) {
-        if (!wall_.box(facet.place).inflated(T(1e3) * near_).contains(projected)) continue;
+        if (!wall_.box(facet.place).inflated(off).contains(projected)) continue;
         if (!is_above(facet.place, center_ + x, gap_v)) continue;
         out_.points.push_back({center_ + (x + T(0.5) * gap_v * normal), gap_v,
                                FeatureKey(vertex_on_face(S{}), v, face)});

@@ -61,8 +61,8 @@ void find_facets(const MeshWall<S>& wall, const Aabb<S>& box, std::vector<NearFa
 }  // namespace detail
 
 /// The facets of a mesh wall near a grain, kept from step to step. They are searched again only when the
-/// grain has left the box in which they were searched, so that a step takes the same time for walls of
-/// any number of facets. Contacts do not depend on it.
+/// grain has left the box in which they were searched, so that a step hardly depends on the number of
+/// facets of the wall. Contacts do not depend on it.
 template <EuclideanSpace S>
 class MeshNeighbours {
  public:
@@ -73,6 +73,8 @@ class MeshNeighbours {
     box_ = box.inflated(skin * (box.upper - box.lower).maxCoeff());
     detail::find_facets(wall, box_, facets_);
   }
+  /// Forgets the facets, of a grain that has left the wall, and frees their memory.
+  void clear() { *this = {}; }
   /// At least the facets whose boxes overlap the box, face after face.
   std::span<const NearFacet> facets() const { return facets_; }
 

@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -60,7 +61,7 @@ class ContactGroups {
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
   static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
-  std::vector<Pairs> pairs;                        ///< sorted by phase
+  std::vector<Pairs> pairs;                        ///< sorted by block, then by phase
   std::vector<Points> points;                      ///< in the order of pairs
   std::vector<std::array<LaneMass<S>, 2>> masses;  ///< of the bodies a and b of each group
   std::vector<LaneMassMatrices<S>> mass_matrices;  ///< of groups with a body that needs them
@@ -153,7 +154,8 @@ class ContactGroups {
   /// In place of a colour: pairs without a phase. Those without a hub share no group.
   static constexpr std::uint64_t serial = PairColouring::colours + 1,
                                  alone_kind = not_inside | serial << colour_bits;
-  /// Bodies of a block: consecutive ones, so that they lie together if the bodies are in the order of a
+  /// Bodies of a block, up to twice as many: their number is a power of two, so that teams of two, four, ..
+  /// members have equally many. They are consecutive, so that they lie together if the bodies are in the order of a
   /// space-filling curve. A member of a team visits the pairs inside a block without waiting for others.
   static constexpr std::size_t block_size = 600;
 
@@ -205,7 +207,7 @@ class ContactGroups {
   }
   /// The block of all bodies of a pair that move; `shared` if there are two.
   std::uint32_t block_of(std::size_t k) const {
-    const std::size_t blocks = body_count_ / block_size;
+    const std::size_t blocks = std::bit_floor(body_count_ / block_size);
     if (blocks < 2) return Pairs::shared;
     const auto [a, b] = bodies_[k];
     const std::size_t of_a = a * blocks / body_count_, of_b = b * blocks / body_count_;

@@ -5,8 +5,7 @@
 //
 //     p = F r,     v_b += p / m_b,   w_b += I_b^-1 (l_b x p),    v_a, w_a: with -p,
 //
-// so that a point needs its frame and levers, 15 numbers in space, and not the 36 of its rows in J.
-// What remains of the rows, 1/m and I^-1, belongs to the pair.
+// so that a point needs its frame and levers; 1/m and I^-1 belong to the pair.
 #pragma once
 
 #include <cstddef>

@@ -13,8 +13,8 @@ namespace moreau::detail {
 
 /// An order in which groups of contacts are visited. Groups inside a block of bodies come first: each
 /// block has one member of the team, who visits them one after another, and blocks share no body. The
-/// groups of one phase share no body that moves, except a hub, so that the members divide them. All
-/// members have about as many points. After a phase of groups of a hub, one member adds up their changes
+/// groups of one phase share no body that moves, except a hub, so that the members divide them: each has
+/// about as many points. After a phase of groups of a hub, one member adds up their changes
 /// of its velocity. Groups without a phase follow one after another.
 class Schedule {
  public:

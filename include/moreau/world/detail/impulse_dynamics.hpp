@@ -293,7 +293,8 @@ class ImpulseDynamics {
     unknowns_.finish(problem_.delassus, context.contacts);
   }
 
-  /// V = V_free and what the impulses have changed. Throws if a velocity is not finite; no body has moved yet.
+  /// V = V_free and what the impulses have changed. Throws if a velocity is not finite; no body has moved
+  /// yet.
   void velocities_after() {
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
       after_[i] = free_[i] + problem_.delassus.velocity_change(i);

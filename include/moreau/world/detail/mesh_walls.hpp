@@ -89,7 +89,10 @@ class MeshWalls {
                          FoundContacts<S>& found) {
     const std::size_t body = grain.body.index();
     for (Wall& wall : self.walls_) {
-      if (!wall.box.overlaps(grain.box.inflated(margin))) continue;
+      if (!wall.box.overlaps(grain.box.inflated(margin))) {
+        if (!wall.near[body].facets().empty()) wall.near[body].clear();
+        continue;
+      }
       if (bodies.is_prescribed(body) && bodies.is_prescribed(wall.body.index())) continue;
       if (filter.leaves_out(grain.body, wall.body)) continue;
       if constexpr (MeshCollidable<ShapeT>)
