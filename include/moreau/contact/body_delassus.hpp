@@ -96,27 +96,12 @@ class BodyDelassus {
   /// [1/kg].
   Matrix block_of_a(std::size_t c) const {
     const Point& point = points_[c];
-    return block_between(point.frame, point.lever_a, point.frame, point.lever_a, masses_[point.a]);
+    return block_of(point.frame, point.lever_a, masses_[point.a]);
   }
   /// The part of W_cc that belongs to body b.
   Matrix block_of_b(std::size_t c) const {
     const Point& point = points_[c];
-    return block_between(point.frame, point.lever_b, point.frame, point.lever_b, masses_[point.b]);
-  }
-  /// The relative velocity at one contact by a unit impulse at another that acts on the same body, each
-  /// in its own frame, D x D [1/kg].
-  /// @param frame, lever             of the contact whose velocity is meant
-  /// @param other_frame, other_lever of the contact at which the impulse acts
-  static Matrix block_between(const Matrix& frame, const Vector& lever, const Matrix& other_frame,
-                              const Vector& other_lever, const InverseMass<S>& mass) {
-    Matrix block;
-    for (int k = 0; k < S::dim; ++k) {
-      const Vector push = other_frame.col(k);
-      const Vector velocity =
-          mass.velocity_of(push) + S::spin(mass.spin_of(S::moment(other_lever, push)), lever);
-      block.col(k) = transposed_product(frame, velocity);
-    }
-    return block;
+    return block_of(point.frame, point.lever_b, masses_[point.b]);
   }
   /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
   /// [m/s].
@@ -249,6 +234,17 @@ class BodyDelassus {
     }
   }
 
+  /// Velocity of a point of a body by unit impulses at the point along the axes of a frame, in the frame.
+  static Matrix block_of(const Matrix& frame, const Vector& lever, const InverseMass<S>& mass) {
+    Matrix block;
+    for (int k = 0; k < S::dim; ++k) {
+      const Vector push = frame.col(k);
+      const Vector velocity =
+          mass.velocity_of(push) + S::spin(mass.spin_of(S::moment(lever, push)), lever);
+      block.col(k) = transposed_product(frame, velocity);
+    }
+    return block;
+  }
   /// @param twist (v, w), or a longer vector that begins with it
   static Vector point_velocity(const auto& twist, const Vector& lever) {
     Vector velocity = S::spin(angular<S>(twist), lever);

@@ -154,17 +154,21 @@ class ContactGroups {
   /// In place of a colour: pairs without a phase. Those without a hub share no group.
   static constexpr std::uint64_t serial = PairColouring::colours + 1,
                                  alone_kind = not_inside | serial << colour_bits;
-  /// Bodies of a block, up to twice as many: their number is a power of two, so that teams of two, four, ..
-  /// members have equally many. They are consecutive, so that they lie together if the bodies are in the order of a
-  /// space-filling curve. A member of a team visits the pairs inside a block without waiting for others.
+  /// Bodies of a block, up to twice as many: the number of blocks is a power of two, so that teams of two,
+  /// four, .. members have equally many. They are consecutive, so that they lie together if the bodies are
+  /// in the order of a space-filling curve. A member of a team visits the pairs inside a block without
+  /// waiting for others.
   static constexpr std::size_t block_size = 600;
 
   void find_pairs(const Operator& op) {
     moves_.resize(op.body_count());
     isotropic_.resize(op.body_count());
+    block_.resize(op.body_count());
+    const std::size_t blocks = std::bit_floor(body_count_ / block_size);
     for (std::size_t i = 0; i < op.body_count(); ++i) {
       moves_[i] = op.inverse_mass(i).moves();
       isotropic_[i] = op.inverse_mass(i).is_isotropic();
+      block_[i] = blocks < 2 ? Pairs::shared : static_cast<std::uint32_t>(i * blocks / body_count_);
     }
     bodies_.clear();
     first_.clear();
@@ -207,12 +211,9 @@ class ContactGroups {
   }
   /// The block of all bodies of a pair that move; `shared` if there are two.
   std::uint32_t block_of(std::size_t k) const {
-    const std::size_t blocks = std::bit_floor(body_count_ / block_size);
-    if (blocks < 2) return Pairs::shared;
     const auto [a, b] = bodies_[k];
-    const std::size_t of_a = a * blocks / body_count_, of_b = b * blocks / body_count_;
-    if (moves_[a] && moves_[b] && of_a != of_b) return Pairs::shared;
-    return static_cast<std::uint32_t>(moves_[a] ? of_a : of_b);
+    if (moves_[a] && moves_[b] && block_[a] != block_[b]) return Pairs::shared;
+    return block_[moves_[a] ? a : b];
   }
   /// The heavy hub of a pair; none if the pair has no hub, a light hub or two hubs.
   Hub hub_of(std::uint32_t k) const {
@@ -373,6 +374,7 @@ class ContactGroups {
   std::vector<std::array<std::uint32_t, 2>> bodies_;
   std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
   std::vector<unsigned char> moves_, isotropic_;
+  std::vector<std::uint32_t> block_;         // of each body; `shared` if there are no blocks
   std::vector<typename S::Scalar> share_;    // of each hub, see find_shares()
   std::vector<std::uint32_t> phase_points_;  // points of each phase of a hub
   std::uint32_t phase_hub_ = 0;              // hub of the last phase
