@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "moreau/boundary/drive.hpp"
+#include "moreau/boundary/servo.hpp"
 
 #include "distributed/worlds.hpp"
 
@@ -135,4 +136,27 @@ TEST_CASE("Drives move walls as those of one process") {
   CHECK_THROWS_AS(VelocityDrive(alone.grain(0), Vector::UnitY(), [](double) { return 1.0; })
                       .apply(packing, step),
                   std::invalid_argument);
+}
+
+TEST_CASE("A pressure on a wall is that of one process") {
+  const auto build = [] { return box_of_grains<Polygons>(60, 1e-4); };
+  DistributedSimulation<Polygons> packing(MPI_COMM_WORLD, on_first_rank<Polygons>(build));
+  Polygons alone = build();
+  const BodyId lid = alone.walls().back(), opposite = alone.walls().front();
+  const auto area = [] { return 0.5; };
+  const double mass = 20 * alone.bodies().grain_mass[0], pressure = 400 * mass;
+  const PressureLoad load(packing, lid, pressure, mass, area);
+  const PressureLoad load_alone(alone, lid, pressure, mass, area);
+  double measured = 0, measured_alone = 0;
+  for (int k = 0; k < 300; ++k) {
+    load.apply(packing, step);
+    load_alone.apply(alone, step);
+    packing.step(step);
+    alone.step(step);
+    measured += wall_pressure(packing, opposite, step, 0.5) / 300;
+    measured_alone += wall_pressure(alone, opposite, step, 0.5) / 300;
+  }
+  CHECK((packing.pose(lid).position - alone.pose(lid).position).norm() <= 1e-3 * size);
+  CHECK(measured == doctest::Approx(measured_alone).epsilon(0.02));
+  CHECK_THROWS_AS(wall_pressure(packing, alone.grain(0), step, 0.5), std::invalid_argument);
 }

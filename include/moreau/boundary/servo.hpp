@@ -34,15 +34,26 @@ concept AreaFunction = requires(const F area) {
   { area() } -> std::convertible_to<double>;
 };
 
+namespace detail {
+
+/// The normal of a half-space, unit, towards the grains, world axes.
+template <class Simulation>
+typename Simulation::Vector wall_normal(const Simulation& simulation, BodyId wall) {
+  return simulation.pose(wall).rotation.toRotationMatrix().col(0);
+}
+
+}  // namespace detail
+
 /// The pressure that the contacts exerted on a wall in the last step [Pa], in the plane [N/m]; > 0
 /// if the grains push the wall outwards.
+/// @param simulation of one process, or a DistributedSimulation: all processes call it together
 /// @param wall id of a half-space of the simulation
 /// @param step length of the last step [s], > 0
 /// @param area area of the wall [m^2], in the plane its length [m], > 0
 /// @throws std::invalid_argument if the step or the area is not finite or not positive, or if the
 ///                               body is not a half-space of the simulation
 template <class Simulation>
-typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId wall,
+typename Simulation::Scalar wall_pressure(Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
                                           typename Simulation::Scalar area) {
   require(std::isfinite(step) && step > 0, "wall_pressure", "step", step, "must be finite and > 0");
@@ -51,7 +62,7 @@ typename Simulation::Scalar wall_pressure(const Simulation& simulation, BodyId w
   require(std::find(walls.begin(), walls.end(), wall) != walls.end(), "wall_pressure", "wall", wall,
           "must be the id of a half-space");
   const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
-  return -simulation.bodies().axes(wall.index()).col(0).dot(impulse) / (step * area);
+  return -detail::wall_normal(simulation, wall).dot(impulse) / (step * area);
 }
 
 namespace detail {
@@ -66,8 +77,8 @@ T checked_area(const auto& area, const char* function) {
 
 }  // namespace detail
 
-/// A constant pressure on a wall with a mass. The pressure on the grains is exact if the wall is at
-/// rest.
+/// A constant pressure on a wall with a mass, of a Simulation or a DistributedSimulation. The pressure on
+/// the grains is exact if the wall is at rest.
 template <AreaFunction Area>
 class PressureLoad {
  public:
@@ -99,8 +110,8 @@ class PressureLoad {
   void apply(Simulation& simulation, typename Simulation::Scalar = 0) const {
     using Scalar = typename Simulation::Scalar;
     const Scalar area = detail::checked_area<Scalar>(area_, "PressureLoad::apply");
-    simulation.set_force(wall_, static_cast<Scalar>(pressure_) * area *
-                                    simulation.bodies().axes(wall_.index()).col(0));
+    simulation.set_force(
+        wall_, static_cast<Scalar>(pressure_) * area * detail::wall_normal(simulation, wall_));
   }
 
  private:
@@ -144,8 +155,8 @@ class PressureServo {
             "wall", wall_,
             "must have a prescribed motion: contacts change the velocity of a wall with a mass");
     const double speed = std::clamp(gain_ * missing, -limit_, limit_);
-    simulation.set_velocity(
-        wall_, static_cast<Scalar>(speed) * simulation.bodies().axes(wall_.index()).col(0));
+    simulation.set_velocity(wall_,
+                            static_cast<Scalar>(speed) * detail::wall_normal(simulation, wall_));
   }
 
  private:
