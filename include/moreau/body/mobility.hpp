@@ -85,13 +85,10 @@ class InverseMass {
   }
   template <class Vector, std::size_t N>
   static Vector times(const auto& m, const Vector& x) {
-    Vector y;
-    for (std::size_t i = 0; i < N; ++i) {
-      y[Eigen::Index(i)] = 0;
-      for (std::size_t k = 0; k < N; ++k)
-        y[Eigen::Index(i)] += m[Algebra::entry(i, k)] * x[Eigen::Index(k)];
-    }
-    return y;
+    std::array<Scalar, N> of_x;
+    for (std::size_t k = 0; k < N; ++k) of_x[k] = x[Eigen::Index(k)];
+    const auto product = Algebra::template product<N>(m, of_x);
+    return Eigen::Map<const Vector>(product.data());
   }
 
   Linear linear_{};

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace moreau::detail {
 
@@ -36,12 +38,9 @@ struct LaneAlgebra {
   }
   template <std::size_t N>
   static std::array<Values, N> product(const Symmetric<N>& m, const std::array<Values, N>& x) {
-    std::array<Values, N> y;
-    for (std::size_t i = 0; i < N; ++i) {
-      y[i] = m[entry(i, 0)] * x[0];
-      for (std::size_t k = 1; k < N; ++k) y[i] += m[entry(i, k)] * x[k];
-    }
-    return y;
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return std::array<Values, N>{row<I>(m, x)...};
+    }(std::make_index_sequence<N>());
   }
   /// Where the entry (i, k) of a Symmetric lies.
   static constexpr std::size_t entry(std::size_t i, std::size_t k) {
@@ -49,6 +48,15 @@ struct LaneAlgebra {
   }
 
  private:
+  /// Entry I of a product. Compilers do not unroll a loop over entry() and would compute it each time.
+  template <std::size_t I, std::size_t N>
+  static Values row(const Symmetric<N>& m, const std::array<Values, N>& x) {
+    return [&]<std::size_t... K>(std::index_sequence<K...>) {
+      Values sum = m[std::integral_constant<std::size_t, entry(I, 0)>()] * x[0];
+      ((sum += m[std::integral_constant<std::size_t, entry(I, K + 1)>()] * x[K + 1]), ...);
+      return sum;
+    }(std::make_index_sequence<N - 1>());
+  }
   /// w x lever
   static std::array<Values, 3> spin(const auto& v, const std::array<Values, 3>& lever) {
     return {v[4] * lever[2] - v[5] * lever[1], v[5] * lever[0] - v[3] * lever[2],
