@@ -62,15 +62,18 @@ TEST_CASE_TEMPLATE("nor does one that drifts through a periodic cell, in a cylin
   const S::Vector drift(0, 0.5, 0);
   scenes::World<ShapeT> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
   world.set_periodic(1, 0, 0.08);
-  const auto shape = world.add_shape([] {
-    if constexpr (std::is_constructible_v<ShapeT, double>)
-      return ShapeT(0.01);
-    else
-      return scenes::cuboid<ShapeT>(S::Vector::Constant(0.008));
-  }());
+  // Two shapes, of different numbers of vertices and faces.
+  std::vector<moreau::ShapeId> shapes;
+  if constexpr (std::is_constructible_v<ShapeT, double>) {
+    shapes = {world.add_shape(ShapeT(0.01)), world.add_shape(ShapeT(0.009))};
+  } else {
+    shapes = {world.add_shape(scenes::cuboid<ShapeT>(S::Vector::Constant(0.008))),
+              world.add_shape(moreau::regular_shape<ShapeT>(0.016))};
+  }
   for (int k = 0; k < 12; ++k) {
     const S::Vector x(0.022 * (k % 3 - 1), 0.02 * (k / 3), -0.03);
-    world.set_velocity(world.add_grain(shape, {x, S::identity()}, 2700), drift);
+    world.set_velocity(world.add_grain(shapes[std::size_t(k) % 2], {x, S::identity()}, 2700),
+                       drift);
   }
   world.set_velocity(world.add_cylinder(S::Vector::Zero(), S::Vector::UnitY(), 0.06), drift);
   world.set_gravity(S::Vector(0, 0, -9.81));

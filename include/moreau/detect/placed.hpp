@@ -85,7 +85,7 @@ class Placement<ShapeT> {
     vertices_.assign(shape.vertices(), rotation);
     normals_.assign(shape.face_normals(), rotation);
     const Eigen::Index count = shape.face_offsets().size();
-    offsets_.resize(normals_.padded_size());
+    offsets_.resize(std::size_t(normals_.padded_size()));
     const Scalar* offsets = shape.face_offsets().data();
     std::fill(std::copy(offsets, offsets + count, offsets_.data()),
               offsets_.data() + offsets_.size(), offsets[0]);
@@ -120,7 +120,7 @@ class Placement<ShapeT> {
   /// The F face normals, unit, outward, world axes.
   const Rows<S>& normals() const { return normals_; }
   /// Signed distance of the plane of face f from the centre, along the face's normal [m].
-  Scalar offset(std::size_t f) const { return offsets_[static_cast<Eigen::Index>(f)]; }
+  Scalar offset(std::size_t f) const { return offsets_[f]; }
   /// The offsets of all faces [m]. The array has normals().padded_size() elements.
   const Scalar* offsets() const { return offsets_.data(); }
   /// Radius of a ball about the centre that contains the shape [m].
@@ -142,13 +142,13 @@ class Placement<ShapeT> {
   void prefetch_rows() const {
     vertices_.prefetch();
     normals_.prefetch();
-    detail::prefetch(offsets_.data(), std::size_t(offsets_.size()) * sizeof(Scalar));
+    detail::prefetch(offsets_.data(), offsets_.size() * sizeof(Scalar));
   }
 
   const ShapeT* shape_ = nullptr;
   Vector center_ = Vector::Zero();
   Rows<S> vertices_, normals_;
-  Eigen::Array<Scalar, Eigen::Dynamic, 1> offsets_;
+  std::vector<Scalar, detail::CacheLineAllocator<Scalar>> offsets_;
 };
 
 /// The placed data of a ball or disk.

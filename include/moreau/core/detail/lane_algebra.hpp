@@ -40,7 +40,8 @@ struct LaneAlgebra {
   static std::array<Values, N> product(const Symmetric<N>& m, const std::array<Values, N>& x) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
       return std::array<Values, N>{row<I>(m, x)...};
-    }(std::make_index_sequence<N>());
+    }
+    (std::make_index_sequence<N>());
   }
   /// Where the entry (i, k) of a Symmetric lies.
   static constexpr std::size_t entry(std::size_t i, std::size_t k) {
@@ -55,7 +56,8 @@ struct LaneAlgebra {
       Values sum = m[std::integral_constant<std::size_t, entry(I, 0)>()] * x[0];
       ((sum += m[std::integral_constant<std::size_t, entry(I, K + 1)>()] * x[K + 1]), ...);
       return sum;
-    }(std::make_index_sequence<N - 1>());
+    }
+    (std::make_index_sequence<N - 1>());
   }
   /// w x lever
   static std::array<Values, 3> spin(const auto& v, const std::array<Values, 3>& lever) {

@@ -8,8 +8,10 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/detail/cache_lines.hpp"
 #include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/detail/wide.hpp"
 #include "moreau/core/error.hpp"
@@ -35,7 +37,8 @@ class Rows {
     MOREAU_ASSERT(body.rows() > 0);
     count_ = body.rows();
     padded_ = W::padded(count_);
-    if (rows_.size() < S::dim * padded_) rows_.resize(S::dim * padded_);
+    const auto size = std::size_t(S::dim * padded_);
+    if (rows_.size() < size) rows_.resize(size);
     for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
       const Wides block = load(body, i);
       for (Eigen::Index k = 0; k < S::dim; ++k) {
@@ -212,7 +215,7 @@ class Rows {
     return block;
   }
 
-  Eigen::Array<T, Eigen::Dynamic, 1> rows_;
+  std::vector<T, CacheLineAllocator<T>> rows_;
   Eigen::Index count_ = 0, padded_ = 0;
 };
 

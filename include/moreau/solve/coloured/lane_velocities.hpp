@@ -4,33 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <span>
 #include <vector>
 
+#include "moreau/core/detail/cache_lines.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 
 namespace moreau::detail {
-
-/// Allocates whole cache lines, so that the row of a body lies on one line, not on two.
-template <class X>
-struct CacheLineAllocator {
-  using value_type = X;
-  static constexpr std::align_val_t line{64};
-
-  CacheLineAllocator() = default;
-  template <class Y>
-  CacheLineAllocator(const CacheLineAllocator<Y>&) {}  // NOLINT(google-explicit-constructor)
-  X* allocate(std::size_t count) {
-    return static_cast<X*>(::operator new(count * sizeof(X), line));
-  }
-  void deallocate(X* memory, std::size_t) { ::operator delete(memory, line); }
-  template <class Y>
-  bool operator==(const CacheLineAllocator<Y>&) const {
-    return true;
-  }
-};
 
 /// Velocities y = (v, w) of all bodies, one row per body, read and written for one body per SIMD lane
 /// at once.
