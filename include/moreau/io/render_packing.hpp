@@ -231,7 +231,7 @@ Image render_packing(const Aabb<Space<3, T>>& box, std::size_t grain_count, cons
                                  box.upper.template cast<double>()};
   const Vector3f low = container.lower.cast<float>(), high = container.upper.cast<float>();
   const float size = (high - low).norm();
-  Scene scene;
+  Scene scene(grain_count);
   for (std::size_t k = 0; k < grain_count; ++k)
     scene.add_grain(shape_of(k), pose_of(k), color_of(k));
   const Vector3f middle = (low + high) / 2;

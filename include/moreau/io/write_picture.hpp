@@ -133,7 +133,7 @@ Image render(const World& world, const ColorOf& color_of, const Picture& picture
   const Vector3f middle = ((box.lower + box.upper) / 2).cast<float>();
   const auto size = static_cast<float>((box.upper - box.lower).norm());
 
-  Scene scene;
+  Scene scene(world.grain_count());
   for_each_grain(world, color_of, [&](const auto& shape, const auto& pose, const Color& color) {
     scene.add_grain(shape, pose, color);
   });

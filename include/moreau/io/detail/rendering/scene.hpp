@@ -21,6 +21,11 @@ namespace moreau::rendering {
 /// The objects of a picture.
 class Scene {
  public:
+  /// @param grains their number: the more there are, the fewer triangles has a round one
+  explicit Scene(std::size_t grains) {
+    while (meridians_ > 8 && grains * std::size_t(meridians_ * meridians_) > most_triangles)
+      meridians_ /= 2;
+  }
   /// Adds a grain of any shape.
   template <GrainShape Shape>
   void add_grain(const Shape& shape, const Pose<SpaceOf<Shape>>& pose, const Color& color) {
@@ -81,10 +86,12 @@ class Scene {
   requires(!Polytope<Shape>) void add_surface(const Shape& shape,
                                               const Pose<SpaceOf<Shape>>& pose) {
     using Vector = typename Shape::Vector;
-    constexpr int meridians = 32, parallels = 16;
+    const int meridians = meridians_, parallels = meridians_ / 2;
     const auto corner = [&](int i, int j) -> std::array<Vector3f, 2> {
-      const float phi = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / meridians;
-      const float theta = std::numbers::pi_v<float> * static_cast<float>(j) / parallels;
+      const float phi =
+          2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(meridians);
+      const float theta =
+          std::numbers::pi_v<float> * static_cast<float>(j) / static_cast<float>(parallels);
       const Vector3f n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                        std::cos(theta));
       const Vector direction = n.cast<typename Shape::Space::Scalar>();
@@ -119,6 +126,10 @@ class Scene {
     Vector3f middle = Vector3f::Zero();
     float radius = 1;
   };
+
+  /// A triangle takes 88 bytes, and each lamp visits all of them.
+  static constexpr std::size_t most_triangles = 4'000'000;
+  int meridians_ = 32;  // of a round grain
 
   std::vector<Triangle> triangles_;
   Ground ground_;
