@@ -41,6 +41,13 @@ template <class Simulation>
 typename Simulation::Vector wall_normal(const Simulation& simulation, BodyId wall) {
   return simulation.pose(wall).rotation.toRotationMatrix().col(0);
 }
+/// The present area, checked.
+template <class T>
+T checked_area(const auto& area, const char* function) {
+  const auto now = static_cast<T>(area());
+  require(std::isfinite(now) && now > 0, function, "area", now, "must be finite and > 0");
+  return now;
+}
 
 }  // namespace detail
 
@@ -64,18 +71,6 @@ typename Simulation::Scalar wall_pressure(Simulation& simulation, BodyId wall,
   const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
   return -detail::wall_normal(simulation, wall).dot(impulse) / (step * area);
 }
-
-namespace detail {
-
-/// The present area, checked.
-template <class T>
-T checked_area(const auto& area, const char* function) {
-  const auto now = static_cast<T>(area());
-  require(std::isfinite(now) && now > 0, function, "area", now, "must be finite and > 0");
-  return now;
-}
-
-}  // namespace detail
 
 /// A constant pressure on a wall with a mass, of a Simulation or a DistributedSimulation. The pressure on
 /// the grains is exact if the wall is at rest.
