@@ -341,14 +341,19 @@ std::vector<Case> settled_plan() {
   for (const std::size_t seed : {1u, 2u, 3u})
     for (const double fmax : {2000.0, 4000.0, 10000.0})
       for (const double ratio : {0.42, 0.5}) box(seed, ratio, 1, fmax);
-  // 4. The wall moved slowly outward: the thrust without inertia.
+  // 4. The wall moved slowly outward: the thrust without inertia, in boxes of other shapes, too.
+  const auto pulled = [&](const char* shape, std::size_t seed, double ratio) {
+    add_jammed(plan, "static", shape, seed, 4, [&](Parameters& p) {
+      p.box_ratio = ratio;
+      p.frequency = 5;
+      p.wall_speed = 2e-3;
+    });
+  };
   for (const Names& shapes : {planar, solid})
     for (const std::size_t seed : {1u, 2u, 3u})
-      for (const char* shape : shapes)
-        add_jammed(plan, "static", shape, seed, 4, [](Parameters& p) {
-          p.frequency = 5;
-          p.wall_speed = 2e-3;
-        });
+      for (const char* shape : shapes) pulled(shape, seed, 1);
+  for (const std::size_t seed : {1u, 2u, 3u})
+    for (const double ratio : {0.42, 0.7, 1.5}) pulled("polyhedron", seed, ratio);
   // 6. From round to angular and flat grains, and their friction; spheres are in `course`.
   const auto form = [&](const std::function<void(Parameters&)>& change) {
     for (const std::size_t seed : {1u, 2u, 3u})

@@ -5,7 +5,7 @@ import math
 
 import excursion
 from figures import first_second, rise, speeds
-from runs import (ANY, COMPLIANT, SHAPES, constant, exponent, judged, over_samples, power, select,
+from runs import (ANY, COMPLIANT, SHAPES, constant, excursion_judged, exponent, over_samples, power, select,
                   series, strain)
 
 
@@ -37,7 +37,7 @@ def predicted_exponent(runs, shape, parameter, **wanted):
         if not run["steady_thrust"]:
             return math.nan
         p = run["parameters"]
-        return excursion.displacement(run["steady_thrust"] * run["weight"],
+        return excursion.displacement(lambda _: run["steady_thrust"] * run["weight"],
                                       run["wall_mass"] + run["carried_share"] * run["mass"],
                                       p["fmax"], p["frequency"])
     found = [r for r in loaded(runs, shape, parameter, **wanted)
@@ -47,7 +47,7 @@ def predicted_exponent(runs, shape, parameter, **wanted):
 
 def loaded(runs, shape, parameter, **wanted):
     return [r for r in series(runs, shape, parameter, **wanted)
-            if r["parameters"]["fmax"] >= 1000 and judged(r)]
+            if r["parameters"]["fmax"] >= 1000 and excursion_judged(r)]
 
 
 def wall_scatter(runs, shape):

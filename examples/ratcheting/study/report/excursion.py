@@ -1,70 +1,133 @@
 # SPDX-License-Identifier: MIT
-"""The excursion of a wall that a constant thrust F pushes out against the driving force while it moves
-the mass M = m_w + beta m:
+"""The excursion of a wall that the thrust F of the grains pushes out against the driving force while it
+moves the mass M = m_w + beta m:
 
-    M dv/dt = F - f(t),  from the time when f falls below F to the time when v is 0 again.
+    M dv/dt = F(x) - f(t),  from the time when f falls below F(0) to the time when v is 0 again.
 
-For F << fmax: dx = 0.228 F^2 / (M fmax nu^2), the paper's equation 4 with
+For a constant F << fmax: dx = 0.228 F^2 / (M fmax nu^2), the paper's equation 4 with
 C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
+import bisect
 import math
 
-from runs import ANY, COMPLIANT, judged, select
+from runs import ANY, COMPLIANT, excursion_judged, exponent, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
-    """Largest displacement [m]."""
-    if not 0 < thrust < fmax or mass <= 0:
+    """Largest displacement [m] under the thrust [N], a function of the displacement; nan where f does not
+    cross it or the wall does not return."""
+    if not 0 < thrust(0) < fmax or mass <= 0:
         return math.nan
     omega = 2 * math.pi * frequency
-    tau = -math.acos(1 - 2 * thrust / fmax) / omega  # time since the minimum of f
+    tau = -math.acos(1 - 2 * thrust(0) / fmax) / omega  # time since the minimum of f
     h = -4 * tau / steps
     v = x = 0.0
     for _ in range(4 * steps):
         middle = tau + h / 2
-        a = (thrust - fmax / 2 * (1 - math.cos(omega * middle))) / mass
+        a = (thrust(x) - fmax / 2 * (1 - math.cos(omega * middle))) / mass
         if v + a * h < 0:
-            return x
+            if middle > 0:
+                return x
+            a = -v / h  # before the minimum the wall waits
         x += h * (v + a * h / 2)
         v += a * h
         tau += h
     return math.nan
 
 
+class ThrustCurve:
+    """Force of the grains over their weight, over the displacement of a wall that moves slowly outward:
+    the non-increasing function that fits the force best (least squares), from where the force has fallen
+    to half of the weight. Constant beyond the end of the test."""
+
+    def __init__(self, run):
+        table, weight = run["tables"].get("wall", {"x": [], "f_g": []}), run["weight"]
+        rows = list(zip(table["x"], table["f_g"]))
+        start = next((k for k, (_, f_g) in enumerate(rows) if f_g < weight / 2), len(rows))
+        blocks = []  # force, number of rows, first and last displacement
+        for x, f_g in rows[start:]:
+            x -= rows[start][0]
+            blocks.append((f_g / weight, 1, x, x))
+            while len(blocks) > 1 and blocks[-2][0] < blocks[-1][0]:
+                (g, m, _, last), (f, n, first, _) = blocks.pop(), blocks.pop()
+                blocks.append(((f * n + g * m) / (n + m), n + m, first, last))
+        self.x = [(first + last) / 2 for _, _, first, last in blocks]
+        self.f = [f for f, _, _, _ in blocks]
+
+    def at(self, x):
+        """Linear between the middles of the steps."""
+        k = bisect.bisect(self.x, x)
+        if k == 0 or k == len(self.x):
+            return self.f[min(k, len(self.f) - 1)]
+        share = (x - self.x[k - 1]) / (self.x[k] - self.x[k - 1])
+        return self.f[k - 1] + share * (self.f[k] - self.f[k - 1])
+
+
+def thrust_curves(runs, shape):
+    """By sample."""
+    curves = {r["parameters"]["seed"]: ThrustCurve(r) for r in static_runs(runs, shape)}
+    return {seed: curve for seed, curve in curves.items() if curve.f}
+
+
+def share_that_gives(excursion, run, thrust):
+    """The share beta of the grains with which a run has this excursion [m]."""
+    low, high = -0.99 * run["wall_mass"] / run["mass"], 20.0
+    p = run["parameters"]
+    for _ in range(25):
+        share = (low + high) / 2
+        moved = displacement(thrust, run["wall_mass"] + share * run["mass"], p["fmax"], p["frequency"], 500)
+        if moved > excursion or math.isnan(moved):
+            low = share
+        else:
+            high = share
+    return (low + high) / 2
+
+
 class Prediction:
-    """Excursions over all loads from the thrust and the carried mass of one run of each sample: 5 Hz,
-    6 kN, m_w = m/2, 9.81 m/s².
+    """Excursions over all loads, from one run of each sample: 5 Hz, 6 kN, m_w = m/2, 9.81 m/s².
 
-    thrusts_of: thrust over weight of each sample from elsewhere, as from the static test; samples that
-    it lacks are left out."""
+    Without curves the thrust is the constant and beta the share that are fitted to the force on the wall
+    in that run. With curves (ThrustCurve by sample) the thrust is that of the slow test, and beta the
+    share with which that run has its excursion; samples without a curve are left out."""
 
-    def __init__(self, runs, shape, thrusts_of=None, **wanted):
-        self.ratios = {"frequency": [], "fmax": [], "gravity": [], "wall_mass_ratio": []}
-        self.thrusts, self.shares = [], []
+    def __init__(self, runs, shape, curves=None, **wanted):
+        self.pairs = {"frequency": [], "fmax": [], "gravity": [], "wall_mass_ratio": []}  # run, predicted
+        self.bases, self.thrusts, self.shares = [], [], []
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
                 continue
-            thrust, share = base["steady_thrust"], base["carried_share"]
-            if thrusts_of is not None:
-                thrust = thrusts_of.get(base["parameters"]["seed"], math.nan)
-                if not math.isfinite(thrust):
-                    continue
-            self.thrusts.append(thrust)
-            self.shares.append(share)
             seed = base["parameters"]["seed"]
-            for name, ratios in self.ratios.items():
-                ranges = {"frequency": 5.0} | {name: ANY}
-                for run in select(runs, shape, seed=seed, **ranges, **wanted):
+            if curves is None:
+                thrust_at, share = (lambda _, f=base["steady_thrust"]: f), base["carried_share"]
+                self.thrusts.append(base["steady_thrust"])
+            elif seed in curves:
+                thrust_at = curves[seed].at
+                share = share_that_gives(base["dx_active"], base, lambda x: thrust_at(x) * base["weight"])
+            else:
+                continue
+            self.bases.append(base)
+            self.shares.append(share)
+            for name, pairs in self.pairs.items():
+                for run in select(runs, shape, seed=seed, **({"frequency": 5.0} | {name: ANY}), **wanted):
                     p = run["parameters"]
-                    if run is base or p["fmax"] < 1000 or p["duration"] > 5 or \
-                            p[name] == base["parameters"][name] or not judged(run):
+                    if p["fmax"] < 1000 or p["duration"] > 5 or not excursion_judged(run) or \
+                            p[name] == base["parameters"][name]:
                         continue
-                    predicted = displacement(thrust * run["weight"],
-                                             run["wall_mass"] + share * run["mass"], p["fmax"],
-                                             p["frequency"])
-                    ratios.append(run["dx_active"] / predicted)
+                    pairs.append((run, displacement(
+                        lambda x, weight=run["weight"]: thrust_at(x) * weight,
+                        run["wall_mass"] + share * run["mass"], p["fmax"], p["frequency"])))
 
-    def all(self):
-        return [ratio for ratios in self.ratios.values() for ratio in ratios]
+    def exponents(self, name):
+        """Exponents over a parameter of the measured and of the predicted excursion, as text."""
+        predicted = {id(run): value for run, value in self.pairs[name]}
+        predicted |= {id(run): run["dx_active"] for run in self.bases}
+        found = self.bases + [run for run, _ in self.pairs[name]]
+        return (exponent(found, name, lambda run: run["dx_active"]).text(),
+                exponent(found, name, lambda run: predicted[id(run)]).text())
+
+    def ratios(self, *names):
+        """Measured over predicted excursion of the runs over these parameters, or over all."""
+        return [run["dx_active"] / predicted
+                for name in names or self.pairs for run, predicted in self.pairs[name]]
 
 
 def static_thrust(run):
@@ -77,11 +140,6 @@ def static_thrust(run):
         return math.nan
     forces = [f_g for x, f_g in rows[start:] if x - rows[start][0] <= 1e-3]
     return sum(forces) / len(forces) / weight
-
-
-def static_thrusts(runs, shape):
-    """Thrust over weight by sample."""
-    return {r["parameters"]["seed"]: static_thrust(r) for r in static_runs(runs, shape)}
 
 
 def static_runs(runs, shape):

@@ -175,12 +175,19 @@ def constant(run, displacement="dx_active"):
     return run[displacement] / load
 
 
-REBOUND = 0.3  # largest share of the elastic rebound in the displacement of a run that is judged
+REBOUND = 0.3  # largest motion of the jammed wall over the displacement in a run that is judged
 
 
 def judged(run):
     """Whether the displacement of the wall is more than elastic rebound. Rigid contacts: always."""
     return run["parameters"]["method"] != "compliant" or run["creep"] <= REBOUND * run["dx_max"]
+
+
+def excursion_judged(run):
+    """judged(), and the jammed wall does not drift inward more than that: such a packing is not jammed,
+    and the excursion of its wall has no beginning."""
+    return judged(run) and (run["parameters"]["method"] != "compliant" or
+                            run["creep"] >= -REBOUND * run["dx_max"])
 
 
 def scaled_load(run):
