@@ -109,7 +109,8 @@ void add_options(CLI::App& app, Options& o) {
                  "states; small: few grains, takes about a minute")
       ->check(CLI::IsMember(study::plan_names()));
   app.add_option("--set", o.selection.sets,
-                 "run only the cases of these series, e.g. frequencies, fmax");
+                 "run only the cases of these series, e.g. frequencies, fmax, and those that make "
+                 "the jammed states they start from");
   app.add_option("--shape", o.selection.shapes, "run only the cases of these shapes")
       ->check(CLI::IsMember(
           {"polyhedron", "polygon", "sphere", "disk", "compound", "compound_polygon"}));

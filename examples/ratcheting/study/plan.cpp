@@ -6,8 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <map>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -467,15 +470,20 @@ std::vector<Case> select(const std::vector<Case>& plan, const Selection& s) {
   require_known<std::size_t>(
       plan, s.numbers, "--case",
       [](const Case& c, const std::size_t& number) { return c.number == number; });
-  std::vector<Case> selected;
-  for (const Case& c : plan) {
+  const auto named = [&](const Case& c) {
     const bool in_sets =
         s.sets.empty() || std::any_of(s.sets.begin(), s.sets.end(),
                                       [&](const Name& set) { return c.sets.contains(set); });
-    if (in_sets && wanted(s.shapes, c.parameters.shape) &&
-        wanted(s.seeds, std::size_t(c.parameters.seed)) && wanted(s.numbers, c.number))
-      selected.push_back(c);
-  }
+    return in_sets && wanted(s.shapes, c.parameters.shape) &&
+           wanted(s.seeds, std::size_t(c.parameters.seed)) && wanted(s.numbers, c.number);
+  };
+  std::set<std::string> starts;
+  if (s.numbers.empty())
+    for (const Case& c : plan)
+      if (named(c)) starts.insert(c.parameters.from);
+  std::vector<Case> selected;
+  std::copy_if(plan.begin(), plan.end(), std::back_inserter(selected),
+               [&](const Case& c) { return named(c) || starts.contains(c.name); });
   return selected;
 }
 

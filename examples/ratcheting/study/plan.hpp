@@ -36,6 +36,8 @@ std::vector<std::string> plan_names();
 /// @throws std::invalid_argument for a name that is no plan's
 std::vector<Case> make_plan(const std::string& name);
 
+/// The cases of these sets, shapes, seeds and numbers; empty: all. Without numbers also the cases whose
+/// jammed states they start from.
 /// @throws std::invalid_argument for a set, shape or number that no case of the plan has
 std::vector<Case> select(const std::vector<Case>& plan, const Selection& selection);
 
