@@ -5,6 +5,7 @@
 //
 // Writes into the folder: avalanche.csv, pictures, ParaView files, avalanche.snapshot. The same
 // command continues a run that was stopped or killed, from its last snapshot, with the same bits.
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -31,14 +32,6 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr const char* usage =
-    "avalanche --shape sphere|polyhedron|disk|polygon --grains N [options]\n"
-    "  --output FOLDER   default avalanche-output; an unfinished run in it is continued\n"
-    "  --threads N       default 1; the results do not depend on it\n"
-    "  --seed N          default 1\n"
-    "  --minutes M       stop after M minutes with a snapshot; the same command continues\n"
-    "  --snapshot S      seconds from one snapshot to the next, default 120\n";
-
 struct Options {
   std::string shape;
   std::size_t grains = 0;
@@ -48,30 +41,36 @@ struct Options {
   double minutes = std::numeric_limits<double>::infinity(), snapshot = 120;
 };
 
+/// Ends the program after --help, and with status 2 for wrong arguments.
 Options read_options(int count, char** arguments) {
   Options options;
-  for (int k = 1; k < count; k += 2) {
-    const std::string name = arguments[k];
-    if (k + 1 == count) throw std::invalid_argument(name + " needs a value");
-    const std::string value = arguments[k + 1];
-    if (name == "--shape")
-      options.shape = value;
-    else if (name == "--grains")
-      options.grains = std::stoul(value);
-    else if (name == "--output")
-      options.output = value;
-    else if (name == "--threads")
-      options.threads = std::stoi(value);
-    else if (name == "--seed")
-      options.seed = std::stoul(value);
-    else if (name == "--minutes")
-      options.minutes = std::stod(value);
-    else if (name == "--snapshot")
-      options.snapshot = std::stod(value);
-    else
-      throw std::invalid_argument(name + " is no option");
+  CLI::App app("An avalanche of any number of grains, with progress, restart and pictures",
+               "avalanche");
+  app.option_defaults()->always_capture_default();
+  app.add_option("--shape", options.shape, "of the grains; sets the dimension")
+      ->required()
+      ->check(CLI::IsMember({"sphere", "polyhedron", "disk", "polygon"}));
+  app.add_option("--grains", options.grains, "their number")
+      ->required()
+      ->check(CLI::Range(100, 100000000));
+  app.add_option("--output", options.output,
+                 "folder of all files; an unfinished run in it is continued");
+  app.add_option("--threads", options.threads, "the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--seed", options.seed, "of sizes, shapes and places")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+  app.add_option("--minutes", options.minutes,
+                 "stop after so many minutes with a snapshot; the same command continues")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::infinity()));
+  app.add_option("--snapshot", options.snapshot, "seconds from one snapshot to the next")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::infinity()));
+  try {
+    app.parse(count, arguments);
+    if (std::isnan(options.minutes) || std::isnan(options.snapshot))
+      throw CLI::ValidationError("--minutes, --snapshot", "must be numbers");
+  } catch (const CLI::ParseError& end) {
+    std::exit(app.exit(end) == 0 ? 0 : 2);
   }
-  if (options.grains < 100) throw std::invalid_argument("--grains must be at least 100");
   return options;
 }
 
@@ -108,6 +107,7 @@ class Run {
       avalanche_.build(grains_, seed_);
       std::printf("%zu grains built in %.1f s\n", options.grains, since(start));
     }
+    std::fflush(stdout);
   }
 
   /// @returns whether the grains have come to rest or the longest time has passed
@@ -122,7 +122,7 @@ class Run {
                              "residual",
                              {"max_overlap", "m"}},
                             10, table_size_);
-    first_step_ = avalanche_.progress.step;
+    first_step_ = shown_step_ = avalanche_.progress.step;
     start_ = shown_ = saved_ = Clock::now();
     const double longest = avalanche_.longest_flow();
     while (!is_over(longest)) {
@@ -154,18 +154,22 @@ class Run {
   std::uint64_t middle() const {
     return static_cast<std::uint64_t>(0.25 * avalanche_.longest_flow() / avalanche_.progress.h);
   }
-  double per_step() const { return since(start_) / double(step() - first_step_); }  // [s]
 
   void show(const moreau::StepReport& report, double longest) {
+    // Of the steps since the last line.
+    const double per_step = since(shown_) / double(step() - shown_step_);
     shown_ = Clock::now();
+    shown_step_ = step();
     const auto& state = avalanche_.progress;
-    const double left = (state.opened_at == 0 ? longest : longest - flow_time()) / state.h;
+    const bool settles = state.opened_at == 0;
+    const double left = (settles ? longest : longest - flow_time()) / state.h;
     std::printf(
         "%s%s: step %llu, t = %.3f s  %zu points  %3d sweeps  residual %.0e  mean speed %.3f m/s  "
-        "%.0f ms/step  at most %.0f s left%s",
-        terminal_ ? "\r" : "", state.opened_at == 0 ? "settles" : "flows  ", step(),
-        avalanche_.time(), report.points, report.solve.sweeps, report.solve.residual,
-        state.mean_speed, 1e3 * per_step(), left * per_step(), terminal_ ? "\033[K" : "\n");
+        "%.0f ms/step  at most %.0f s%s%s",
+        terminal_ ? "\r" : "", settles ? "settles" : "flows  ", step(), avalanche_.time(),
+        report.points, report.solve.sweeps, report.solve.residual, state.mean_speed, 1e3 * per_step,
+        left * per_step, settles ? " of flow after the grains rest" : " left",
+        terminal_ ? "\033[K" : "\n");
     std::fflush(stdout);
   }
   void save(moreau::CsvWriter& table) {
@@ -225,7 +229,7 @@ class Run {
 
   Options options_;
   Avalanche avalanche_;
-  std::uint64_t grains_ = 0, seed_ = 0, first_step_ = 0;
+  std::uint64_t grains_ = 0, seed_ = 0, first_step_ = 0, shown_step_ = 0;
   std::uintmax_t table_size_ = 0;
   Clock::time_point start_, shown_, saved_;
   bool terminal_ = isatty(STDOUT_FILENO) != 0;
@@ -236,26 +240,15 @@ bool run(const Options& options) {
   if (options.shape == "polyhedron") return Run<moreau::Polyhedron<double>>(options).go();
   if (options.shape == "disk") return Run<moreau::Disk<double>>(options).go();
   if (options.shape == "polygon") return Run<moreau::Polygon<double>>(options).go();
-  throw std::invalid_argument("--shape must be sphere, polyhedron, disk or polygon");
+  throw std::invalid_argument("--shape: there is no " + options.shape);
 }
 
 }  // namespace
 
 /// Returns 0 when the run has ended, 3 when it stopped before, 2 for wrong arguments.
 int main(int count, char** arguments) {
-  if (count == 2 && std::string(arguments[1]) == "--help") {
-    std::fputs(usage, stdout);
-    return 0;
-  }
-  if (count < 2) {
-    std::fputs(usage, stderr);
-    return 2;
-  }
   try {
     return run(read_options(count, arguments)) ? 0 : 3;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%s\n%s", error.what(), usage);
-    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -7,7 +7,7 @@
 # A run that was stopped or killed continues with the same command. All options: run.sh --help
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../.." && pwd)
-"$top/.ci/require" g++ libeigen3-dev libpng-dev
+"$top/.ci/require" g++ libeigen3-dev libcli11-dev libpng-dev
 program=$top/build/avalanche
 mkdir -p "$top/build"
 # Compiled again only if a source is newer. Takes two to three minutes.

@@ -69,7 +69,7 @@ template <class S>
 void check_hull(const FacetMesh<S>& mesh, int n) {
   using T = typename S::Scalar;
   const auto hull = hull_of_mesh(mesh);
-  const T rounding = T(1e-6) * size_of(mesh);
+  const T rounding = T(1e-6) * size_of(mesh) + detail::rounding_of(mesh);
   hold(worst_concavity(mesh, hull).depth >= -rounding, "a mesh lies within its hull");
   const auto fewer = simplify_hull(hull, std::size_t(S::dim + 1 + n));
   hold(fewer.volume_error >= 0 && fewer.volume_error < 1, "volume error in [0, 1)");
@@ -110,7 +110,9 @@ void check_wall(const FacetMesh<S>& mesh, WallSides sides) {
   const auto bounds = wall.tree().bounds();
   const double size = double((bounds.upper - bounds.lower).norm());
   // Coordinates far apart or far from 1 overflow in squares; a user's shape would be refused.
-  if (!(size > 1e-6 && size < 1e6) || size_of(mesh) > 1e3 * size) return;
+  double largest = 0;
+  for (const auto& x : mesh.vertices) largest = std::max(largest, double(x.cwiseAbs().maxCoeff()));
+  if (!(size > 1e-6 && size < 1e6) || largest > 1e3 * size) return;
   check_contacts(regular_shape<PolytopeOf<S>>(0.15 * size), wall, size);
   check_contacts(BallIn<S>(0.1 * size), wall, size);
 }

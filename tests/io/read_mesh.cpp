@@ -15,6 +15,7 @@
 
 #include "moreau/sample/concave_mesh.hpp"
 #include "moreau/shape/check_mesh.hpp"
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/convex_of_mesh.hpp"
 #include "moreau/shape/repair_mesh.hpp"
 #include "moreau/shape/simplify_hull.hpp"
@@ -53,12 +54,13 @@ struct Parts {
     return parts;
   }
 
-  std::string obj() const {
+  /// @param first number of vertices before these in the file
+  std::string obj(int first = 0) const {
     std::ostringstream out;
     out.precision(9);
     for (const auto& x : vertices) out << "v " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
     for (const auto& t : triangles)
-      out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+      out << "f " << first + t[0] + 1 << ' ' << first + t[1] + 1 << ' ' << first + t[2] + 1 << '\n';
     return out.str();
   }
   std::string ply() const {
@@ -227,7 +229,8 @@ std::vector<BadMesh> corpus() {
        "triangle 17 = (1, 11, 6) must not share the edge (1, 6)"},
       {"at_a_corner.stl", at_a_corner.stl(),
        "triangle 12 = (6, 8, 9) must not touch triangle 2 only at the vertex 6"},
-      {"repeated.obj", repeated.obj(), "triangle 12 = (4, 6, 7) must not share", by_drop},
+      {"repeated.obj", repeated.obj(),
+       "triangle 12 = (4, 6, 7) must not have the corners of triangle 3", by_drop},
       {"back_to_back.stl", back_to_back.stl(), "triangle 12 = ", by_drop},
       {"one_turned.obj", turned.obj(), "triangle 4 = (2, 0, 5) must have its outside", by_orient},
       {"some_turned.ply", some_turned.ply(), "triangle 1 = (3, 0, 2) must have its outside",
@@ -318,6 +321,38 @@ TEST_CASE("quadrilaterals are divided, groups are read one by one") {
   CHECK(volume_of(groups[0].mesh) == doctest::Approx(1));
   CHECK(volume_of(groups[1].mesh) == doctest::Approx(1. / 6));
   CHECK(read_mesh(path, 1.0).facets.size() == 16);
+}
+
+TEST_CASE("a grain of the groups of a file, with the mass properties of a mesh") {
+  const TemporaryFolder folder("mesh");
+  const auto cube = [](const char* name, double x, int first) {  // in millimetres
+    std::ostringstream text;
+    text << "o " << name << '\n' << Parts::cube({x, 0, 0}, 20).obj(first);
+    return text.str();
+  };
+  const auto path =
+      write(folder, "parts.obj", cube("left", 0, 0) + cube("right", 10, 8) + cube("left", 40, 16));
+  Mesh mesh = read_mesh(write(folder, "whole.obj", Parts::cube({0, 0, 0}, 20).obj()), 1e-3);
+  for (auto& x : mesh.vertices) x[0] *= 3;
+  // The second group of the name "left" belongs to the first.
+  std::vector<moreau::Polyhedron<>> parts;
+  for (const moreau::MeshGroup<>& group : moreau::read_mesh_groups(path, 1e-3))
+    parts.push_back(moreau::hull_of_mesh(group.mesh));
+  const moreau::Compound<moreau::Polyhedron<>> stone(parts, moreau::mass_properties(mesh, 1.0));
+  CHECK(parts.size() == 2);
+  CHECK(parts[0].volume() == doctest::Approx(6e-2 * 2e-2 * 2e-2));
+  CHECK(stone.volume() == doctest::Approx(6e-2 * 2e-2 * 2e-2));
+  CHECK_THROWS_WITH_AS(Compound<Polyhedron<>>(parts, mass_properties(mesh, 2700.0)),
+                       doctest::Contains("at density 1"), std::invalid_argument);
+}
+
+TEST_CASE("a mesh far from the origin is refused, its digits are lost") {
+  const TemporaryFolder folder("mesh");
+  const auto far = write(folder, "far.obj", Parts::cube({1e6, 0, 0}, 20).obj());
+  CHECK_THROWS_WITH_AS(read_mesh(far, 1e-3), doctest::Contains("move it to the origin"),
+                       std::runtime_error);
+  CHECK_THROWS_AS(read_mesh_groups(far, 1e-3), std::runtime_error);
+  CHECK_NOTHROW(read_mesh(write(folder, "near.obj", Parts::cube({1e3, 0, 0}, 20).obj()), 1e-3));
 }
 
 TEST_CASE("bad arguments of the reader") {

@@ -210,6 +210,86 @@ TEST_CASE_TEMPLATE("a hexagon of two halves rolls on a slope of more than 30 deg
   }
 }
 
+/// A roof along the second axis with its ridge at the origin.
+template <class S>
+FacetMesh<S> roof(double width, double slope) {
+  if constexpr (S::dim == 2)
+    return {{{-width, -slope * width}, {0, 0}, {width, -slope * width}}, {{1, 0}, {2, 1}}};
+  else
+    return {{{-width, -2, -slope * width},
+             {0, -2, 0},
+             {width, -2, -slope * width},
+             {-width, 2, -slope * width},
+             {0, 2, 0},
+             {width, 2, -slope * width}},
+            {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}};
+}
+
+// A block glides without friction over the ridge of a roof. Cut in two, it moves as in one piece: the
+// corners of the cut do not touch the slopes.
+TEST_CASE_TEMPLATE("a block cut in two glides over a ridge as the whole block", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
+  using S = SpaceOf<Part>;
+  using Grain = Compound<Part>;
+  const Part block =
+      compounds::box<Part>(compounds::point<S>(-2, -0.5, -1), compounds::point<S>(2, 0.5, 1));
+  const auto parts = compounds::halves<Part>(block, S::Vector::UnitX(), S::Vector::Zero());
+  const auto glide = [&](const Grain& grain, bool on_wall, double slope, double gap) {
+    Simulation<Grain, Law> world(1, Materials<Law>(1, Law(0.0)));
+    const auto mesh = roof<S>(2, slope);
+    if (on_wall) {
+      world.add_mesh_wall(mesh);
+    } else {
+      const Part house = compounds::hull<Part>(mesh.vertices);
+      world.prescribe_motion(
+          world.add_grain(world.add_shape(Grain({house})), {house.centroid_of_input()}, 1000));
+    }
+    const BodyId body =
+        world.add_grain(world.add_shape(grain), {compounds::point<S>(-1, 0.5 + gap)}, 1000);
+    world.set_velocity(body, compounds::point<S>(10, 0));
+    for (int k = 0; k < 200; ++k) world.step(1e-3);
+    return world.velocity(body);
+  };
+  for (const bool on_wall : {true, false})
+    for (const double slope : {0.3, 2.0})
+      for (const double gap : {1e-4, 0.0, -1e-3}) {
+        const auto whole = glide(Grain({block}), on_wall, slope, gap);
+        const auto cut = glide(Grain(std::span<const Part>(parts)), on_wall, slope, gap);
+        CAPTURE(on_wall);
+        CAPTURE(slope);
+        CAPTURE(gap);
+        CHECK(std::abs(whole[0] - 10) < 1e-4);
+        CHECK((cut - whole).norm() < 1e-7);
+      }
+}
+
+// The arm of a grain lies on a block beside which its other part hangs down: the corner between the
+// two is inside the grain, the arm touches all the same.
+TEST_CASE_TEMPLATE("an arm rests beside the part that hangs down", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
+  using S = SpaceOf<Part>;
+  using Grain = Compound<Part>;
+  const Part arm =
+      compounds::box<Part>(compounds::point<S>(-3, 0, -0.5), compounds::point<S>(1, 1, 0.5));
+  const Part hanging =
+      compounds::box<Part>(compounds::point<S>(0, -2, -0.5), compounds::point<S>(1, 0, 0.5));
+  const Part table =
+      compounds::box<Part>(compounds::point<S>(-4, -4, -2), compounds::point<S>(0, 0, 2));
+  for (const double beside : {0.0, 1e-3}) {
+    Simulation<Grain, Law> world(1, Materials<Law>(1, Law(0.5)));
+    const Grain hook({arm, hanging});
+    world.prescribe_motion(
+        world.add_grain(world.add_shape(Grain({table})), {table.centroid_of_input()}, 1000));
+    const typename S::Vector start = hook.centroid_of_input() + compounds::point<S>(beside, 0);
+    const BodyId body = world.add_grain(world.add_shape(hook), {start}, 1000);
+    world.set_gravity(compounds::point<S>(0, -10));
+    for (int k = 0; k < 300; ++k) world.step(1e-3);
+    CAPTURE(beside);
+    CHECK((world.pose(body).position - start).norm() < 1e-4);
+    CHECK(world.velocity(body).norm() < 1e-4);
+  }
+}
+
 // A small block slides without friction over the seam of a block cut in two as over the whole block:
 // the edges of the cut make no contacts.
 TEST_CASE_TEMPLATE("a block slides over the seam between two parts", Part,

@@ -6,7 +6,9 @@ set -u
 program=$1
 source "$(dirname "$0")/failures.sh"
 
-for arguments in "--shape cube --grains 500" "--shape disk --grains 5" "--shape disk --grain 500" "--shape disk --grains"; do
+for arguments in "--shape cube --grains 500" "--shape disk --grains 5" "--shape disk --grain 500" "--shape disk --grains" \
+  "--shape disk --grains many" "--shape disk --grains -5" "--shape disk --grains 300x" "--shape disk --grains 300 --minutes nan" \
+  "--shape disk --grains 300 --threads 0"; do
   "$program" $arguments --output "$folder/refused" >"$folder/said" 2>&1
   [ $? = 2 ] || fail "$arguments: $(cat "$folder/said")"
 done

@@ -131,8 +131,19 @@ TEST_CASE_TEMPLATE("parts that overlap need mass properties", S,
   const Grain clump(std::span<const Part>(close), mass);
   CHECK(double(clump.volume_share()) == doctest::Approx(0.95));
   CHECK((clump.parts()[0].pose.position - T(0.95) * x).norm() < T(1e-6));
-  mass.inertia.setZero();
-  CHECK_THROWS_AS(Grain(std::span<const Part>(close), mass), std::invalid_argument);
+  const auto refused = [&](const auto& change) {
+    MassProperties<S> bad = mass;
+    change(bad);
+    return message_of([&] { Grain(std::span<const Part>(close), bad); });
+  };
+  CHECK(refused([](auto& m) { m.inertia.setZero(); }).find("inertia") != std::string::npos);
+  CHECK(refused([](auto& m) { m.mass *= 1000; }).find("volume") != std::string::npos);
+  CHECK(refused([&](auto& m) { m.center = 5 * x; }).find("center") != std::string::npos);
+  if constexpr (S::dim == 3) {
+    CHECK(refused([](auto& m) { m.inertia(0, 1) += m.inertia(0, 0); }).find("symmetric") !=
+          std::string::npos);
+    CHECK(refused([](auto& m) { m.inertia(2, 2) *= 3; }).find("inertia") != std::string::npos);
+  }
   CHECK_THROWS_AS(Grain(std::vector<Part>{}), std::invalid_argument);
 }
 

@@ -193,6 +193,80 @@ TEST_CASE_TEMPLATE("a surface may be open, a solid not", S, Plane, Volume) {
   CHECK(message_of([&] { require_solid(mesh, "test"); }).substr(0, 6) == "test: ");
 }
 
+// A grain would touch rims that lie along each other as ends of the wall.
+TEST_CASE_TEMPLATE("the facets of a wall join where they meet, with their outsides on one side", S,
+                   Plane, Volume) {
+  const auto found = [](const FacetMesh<S>& mesh) {
+    const auto fault = find_wall_fault(mesh);
+    return fault ? std::string(name(fault->defect)) : "none";
+  };
+  FacetMesh<S> sheet = cube(S{});
+  sheet.facets.pop_back();
+  CHECK(found(sheet) == "none");
+  CHECK(found(soup(sheet)) == "unwelded");
+  FacetMesh<S> noisy = soup(sheet);
+  for (std::size_t v = 0; v < noisy.vertices.size(); v += 2) noisy.vertices[v][0] += 5e-7;
+  CHECK(found(noisy) == "unwelded");
+  weld(noisy, 1e-6);
+  CHECK(found(noisy) == "none");
+  FacetMesh<S> apart;
+  append(apart, sheet, typename S::Vector(S::Vector::Zero()));
+  append(apart, sheet, typename S::Vector(4 * S::Vector::UnitX()));
+  CHECK(found(apart) == "none");
+  FacetMesh<S> turned = sheet;
+  std::swap(turned.facets[1][0], turned.facets[1][1]);
+  CHECK(found(turned) == "unoriented");
+  FacetMesh<S> twice = sheet;
+  twice.facets.push_back(twice.facets[1]);
+  CHECK(found(twice) == "non_manifold");
+  CHECK(message_of([&] { require_wall(twice, "test"); }).find("must not have the corners of") !=
+        std::string::npos);
+}
+
+// Rims may lie along each other without ends in common.
+TEST_CASE("a rim along part of another rim") {
+  const auto found = [](double begin, double beside) {
+    const FacetMesh<Volume> mesh{{{0, 0, 0},
+                                  {2, 0, 0},
+                                  {0, 1, 0},
+                                  {begin, -beside, 0},
+                                  {begin + 1, -beside, 0},
+                                  {begin, -1, 0}},
+                                 {{0, 1, 2}, {4, 3, 5}}};
+    const auto fault = find_wall_fault(mesh);
+    return fault ? fault->message : "none";
+  };
+  CHECK(found(0.5, 0) ==
+        "triangle 1 = (4, 3, 5) must have vertices in common with triangle 0, along whose rim its "
+        "edge (3, 4) lies: call weld()");
+  CHECK(found(1.5, 0) != "none");
+  CHECK(found(2, 0) == "none");  // they touch at a point
+  CHECK(found(0.5, 1e-7) != "none");
+  CHECK(found(0.5, 1e-4) == "none");
+}
+
+TEST_CASE_TEMPLATE("the size of a mesh does not depend on the origin", S, Plane, Volume) {
+  for (const double far : {0.0, 1e4, 1e6}) {
+    FacetMesh<S> mesh;
+    append(mesh, cube(S{}), typename S::Vector(S::Vector::Constant(far)));
+    CHECK(size_of(mesh) == doctest::Approx(1).epsilon(1e-9));
+    CHECK_NOTHROW(convex_of_mesh(mesh));
+    // A dent of a thousandth is seen wherever it is.
+    auto& corner = mesh.vertices[mesh.facets[0][0]];
+    const typename S::Vector other = mesh.vertices[mesh.facets[0][1]];
+    mesh.vertices.push_back((corner + other) / 2);
+    mesh.vertices.back()[S::dim - 1] += 1e-3;
+    CHECK(worst_concavity(mesh, hull_of_mesh(mesh)).depth < 1e-8);  // no facet has it yet
+    const auto middle = std::uint32_t(mesh.vertices.size() - 1);
+    if constexpr (S::dim == 2) {
+      mesh.facets[0] = {0, middle};
+      mesh.facets.push_back({middle, 1});
+      CHECK(message_of([&] { convex_of_mesh(mesh); }).find("concavity = 0.001") !=
+            std::string::npos);
+    }
+  }
+}
+
 TEST_CASE_TEMPLATE("weld joins what lies within the tolerance", S, Plane, Volume) {
   FacetMesh<S> mesh = soup(cube(S{}));
   CHECK(fault(mesh).substr(0, 5) == "open:");

@@ -70,12 +70,29 @@ class Statistics(unittest.TestCase):
 
 class Physics(unittest.TestCase):
     def test_excursion_of_a_weak_thrust_is_that_of_the_parabola(self):
-        x = excursion.displacement(6.0, 20.0, 6000.0, 5.0)
+        x = excursion.displacement(lambda _: 6.0, 20.0, 6000.0, 5.0)
         self.assertAlmostEqual(x / (9 / (4 * math.pi ** 2) * 36 / (20 * 6000 * 25)), 1, places=2)
         # 12 percent more at a quarter of the largest force.
-        x = excursion.displacement(1500.0, 20.0, 6000.0, 5.0)
+        x = excursion.displacement(lambda _: 1500.0, 20.0, 6000.0, 5.0)
         self.assertAlmostEqual(x / (9 / (4 * math.pi ** 2) * 1500 ** 2 / (20 * 6000 * 25)), 1.12,
                                delta=0.01)
+
+    def test_thrust_over_the_displacement(self):
+        # Falls from 0.4 mg to 0.2 mg over 1 mm, with noise.
+        xs = [1e-5 * k for k in range(101)]
+        noise = [0.02 * (-1) ** k for k in range(101)]
+        run = {"weight": 100.0, "tables": {"wall": {
+            "x": [-1e-5] + xs, "f_g": [90.0] + [100 * (0.4 - 200 * x + d) for x, d in zip(xs, noise)]}}}
+        curve = excursion.ThrustCurve(run)
+        self.assertEqual(sorted(curve.f, reverse=True), curve.f)
+        for x in (2e-4, 5e-4, 8e-4):
+            self.assertAlmostEqual(curve.at(x), 0.4 - 200 * x, delta=0.01)
+        self.assertEqual(curve.at(1.0), curve.f[-1])
+        # The share that gives an excursion is found again.
+        run |= {"parameters": {"fmax": 6000.0, "frequency": 5.0}, "mass": 20.0, "wall_mass": 10.0}
+        moved = excursion.displacement(lambda x: 100 * curve.at(x), 10 + 0.7 * 20, 6000.0, 5.0)
+        share = excursion.share_that_gives(moved, run, lambda x: 100 * curve.at(x))
+        self.assertAlmostEqual(share, 0.7, delta=0.01)
 
     def test_time_below_the_thrust(self):
         run = made_up(1, 5.0, 3000.0)

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "moreau/law/compliant.hpp"
@@ -15,11 +16,13 @@
 #include "moreau/shape/polyhedron.hpp"
 
 #include "conformance/solver.hpp"
+#include "conformance/support_only.hpp"
 #include "threads/same_bits.hpp"
 #include "types.hpp"
 
 using namespace solve_test;
 using namespace threads_test;
+using Vector3 = Space<3>::Vector;
 
 TEST_CASE("every member works, and waits for the others") {
   for (const int size : {1, 2, 3}) {
@@ -105,6 +108,48 @@ TEST_CASE("an exception of a member is thrown again") {
     team.run([&](int rank, int size, auto&&) { members += rank == 0 && size == 1 ? 0 : 100; });
   });
   CHECK(members == 0);
+}
+
+namespace {
+
+/// A ball that is known by its support function, which throws on the main thread on demand.
+struct Brittle : Ball<> {
+  using Vector = Vector3;
+  static inline bool breaks = false;
+  static inline const auto main_thread = std::this_thread::get_id();
+
+  using Ball<>::Ball;
+  Vector support(const Vector& direction) const {
+    if (breaks && std::this_thread::get_id() == main_thread) throw std::runtime_error("broken");
+    return Ball<>::support(direction);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a shape that throws ends the step, not the simulation") {
+  using Law = SignoriniCoulomb<>;
+  for (const int size : {1, 2, 3}) {
+    Simulation<conformance::SupportOnly<Brittle>, Law> world(grain_size,
+                                                             Materials<Law>(1, Law(0.4)));
+    world.set_team(eager(size));
+    const ShapeId shape = world.add_shape(conformance::SupportOnly(Brittle(grain_size / 2)));
+    world.add_wall(Vector3::UnitZ(), Vector3::Zero());
+    world.set_gravity(-9.81 * Vector3::UnitZ());
+    const Lattice<Space<3>> lattice{7, 7, 0.0199};
+    lattice.for_each(
+        [&](const Vector3& centre, int, int, int) { world.add_grain(shape, {centre}, 2700); });
+    std::size_t points = 0;
+    for (int step = 0; step < 6; ++step) {
+      Brittle::breaks = step % 2 == 0;
+      if (Brittle::breaks)
+        CHECK_THROWS_WITH_AS(world.step(1e-5), "broken", std::runtime_error);
+      else
+        points = world.step(1e-5).points;
+    }
+    Brittle::breaks = false;
+    CHECK(points > 343);
+  }
 }
 
 /// Teams of all sizes: the same bits as one thread.

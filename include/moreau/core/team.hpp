@@ -68,8 +68,9 @@ class TeamThreads {
   virtual ~TeamThreads() = default;
   virtual int size() const = 0;  ///< number of members, the calling thread included
   /// Calls work(rank, size, wait) once on each member and returns when all are done. If members
-  /// throw, the exception of the lowest rank is thrown again here. If a member calls run() during its
-  /// work, work(0, 1, {}) is called on this member alone.
+  /// throw, the exception of the lowest rank is thrown again here; a member that has thrown leaves the
+  /// barrier (std::barrier::arrive_and_drop()), so that the others do not wait for it. If a member
+  /// calls run() during its work, work(0, 1, {}) is called on this member alone.
   virtual void run(const Work& work) = 0;
   /// Called before a piece of work that is timed.
   /// @returns whether the members should share it

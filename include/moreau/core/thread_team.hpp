@@ -16,6 +16,8 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -264,7 +266,12 @@ class ThreadTeam : public Team {
  private:
   static std::shared_ptr<TeamThreads> pool(int threads) {
     require(threads >= 1, "ThreadTeam", "threads", threads, "must be at least 1");
-    return threads == 1 ? nullptr : std::make_shared<detail::ThreadPool>(threads);
+    if (threads == 1) return nullptr;
+    try {
+      return std::make_shared<detail::ThreadPool>(threads);
+    } catch (const std::system_error& error) {
+      throw std::system_error(error.code(), "ThreadTeam: threads = " + std::to_string(threads));
+    }
   }
 };
 

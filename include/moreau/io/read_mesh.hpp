@@ -16,9 +16,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "moreau/core/error.hpp"
@@ -61,6 +64,17 @@ class MeshCollector {
         corners[k] = number[face.mIndices[k]];
       }
     }
+  }
+
+  /// @throws std::runtime_error if single precision does not hold the shape
+  void require_near_origin(const std::string& path) const {
+    const T size = size_of(mesh),
+            far = rounding_of(mesh) / (16 * std::numeric_limits<T>::epsilon());
+    if (far <= T(1e4) * size || !(size > 0)) return;
+    std::ostringstream message;
+    message << path << ": the mesh has a size of " << size << " m and coordinates up to " << far
+            << " m, of which the reader keeps seven digits: move it to the origin";
+    throw std::runtime_error(message.str());
   }
 
   TriangleMesh<T> mesh;
@@ -107,30 +121,45 @@ void require_unit(T unit, const char* function) {
 /// @param unit length of one unit of the file [m]: 1e-3 for a file in millimetres
 /// @returns the mesh in the frame of the file [m], triangles in the order of the file
 /// @throws std::invalid_argument for another kind of file, or a unit that is not finite and positive
-/// @throws std::runtime_error naming the file if it cannot be read
+/// @throws std::runtime_error naming the file if it cannot be read, or if the mesh is farther from the
+///         origin than ten thousand times its size: the reader keeps single precision
 template <std::floating_point T>
 TriangleMesh<T> read_mesh(const std::filesystem::path& path, T unit) {
   detail::require_unit(unit, "read_mesh");
   detail::MeshCollector<T> all(unit);
   detail::for_each_group(path, "read_mesh",
                          [&](const aiMesh& group) { all.add(group, path.string()); });
+  all.require_near_origin(path.string());
   return std::move(all.mesh);
 }
 
 /// Reads each group or object of a file into a mesh of its own: the convex parts of a concave grain
-/// that another program has made.
-/// @param path of an .obj, .stl or .ply file; only .obj files have several groups
+/// that another program has made. Groups of one name are one group, in the place of the first.
+/// @param path of an .obj, .stl or .ply file; only .obj files have several groups. A group with several
+///             materials is several groups, named after these
 /// @param unit length of one unit of the file [m]
 /// @throws std::invalid_argument, std::runtime_error as read_mesh()
 template <std::floating_point T>
 std::vector<MeshGroup<T>> read_mesh_groups(const std::filesystem::path& path, T unit) {
   detail::require_unit(unit, "read_mesh_groups");
   std::vector<MeshGroup<T>> groups;
+  std::vector<detail::MeshCollector<T>> parts;
   detail::for_each_group(path, "read_mesh_groups", [&](const aiMesh& group) {
-    detail::MeshCollector<T> part(unit);
-    part.add(group, path.string());
-    groups.push_back({group.mName.C_Str(), std::move(part.mesh)});
+    const std::string name = group.mName.C_Str();
+    const auto place = std::find_if(groups.begin(), groups.end(), [&](const MeshGroup<T>& known) {
+      return !name.empty() && known.name == name;
+    });
+    const auto k = std::size_t(place - groups.begin());
+    if (place == groups.end()) {
+      groups.push_back({name, {}});
+      parts.emplace_back(unit);
+    }
+    parts[k].add(group, path.string());
   });
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    parts[k].require_near_origin(path.string());
+    groups[k].mesh = std::move(parts[k].mesh);
+  }
   return groups;
 }
 

@@ -2,8 +2,9 @@
 // Tests of meshes before they become grains or walls. Each fault names the facet (triangle, in the
 // plane segment) where it was found, counted from 0 in the order of the file.
 //
-// A wall must be a surface: facets that exist and have an area. A grain must be a solid: a surface
-// that is closed, in one piece, with its outside outside.
+// A surface has facets that exist and have an area. A wall is a surface whose facets join where they
+// meet, with their outsides on one side. A grain must be a solid: a surface that is closed, in one
+// piece, with its outside outside.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,10 @@
 #include <string_view>
 #include <vector>
 
+#include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/shape/detail/box_tree.hpp"
 #include "moreau/shape/detail/disjoint_sets.hpp"
 #include "moreau/shape/facet_mesh.hpp"
 
@@ -38,13 +41,14 @@ enum class MeshDefect : std::uint8_t {
   unoriented,      ///< two neighbours whose outsides are on different sides
   several_pieces,  ///< surfaces that are not connected: several solids, or a cavity
   inside_out,      ///< the outsides of all facets are inside
+  unwelded,        ///< of a wall: two rims at the same place, with vertices of their own
 };
 
 /// The name of a defect, as its enumerator is written.
 constexpr const char* name(MeshDefect defect) {
-  constexpr const char* names[] = {"empty",      "not_finite",     "out_of_range",
-                                   "degenerate", "non_manifold",   "open",
-                                   "unoriented", "several_pieces", "inside_out"};
+  constexpr const char* names[] = {"empty",        "not_finite", "out_of_range", "degenerate",
+                                   "non_manifold", "open",       "unoriented",   "several_pieces",
+                                   "inside_out",   "unwelded"};
   return names[static_cast<int>(defect)];
 }
 
@@ -117,7 +121,7 @@ std::optional<MeshFault> find_bad_vertex(const FacetMesh<S>& mesh) {
 template <class S>
 std::optional<MeshFault> find_bad_facet(const FacetMesh<S>& mesh) {
   using T = typename S::Scalar;
-  const T flat = 16 * std::numeric_limits<T>::epsilon() * size_of(mesh);
+  const T flat = rounding_of(mesh);
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     for (const std::uint32_t v : mesh.facets[f])
       if (v >= mesh.vertices.size())
@@ -135,10 +139,20 @@ std::optional<MeshFault> find_bad_facet(const FacetMesh<S>& mesh) {
   return std::nullopt;
 }
 
+/// Whether two facets have the same corners.
+template <class Facet>
+bool is_repeated(Facet a, Facet b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
 /// The first ridge that does not join two facets, as an oriented surface demands.
+/// @param may_have_rims whether ridges of one facet are allowed
 template <class S>
 std::optional<MeshFault> find_bad_ridge(const FacetMesh<S>& mesh,
-                                        const std::vector<Ridge<S>>& ridges) {
+                                        const std::vector<Ridge<S>>& ridges,
+                                        bool may_have_rims = false) {
   std::optional<MeshFault> open, crowded, turned;
   const auto keep = [&](std::optional<MeshFault>& fault, MeshDefect defect, std::size_t facet,
                         const std::string& expectation) {
@@ -149,10 +163,16 @@ std::optional<MeshFault> find_bad_ridge(const FacetMesh<S>& mesh,
     const auto facet = [&](std::size_t k) {
       return std::string(FacetWords<S>::facet) + " " + std::to_string(at[k].facet);
     };
+    for (std::size_t k = 1; k < at.size(); ++k)
+      if (is_repeated(mesh.facets[at[k - 1].facet], mesh.facets[at[k].facet]))
+        keep(crowded, MeshDefect::non_manifold, at[k].facet,
+             "not have the corners of " + facet(k - 1));
     if (at.size() > 2)
       keep(crowded, MeshDefect::non_manifold, at[2].facet,
            "not share the " + where + " with " + facet(0) + " and " + facet(1) +
                ": the surface is not a manifold");
+    else if (at.size() == 1 && may_have_rims)
+      return;
     else if (at.size() == 1)
       keep(open, MeshDefect::open, at[0].facet,
            "have a neighbour at its " + where + ": the surface is open");
@@ -161,6 +181,68 @@ std::optional<MeshFault> find_bad_ridge(const FacetMesh<S>& mesh,
            "have its outside on the side of its neighbour, " + facet(0) + ", at the " + where);
   });
   return crowded ? crowded : open ? open : turned;
+}
+
+/// Whether two ends of segments are at the same place.
+template <class T>
+bool lie_along(const std::array<Eigen::Matrix<T, 2, 1>, 1>& a,
+               const std::array<Eigen::Matrix<T, 2, 1>, 1>& b, T near) {
+  return (a[0] - b[0]).norm() <= near;
+}
+/// Whether an edge lies near another over some of its length.
+template <class T>
+bool lie_along(const std::array<Eigen::Matrix<T, 3, 1>, 2>& a,
+               const std::array<Eigen::Matrix<T, 3, 1>, 2>& b, T near) {
+  const Eigen::Matrix<T, 3, 1> edge = a[1] - a[0], other = b[1] - b[0];
+  const T length = edge.norm();
+  const T first = (b[0] - a[0]).dot(edge) / length, last = (b[1] - a[0]).dot(edge) / length;
+  const T begin = std::max(std::min(first, last), T(0)),
+          end = std::min(std::max(first, last), length);
+  if (!(end - begin > 4 * near)) return false;
+  const auto is_near = [&](T along) {
+    const Eigen::Matrix<T, 3, 1> on_b = b[0] + (along - first) / (last - first) * other;
+    return (on_b - a[0] - along / length * edge).norm() <= near;
+  };
+  return is_near(begin) && is_near(end);
+}
+
+/// The first rim that lies along another.
+template <class S>
+std::optional<MeshFault> find_unwelded_rim(const FacetMesh<S>& mesh,
+                                           const std::vector<Ridge<S>>& ridges) {
+  using T = typename S::Scalar;
+  using Ends = std::array<typename S::Vector, std::size_t(S::dim - 1)>;
+  const T near = T(1e-6) * size_of(mesh) + rounding_of(mesh);
+  std::vector<Ridge<S>> rims;
+  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
+    if (at.size() == 1) rims.push_back(at[0]);
+  });
+  std::vector<Ends> ends(rims.size());
+  std::vector<Aabb<S>> boxes(rims.size());
+  for (std::size_t r = 0; r < rims.size(); ++r)
+    for (std::size_t k = 0; k < ends[r].size(); ++k) {
+      ends[r][k] = mesh.vertices[rims[r].vertices[k]];
+      boxes[r].merge(ends[r][k]);
+    }
+  const BoxTree<S> tree(boxes);
+  std::optional<MeshFault> first;
+  for (std::size_t r = 0; r < rims.size(); ++r) {
+    const Aabb<S> around = boxes[r].inflated(near);
+    tree.query([&](const Aabb<S>& box) { return box.overlaps(around); },
+               [&](std::uint32_t place) {
+                 const std::size_t s = tree.order()[place];
+                 const std::uint32_t facet = rims[r].facet, other = rims[s].facet;
+                 if (s == r || facet < other || (first && first->facet <= facet)) return;
+                 if (!lie_along(ends[r], ends[s], near) && !lie_along(ends[s], ends[r], near))
+                   return;
+                 first = fault_of(
+                     mesh, MeshDefect::unwelded, facet,
+                     "have vertices in common with " + std::string(FacetWords<S>::facet) + " " +
+                         std::to_string(other) + ", along whose rim its " + FacetWords<S>::ridge +
+                         " " + list_of(rims[r].vertices) + " lies: call weld()");
+               });
+  }
+  return first;
 }
 
 /// The first vertex at which two surfaces touch. Each ridge has two facets.
@@ -206,8 +288,7 @@ std::vector<std::uint32_t> piece_of_each_facet(const FacetMesh<S>& mesh) {
   return piece;
 }
 
-/// The first fault of a mesh that is to be a surface, such as a wall: empty, not finite, out of
-/// range or degenerate.
+/// The first fault of a mesh that is to be a surface: empty, not finite, out of range or degenerate.
 template <class S>
 std::optional<MeshFault> find_surface_fault(const FacetMesh<S>& mesh) {
   if (mesh.facets.empty())
@@ -244,12 +325,32 @@ std::optional<MeshFault> find_solid_fault(const FacetMesh<S>& mesh) {
   return MeshFault{MeshDefect::inside_out, 0, message.str()};
 }
 
+/// The first fault of a mesh that is to be a wall: that of a surface, more than two facets at a ridge,
+/// a facet that is there twice, neighbours with their outsides on different sides, or rims that lie
+/// within 1e-6 of the size of the mesh along each other. A grain would touch such rims as the ends of
+/// the wall: weld() joins them.
+template <class S>
+std::optional<MeshFault> find_wall_fault(const FacetMesh<S>& mesh) {
+  if (auto fault = find_surface_fault(mesh)) return fault;
+  const auto ridges = ridges_of<S>(mesh.facets);
+  if (auto fault = detail::find_bad_ridge(mesh, ridges, true)) return fault;
+  return detail::find_unwelded_rim(mesh, ridges);
+}
+
 /// Requires that a mesh is a surface (find_surface_fault).
 /// @param function name of the calling function, for the message
 /// @throws std::invalid_argument that names the function and the facet
 template <class S>
 void require_surface(const FacetMesh<S>& mesh, std::string_view function) {
   if (const auto fault = find_surface_fault(mesh))
+    throw std::invalid_argument(std::string(function) + ": " + fault->message);
+}
+/// Requires that a mesh can be a wall (find_wall_fault).
+/// @param function name of the calling function, for the message
+/// @throws std::invalid_argument that names the function and the facet
+template <class S>
+void require_wall(const FacetMesh<S>& mesh, std::string_view function) {
+  if (const auto fault = find_wall_fault(mesh))
     throw std::invalid_argument(std::string(function) + ": " + fault->message);
 }
 /// Requires that a mesh bounds a solid (find_solid_fault).

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -74,12 +76,15 @@ class Compound {
   /// Parts at poses, which may overlap, with given mass properties.
   /// @param parts one or more, in any common frame
   /// @param of_density_one mass properties of the whole grain at density 1 in the frame of the parts:
-  ///        the mass is the volume [m^D], the inertia [m^(D+2)] is about the centre
+  ///        the mass is the volume [m^D], the inertia [m^(D+2)] is about the centre; of a closed mesh
+  ///        mass_properties(mesh, 1.0)
   /// @throws std::invalid_argument for no part, a pose that is not finite or whose rotation is not of
-  ///         unit length, or mass properties that no body has
+  ///         unit length, a volume or a centre that do not fit into the box around the parts, or an
+  ///         inertia that no body has: not symmetric, or a sum of two principal moments below the third
   Compound(std::span<const Part> parts, const MassProperties<Space>& of_density_one)
       : parts_(parts.begin(), parts.end()) {
     require_parts();
+    require_body(of_density_one);
     set_mass(of_density_one);
   }
   /// Polygons or polyhedra that stay where their points were given.
@@ -208,6 +213,31 @@ class Compound {
       sum.inertia += turn * mass.inertia * turn.transpose() + mass.mass * arm.transpose() * arm;
     }
     return sum;
+  }
+  /// Requires mass properties of a body that fits into the box around the parts.
+  void require_body(const MassProperties<Space>& given) const {
+    constexpr const char* self = "Compound";
+    const Aabb<Space> box = bounding_box({});
+    const Vector edges = box.upper - box.lower;
+    require(all_finite(given.center) && box.contains(given.center), self, "center", given.center,
+            "m must lie in the box around the parts");
+    require(
+        given.mass <= Scalar(1.001) * edges.prod(), self, "volume", given.mass,
+        "m^D must be at most that of the box around the parts: give mass properties at density 1");
+    if constexpr (Space::dim == 3) {
+      using Inertia = typename Space::Inertia;
+      const Scalar trace = given.inertia.trace(), rounding = Scalar(1e-5) * std::abs(trace);
+      const Inertia second = trace / 2 * Inertia::Identity() - given.inertia;
+      const bool is_symmetric =
+          (given.inertia - given.inertia.transpose()).cwiseAbs().maxCoeff() <= rounding;
+      require(
+          all_finite(given.inertia) && is_symmetric &&
+              Eigen::SelfAdjointEigenSolver<Inertia>(second, Eigen::EigenvaluesOnly)
+                      .eigenvalues()[0] >= -rounding,
+          self, "inertia", given.inertia,
+          "m^(D+2) must be symmetric, with principal moments of which each is at most the sum of "
+          "the others");
+    }
   }
   /// Moves the origin to the centre of mass.
   void set_mass(const MassProperties<Space>& of_density_one) {

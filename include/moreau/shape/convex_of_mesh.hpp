@@ -92,11 +92,11 @@ Concavity<S> worst_concavity(const FacetMesh<S>& mesh, const PolytopeOf<S>& hull
 /// @throws std::invalid_argument if the mesh does not bound a solid (require_solid()), or if it is
 ///         concave: with the depth of its worst concavity and the facet that has it
 template <class S>
-PolytopeOf<S> convex_of_mesh(const FacetMesh<S>& mesh, typename S::Scalar tolerance = 1e-6) {
+PolytopeOf<S> convex_of_mesh(const FacetMesh<S>& mesh, typename S::Scalar tolerance = 5e-7) {
   require_solid(mesh, "convex_of_mesh");
   PolytopeOf<S> hull = hull_of_mesh(mesh);
   const Concavity<S> worst = worst_concavity(mesh, hull);
-  if (worst.depth <= tolerance * size_of(mesh)) return hull;
+  if (worst.depth <= tolerance * size_of(mesh) + detail::rounding_of(mesh)) return hull;
   std::ostringstream message;
   message.precision(4);
   message << "convex_of_mesh: concavity = " << worst.depth << " m at ";

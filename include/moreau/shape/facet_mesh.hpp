@@ -12,10 +12,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "moreau/core/aabb.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/shape/mass_properties.hpp"
 #include "moreau/shape/moments.hpp"
@@ -63,15 +65,29 @@ Eigen::Matrix<T, 2, 1> area_vector(const Eigen::Matrix<T, 2, 2>& corners) {
   return {corners(1, 1) - corners(1, 0), corners(0, 0) - corners(0, 1)};
 }
 
-/// The largest distance of a coordinate from 0 [m]. Tolerances of meshes are relative to it. A
-/// coordinate that is not a number is left out.
+/// The longest edge of the box around the vertices [m], wherever the origin is. Tolerances of meshes
+/// are relative to it. A vertex with a coordinate that is not finite is left out.
 template <class S>
 typename S::Scalar size_of(const FacetMesh<S>& mesh) {
-  typename S::Scalar size = 0;
+  Aabb<S> box;
   for (const auto& x : mesh.vertices)
-    for (const auto coordinate : x) size = std::max(size, std::abs(coordinate));
-  return size;
+    if (x.allFinite()) box.merge(x);
+  return std::max<typename S::Scalar>((box.upper - box.lower).maxCoeff(), 0);
 }
+
+namespace detail {
+
+/// What the rounding of coordinates can do to a length [m].
+template <class S>
+typename S::Scalar rounding_of(const FacetMesh<S>& mesh) {
+  using T = typename S::Scalar;
+  T largest = 0;
+  for (const auto& x : mesh.vertices)
+    if (x.allFinite()) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  return 16 * std::numeric_limits<T>::epsilon() * largest;
+}
+
+}  // namespace detail
 
 /// The mesh with all lengths multiplied by `factor` [-]: 1e-3 converts millimetres to metres.
 /// @throws std::invalid_argument if the factor is not finite or not positive

@@ -75,12 +75,12 @@ class MeshWall {
   /// @param mesh  vertices [m] and facets in the frame of the body
   /// @param sides of the facets at which grains are held
   /// @param function the public name the caller used
-  /// @throws std::invalid_argument if the mesh is not a surface (require_surface()), or if it has more
-  ///         than 2^27 facets or vertices
+  /// @throws std::invalid_argument if the mesh has a fault (find_wall_fault()), or if it has more than
+  ///         2^27 facets or vertices
   explicit MeshWall(const FacetMesh<S>& mesh, WallSides sides = WallSides::outside,
                     const char* function = "MeshWall")
       : mesh_(mesh), sides_(sides) {
-    require_surface(mesh, function);
+    require_wall(mesh, function);
     require(std::max(mesh.facets.size(), mesh.vertices.size()) <= (1U << 27), function,
             "facets.size()", mesh.facets.size(), "must be at most 2^27");
     build();
@@ -128,7 +128,7 @@ class MeshWall {
   MeshWall() = default;
   auto serialized_members() { return std::tie(mesh_.vertices, mesh_.facets, sides_); }
   void deserialized() {
-    require_surface(mesh_, "MeshWall");
+    require_wall(mesh_, "MeshWall");
     build();
   }
 
@@ -160,7 +160,7 @@ class MeshWall {
 template <EuclideanSpace S>
 void MeshWall<S>::build() {
   // Files hold coordinates in single precision: facets of a plane floor are plane to 1e-7.
-  flat_ = Scalar(4e-7) * size_of(mesh_);
+  flat_ = Scalar(2e-7) * size_of(mesh_) + detail::rounding_of(mesh_);
   facets_ = mesh_.facets;
   if (sides_ == WallSides::both)
     for (const Facet& facet : mesh_.facets) {

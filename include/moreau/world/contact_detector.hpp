@@ -338,22 +338,20 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
   // Members find nothing while the work is not shared.
   const std::size_t work = grains_.size() + pairs_.size();
   constexpr std::size_t least = 200;  // less is not worth a barrier
-  team_.run_timed(
-      TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier& wait) {
-        Member& member = members_[std::size_t(rank)];
-        order_.for_each(rank, size, [&](std::size_t k, const auto& later) {
-          if constexpr (prefetches) order_.prefetch(later, grains_, pairs_);
-          member.begin_run(k < place_.size() ? place_[k] : 0);
-          detect_of(k, lengths.margin, bodies, previous, member);
-          runs_[k] = member.end_run(std::uint32_t(rank));
-        });
-        wait();
-        if (rank == 0) Member::make_room(runs_, place_, out);
-        wait();
-        const detail::Share part(grains_.size(), rank, size);
-        for (std::size_t k = part.begin; k < part.end; ++k)
-          members_[runs_[k].finder].write(runs_[k], grains_[k].body.value, place_[k], out);
-      });
+  team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {
+    Member& member = members_[std::size_t(rank)];
+    order_.for_each(rank, size, [&](std::size_t k, const auto& later) {
+      if constexpr (prefetches) order_.prefetch(later, grains_, pairs_);
+      member.begin_run(k < place_.size() ? place_[k] : 0);
+      detect_of(k, lengths.margin, bodies, previous, member);
+      runs_[k] = member.end_run(std::uint32_t(rank));
+    });
+  });
+  // In pieces of their own: a member whose shape has thrown has found nothing that could be written.
+  Member::make_room(runs_, place_, out);
+  team_.share_each(grains_.size(), least, [&](std::size_t k) {
+    members_[runs_[k].finder].write(runs_[k], grains_[k].body.value, place_[k], out);
+  });
 }
 
 template <class ShapeT, class BroadPhaseT>

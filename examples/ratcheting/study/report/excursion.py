@@ -9,7 +9,7 @@ C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
 import bisect
 import math
 
-from runs import ANY, COMPLIANT, excursion_judged, exponent, select
+from runs import ANY, COMPLIANT, excursion_judged, exponent, scaled_load, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
@@ -62,9 +62,9 @@ class ThrustCurve:
         return self.f[k - 1] + share * (self.f[k] - self.f[k - 1])
 
 
-def thrust_curves(runs, shape):
+def thrust_curves(runs, shape, box_ratio=1.0):
     """By sample."""
-    curves = {r["parameters"]["seed"]: ThrustCurve(r) for r in static_runs(runs, shape)}
+    curves = {r["parameters"]["seed"]: ThrustCurve(r) for r in static_runs(runs, shape, box_ratio)}
     return {seed: curve for seed, curve in curves.items() if curve.f}
 
 
@@ -91,7 +91,8 @@ class Prediction:
 
     def __init__(self, runs, shape, curves=None, **wanted):
         self.pairs = {"frequency": [], "fmax": [], "gravity": [], "wall_mass_ratio": []}  # run, predicted
-        self.bases, self.thrusts, self.shares = [], [], []
+        self.bases, self.thrusts = [], []
+        self.shares = {}  # beta by sample
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
                 continue
@@ -105,7 +106,7 @@ class Prediction:
             else:
                 continue
             self.bases.append(base)
-            self.shares.append(share)
+            self.shares[seed] = share
             for name, pairs in self.pairs.items():
                 for run in select(runs, shape, seed=seed, **({"frequency": 5.0} | {name: ANY}), **wanted):
                     p = run["parameters"]
@@ -142,8 +143,27 @@ def static_thrust(run):
     return sum(forces) / len(forces) / weight
 
 
-def static_runs(runs, shape):
-    return select(runs, shape, frequency=5.0, wall_speed=2e-3, jammed=True, **COMPLIANT)
+def static_runs(runs, shape, box_ratio=1.0):
+    return select(runs, shape, frequency=5.0, wall_speed=2e-3, jammed=True, box_ratio=box_ratio, **COMPLIANT)
+
+
+def constants_of_boxes(runs, shape, box_ratio, measured):
+    """From the slow test in this box, at 5 Hz, 6 kN and m_w = m/2, by sample: C with the share beta of the
+    sample in the box H/L = 1; the share with which C is as measured."""
+    shares = Prediction(runs, shape, thrust_curves(runs, shape), jammed=True, **COMPLIANT).shares
+    constants, own = [], []
+    for run in static_runs(runs, shape, box_ratio):
+        seed, p, curve = run["parameters"]["seed"], run["parameters"], ThrustCurve(run)
+        if seed not in shares or not curve.f:
+            continue
+
+        def thrust(x, at=curve.at, weight=run["weight"]):
+            return at(x) * weight
+        moved = displacement(thrust, run["wall_mass"] + shares[seed] * run["mass"], p["fmax"],
+                             p["frequency"])
+        constants.append(moved / scaled_load(run))
+        own.append(share_that_gives(measured * scaled_load(run), run, thrust))
+    return constants, own
 
 
 def mean_and_scatter(ratios):

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
@@ -57,51 +58,125 @@ void for_each_vertex(const Polyhedron<T>& polyhedron, FeatureKind kind, std::siz
   }
 }
 
-/// Whether a feature of part `part` lies in another part of its grain that reaches beyond it along the
-/// direction, by more than 0.05 of its size. The grain continues there, so the feature cannot make a
-/// contact with this normal.
+/// Whether the parts of a compound have vertices, so that seams between them are known.
+template <class ShapeT>
+inline constexpr bool has_seams = CompoundShape<ShapeT>&& requires(const Placed<ShapeT>& grain) {
+  for_each_vertex(grain.part(0).shape(), FeatureKind::face, 0, [](std::size_t) {});
+};
+
+/// Lengths below this share of the size of a part are not seen where it is asked how far parts reach.
+inline constexpr double seam_tolerance = 0.05;
+
+/// Whether one of the neighbours of part `part` reaches beyond a point of the part along the direction.
+/// If the point lies in this neighbour, the grain continues there, so the point cannot make a contact
+/// with this normal.
+/// @param others the neighbours that are asked, as in detail::Seams::Set
+/// @param point  relative to the centre of the part, world axes [m]
 /// @param direction unit, out of the part, world axes
 template <CompoundShape ShapeT>
-bool is_inside(const Placed<ShapeT>& grain, std::uint32_t part, FeatureKind kind,
-               std::uint32_t feature, const typename SpaceOf<ShapeT>::Vector& direction) {
+bool reaches_beyond(const Placed<ShapeT>& grain, std::uint32_t part, std::uint64_t others,
+                    const typename SpaceOf<ShapeT>::Vector& point,
+                    const typename SpaceOf<ShapeT>::Vector& direction) {
   using T = typename SpaceOf<ShapeT>::Scalar;
-  using Vector = typename SpaceOf<ShapeT>::Vector;
-  const auto& seams = grain.shape().seams();
-  auto others = ~std::uint64_t{0};
-  std::size_t vertex = 0;
-  for_each_vertex(grain.part(part).shape(), kind, feature, [&](std::size_t v) {
-    others &= seams.neighbours_at(part, v);
-    vertex = v;
-  });
   for (std::size_t bit = 0; others != 0; ++bit, others >>= 1) {
     if ((others & 1) == 0) continue;
-    const auto& other = grain.part(seams.neighbour(part, bit));
-    const Vector here = grain.part(part).center() - other.center() +
-                        grain.part(part).vertices()[static_cast<std::uint32_t>(vertex)];
-    if (direction.dot(other.support(direction) - here) > T(0.05) * other.radius()) return true;
+    const auto& other = grain.part(grain.shape().seams().neighbour(part, bit));
+    const auto here = (grain.part(part).center() - other.center() + point).eval();
+    if (direction.dot(other.support(direction) - here) > T(seam_tolerance) * other.radius())
+      return true;
   }
   return false;
 }
 
-/// Whether the normal of a contact of two parts is that of a feature inside one of the grains. Without
-/// this test a grain that slides over the seam between two parts would bump against the edge or face
-/// of the second part. Features are known for pairs of polytopes.
+/// Whether a feature of a part lies in another part of its grain that reaches beyond it along the
+/// direction (reaches_beyond()).
+template <CompoundShape ShapeT>
+bool is_inside(const Placed<ShapeT>& grain, std::uint32_t part, FeatureKind kind,
+               std::uint32_t feature, const typename SpaceOf<ShapeT>::Vector& direction) {
+  auto others = ~std::uint64_t{0};
+  std::uint32_t vertex = 0;
+  for_each_vertex(grain.part(part).shape(), kind, feature, [&](std::size_t v) {
+    others &= grain.shape().seams().neighbours_at(part, v);
+    vertex = std::uint32_t(v);
+  });
+  return others != 0 &&
+         reaches_beyond(grain, part, others, grain.part(part).vertices()[vertex], direction);
+}
+/// The same for the vertices of a part that are farthest along the direction.
+template <CompoundShape ShapeT>
+bool is_end_inside(const Placed<ShapeT>& grain, std::uint32_t part,
+                   const typename SpaceOf<ShapeT>::Vector& direction) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  const auto& placed = grain.part(part);
+  const auto farthest = placed.vertices().farthest(direction);
+  auto others = grain.shape().seams().neighbours_at(part, farthest.index);
+  if (others == 0) return false;
+  // Of a face that lies nearly across the direction, another vertex can touch.
+  placed.vertices().for_each_above(
+      direction, farthest.value - T(seam_tolerance) * placed.radius(),
+      [&](std::size_t v) { others &= grain.shape().seams().neighbours_at(part, v); });
+  return others != 0 && reaches_beyond(grain, part, others,
+                                       placed.vertices()[std::uint32_t(farthest.index)], direction);
+}
+
+/// Whether the normal of a contact of two parts is that of a feature inside one of the grains, or
+/// whether the feature that it touches is inside. Without this test a grain that slides over the seam
+/// between two parts would bump against the edge or face of the second part. Features are known for
+/// pairs of polytopes.
 /// @param cache  of the pair of parts, after the collision
 /// @param normal unit, from a to b, world axes
 template <CompoundShape ShapeT>
 bool is_at_seam(const Placed<ShapeT>& a, std::uint32_t part_a, const Placed<ShapeT>& b,
                 std::uint32_t part_b, const PairCache<SpaceOf<ShapeT>>& cache,
                 const typename SpaceOf<ShapeT>::Vector& normal) {
-  if constexpr (requires {
-                  for_each_vertex(a.part(0).shape(), FeatureKind::face, 0, [](std::size_t) {});
-                }) {
+  if constexpr (has_seams<ShapeT>) {
     const AxisKind kind = cache.kind;
     if (kind == AxisKind::none || kind == AxisKind::nearest_points) return false;
-    return (kind != AxisKind::face_b &&
-            is_inside(a, part_a, feature_of_a(kind), cache.a, normal)) ||
-           (kind != AxisKind::face_a && is_inside(b, part_b, feature_of_b(kind), cache.b, -normal));
+    const typename SpaceOf<ShapeT>::Vector back = -normal;
+    return (kind == AxisKind::face_b ? is_end_inside(a, part_a, normal)
+                                     : is_inside(a, part_a, feature_of_a(kind), cache.a, normal)) ||
+           (kind == AxisKind::face_a ? is_end_inside(b, part_b, back)
+                                     : is_inside(b, part_b, feature_of_b(kind), cache.b, back));
   } else {
     return false;
+  }
+}
+
+/// The kind of a's feature of a contact point with a mesh wall.
+template <class S>
+constexpr FeatureKind feature_on_wall(FeatureKey key) {
+  switch (key.kind()) {
+    case FeatureKey::Kind::face_vertex:
+      return FeatureKind::face;
+    case FeatureKey::Kind::edge_edge:
+    case FeatureKey::Kind::edge_vertex:
+      return S::dim == 2 ? FeatureKind::face : FeatureKind::edge;
+    default:
+      return FeatureKind::vertex;
+  }
+}
+
+/// Takes away the points of a contact of a part with a mesh wall that are inside the grain, and says
+/// how many. A vertex at a seam is inside, too, where its own part reaches beyond it.
+/// @param points of the manifold; their keys have the features of the part as a
+/// @param normal unit, out of the part
+template <CompoundShape ShapeT>
+std::size_t drop_points_at_seams(const Placed<ShapeT>& grain, std::uint32_t part, auto& points,
+                                 const typename SpaceOf<ShapeT>::Vector& normal) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  if constexpr (!has_seams<ShapeT>) {
+    return 0;
+  } else {
+    const auto& vertices = grain.part(part).vertices();
+    return std::erase_if(points, [&](const auto& point) {
+      const auto kind = feature_on_wall<SpaceOf<ShapeT>>(point.feature);
+      const auto feature = std::uint32_t(point.feature.a());
+      if (is_inside(grain, part, kind, feature, normal)) return true;
+      return kind == FeatureKind::vertex &&
+             grain.shape().seams().neighbours_at(part, feature) != 0 &&
+             vertices.reach(normal) - normal.dot(vertices[feature]) >
+                 T(seam_tolerance) * grain.part(part).radius();
+    });
   }
 }
 

@@ -116,14 +116,20 @@ class MeshWalls {
       bool touches = false;
       for_each_part(*buffers.local, [&](std::uint32_t part, const auto& placed) {
         const auto add_in_world = [&](std::uint32_t face) {
+          if constexpr (CompoundShape<ShapeT>) {
+            const auto dropped =
+                drop_points_at_seams(*buffers.local, part, manifold.points, manifold.normal);
+            if (manifold.points.empty()) return;
+            if (dropped != 0) manifold.contact_class = class_at_plane(S{}, manifold.points.size());
+          }
+          touches = true;
           manifold.normal = frame.rotation * manifold.normal;
           for (auto& point : manifold.points) point.position = frame(point.position);
           manifold.part_a = part;
           manifold.part_b = face;  // so that each face is reduced on its own
           add();
         };
-        touches |=
-            collide_each(placed, wall.shape, margin, near, buffers.scratch, manifold, add_in_world);
+        collide_each(placed, wall.shape, margin, near, buffers.scratch, manifold, add_in_world);
       });
       return touches;
     });
