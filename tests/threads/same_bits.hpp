@@ -105,7 +105,7 @@ std::vector<double> fall(const Law& law, const Team& team) {
   return results;
 }
 
-/// 9 x 9 x 3 (in the plane 60 x 4) grains between a floor and a lid with a mass, which a force presses
+/// 9 x 9 x 3 (in the plane 100 x 4) grains between a floor and a lid with a mass, which a force presses
 /// on them. The lid starts a twentieth of the grain size above the highest grain. It touches more than 48
 /// grains: it is a hub of the contact problem.
 template <class ShapeT, class Law>
@@ -113,7 +113,7 @@ std::vector<double> press(const Law& law, const Team& team) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   constexpr int up = S::dim - 1;
-  const Lattice<S> lattice{up == 1 ? 60 : 9, up == 1 ? 4 : 3, 0.0205};
+  const Lattice<S> lattice{up == 1 ? 100 : 9, up == 1 ? 4 : 3, 0.0205};
   Simulation<ShapeT, Law> world(grain_size, Materials<Law>(1, law));
   world.set_team(team);
   const BodyId floor = world.add_wall(Vector::Unit(up), Vector::Zero());
