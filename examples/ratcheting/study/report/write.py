@@ -351,7 +351,7 @@ def settled_section(runs):
             cells = []
             for prediction in (test, own):
                 cells.append(Estimate(prediction.shares.values()).text())
-                for names in (("fmax", "gravity"), ("wall_mass_ratio",), ("frequency",)):
+                for names in (("fmax", "gravity"), ("wall_mass_ratio",), ("frequency",), ()):
                     mean, spread = excursion.mean_and_scatter(prediction.ratios(*names))
                     cells.append(f"{mean:.2f}, {100 * spread:.0f} %" if math.isfinite(mean) else "–")
             tests.append([TITLE[shape], len(test.shares), *cells])
@@ -375,8 +375,8 @@ def settled_section(runs):
                   "It is near 1: the wall moves as if all grains moved with it. All other runs are predicted. Beside it the prediction from the "
                   "constant thrust and the β that are fitted to the force on the wall in that run, which knows nothing of F(x). "
                   "Measured over predicted excursion: mean, scatter.", "",
-                  *table(["", "samples", "F(x): β", "fmax, g", "wall masses", "ν",
-                          "constant F: β", "fmax, g", "wall masses", "ν"], tests),
+                  *table(["", "samples", "F(x): β", "fmax, g", "wall masses", "ν", "all",
+                          "constant F: β", "fmax, g", "wall masses", "ν", "all"], tests),
                   "Exponents of the excursion over the same runs, measured and predicted from F(x). The thrust falls with the "
                   "displacement, so a longer excursion gains less than by the powers −2, −1 and 2 of a constant thrust:", "",
                   *table(["", "ν: measured", "predicted", "fmax: measured", "predicted", "g: measured", "predicted"], powers),
