@@ -3,7 +3,10 @@
 #include "moreau/core/thread_team.hpp"
 
 #include <atomic>
+#include <barrier>
+#include <cstddef>
 #include <doctest/doctest.h>
+#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -186,6 +189,61 @@ TEST_CASE_TEMPLATE("1, 2, 3, 4 and 8 threads simulate to the same bits", ShapeT,
 TEST_CASE_TEMPLATE("1, 2, 3, 4 and 8 threads simulate compliant contacts to the same bits", ShapeT,
                    MOREAU_TYPES((Disk<double>), (Polyhedron<double>))) {
   check_bits<ShapeT>(Compliant<>(SignoriniCoulomb<>(0.4), 1e6));
+}
+
+namespace {
+
+/// Starts its threads for each piece of work. Exact, and slow: a pool would keep them.
+class FreshThreads final : public moreau::TeamThreads {
+ public:
+  explicit FreshThreads(int size) : size_(size) { shares = true; }
+  int size() const override { return size_; }
+  void run(const Work& work) override {
+    if (busy_.exchange(true)) return work(0, 1, moreau::TeamBarrier());  // called by a member
+    std::barrier<> barrier(size_);
+    const moreau::TeamBarrier wait(
+        &barrier, [](void* all) { static_cast<std::barrier<>*>(all)->arrive_and_wait(); });
+    std::vector<std::exception_ptr> errors(static_cast<std::size_t>(size_));
+    const auto take_part = [&](int rank) {
+      try {
+        work(rank, size_, wait);
+      } catch (...) {
+        errors[static_cast<std::size_t>(rank)] = std::current_exception();
+        barrier.arrive_and_drop();  // the others do not wait for this member
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int rank = 1; rank < size_; ++rank) threads.emplace_back(take_part, rank);
+    take_part(0);
+    for (std::thread& thread : threads) thread.join();
+    busy_ = false;
+    for (const std::exception_ptr& error : errors)
+      if (error) std::rethrow_exception(error);
+  }
+  bool begin(moreau::TimedWork) override { return true; }  // shares every piece of work
+  void end(moreau::TimedWork, std::size_t) override {}
+
+ private:
+  int size_;
+  std::atomic<bool> busy_{false};
+};
+
+}  // namespace
+
+TEST_CASE("threads of one's own") {
+  const Team team(std::make_shared<FreshThreads>(3));
+  CHECK_THROWS_WITH_AS(team.run([](int rank, int, auto&& wait) {
+    if (rank == 1) throw std::runtime_error("member 1");
+    wait();
+  }),
+                       "member 1", std::runtime_error);
+  Assembly<Space<2>> chains(6);
+  std::vector<Space<2>::Vector> alone, shared;
+  ColouredGaussSeidel solver(fast<Space<2>>(1e-6));
+  chains.solve(solver, chains.laws, alone);
+  solver.set_team(team);
+  chains.solve(solver, chains.laws, shared);
+  CHECK(shared == alone);
 }
 
 TEST_CASE("a team without members is refused") {
