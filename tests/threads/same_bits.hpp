@@ -122,7 +122,7 @@ std::vector<double> press(const Law& law, const Team& team) {
   const ShapeId shape = world.add_shape(regular);
   double mass = 0, top = 0;  // mass of the grains, height of their highest point
   lattice.for_each([&](const Vector& centre, int i, int j, int) {
-    const Pose<S> pose{centre, S::exp(S::Angular::Constant(0.02 * i + 0.01 * j))};
+    const Pose<S> pose{centre, S::exp(S::Angular::Constant(0.02 * (i % 10) + 0.01 * j))};
     const BodyId grain = world.add_grain(shape, pose, 2700);
     mass += world.bodies().grain_mass[grain.index()];
     top = std::max(top, regular.bounding_box(pose).upper[up]);
