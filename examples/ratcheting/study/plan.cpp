@@ -344,6 +344,14 @@ std::vector<Case> settled_plan() {
   for (const std::size_t seed : {1u, 2u, 3u})
     for (const double fmax : {2000.0, 4000.0, 10000.0})
       for (const double ratio : {0.42, 0.5}) box(seed, ratio, 1, fmax);
+  // The sets that may meet all of the paper's figures, over one second as in the paper.
+  for (const std::size_t seed : {1u, 2u, 3u})
+    for (const auto& [ratio, size] : {std::pair{0.42, 1.3}, {0.42, 1.0}, {0.42, 1.5}, {0.5, 1.3}})
+      plan.add("box", "polyhedron", seed, [&](Parameters& p) {
+        p.box_ratio = ratio;
+        p.size_scale = size;
+        p.duration = 1;
+      });
   // 4. The wall moved slowly outward: the thrust without inertia, in boxes of other shapes, too.
   const auto pulled = [&](const char* shape, std::size_t seed, double ratio) {
     add_jammed(plan, "static", shape, seed, 4, [&](Parameters& p) {

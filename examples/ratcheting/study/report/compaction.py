@@ -1,18 +1,27 @@
 # SPDX-License-Identifier: MIT
-"""The law of compaction: strain of the n-th period as a power of the time t_u during which the driving
-force is below the thrust of the grains, and of n.
+"""The law of compaction: strain of the n-th period as a product of powers of what a period does, and of n:
 
-    ln strain = ln a + p ln(t_u / 10 ms) - b ln n
+    ln strain = ln a + p ln(measure / unit) - b ln n
 
-The periods of a run are taken together in groups 1, 2, 3-4, 5-8, ... The errors are those of the
-jackknife over the runs, because the groups of a run are not independent."""
+The measures are the time t_u during which the driving force is below the thrust of the grains, and the
+excursion of the wall over the length of the box. The periods of a run are taken together in groups
+1, 2, 3-4, 5-8, ... The errors are those of the jackknife over the runs, because the groups of a run are
+not independent."""
 import math
 
-from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, select, strain,
-                  unjammed_time)
+from runs import (ANY, CASE, COMPLIANT, SHAPES, excursion_judged, judged, least_squares, line, select,
+                  strain, unjammed_time)
 
 UNIT = 0.01  # [s]
 SET_ASIDE = 3  # the sample whose runs are predicted, not fitted
+
+
+def excursion_over_length(run):
+    return run["dx_active"] / run["length"]
+
+
+# Function of a run and unit.
+MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1e-3)}
 
 
 def groups(run):
@@ -49,59 +58,87 @@ def loading_runs(runs, shape, method="contact-dynamics"):
     return list(keys.values())
 
 
-def points(runs):
-    return [(math.log(t_u / UNIT), math.log(n), math.log(eps))
-            for run in runs for t_u, n, eps, _ in groups(run) if eps > 0]
+def jammed_runs(runs, shape):
+    """The runs with compliant contacts that start from a jammed state, without those whose excursion is
+    not judged."""
+    return [run for run in loading_runs(runs, shape, "compliant")
+            if "from" in run["parameters"] and excursion_judged(run)]
+
+
+def points(runs, measures=("t_u",)):
+    """(ln of each measure, ln n, ln strain) of each group."""
+    found = []
+    for run in runs:
+        values = [MEASURES[m][0](run) / MEASURES[m][1] for m in measures]
+        if all(v > 0 for v in values):
+            found += [([math.log(v) for v in values], math.log(n), math.log(eps))
+                      for _, n, eps, _ in groups(run) if eps > 0]
+    return found
 
 
 class Law:
-    def __init__(self, runs):
+    """Without `fitted`, too few points were given, and all numbers are nan."""
+
+    def __init__(self, runs, measures=("t_u",)):
+        self.measures = measures
         self.runs = [run for run in runs if groups(run)]
-        by_run = [points([run]) for run in self.runs]
+        by_run = [points([run], measures) for run in self.runs]
         everything = [p for part in by_run for p in part]
         self.count, self.run_count = len(everything), len(self.runs)
-        self.fitted = len(everything) >= 8 and len({p[0] for p in everything}) > 2 and \
+        self.fitted = len(everything) >= 8 and len({p[0][0] for p in everything}) > 2 and \
             len({p[1] for p in everything}) > 1
         if not self.fitted:
-            self.a = self.p = self.b = self.scatter = self.share = self.share_error = math.nan
-            self.errors = [math.nan] * 3
+            self.a = self.b = self.b_error = self.scatter = self.share = self.share_error = math.nan
+            self.powers = self.power_errors = [math.nan] * len(measures)
             return
-        self.a, self.p, self.b = self.fit(everything)
+        self.a, *self.powers, self.b = self.fit(everything)
         self.scatter = self.deviation(everything)
         n = len(by_run)
         parts = []
         for k in range(n):
             rest = [p for i, part in enumerate(by_run) if i != k for p in part]
             parts.append(self.fit(rest))
-        means = [sum(part[j] for part in parts) / n for j in range(3)]
-        self.errors = [math.sqrt((n - 1) / n * sum((part[j] - means[j]) ** 2 for part in parts))
-                       for j in range(3)]
-        self.share = math.exp(self.a)  # strain of the first period at t_u = 10 ms
-        self.share_error = self.share * self.errors[0]
+        means = [sum(part[j] for part in parts) / n for j in range(len(measures) + 2)]
+        errors = [math.sqrt((n - 1) / n * sum((part[j] - means[j]) ** 2 for part in parts))
+                  for j in range(len(measures) + 2)]
+        self.power_errors, self.b_error = errors[1:-1], errors[-1]
+        self.share = math.exp(self.a)  # strain of the first period where each measure is its unit
+        self.share_error = self.share * errors[0]
+
+    @property
+    def p(self):
+        return self.powers[0]
+
+    @property
+    def p_error(self):
+        return self.power_errors[0]
 
     @staticmethod
     def fit(data):
-        a, p, minus_b = least_squares([(1, x, n) for x, n, _ in data], [y for _, _, y in data])
-        return a, p, -minus_b
+        a, *powers, minus_b = least_squares([(1, *xs, n) for xs, n, _ in data], [y for _, _, y in data])
+        return [a, *powers, -minus_b]
 
     def residuals(self, data):
-        return [y - self.a - self.p * x + self.b * n for x, n, y in data]
+        return [y - self.a - sum(p * x for p, x in zip(self.powers, xs)) + self.b * n
+                for xs, n, y in data]
 
     def deviation(self, data):
         r = self.residuals(data)
-        return math.sqrt(sum(v * v for v in r) / max(len(r) - 3, 1))
+        return math.sqrt(sum(v * v for v in r) / max(len(r) - 2 - len(self.measures), 1))
 
-    def strain(self, t_u, n):
-        return math.exp(self.a + self.p * math.log(t_u / UNIT) - self.b * math.log(n))
+    def strain(self, value, n):
+        """Of the n-th period, from the first measure."""
+        unit = MEASURES[self.measures[0]][1]
+        return math.exp(self.a + self.p * math.log(value / unit) - self.b * math.log(n))
 
 
 class Prediction:
     """The sample SET_ASIDE, predicted by the fit of the others."""
 
-    def __init__(self, runs):
-        self.law = Law([r for r in runs if r["parameters"]["seed"] != SET_ASIDE])
+    def __init__(self, runs, measures=("t_u",)):
+        self.law = Law([r for r in runs if r["parameters"]["seed"] != SET_ASIDE], measures)
         aside = [r for r in runs if r["parameters"]["seed"] == SET_ASIDE]
-        data = points(aside)
+        data = points(aside, measures)
         self.runs = len(aside)
         if not data or not self.law.fitted:
             self.bias = self.rms = math.nan
@@ -113,14 +150,15 @@ class Prediction:
 
 def local_power(runs, shape, law, shortest):
     """The fit of the strain, times n^b, over t_u above `shortest` [s]: a, power, its error, scatter."""
-    data = [(x, y + law.b * n) for x, n, y in points(loading_runs(runs, shape))
+    data = [(x, y + law.b * n) for (x,), n, y in points(loading_runs(runs, shape))
             if x > math.log(shortest / UNIT)]
     return line([x for x, _ in data], [y for _, y in data]) if len(data) > 3 else (math.nan,) * 4
 
 
-def laws(runs, method="contact-dynamics"):
-    return {shape: Law(loading_runs(runs, shape, method)) for shape in SHAPES}
+def laws(runs, measures=("t_u",)):
+    """Of the runs with rigid contacts, by shape."""
+    return {shape: Law(loading_runs(runs, shape), measures) for shape in SHAPES}
 
 
-def predictions(runs, method="contact-dynamics"):
-    return {shape: Prediction(loading_runs(runs, shape, method)) for shape in SHAPES}
+def predictions(runs, measures=("t_u",)):
+    return {shape: Prediction(loading_runs(runs, shape), measures) for shape in SHAPES}

@@ -121,7 +121,8 @@ class Prediction:
         """Exponents over a parameter of the measured and of the predicted excursion, as text."""
         predicted = {id(run): value for run, value in self.pairs[name]}
         predicted |= {id(run): run["dx_active"] for run in self.bases}
-        found = self.bases + [run for run, _ in self.pairs[name]]
+        found = [run for run in self.bases + [run for run, _ in self.pairs[name]]
+                 if run["parameters"]["frequency"] > 1.5]
         return (exponent(found, name, lambda run: run["dx_active"]).text(),
                 exponent(found, name, lambda run: predicted[id(run)]).text())
 

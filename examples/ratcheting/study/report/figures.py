@@ -5,7 +5,7 @@ import math
 import compaction
 import excursion
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
-from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, judged,
+from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, excursion_judged,
                   over_samples, power, scaled_load, select, series, shapes_of, strain, thrust_ratio,
                   unjammed_time)
 
@@ -306,7 +306,7 @@ def dx_loads(runs, path):
               Panel("", "g  [m/s²]", "Δx / g²  / value at 9.81 m/s²",
                     ["set xrange [0:22]", "set yrange [0.5:1.5]"]),
               Panel("", "m_w / m", "Δx (m + m_w) / value at m/2",
-                    ["set logscale x", "set xrange [0.07:6]", "set yrange [0.5:1.5]"])]
+                    ["set logscale x", "set xrange [0.07:6]", "set yrange [0.5:1.5]", "set key bottom left"])]
     cases = (("fmax", lambda r: r["dx_active"] * r["parameters"]["fmax"], CASE["fmax"], 1e-3),
              ("gravity", lambda r: r["dx_active"] / r["parameters"]["gravity"] ** 2, 9.81, 1),
              ("wall_mass_ratio", lambda r: r["dx_active"] * (r["mass"] + r["wall_mass"]), 0.5, 1))
@@ -457,30 +457,37 @@ def compaction_law(runs, path):
 
 
 def one_state(runs, path):
-    """Strain over t_u, from one jammed state of each sample, with compliant contacts."""
-    panels = []
-    for shape in SHAPES:
-        found = select(runs, shape, frequency=ANY, fmax=ANY, jammed=True, **COMPLIANT)
-        if len({r["parameters"]["frequency"] for r in found}) < 3:
-            continue
-        panel = Panel(TITLE[shape], "t_u  [ms]", "strain of a period, mean of four" if not panels else "",
-                      ["set logscale xy", "set xrange [0.5:300]", "set yrange [5e-5:2e-2]",
-                       "set format y '10^{%L}'", "set key bottom right"])
-        for fmax, color, symbol in ((2000.0, "#2e7d4f", 9), (6000.0, "#1f5fa8", 7), (27000.0, "#b3261e", 5)):
-            for mostly_elastic in (False, True):
-                panel.points([(1e3 * unjammed_time(r), strain(r, 0, 4)) for r in found
-                              if r["parameters"]["fmax"] == fmax and judged(r) != mostly_elastic
-                              and strain(r, 0, 4) > 0],
-                             color, symbol - 1 if mostly_elastic else symbol,
-                             None if mostly_elastic else f"{fmax / 1000:g} kN")
-        panel.function("6e-4 * x / 10", GREY, "∝ t_u", 2)
-        panels.append(panel)
+    """Strain over t_u and over the excursion, from one jammed state of each sample, with compliant contacts."""
+    rows = [("t_u  [ms]", lambda r: 1e3 * unjammed_time(r), "[0.5:300]", "6e-4 * x / 10", "∝ t_u", 2),
+            ("Δx / L", compaction.excursion_over_length, "[1e-5:0.2]", "1e-3 * sqrt(x / 1e-3)", "∝ Δx^{1/2}", 2)]
+    panels, shapes = [], []
+    for label, value, limits, line, title, dash in rows:
+        for shape in SHAPES:
+            found = select(runs, shape, frequency=ANY, fmax=ANY, jammed=True, **COMPLIANT)
+            if len({r["parameters"]["frequency"] for r in found}) < 3:
+                continue
+            first = not shapes or shape == shapes[0]
+            shapes.append(shape)
+            panel = Panel(TITLE[shape] if label.startswith("t_u") else "", label,
+                          "strain of a period, mean of four" if first else "",
+                          ["set logscale xy", f"set xrange {limits}", "set yrange [5e-5:2e-2]",
+                           "set format y '10^{%L}'", "set key bottom right"]
+                          + ([] if label.startswith("t_u") else ["set format x '10^{%L}'"]))
+            for fmax, color, symbol in ((2000.0, "#2e7d4f", 9), (6000.0, "#1f5fa8", 7), (27000.0, "#b3261e", 5)):
+                for open_symbol in (False, True):
+                    panel.points([(value(r), strain(r, 0, 4)) for r in found
+                                  if r["parameters"]["fmax"] == fmax and excursion_judged(r) != open_symbol
+                                  and strain(r, 0, 4) > 0 and value(r) > 0],
+                                 color, symbol - 1 if open_symbol else symbol,
+                                 None if open_symbol else f"{fmax / 1000:g} kN")
+            panel.function(line, GREY, title, dash)
+            panels.append(panel)
     if not panels:
         raise Missing
-    draw(path, panels, 1, len(panels), 1500, 460, "0.065, 0.99, 0.15, 0.89", "0.045, 0.1")
+    draw(path, panels, 2, len(panels) // 2, 1500, 860, "0.065, 0.99, 0.08, 0.95", "0.045, 0.12")
     return ("Strain of a period, mean over four periods from one jammed state of each sample, over the time t_u during which f "
-            "is below the thrust: 1 to 60 Hz, three forces, up to five samples. Open: the elastic rebound is more than 30 % of the displacement "
-            f"(not judged). N = 1200; {COMPLIANT_TEXT}.")
+            "is below the thrust and over the excursion: 1 to 60 Hz, three forces, up to five samples. Open: the jammed wall moves by more than 30 % of "
+            f"the displacement (not judged). The lines have the same prefactor in all panels of a row. N = 1200; {COMPLIANT_TEXT}.")
 
 
 def thrust(runs, path):
@@ -513,16 +520,19 @@ def predicted(runs, path):
     panels = [Panel("slow test", "displacement [mm]", "F / mg",
                     ["set xrange [0:1.6]", "set yrange [0:0.6]", "set key bottom left"]),
               Panel("excursion of all loads", "predicted Δx [mm]", "measured Δx [mm]",
-                    ["set logscale xy", "set xrange [0.02:20]", "set yrange [0.02:20]", "set key bottom right"])]
+                    ["set logscale xy", "set xrange [0.02:60]", "set yrange [0.02:60]", "set key bottom right"])]
     for shape in every_shape(runs):
         curves = excursion.thrust_curves(runs, shape)
         for k, curve in enumerate(curves.values()):
             panels[0].curve([(1e3 * x, f) for x, f in zip(curve.x, curve.f)], COLOR[shape],
                             None if k else TITLE[shape], 1.4)
         found = excursion.Prediction(runs, shape, curves, jammed=True, **COMPLIANT)
-        panels[1].points([(1e3 * value, 1e3 * run["dx_active"])
-                          for pairs in found.pairs.values() for run, value in pairs],
-                         COLOR[shape], POINT[shape], TITLE[shape], 0.9)
+        for beyond in (False, True):
+            panels[1].points([(1e3 * value, 1e3 * run["dx_active"])
+                              for pairs in found.pairs.values() for run, value in pairs
+                              if beyond == (value > curves[run["parameters"]["seed"]].x[-1])],
+                             COLOR[shape], POINT[shape] - (1 if beyond else 0),
+                             None if beyond else TITLE[shape], 0.9)
     if not panels[0].curves:
         raise Missing
     panels[1].function("x", GREY, "equal", 1)
@@ -530,7 +540,7 @@ def predicted(runs, path):
     return ("Left: force of the grains on a wall that moves outward at 2 mm/s from the jammed state, over its displacement "
             "from where the force has fallen to mg/2; non-increasing fits, three samples. Right: excursions over all ν, fmax, g and "
             "m_w, measured and predicted from F(x) and one carried mass for each sample, from the run at 5 Hz, 6 kN "
-            f"and m_w = m/2, which is left out. N = 1200; {COMPLIANT_TEXT}.")
+            f"and m_w = m/2, which is left out. Open: the excursion exceeds the test, beyond whose end F is taken as constant. N = 1200; {COMPLIANT_TEXT}.")
 
 
 def box_runs(runs, shape):

@@ -66,6 +66,12 @@ def series(runs, shape, parameter, **wanted):
     return [found[key] for key in sorted(found)]
 
 
+def of_one_length(runs):
+    """The runs with the most periods of at most a second; the preparations of jammed states are left out."""
+    lengths = [r["parameters"]["duration"] for r in runs if 0.5 < r["parameters"]["duration"] <= 1]
+    return [r for r in runs if lengths and r["parameters"]["duration"] == max(lengths)]
+
+
 def finite(values):
     return [v for v in values if v is not None and math.isfinite(v)]
 
