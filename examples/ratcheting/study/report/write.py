@@ -168,7 +168,7 @@ def joint_sets(runs):
     cases += [(f"H/L = {r:g}, sizes × {s:g}", {"box_ratio": r, "size_scale": s})
               for s in (1.3, 1.5) for r in (0.3, 0.42, 0.5, 0.7, 1.5)]
     cases.append(("sizes × 1.3", {"size_scale": 1.3}))
-    rows, meets = [], []
+    rows, meets, but_rate = [], [], []
     for method in ({}, COMPLIANT):
         for name, changed in cases:
             found = of_one_length(select(runs, "polyhedron", frequency=5.0, jammed=False, **(method | changed)))
@@ -184,20 +184,23 @@ def joint_sets(runs):
                 alone = sum(is_met(constant(r), r["rho_box_initial"], 1e3 * r["rate"],
                                    1e-3 * r["behaviour"]["passive_force"]) for r in found)
                 meets.append(f"{name} (mean of {c.n} samples; {alone} of them alone)")
+            elif second and is_met(c.mean, rho.mean, 25, passive.mean):
+                but_rate.append(f"{name}, with {rate.text()}")
             rows.append([name + (", compliant" if method else ""), str(c.n),
                          str(max(len(r["periods"]["x_j"]) for r in found)), c.text(),
                          with_drift.text(), rho.text(), rate.text(), passive.text()])
-    return rows, meets
+    return rows, meets, but_rate
 
 
 def open_parameters(runs):
     """What brings C, the initial solid fraction, the rate and jamming near the paper's values."""
-    rows, meets = joint_sets(runs)
+    rows, meets, but_rate = joint_sets(runs)
     return ["### Open parameters of the paper, judged jointly", "",
             "Polyhedra at 5 Hz and 6 kN. The paper has C = 0.01, ρ = 0.50, a rate of 25e-3 /s, and jamming at all "
             "four fmax from 2 kN on, which needs a force in contraction below 2 kN. The rate falls with the number of periods, so only "
             "runs of one second, as the paper's, are judged. Sets that meet all four (C within a factor of 1.5, ρ within 0.02, the rate within 30 %): "
-            + (", ".join(meets) or "none of those that are run for a second") + ". H/L is that for which the box is prepared; the packing "
+            + (", ".join(meets) or "none of those that are run for a second") + ". "
+            + ("All but the rate [1e-3/s] meet: " + "; ".join(but_rate) + ". " if but_rate else "") + "H/L is that for which the box is prepared; the packing "
             "comes out some percent higher: H/L = 0.44 for 0.42. Rate: growth of the solid fraction of the inner volume, which touches no wall, from the first "
             "jammed state to the last.", "",
             *table(["", "samples", "periods", "C", "C with drift", "ρ, box, t = 0", "rate [1e-3/s]",
