@@ -110,9 +110,7 @@ void check_wall(const FacetMesh<S>& mesh, WallSides sides) {
   const auto bounds = wall.tree().bounds();
   const double size = double((bounds.upper - bounds.lower).norm());
   // Coordinates far apart or far from 1 overflow in squares; a user's shape would be refused.
-  double largest = 0;
-  for (const auto& x : mesh.vertices) largest = std::max(largest, double(x.cwiseAbs().maxCoeff()));
-  if (!(size > 1e-6 && size < 1e6) || largest > 1e3 * size) return;
+  if (!(size > 1e-6 && size < 1e6) || detail::largest_coordinate(mesh) > 1e3 * size) return;
   check_contacts(regular_shape<PolytopeOf<S>>(0.15 * size), wall, size);
   check_contacts(BallIn<S>(0.1 * size), wall, size);
 }

@@ -330,17 +330,16 @@ TEST_CASE("a grain of the groups of a file, with the mass properties of a mesh")
     text << "o " << name << '\n' << Parts::cube({x, 0, 0}, 20).obj(first);
     return text.str();
   };
-  const auto path =
-      write(folder, "parts.obj", cube("left", 0, 0) + cube("right", 10, 8) + cube("left", 40, 16));
+  const auto path = write(folder, "parts.obj",
+                          cube("left", 0, 0) + cube("middle", 10, 8) + cube("right", 40, 16));
   Mesh mesh = read_mesh(write(folder, "whole.obj", Parts::cube({0, 0, 0}, 20).obj()), 1e-3);
   for (auto& x : mesh.vertices) x[0] *= 3;
-  // The second group of the name "left" belongs to the first.
   std::vector<moreau::Polyhedron<>> parts;
   for (const moreau::MeshGroup<>& group : moreau::read_mesh_groups(path, 1e-3))
     parts.push_back(moreau::hull_of_mesh(group.mesh));
   const moreau::Compound<moreau::Polyhedron<>> stone(parts, moreau::mass_properties(mesh, 1.0));
-  CHECK(parts.size() == 2);
-  CHECK(parts[0].volume() == doctest::Approx(6e-2 * 2e-2 * 2e-2));
+  CHECK(parts.size() == 3);
+  CHECK(parts[0].volume() == doctest::Approx(2e-2 * 2e-2 * 2e-2));
   CHECK(stone.volume() == doctest::Approx(6e-2 * 2e-2 * 2e-2));
   CHECK_THROWS_WITH_AS(Compound<Polyhedron<>>(parts, mass_properties(mesh, 2700.0)),
                        doctest::Contains("at density 1"), std::invalid_argument);

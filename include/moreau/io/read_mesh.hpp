@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -68,8 +67,7 @@ class MeshCollector {
 
   /// @throws std::runtime_error if single precision does not hold the shape
   void require_near_origin(const std::string& path) const {
-    const T size = size_of(mesh),
-            far = rounding_of(mesh) / (16 * std::numeric_limits<T>::epsilon());
+    const T size = size_of(mesh), far = largest_coordinate(mesh);
     if (far <= T(1e4) * size || !(size > 0)) return;
     std::ostringstream message;
     message << path << ": the mesh has a size of " << size << " m and coordinates up to " << far
@@ -134,32 +132,22 @@ TriangleMesh<T> read_mesh(const std::filesystem::path& path, T unit) {
 }
 
 /// Reads each group or object of a file into a mesh of its own: the convex parts of a concave grain
-/// that another program has made. Groups of one name are one group, in the place of the first.
-/// @param path of an .obj, .stl or .ply file; only .obj files have several groups. A group with several
-///             materials is several groups, named after these
+/// that another program has made.
+/// @param path of an .obj, .stl or .ply file; only .obj files have several groups. Their names must
+///             differ: assimp gives the triangles of a name that comes again to another group. A group
+///             with several materials is several groups, named after these
 /// @param unit length of one unit of the file [m]
 /// @throws std::invalid_argument, std::runtime_error as read_mesh()
 template <std::floating_point T>
 std::vector<MeshGroup<T>> read_mesh_groups(const std::filesystem::path& path, T unit) {
   detail::require_unit(unit, "read_mesh_groups");
   std::vector<MeshGroup<T>> groups;
-  std::vector<detail::MeshCollector<T>> parts;
   detail::for_each_group(path, "read_mesh_groups", [&](const aiMesh& group) {
-    const std::string name = group.mName.C_Str();
-    const auto place = std::find_if(groups.begin(), groups.end(), [&](const MeshGroup<T>& known) {
-      return !name.empty() && known.name == name;
-    });
-    const auto k = std::size_t(place - groups.begin());
-    if (place == groups.end()) {
-      groups.push_back({name, {}});
-      parts.emplace_back(unit);
-    }
-    parts[k].add(group, path.string());
+    detail::MeshCollector<T> part(unit);
+    part.add(group, path.string());
+    part.require_near_origin(path.string());
+    groups.push_back({group.mName.C_Str(), std::move(part.mesh)});
   });
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    parts[k].require_near_origin(path.string());
-    groups[k].mesh = std::move(parts[k].mesh);
-  }
   return groups;
 }
 

@@ -77,14 +77,19 @@ typename S::Scalar size_of(const FacetMesh<S>& mesh) {
 
 namespace detail {
 
+/// The largest distance of a coordinate from 0 [m]; vertices are left out as in size_of().
+template <class S>
+typename S::Scalar largest_coordinate(const FacetMesh<S>& mesh) {
+  typename S::Scalar largest = 0;
+  for (const auto& x : mesh.vertices)
+    if (x.allFinite()) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  return largest;
+}
 /// What the rounding of coordinates can do to a length [m].
 template <class S>
 typename S::Scalar rounding_of(const FacetMesh<S>& mesh) {
   using T = typename S::Scalar;
-  T largest = 0;
-  for (const auto& x : mesh.vertices)
-    if (x.allFinite()) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  return 16 * std::numeric_limits<T>::epsilon() * largest;
+  return 16 * std::numeric_limits<T>::epsilon() * largest_coordinate(mesh);
 }
 
 }  // namespace detail
