@@ -199,7 +199,7 @@ class FreshThreads final : public moreau::TeamThreads {
   explicit FreshThreads(int size) : size_(size) { shares = true; }
   int size() const override { return size_; }
   void run(const Work& work) override {
-    if (busy_.exchange(true)) return work(0, 1, moreau::TeamBarrier());  // called by a member
+    if (busy_.exchange(true)) return work(0, 1, moreau::TeamBarrier());  // the members work
     std::barrier<> barrier(size_);
     const moreau::TeamBarrier wait(
         &barrier, [](void* all) { static_cast<std::barrier<>*>(all)->arrive_and_wait(); });
@@ -244,6 +244,35 @@ TEST_CASE("threads of one's own") {
   solver.set_team(team);
   chains.solve(solver, chains.laws, shared);
   CHECK(shared == alone);
+}
+
+TEST_CASE("simulations that run at the same time may share a team") {
+  using Grain = Disk<double>;
+  const SignoriniCoulomb<> coulomb(0.4);
+  const auto alone = fall<Grain>(coulomb, Team());
+  for (const Team& team :
+       {Team(ThreadTeam(2)), eager(2), Team(std::make_shared<FreshThreads>(2))}) {
+    std::vector<std::vector<double>> results(3);
+    std::vector<std::thread> threads;
+    for (auto& result : results) threads.emplace_back([&] { result = fall<Grain>(coulomb, team); });
+    for (std::thread& thread : threads) thread.join();
+    for (const auto& result : results) CHECK(result == alone);
+  }
+}
+
+TEST_CASE(
+    "a team that works for one simulation lets the others work alone, also after an exception") {
+  const ThreadTeam team(2);
+  std::thread([&] {
+    CHECK_THROWS(team.run_timed(TimedWork::sweep, 1, 0,
+                                [](int, int, auto&&) { throw std::runtime_error("broken"); }));
+  }).join();
+  int shared = 0;
+  for (int piece = 0; piece < 12; ++piece)
+    team.run_timed(TimedWork::sweep, 1, 0, [&](int rank, int size, auto&&) {
+      if (rank == 0) shared += size == 2;
+    });
+  CHECK(shared > 0);  // the trial of the tuner: the thread that threw no longer holds the team
 }
 
 TEST_CASE("a team without members is refused") {

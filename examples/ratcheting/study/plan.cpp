@@ -120,6 +120,11 @@ void series(Builder& plan, const char* set, Names shapes, std::size_t seed,
       plan.add(set, shape, seed, [&](Parameters& p) { p.*field = value; });
 }
 
+/// The force of the paper's case, per grain.
+double usual_fmax(std::size_t grains) {
+  return Parameters().fmax * double(grains) / 1200;
+}
+
 // The paper's study, in the order of what it tells.
 std::vector<Case> paper_plan() {
   Builder plan("paper");
@@ -223,7 +228,7 @@ std::vector<Case> paper_plan() {
     for (const auto& [shape, grains] : {std::pair{"polygon", 94}, std::pair{"disk", 111}})
       plan.add("same-length", shape, seed, [&](Parameters& p) {
         p.grains = std::size_t(grains);
-        p.fmax = p.fmax * double(grains) / 1200;
+        p.fmax = usual_fmax(p.grains);
         p.box_ratio = 0.9;
         p.tolerance = 1e-5;
       });
@@ -255,6 +260,8 @@ std::string jammed_name(const Parameters& p) {
   Parameters start = baseline("settled", p.shape, p.seed);
   start.box_ratio = p.box_ratio;
   start.size_scale = p.size_scale;
+  start.grains = p.grains;
+  start.fmax = usual_fmax(p.grains);
   start.duration = 0.35;
   return name_of(start, baseline("settled", p.shape, p.seed), duration_at("settled", 5));
 }
@@ -268,6 +275,8 @@ void add_jammed(Builder& plan, const char* set, const char* shape, std::size_t s
     change(changed);
     p.box_ratio = changed.box_ratio;
     p.size_scale = changed.size_scale;
+    p.grains = changed.grains;
+    p.fmax = usual_fmax(p.grains);
     p.duration = 0.35;  // to the second maximum of the force
     p.checkpoint_every = 1750;
   });
@@ -352,6 +361,65 @@ std::vector<Case> settled_plan() {
         p.size_scale = size;
         p.duration = 1;
       });
+  // The flat box with other grains, with rigid contacts as in the paper, and with the other forces.
+  const auto joint = [&](const std::function<void(Parameters&)>& change) {
+    for (const std::size_t seed : {1u, 2u, 3u})
+      plan.add("joint", "polyhedron", seed, [&](Parameters& p) {
+        change(p);
+        p.box_ratio = 0.42;
+        p.duration = 1;
+      });
+  };
+  const auto rigid = [](Parameters& p) {
+    const std::size_t seed = p.seed;
+    p = Parameters();
+    p.seed = seed;
+  };
+  joint(rigid);
+  joint(with(&Parameters::flatness, 0.7));
+  joint([](Parameters& p) { p.fewest_vertices = 30; });
+  joint([&](Parameters& p) {
+    rigid(p);
+    p.flatness = 0.7;
+  });
+  for (const double fmax : {2000.0, 4000.0, 10000.0}) joint(with(&Parameters::fmax, fmax));
+  // Compaction in boxes of other shapes and lengths, and with other grain sizes, from jammed states.
+  const auto in_box = [&](const char* shape, std::size_t seed, double ratio, double size,
+                          double frequency, double wall) {
+    add_jammed(plan, "lengths", shape, seed, 4, [&](Parameters& p) {
+      p.box_ratio = ratio;
+      p.size_scale = size;
+      p.frequency = frequency;
+      p.wall_mass_ratio = wall;
+    });
+  };
+  for (const double frequency : {5.0, 20.0, 2.0})
+    for (const std::size_t seed : {1u, 2u, 3u}) {
+      for (const double ratio : {0.42, 1.5, 0.7})
+        for (const char* shape : {"polygon", "polyhedron"})
+          in_box(shape, seed, ratio, 1, frequency, 0.5);
+      in_box("polyhedron", seed, 1, 1.5, frequency, 0.5);
+    }
+  for (const double wall : {0.1, 4.0})
+    for (const std::size_t seed : {1u, 2u, 3u}) in_box("polyhedron", seed, 0.42, 1, 5, wall);
+  // In the plane, boxes as long as those in space, see same-length.
+  for (const double frequency : {5.0, 20.0})
+    for (std::size_t seed = 1; seed <= 20; ++seed)
+      for (const auto& [shape, grains] : {std::pair{"polygon", 94}, std::pair{"disk", 111}})
+        add_jammed(plan, "lengths", shape, seed, 4, [&](Parameters& p) {
+          p.grains = std::size_t(grains);
+          p.fmax = usual_fmax(p.grains);
+          p.box_ratio = 0.9;
+          p.frequency = frequency;
+        });
+  // The wall masses from the filling on, to compare with those from the jammed state in `laws`.
+  for (const double wall : {0.1, 4.0})
+    for (const std::size_t seed : {1u, 2u, 3u})
+      for (const char* shape : {"polygon", "disk", "sphere", "polyhedron"})
+        plan.add("filling", shape, seed, [&](Parameters& p) {
+          p.wall_mass_ratio = wall;
+          p.duration = 0.96;
+        });
   // 4. The wall moved slowly outward: the thrust without inertia, in boxes of other shapes, too.
   const auto pulled = [&](const char* shape, std::size_t seed, double ratio) {
     add_jammed(plan, "static", shape, seed, 4, [&](Parameters& p) {

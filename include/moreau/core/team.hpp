@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <concepts>
 #include <cstddef>
 #include <memory>
@@ -69,17 +70,18 @@ class TeamThreads {
   virtual int size() const = 0;  ///< number of members, the calling thread included
   /// Calls work(rank, size, wait) once on each member and returns when all are done. If members
   /// throw, the exception of the lowest rank is thrown again here; a member that has thrown leaves the
-  /// barrier (std::barrier::arrive_and_drop()), so that the others do not wait for it. If a member
-  /// calls run() during its work, work(0, 1, {}) is called on this member alone.
+  /// barrier (std::barrier::arrive_and_drop()), so that the others do not wait for it. If run() is
+  /// called while the members work, by a member or by another simulation on a thread of its own,
+  /// work(0, 1, {}) is called on the calling thread alone.
   virtual void run(const Work& work) = 0;
   /// Called before a piece of work that is timed.
   /// @returns whether the members should share it
   virtual bool begin(TimedWork kind) = 0;
-  /// Called after this piece of work.
+  /// Called after this piece of work, on the same thread, also if the work throws.
   /// @param amount of work, in the unit of its kind
   virtual void end(TimedWork kind, std::size_t amount) = 0;
 
-  bool shares = false;  ///< whether work is shared until the next piece of work that is timed
+  std::atomic<bool> shares{false};  ///< whether work is shared until the next work that is timed
 };
 
 namespace detail {
@@ -95,7 +97,8 @@ struct Share {
 }  // namespace detail
 
 /// Threads that share the work of a step; without threads, the calling thread alone. Copies share
-/// the threads. Simulations that run at the same time need a team each.
+/// the threads. Simulations may run at the same time with one team: while it works for one of them, the
+/// others work alone. With a team each they do not hinder each other.
 class Team {
  public:
   Team() = default;  ///< the calling thread alone
@@ -104,7 +107,7 @@ class Team {
 
   int size() const { return threads_ ? threads_->size() : 1; }  ///< number of members
   /// Whether work is shared at present, see run_timed().
-  bool shares() const { return threads_ && threads_->shares; }
+  bool shares() const { return threads_ && threads_->shares.load(std::memory_order_relaxed); }
 
   /// Runs work(rank, size, wait) on all members. If members throw, the exception of the lowest rank
   /// is thrown again here.
@@ -141,13 +144,24 @@ class Team {
   /// @param least  amount below which the work is neither shared nor timed
   void run_timed(TimedWork kind, std::size_t amount, std::size_t least,
                  const TeamThreads::Work& work) const {
-    const bool is_timed = threads_ && amount >= least;
-    if (threads_) threads_->shares = is_timed && threads_->begin(kind);
+    if (!threads_) return run(work);
+    const bool is_timed = amount >= least;
+    threads_->shares.store(is_timed && threads_->begin(kind), std::memory_order_relaxed);
+    const EndOfWork end{is_timed ? threads_.get() : nullptr, kind, amount};
     run(work);
-    if (is_timed) threads_->end(kind, amount);
   }
 
  private:
+  /// Calls end() when it is destroyed, so also after an exception.
+  struct EndOfWork {
+    TeamThreads* threads;  // null: the work is not timed
+    TimedWork kind;
+    std::size_t amount;
+    ~EndOfWork() {
+      if (threads) threads->end(kind, amount);
+    }
+  };
+
   std::shared_ptr<TeamThreads> threads_;
 };
 

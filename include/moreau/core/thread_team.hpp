@@ -197,13 +197,19 @@ class ThreadPool final : public TeamThreads {
     if (first) std::rethrow_exception(first);
   }
 
+  /// Times the work of one thread at a time; that of other simulations is done alone meanwhile.
   bool begin(TimedWork kind) override {
+    if (size_ == 1) return false;
+    std::thread::id nobody;
+    if (!timed_.compare_exchange_strong(nobody, std::this_thread::get_id())) return false;
     began_ = Clock::now();
-    return size_ > 1 && tuners_[std::size_t(kind)].shares();
+    return tuners_[std::size_t(kind)].shares();
   }
   void end(TimedWork kind, std::size_t amount) override {
+    if (timed_.load() != std::this_thread::get_id()) return;
     const std::chrono::duration<double> time = Clock::now() - began_;
     tuners_[std::size_t(kind)].measured(time.count() / double(std::max<std::size_t>(1, amount)));
+    timed_.store(std::thread::id());
   }
 
  private:
@@ -245,6 +251,7 @@ class ThreadPool final : public TeamThreads {
   const Work* work_ = nullptr;  // null: the threads end
   std::atomic<bool> busy_{false};
   std::array<ShareTuner, std::size_t(TimedWork::full_sweep) + 1> tuners_;  // one per TimedWork
+  std::atomic<std::thread::id> timed_{std::thread::id()};  // whose work is timed; default: nobody's
   Clock::time_point began_;
   alignas(64) std::atomic<std::uint32_t> task_{0};
   std::vector<std::thread> threads_;
@@ -254,7 +261,7 @@ class ThreadPool final : public TeamThreads {
 
 /// A team of threads, the calling thread among them. Give it to Simulation::set_team, or to a solver
 /// that is used by itself. Results have the same bits for any number of threads. Copies share the
-/// threads; simulations that run at the same time need a team each.
+/// threads, see Team.
 class ThreadTeam : public Team {
  public:
   /// Starts threads - 1 threads: the calling thread is a member.

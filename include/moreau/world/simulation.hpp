@@ -217,7 +217,7 @@ class Simulation : public BodyControl<ShapeT> {
     gravity_ = gravity;
   }
   /// Sets the threads that share the work of a step; at first, the calling thread alone. Results have
-  /// the same bits for every team. Snapshots do not contain it; a copy needs another one to run at once.
+  /// the same bits for every team. Snapshots do not contain it; a copy shares it.
   void set_team(const Team& team) {
     team_ = team;
     detector_.set_team(team);
