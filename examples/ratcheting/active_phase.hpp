@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace ratcheting {
@@ -47,14 +48,16 @@ inline CarriedGrains carried_grains(const std::vector<double>& t, const std::vec
 /// equals the weight of the grains: the force is then still above the force of the grains on the
 /// moving wall, so motion before this time is numerical drift. SI units.
 struct ActivePhase {
-  double drift = 0;       ///< numerical drift of the jammed wall: x at this time - x_j
-  double dx = 0;          ///< opening displacement: largest x later - x at this time
-  double thrust = 0;      ///< mean f_g while the wall moves out at more than a fifth of its largest
-                          ///< outward speed; nan if it does not move out
-  double onset = 0;       ///< start of the motion that leads to the largest x without a stop [s]
-  double peak = 0;        ///< time of the largest x [s]
-  double v_out = 0;       ///< largest outward speed before the peak
-  double v_in = 0;        ///< largest inward speed after the peak
+  double drift = 0;   ///< numerical drift of the jammed wall: x at this time - x_j
+  double dx = 0;      ///< opening displacement: largest x later - x at this time
+  double thrust = 0;  ///< mean f_g while the wall moves out at more than a fifth of its largest
+                      ///< outward speed; nan if it does not move out
+  double onset = 0;   ///< start of the motion that leads to the largest x without a stop [s]
+  double peak = 0;    ///< time of the largest x [s]
+  double v_out = 0;   ///< largest outward speed before the peak
+  double v_in = 0;    ///< largest inward speed after the peak
+  /// Time of this speed [s]. Lines of the study's table written by earlier versions do not have it.
+  std::optional<double> v_in_time;
   CarriedGrains carried;  ///< fit from onset to peak
 };
 
@@ -83,7 +86,11 @@ inline ActivePhase active_phase(const std::vector<double>& t, const std::vector<
   phase.dx = x[peak] - x[first];
   phase.peak = t[peak];
   for (std::size_t k = first; k <= peak; ++k) phase.v_out = std::max(phase.v_out, v[k]);
-  for (std::size_t k = peak; k <= last; ++k) phase.v_in = std::max(phase.v_in, -v[k]);
+  for (std::size_t k = peak; k <= last; ++k)
+    if (-v[k] > phase.v_in) {
+      phase.v_in = -v[k];
+      phase.v_in_time = t[k];
+    }
   const double halfway = (x[first] + x[peak]) / 2;
   std::size_t onset = peak, moving = 0;
   while (onset > first && (x[onset - 1] > halfway || v[onset - 1] > 0.05 * phase.v_out)) --onset;

@@ -74,6 +74,7 @@ TEST_CASE(
   CHECK(phase.drift == doctest::Approx(0.2));
   CHECK(phase.dx == doctest::Approx(1));
   CHECK(phase.thrust == doctest::Approx(7));
+  CHECK(phase.v_in_time.value() == doctest::Approx(2.01));
 }
 
 TEST_CASE("thrust and carried grains are found in the force of a wall that carries some") {

@@ -68,7 +68,7 @@ std::string name_of(const Parameters& p, const Parameters& base, double usual_du
     name += "-" + std::string(option.mark) + text(option.value(p)) + std::string(option.unit);
   }
   if (p.size_reading != base.size_reading) name += "-circumradius";
-  if (p.correction != base.correction) name += "-uncorrected";
+  if (p.correction != base.correction) name += p.correction ? "-corrected" : "-uncorrected";
   // The runs of the plan "settled" share their table with those of the plan "paper".
   if (p.method == "compliant") name += "-compliant";
   if (!p.from.empty()) name += "-jammed";

@@ -29,9 +29,9 @@ void describe(Some<ratcheting::Period> auto& p, const auto& field) {
   each(field, "t_start", p.start, "t_finish", p.finish, "x_j", p.jam_before, "x_j_after",
        p.jam_after, "t_force_minimum", p.force_minimum, "dx_max", p.dx_max, "creep", p.active.drift,
        "dx_active", p.active.dx, "t_onset", p.active.onset, "t_peak", p.active.peak, "v_max_active",
-       p.active.v_out, "v_max_passive", p.active.v_in, "f_g_active", p.active.thrust,
-       "steady_thrust", p.active.carried.thrust, "carried_mass", p.active.carried.mass, "explained",
-       p.active.carried.explained);
+       p.active.v_out, "v_max_passive", p.active.v_in, "t_v_max_passive", p.active.v_in_time,
+       "f_g_active", p.active.thrust, "steady_thrust", p.active.carried.thrust, "carried_mass",
+       p.active.carried.mass, "explained", p.active.carried.explained);
 }
 
 void describe(Some<Point> auto& p, const auto& field) {
@@ -164,7 +164,10 @@ void read(const Json& json, std::vector<T>& rows) {
   rows.resize(json.empty() ? 0 : json.begin()->size());
   for (const Json& column : json) require(column.size() == rows.size(), "columns differ in length");
   for (std::size_t k = 0; k < rows.size(); ++k)
-    describe(rows[k], [&](const char* name, auto& member) { read(json.at(name).at(k), member); });
+    describe(rows[k], [&](const char* name, auto& member) {
+      if (is_optional<std::remove_cvref_t<decltype(member)>> && !json.contains(name)) return;
+      read(json.at(name).at(k), member);
+    });
 }
 void read(const Json& json, Named<Columns>& tables) {
   require(json.is_object(), "no tables");

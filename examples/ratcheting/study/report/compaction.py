@@ -5,15 +5,14 @@
 
 The measures are the time t_u during which the driving force is below the thrust of the grains, and the
 excursion of the wall over the length of the box. The periods of a run are taken together in groups
-1, 2, 3-4, 5-8, ... The errors are those of the jackknife over the runs, because the groups of a run are
-not independent."""
+1, 2, 3-4, 5-8, ... The errors are those of the jackknife over the samples, because neither the groups of a
+run nor the runs of a sample are independent; with fewer than three samples, over the runs."""
 import math
 
-from runs import (ANY, CASE, COMPLIANT, SHAPES, excursion_judged, judged, least_squares, line, select,
+from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, select,
                   strain, unjammed_time)
 
 UNIT = 0.01  # [s]
-SET_ASIDE = 3  # the sample whose runs are predicted, not fitted
 
 
 def excursion_over_length(run):
@@ -62,7 +61,7 @@ def jammed_runs(runs, shape):
     """The runs with compliant contacts that start from a jammed state, without those whose excursion is
     not judged."""
     return [run for run in loading_runs(runs, shape, "compliant")
-            if "from" in run["parameters"] and excursion_judged(run)]
+            if "from" in run["parameters"]]
 
 
 def points(runs, measures=("t_u",)):
@@ -93,11 +92,12 @@ class Law:
             return
         self.a, *self.powers, self.b = self.fit(everything)
         self.scatter = self.deviation(everything)
-        n = len(by_run)
-        parts = []
-        for k in range(n):
-            rest = [p for i, part in enumerate(by_run) if i != k for p in part]
-            parts.append(self.fit(rest))
+        labels = [run["parameters"]["seed"] for run in self.runs]
+        if len(set(labels)) < 3:
+            labels = list(range(len(by_run)))
+        parts = [self.fit([p for label, part in zip(labels, by_run) if label != left_out for p in part])
+                 for left_out in sorted(set(labels))]
+        n = len(parts)
         means = [sum(part[j] for part in parts) / n for j in range(len(measures) + 2)]
         errors = [math.sqrt((n - 1) / n * sum((part[j] - means[j]) ** 2 for part in parts))
                   for j in range(len(measures) + 2)]
@@ -133,19 +133,26 @@ class Law:
 
 
 class Prediction:
-    """The sample SET_ASIDE, predicted by the fit of the others."""
+    """Each sample, predicted by the fit of the others: rms of ln(measured / predicted), and by sample its mean."""
 
     def __init__(self, runs, measures=("t_u",)):
-        self.law = Law([r for r in runs if r["parameters"]["seed"] != SET_ASIDE], measures)
-        aside = [r for r in runs if r["parameters"]["seed"] == SET_ASIDE]
-        data = points(aside, measures)
-        self.runs = len(aside)
-        if not data or not self.law.fitted:
-            self.bias = self.rms = math.nan
-            return
-        residuals = self.law.residuals(data)
-        self.bias = sum(residuals) / len(residuals)
-        self.rms = math.sqrt(sum(v * v for v in residuals) / len(residuals))
+        self.bias, squares = {}, []
+        for seed in sorted({r["parameters"]["seed"] for r in runs}):
+            law = Law([r for r in runs if r["parameters"]["seed"] != seed], measures)
+            data = points([r for r in runs if r["parameters"]["seed"] == seed], measures)
+            if not data or not law.fitted:
+                continue
+            residuals = law.residuals(data)
+            self.bias[seed] = sum(residuals) / len(residuals)
+            squares += [v * v for v in residuals]
+        self.rms = math.sqrt(sum(squares) / len(squares)) if squares else math.nan
+
+    def text(self):
+        """rms, and the means of the samples, in percent."""
+        if not self.bias:
+            return "–"
+        return (f"{100 * self.rms:.0f} % ("
+                + ", ".join(f"{100 * b:+.0f}" for b in self.bias.values()).replace("-", "−") + ")")
 
 
 def local_power(runs, shape, law, shortest):

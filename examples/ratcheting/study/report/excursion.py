@@ -9,7 +9,7 @@ C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
 import bisect
 import math
 
-from runs import ANY, COMPLIANT, excursion_judged, exponent, scaled_load, select
+from runs import ANY, COMPLIANT, judged, exponent, scaled_load, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
@@ -110,7 +110,7 @@ class Prediction:
             for name, pairs in self.pairs.items():
                 for run in select(runs, shape, seed=seed, **({"frequency": 5.0} | {name: ANY}), **wanted):
                     p = run["parameters"]
-                    if p["fmax"] < 1000 or p["duration"] > 5 or not excursion_judged(run) or \
+                    if p["fmax"] < 1000 or p["duration"] > 5 or not judged(run) or \
                             p[name] == base["parameters"][name]:
                         continue
                     pairs.append((run, displacement(

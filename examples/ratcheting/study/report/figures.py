@@ -5,7 +5,7 @@ import math
 import compaction
 import excursion
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
-from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, excursion_judged,
+from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, judged,
                   over_samples, power, scaled_load, select, series, shapes_of, strain, thrust_ratio,
                   unjammed_time)
 
@@ -109,24 +109,25 @@ def period_of(run, number):
 
 
 def one_period(runs, path):
-    number = 1
-
-    def add(panel, shape, run):
-        rows = period_of(run, number)
-        panel.curve([(r[0], 1e3 * r[1]) for r in rows], COLOR[shape])
-        nu, start = run["parameters"]["frequency"], run["periods"]["t_start"][number]
-        at = {name: (run["periods"][key][number] - start) * nu
-              for name, key in (("a", "t_onset"), ("b", "t_peak"))}
-        marks = [(t, 1e3 * min(rows, key=lambda r: abs(r[0] - t))[1]) for t in at.values()]
-        panel.points(marks, BLACK, 6)
-        panel.commands += ['set arrow from 0.5, graph 0 to 0.5, graph 1 nohead dt 3 lc rgb "#7a7a7a"',
-                           "set xrange [0:1]"]
-
-    panels, run = panel_per_course(runs, "time since f = fmax / period", "x − x_j  [mm]",
-                                   ["set key off"], add)
-    draw(path, panels, 1, len(panels), 1500, 420, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(run, "The second period after the filling. Circles: the wall starts, and turns back. f is "
-                        "smallest at the dotted line.")
+    number, found, panels = 1, every_course(runs), []
+    for what in ("x", "f"):
+        for shape, run in found:
+            rows = period_of(run, number)
+            start, nu = run["periods"]["t_start"][number], run["parameters"]["frequency"]
+            label = "x − x_j  [mm]" if what == "x" else "f  [kN]"
+            panel = Panel(TITLE[shape] if what == "x" else "", "" if what == "x" else "time since f = fmax / period",
+                          label if run is found[0][1] else "",
+                          ["set key off", "set xrange [0:1]",
+                           'set arrow from 0.5, graph 0 to 0.5, graph 1 nohead dt 3 lc rgb "#7a7a7a"'])
+            values = [(r[0], 1e3 * r[1] if what == "x" else 1e-3 * r[4]) for r in rows]
+            panel.curve(values, COLOR[shape] if what == "x" else GREY)
+            for key in ("t_onset", "t_peak"):
+                at = (run["periods"][key][number] - start) * nu
+                panel.points([min(values, key=lambda v: abs(v[0] - at))], BLACK, 6)
+            panels.append(panel)
+    draw(path, panels, 2, len(found), 1500, 640, "0.055, 0.99, 0.1, 0.93", "0.04, 0.06")
+    return caption(found[0][1], "The second period after the filling: displacement of the wall (above) and driving force (below). Circles: "
+                                "the wall starts, and turns back. f is smallest at the dotted line.")
 
 
 def field(runs, path, table, names, unit, what):
@@ -241,25 +242,41 @@ def rho_x(runs, path):
                         "from (0, 0) to the right end in extension, then to the left in contraction.")
 
 
+def mean_loop(runs, shape, nu):
+    """Rows (x - x_j, v) of the mean loop over the samples; empty without one."""
+    loops = [run["loop"] for run in select(runs, shape, frequency=nu) if run["loop"]]
+    return [(sum(loop["x"][k] for loop in loops) / len(loops), sum(loop["v"][k] for loop in loops) / len(loops))
+            for k in range(len(loops[0]["x"]))] if loops else []
+
+
 def phase_portrait(runs, path):
-    panels = []
-    for shape in every_shape(runs):
-        panel = Panel(TITLE[shape], "(x − x_j) ν²  [mm/s²]", "v ν  [mm/s²]" if not panels else "",
-                      ["set key top left"])
-        for nu, color, dash in ((5.0, COLOR[shape], 1), (10.0, BLACK, 2)):
-            loops = [run["loop"] for run in select(runs, shape, frequency=nu) if run["loop"]]
-            if not loops:
-                continue
-            n = len(loops)
-            mean = [(sum(loop["x"][k] for loop in loops) / n, sum(loop["v"][k] for loop in loops) / n)
-                    for k in range(len(loops[0]["x"]))]
-            panel.curve([(1e3 * x * nu * nu, 1e3 * v * nu) for x, v in mean], color,
-                        f"{nu:g} Hz", 1.8, dash)
-        panels.append(panel)
-    draw(path, panels, 1, len(panels), 1500, 430, "0.065, 0.99, 0.15, 0.89", "0.05, 0.1")
-    return ("Phase portraits of the wall, scaled by the frequency as in the paper: means over the periods "
-            f"of three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}. Extension collapses; contraction "
-            "ends where the strain of the period puts it.")
+    panels, ratios = [], []
+    for scaled in (False, True):
+        for shape in every_shape(runs):
+            first = len(panels) % len(every_shape(runs)) == 0
+            panel = Panel("" if scaled else TITLE[shape],
+                          "(x − x_j) ν²  [mm/s²]" if scaled else "x − x_j  [mm]",
+                          ("v ν  [mm/s²]" if scaled else "v  [mm/s]") if first else "",
+                          ["set key bottom left", "set xtics 20" if scaled else "set xtics 1"])
+            tops = []
+            for nu, color, dash in ((5.0, COLOR[shape], 1), (10.0, BLACK, 2)):
+                rows = mean_loop(runs, shape, nu)
+                if not rows:
+                    continue
+                a, b = (1e3 * nu * nu, 1e3 * nu) if scaled else (1e3, 1e3)
+                panel.curve([(a * x, b * v) for x, v in rows], color, f"{nu:g} Hz", 1.8, dash)
+                tops += [(max(v for _, v in rows) * nu, -min(v for _, v in rows) * nu)]
+            if scaled and len(tops) == 2:
+                ratios.append([tops[1][k] / tops[0][k] for k in (0, 1)])
+            panels.append(panel)
+    draw(path, panels, 2, len(panels) // 2, 1500, 760, "0.065, 0.99, 0.1, 0.93", "0.05, 0.13")
+    text = ("Phase portraits of the wall, above as they are, below scaled by the frequency as in the paper: means over the periods "
+            f"of three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
+    if ratios:
+        text += (" Scaled speed at 10 Hz over that at 5 Hz, for each shape: outward "
+                 + ", ".join(f"{r[0]:.2f}" for r in ratios) + ", inward " + ", ".join(f"{r[1]:.2f}" for r in ratios)
+                 + "; 1 if the portraits collapse.")
+    return text
 
 
 def dx_v_frequency(runs, path):
@@ -269,7 +286,7 @@ def dx_v_frequency(runs, path):
               Panel("largest inward speed", "ν  [Hz]", "v_{max}  [mm/s]",
                     ["set logscale xy", "set key bottom left", "set xrange [0.8:75]"]),
               Panel("the same over ν^{−2}: the paper's C", "ν  [Hz]", "C",
-                    ["set logscale x", "set yrange [0:0.07]", "set key bottom right",
+                    ["set logscale x", "set yrange [0:0.09]", "set key top right maxrows 3",
                      "set xrange [0.8:75]"]),
               Panel("the same over ν^{−1}", "ν  [Hz]", "v_{max} ν  / value at 10 Hz",
                     ["set logscale x", "set yrange [0:1.6]", "set key bottom right",
@@ -336,7 +353,7 @@ def master(runs, path):
                           "(mg)² / [(m + m_w) fmax ν²]  [mm]",
                           "Δx  [mm]" if len(panels) % 4 == 0 else "",
                           ["set key top left"])
-            top = 0
+            top, low = 0, math.inf
             for (parameter, wanted, symbol, title), color in zip(series_of, colors):
                 found = {}
                 for run in jamming(series(runs, shape, parameter, **wanted)):
@@ -349,7 +366,7 @@ def master(runs, path):
                 if near:
                     rows = [r for r in rows if r[0] <= 4]
                 panel.bars(rows, color, symbol, title, 0.9)
-                top = max([top] + [r[0] for r in rows])
+                top, low = max([top] + [r[0] for r in rows]), min([low] + [r[0] for r in rows])
             c = over_samples(series(runs, shape, "frequency"), constant).mean
             panel.function(f"{c:.4f} * x", BLACK, f"C = {c:.3f}", 1)
             panel.function(f"{0.01 if shape in ('polyhedron', 'sphere') else 0.05} * x", GREY,
@@ -357,7 +374,7 @@ def master(runs, path):
             if near and top == 0:
                 panel.curves.clear()
             panel.commands += ([f"set xrange [0:{1.08 * top or 1:.4g}]"] if near else
-                               ["set logscale xy", "set format '10^{%L}'"])
+                               ["set logscale xy", "set format '10^{%L}'", f"set xrange [{0.6 * low:.3g}:{1.7 * top:.3g}]"])
             panels.append(panel)
     draw(path, panels, 2, len(panels) // 2, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
     return ("Excursion without drift over the scaled load, all values of ν, fmax, g and m_w: means and "
@@ -387,18 +404,8 @@ def compaction_rate(runs, path):
         if not law.fitted:
             continue
         for n, color, title in ((4, COLOR[shape], "law"), (None, GREY, None)):
-            points = []
-            for k in range(60):
-                nu = 1 * (65 / 1) ** (k / 59)
-                t_u = math.acos(1 - 2 * mean_thrust / CASE["fmax"]) / (math.pi * nu)
-                # A second has 0.85 ν − 0.75 periods between its first and its last maximum of f.
-                count = n or 0.85 * nu - 0.75
-                if count < 2:
-                    continue
-                whole = int(count)
-                mean = (sum(law.strain(t_u, i + 1) for i in range(whole)) +
-                        (count - whole) * law.strain(t_u, whole + 1)) / count
-                points.append((nu, 1e3 * nu * mean))
+            points = [(nu, 1e3 * rate_of_law(law, mean_thrust, nu, n))
+                      for nu in (65 ** (k / 59) for k in range(60))]
             panel.curve(points, color, title, 1.2, 2)
     draw(path, panels, 1, len(panels), 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
     return ("Compaction rate, ν × strain per period, over the first four jammed periods and over the first "
@@ -406,12 +413,32 @@ def compaction_rate(runs, path):
             f"error over three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
 
 
+def last_in_first_second(run):
+    return max([k for k, t in enumerate(run["jams"]["t"]) if t <= 1 + 1e-9] + [1])
+
+
 def first_second(run):
-    """Strain rate of the box between the first jammed state and the last one within the first second,
-    the paper's procedure."""
-    times, x = run["jams"]["t"], run["jams"]["x"]
-    last = max([k for k, t in enumerate(times) if t <= 1 + 1e-9] + [1])
+    """Strain rate of the box between the first jammed state and the last one within the first second."""
+    times, x, last = run["jams"]["t"], run["jams"]["x"], last_in_first_second(run)
     return (x[0] - x[last]) / run["length"] / (times[last] - times[0])
+
+
+def density_rate(run):
+    """Relative rate of the solid fraction of the inner volume over the same time, the paper's procedure."""
+    times, rho, last = run["jams"]["t"], run["jams"]["rho_inner"], last_in_first_second(run)
+    return (rho[last] / rho[0] - 1) / (times[last] - times[0])
+
+
+def rate_of_law(law, thrust, frequency, count=None):
+    """Strain rate by the law of t_u with a thrust [N]: mean over `count` periods, or over those of a second,
+    which has 0.85 ν − 0.75 between its first and its last maximum of f; nan for fewer than two."""
+    t_u = math.acos(1 - 2 * thrust / CASE["fmax"]) / (math.pi * frequency)
+    count = count or 0.85 * frequency - 0.75
+    if count < 2:
+        return math.nan
+    whole = int(count)
+    return frequency / count * (sum(law.strain(t_u, i + 1) for i in range(whole)) +
+                                (count - whole) * law.strain(t_u, whole + 1))
 
 
 def compaction_law(runs, path):
@@ -463,7 +490,8 @@ def one_state(runs, path):
     panels, shapes = [], []
     for label, value, limits, line, title, dash in rows:
         for shape in SHAPES:
-            found = select(runs, shape, frequency=ANY, fmax=ANY, jammed=True, **COMPLIANT)
+            found = [r for r in select(runs, shape, frequency=ANY, fmax=ANY, jammed=True, **COMPLIANT)
+                     if len(r["periods"]["x_j"]) <= 5]
             if len({r["parameters"]["frequency"] for r in found}) < 3:
                 continue
             first = not shapes or shape == shapes[0]
@@ -474,19 +502,24 @@ def one_state(runs, path):
                            "set format y '10^{%L}'", "set key bottom right"]
                           + ([] if label.startswith("t_u") else ["set format x '10^{%L}'"]))
             for fmax, color, symbol in ((2000.0, "#2e7d4f", 9), (6000.0, "#1f5fa8", 7), (27000.0, "#b3261e", 5)):
-                for open_symbol in (False, True):
-                    panel.points([(value(r), strain(r, 0, 4)) for r in found
-                                  if r["parameters"]["fmax"] == fmax and excursion_judged(r) != open_symbol
-                                  and strain(r, 0, 4) > 0 and value(r) > 0],
-                                 color, symbol - 1 if open_symbol else symbol,
-                                 None if open_symbol else f"{fmax / 1000:g} kN")
+                groups = {}
+                for r in found:
+                    if r["parameters"]["fmax"] == fmax and strain(r, 0, 4) > 0 and value(r) > 0:
+                        groups.setdefault(r["parameters"]["frequency"], []).append(r)
+                for is_open in (False, True):
+                    panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.error)
+                                for group in groups.values() if all(judged(r) for r in group) != is_open
+                                for e in [Estimate([strain(r, 0, 4) for r in group])]],
+                               color, symbol - 1 if is_open else symbol,
+                               None if is_open else f"{fmax / 1000:g} kN", 0.9)
             panel.function(line, GREY, title, dash)
             panels.append(panel)
     if not panels:
         raise Missing
     draw(path, panels, 2, len(panels) // 2, 1500, 860, "0.065, 0.99, 0.08, 0.95", "0.045, 0.12")
     return ("Strain of a period, mean over four periods from one jammed state of each sample, over the time t_u during which f "
-            "is below the thrust and over the excursion: 1 to 60 Hz, three forces, up to five samples. Open: the jammed wall moves by more than 30 % of "
+            "is below the thrust and over the excursion: 1 to 60 Hz, three forces; means over up to five samples, bars: standard error. Open: in one "
+            "sample or more the jammed wall moves by more than 30 % of "
             f"the displacement (not judged). The lines have the same prefactor in all panels of a row. N = 1200; {COMPLIANT_TEXT}.")
 
 
@@ -519,8 +552,8 @@ def predicted(runs, path):
     """The thrust over the displacement of a slow wall, and the excursions that it predicts."""
     panels = [Panel("slow test", "displacement [mm]", "F / mg",
                     ["set xrange [0:1.6]", "set yrange [0:0.6]", "set key bottom left"]),
-              Panel("excursion of all loads", "predicted Δx [mm]", "measured Δx [mm]",
-                    ["set logscale xy", "set xrange [0.02:60]", "set yrange [0.02:60]", "set key bottom right"])]
+              Panel("excursion of all loads", "measured Δx [mm]", "measured / predicted Δx",
+                    ["set logscale x", "set xrange [0.02:60]", "set yrange [0.5:1.7]", "set key bottom right"])]
     for shape in every_shape(runs):
         curves = excursion.thrust_curves(runs, shape)
         for k, curve in enumerate(curves.values()):
@@ -528,18 +561,18 @@ def predicted(runs, path):
                             None if k else TITLE[shape], 1.4)
         found = excursion.Prediction(runs, shape, curves, jammed=True, **COMPLIANT)
         for beyond in (False, True):
-            panels[1].points([(1e3 * value, 1e3 * run["dx_active"])
+            panels[1].points([(1e3 * run["dx_active"], run["dx_active"] / value)
                               for pairs in found.pairs.values() for run, value in pairs
                               if beyond == (value > curves[run["parameters"]["seed"]].x[-1])],
                              COLOR[shape], POINT[shape] - (1 if beyond else 0),
                              None if beyond else TITLE[shape], 0.9)
     if not panels[0].curves:
         raise Missing
-    panels[1].function("x", GREY, "equal", 1)
+    panels[1].function("1", GREY, None, 1)
     draw(path, panels, 1, 2, 1200, 480, "0.07, 0.99, 0.14, 0.91", "0.07, 0.1")
     return ("Left: force of the grains on a wall that moves outward at 2 mm/s from the jammed state, over its displacement "
-            "from where the force has fallen to mg/2; non-increasing fits, three samples. Right: excursions over all ν, fmax, g and "
-            "m_w, measured and predicted from F(x) and one carried mass for each sample, from the run at 5 Hz, 6 kN "
+            "from where the force has fallen to mg/2; non-increasing fits, three samples. Right: ratio of the measured excursion to that "
+            "predicted, judged runs over ν, fmax, g and m_w, from F(x) and one carried mass for each sample, from the run at 5 Hz, 6 kN "
             f"and m_w = m/2, which is left out. Open: the excursion exceeds the test, beyond whose end F is taken as constant. N = 1200; {COMPLIANT_TEXT}.")
 
 
@@ -610,44 +643,71 @@ def force_rise(runs, path):
             f"samples. N = 1200, ν = 5 Hz, fmax = 6 kN; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
-def speeds(runs, shape):
-    """Pairs: way back over excursion, 1 + (x_j - x_j') / dx; largest inward speed over excursion times
-    frequency. One of each run, means over its first eight periods."""
-    found = []
-    for run in compaction.loading_runs(runs, shape):
-        periods, nu = run["periods"], run["parameters"]["frequency"]
-        n = min(8, len(periods["x_j"]))
-        if n == 0:
+class ReturnPhase:
+    """The way back of the wall at one frequency, means over periods and samples: phases since the minimum of f, in
+    periods, when the wall turns back and when it is fastest; force over fmax then; the share of the impulse of f
+    between that the grains take, 1 - m_w v_max / impulse; v_max times frequency [m/s²]."""
+
+    def __init__(self, frequency, rows):
+        def mean(k):
+            return sum(row[k] for row in rows) / len(rows)
+        self.frequency = frequency
+        self.turn, self.fastest, self.force, self.share, self.speed = (mean(k) for k in range(5))
+
+
+def return_phases(runs, shape):
+    """ReturnPhase by rising frequency: compliant contacts, from one jammed state, the paper's force. Frequencies
+    at which a run is not judged are left out."""
+    found = {}
+    for run in select(runs, shape, frequency=ANY, jammed=True, **COMPLIANT):
+        p, periods = run["parameters"], run["periods"]
+        if "t_v_max_passive" not in periods or len(periods["x_j"]) > 5:
             continue
-        dx = sum(periods["dx_active"][:n]) / n
-        net = strain(run, 0, n) * run["length"]
-        if dx > 0 and net > 0:
-            found.append((1 + net / dx, sum(periods["v_max_passive"][:n]) / n / (dx * nu)))
-    return found
+        nu, rows = p["frequency"], found.setdefault(p["frequency"], [])
+        if not judged(run):
+            rows.append(None)
+            continue
+        for least, peak, fastest, v in zip(*(periods[k] for k in (
+                "t_force_minimum", "t_peak", "t_v_max_passive", "v_max_passive"))):
+            if fastest is None or fastest <= peak:
+                continue
+            a, b = nu * (peak - least), nu * (fastest - least)
+
+            def impulse(phase):  # of f / fmax since the minimum, in periods
+                return phase / 2 - math.sin(2 * math.pi * phase) / (4 * math.pi)
+            pushed = p["fmax"] * (impulse(b) - impulse(a)) / nu
+            rows.append((a, b, math.sin(math.pi * b) ** 2, 1 - run["wall_mass"] * v / pushed, v * nu))
+    return [ReturnPhase(nu, rows) for nu, rows in sorted(found.items()) if rows and None not in rows]
 
 
 def way_back(runs, path):
-    panels = []
-    for shape in every_shape(runs):
-        panel = Panel(TITLE[shape], "way back / excursion", "v_{max} / (Δx ν)" if not panels else "",
-                      ["set logscale xy", "set xrange [1:40]", "set yrange [8:300]",
-                       "set key bottom right"])
-        rows = speeds(runs, shape)
-        panel.points(rows, COLOR[shape], POINT[shape], None, 0.8)
-        c, b, _, _ = power(rows)
-        if math.isfinite(b):
-            panel.function(f"{c:.4f} * x**{b:.4f}", GREY, f"power {b:.2f}", 1)
-        panels.append(panel)
-    draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return ("Largest inward speed over excursion times frequency, and the way back, Δx + x_j − x_j′, over the "
-            "excursion. One point for each run over ν, fmax, g, m_w, box and lid force, means over its first "
-            f"eight periods; three samples. N = 1200; {RIGID_TEXT}. If v_max scaled as Δx ν, the points would "
-            "lie on a horizontal line.")
+    panels = [Panel("phases since the minimum of f", "ν  [Hz]", "periods", ["set key off"]),
+              Panel("force when the wall is fastest", "ν  [Hz]", "f / fmax", ["set key off"]),
+              Panel("impulse that the grains take", "ν  [Hz]", "share of the impulse of f", ["set key bottom right"]),
+              Panel("largest inward speed", "ν  [Hz]", "v_{max} ν  [m/s²]", ["set key off"])]
+    limits = ("[0:0.3]", "[0:0.6]", "[0:1]", "[0:1.6]")
+    for panel, limit in zip(panels, limits):
+        panel.commands += ["set logscale x", "set xrange [0.8:40]", f"set yrange {limit}"]
+    for shape in SHAPES:
+        rows = return_phases(runs, shape)
+        shift = SPREAD[shape]
+        panels[0].points([(shift * r.frequency, r.fastest) for r in rows], COLOR[shape], POINT[shape],
+                         f"{TITLE[shape]}: fastest")
+        panels[0].points([(shift * r.frequency, r.turn) for r in rows], COLOR[shape], POINT[shape] - 1, None)
+        for panel, value in zip(panels[1:], ("force", "share", "speed")):
+            panel.points([(shift * r.frequency, getattr(r, value)) for r in rows], COLOR[shape], POINT[shape],
+                         TITLE[shape])
+    if not panels[0].curves:
+        raise Missing
+    draw(path, panels, 1, 4, 1700, 430, "0.045, 0.99, 0.15, 0.89", "0.055, 0.1")
+    return ("The way back of the wall. First panel: when the wall turns back (open) and when it is fastest (filled). If the motion "
+            "scaled with the frequency, all points of a symbol would lie on a horizontal line in all panels. Means over periods and samples; "
+            f"frequencies at which all runs are judged. N = 1200, fmax = 6 kN, from one jammed state; {COMPLIANT_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
 def long_course(runs, path):
     """Solid fraction over the number of periods at 20 Hz, the longest run of each shape."""
-    panels = []
+    panels, methods = [], set()
     for shape in ("polyhedron", "polygon"):
         found = [r for r in runs if r["parameters"]["shape"] == shape and "long" in r["tables"]]
         if not found:
@@ -657,6 +717,7 @@ def long_course(runs, path):
         for run in found:
             rows = columns(run, "long", "periods", "rho_inner", "rho_box")
             rigid = run["parameters"]["method"] != "compliant"
+            methods.add(f"{RIGID_TEXT} (open)" if rigid else f"{COMPLIANT_TEXT} (filled)")
             for k, title in ((1, "inner volume"), (2, "whole box")):
                 panel.points([(r[0] + 0.25, r[k] - rows[0][k]) for r in rows],
                              GREY if k == 2 else COLOR[shape], 6 if rigid else 7,
@@ -664,7 +725,7 @@ def long_course(runs, path):
         panels.append(panel)
     draw(path, panels, 1, 2, 1200, 430, "0.085, 0.98, 0.15, 0.89", "0.075, 0.1")
     return ("Solid fraction at the maxima of f. ν = 20 Hz, fmax = 6 kN, N = 1200, one sample; "
-            f"{RIGID_TEXT} (open) or {COMPLIANT_TEXT} (filled).")
+            + " or ".join(sorted(methods)) + ".")
 
 
 # Name, title with the paper's number of the figure, function.
@@ -679,7 +740,7 @@ FIGURES = (
     ("rho_t", "Solid fraction over time (paper, fig. 9)", rho_t),
     ("rho_x", "Solid fraction over displacement (paper, fig. 10)", rho_x),
     ("phase_portrait", "Phase portraits (paper, fig. 11)", phase_portrait),
-    ("way_back", "Speed and way back", way_back),
+    ("way_back", "The way back of the wall", way_back),
     ("dx_v_frequency", "Excursion and speed over frequency (paper, fig. 12)", dx_v_frequency),
     ("dx_loads", "Excursion over force, gravity and wall (paper, figs. 13, 14)", dx_loads),
     ("master", "Excursion over the scaled load (paper, fig. 15)", master),

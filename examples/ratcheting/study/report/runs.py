@@ -137,15 +137,18 @@ def power(points):
 
 def exponent(runs, parameter, value):
     """The exponent of value(run) over a parameter, fitted sample by sample: Estimate. With one sample
-    the error is that of its fit."""
+    the error is that of its fit, with two at least that of their fits."""
     seeds = {}
     for run in runs:
         seeds.setdefault(run["parameters"]["seed"], []).append(
             (run["parameters"][parameter], value(run)))
     fits = [power(points) for points in seeds.values() if len({p[0] for p in points}) > 2]
     e = Estimate([fit[1] for fit in fits])
+    own = [fit[2] for fit in fits if math.isfinite(fit[1])]
     if e.n == 1:
-        e.error = fits[0][2]
+        e.error = own[0]
+    if e.n == 2:  # two samples may agree by chance
+        e.error = max(e.error, math.sqrt(sum(error ** 2 for error in own)) / 2)
     return e
 
 
@@ -181,19 +184,14 @@ def constant(run, displacement="dx_active"):
     return run[displacement] / load
 
 
-REBOUND = 0.3  # largest motion of the jammed wall over the displacement in a run that is judged
+JAMMED_MOTION = 0.3  # largest motion of the jammed wall over the displacement in a run that is judged
 
 
 def judged(run):
-    """Whether the displacement of the wall is more than elastic rebound. Rigid contacts: always."""
-    return run["parameters"]["method"] != "compliant" or run["creep"] <= REBOUND * run["dx_max"]
-
-
-def excursion_judged(run):
-    """judged(), and the jammed wall does not drift inward more than that: such a packing is not jammed,
-    and the excursion of its wall has no beginning."""
-    return judged(run) and (run["parameters"]["method"] != "compliant" or
-                            run["creep"] >= -REBOUND * run["dx_max"])
+    """Whether the wall hardly moves while the packing is jammed, from the maximum of f to where f has fallen
+    to the weight: outward by elastic rebound or numerical drift, inward by drift or because the packing is
+    still being compacted. Else the displacement mostly is this motion, and the excursion has no beginning."""
+    return abs(run["creep"]) <= JAMMED_MOTION * abs(run["dx_max"])
 
 
 def scaled_load(run):
