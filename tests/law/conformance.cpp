@@ -89,11 +89,19 @@ TEST_CASE("static friction holds after rest, dynamic friction after slip") {
   const SignoriniCoulomb<> law(0.2, 0, 0.5);
   CHECK(law.variant(0).friction() == 0.5);
   CHECK(law.variant(1).friction() == 0.2);
-  CHECK(law.variant_after(Eigen::Vector3d(0, 0, 0)) == 0);
-  CHECK(law.variant_after(Eigen::Vector3d(1, 0.3, 0)) == 0);
-  CHECK(law.variant_after(Eigen::Vector3d(1, 0.5, 0)) == 1);
-  CHECK(law.variant_after(Eigen::Vector3d(1, 0, -0.2)) == 1);
-  CHECK(SignoriniCoulomb<>(0.2).variant_after(Eigen::Vector2d(1, 0.1)) == 1);
+  using Vector = Eigen::Vector3d;
+  for (const std::size_t k : {0u, 1u}) CHECK(law.variant_after(k, Vector(0, 0, 0)) == 0);
+  CHECK(law.variant_after(0, Vector(1, 0.3, 0)) == 0);
+  CHECK(law.variant_after(0, Vector(1, 0.5, 0)) == 1);
+  CHECK(law.variant_after(1, Vector(1, 0, -0.2)) == 1);
+  CHECK(law.variant_after(1, Vector(1, 0, -0.1)) == 0);
+  // Without friction in slip a contact slides until it opens.
+  const SignoriniCoulomb<> smooth(0, 0, 0.5);
+  CHECK(smooth.variant_after(0, Vector(1, 0.3, 0)) == 0);
+  CHECK(smooth.variant_after(0, Vector(1, 0.5, 0)) == 1);
+  CHECK(smooth.variant_after(1, Vector(1, 0, 0)) == 1);
+  CHECK(smooth.variant_after(1, Vector(0, 0, 0)) == 0);
+  CHECK(SignoriniCoulomb<>(0.2).variant_after(0, Eigen::Vector2d(1, 0.2)) == 0);
 }
 
 TEST_CASE("rolling resistance without any is Coulomb's law") {

@@ -111,7 +111,7 @@ struct NoNumber {
 
 }  // namespace
 
-TEST_CASE("a step whose impulses are not finite throws before any body has moved") {
+TEST_CASE("a step whose impulses are not finite throws names the body") {
   using S = Space<3>;
   moreau::Simulation<BallIn<S>, NoNumber> world(0.02, moreau::Materials<NoNumber>(1));
   const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(0.01)), {}, 1000);
@@ -156,9 +156,10 @@ TEST_CASE("bad input is named") {
   CHECK_THROWS_AS(simulation.add_wall(S::Vector(0, 0, 2), S::Vector::Zero()),
                   std::invalid_argument);
   const BodyId grain = simulation.add_grain(shape, {}, 1000);
-  CHECK_THROWS_WITH_AS(simulation.set_wall_mass(grain, 1),
-                       "Simulation::set_wall_mass: wall = 0 must be the id of a wall",
-                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      simulation.set_wall_mass(grain, 1),
+      "Simulation::set_wall_mass: wall = 0 must be the id of a half-space or of a mesh wall",
+      std::invalid_argument);
   Pose<S> twisted;
   twisted.rotation.coeffs() *= 3;
   CHECK_THROWS_WITH_AS(simulation.set_pose(grain, twisted),

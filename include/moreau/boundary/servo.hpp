@@ -36,6 +36,12 @@ concept AreaFunction = requires(const F area) {
 
 namespace detail {
 
+template <class Simulation>
+void require_half_space(const Simulation& simulation, BodyId wall, const char* function) {
+  const auto walls = simulation.walls();
+  require(std::find(walls.begin(), walls.end(), wall) != walls.end(), function, "wall", wall,
+          "must be the id of a half-space");
+}
 /// The normal of a half-space, unit, towards the grains, world axes.
 template <class Simulation>
 typename Simulation::Vector wall_normal(const Simulation& simulation, BodyId wall) {
@@ -65,9 +71,7 @@ typename Simulation::Scalar wall_pressure(Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar area) {
   require(std::isfinite(step) && step > 0, "wall_pressure", "step", step, "must be finite and > 0");
   require(std::isfinite(area) && area > 0, "wall_pressure", "area", area, "must be finite and > 0");
-  const auto walls = simulation.walls();
-  require(std::find(walls.begin(), walls.end(), wall) != walls.end(), "wall_pressure", "wall", wall,
-          "must be the id of a half-space");
+  detail::require_half_space(simulation, wall, "wall_pressure");
   const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
   return -detail::wall_normal(simulation, wall).dot(impulse) / (step * area);
 }
@@ -93,6 +97,7 @@ class PressureLoad {
     require(std::isfinite(pressure), "PressureLoad", "pressure", pressure, "must be finite");
     require(std::isfinite(mass) && mass > 0, "PressureLoad", "mass", mass,
             "must be finite and > 0");
+    detail::require_half_space(simulation, wall, "PressureLoad");
     using Scalar = typename Simulation::Scalar;
     simulation.set_wall_mass(wall, static_cast<Scalar>(mass));
     simulation.set_velocity(wall, Simulation::Vector::Zero());

@@ -21,11 +21,13 @@ namespace moreau {
 /// One contact point. Across a periodic boundary, the centre of b is that of its touching image.
 template <class S>
 struct Contact {
-  std::uint32_t a;             ///< first body, BodyId::index()
-  std::uint32_t b;             ///< second body
-  std::uint32_t law;           ///< index into the table of laws, Materials::laws()
-  typename S::Scalar gap;      ///< along the normal at the detection configuration [m], < 0 is
-                               ///< penetration; after the step, with the overlap correction
+  std::uint32_t a;    ///< first body, BodyId::index()
+  std::uint32_t b;    ///< second body
+  std::uint32_t law;  ///< index into the table of laws, Materials::laws()
+  std::uint32_t variant =
+      0;                   ///< after the step: variant of the law in the next one, see StatefulLaw
+  typename S::Scalar gap;  ///< along the normal at the detection configuration [m], < 0 is
+                           ///< penetration; after the step, with the overlap correction
   typename S::Matrix frame;    ///< columns n (unit, from a to b), t[, s]; right-handed, world axes
   typename S::Vector lever_a;  ///< from the centre of a to the contact point, world axes [m]
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
@@ -67,14 +69,14 @@ struct Contacts {
   std::vector<typename S::Angular> couples;
 
   std::size_t size() const { return points.size(); }  ///< number of points
-  /// Whether all arrays have one size (couples may be empty), and bodies and laws are below these
-  /// numbers.
-  bool are_valid(std::size_t bodies, std::size_t laws) const {
+  /// Whether all arrays have one size (couples may be empty), and bodies, laws and variants are below
+  /// these numbers.
+  bool are_valid(std::size_t bodies, std::size_t laws, std::size_t variants) const {
     if (keys.size() != size() || classes.size() != size() || impulses.size() != size() ||
         (!couples.empty() && couples.size() != size()))
       return false;
     return std::all_of(points.begin(), points.end(), [&](const Contact<S>& point) {
-      return point.a < bodies && point.b < bodies && point.law < laws;
+      return point.a < bodies && point.b < bodies && point.law < laws && point.variant < variants;
     });
   }
   /// Sum of the impulses that a body received, world axes [N s].

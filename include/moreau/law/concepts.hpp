@@ -90,18 +90,27 @@ concept CompliantLaw = SetValuedLaw<L, S> && requires(const L law) {
   { law.keeps_normal_impulse() } -> std::same_as<bool>;
 };
 
-/// A law that depends on the impulse of the step before, such as static friction.
+/// A law that depends on what the contact did in the step before, such as static friction.
 ///
-/// - variants: number of its variants; variant(k), k < variants: the law of a step
-/// - variant_after(impulse): the k of this step, from the impulse of the step before [N s], in the
-///   frame of the contact
+/// - variants: number of its variants; variant(k), k < variants: the law of a step. A new contact has k = 0.
+/// - variant_after(k, impulse): the k of the next step, from the k of this step and the impulse that
+///   solves variant(k) [N s], in the frame of the contact
 template <class L, class S>
 concept StatefulLaw = SetValuedLaw<L, S> &&
     requires(const L law, typename S::Vector impulse, std::size_t k) {
-  { law.variant_after(impulse) } -> std::same_as<std::size_t>;
+  { law.variant_after(k, impulse) } -> std::same_as<std::size_t>;
   { law.variant(k) } -> std::same_as<L>;
   L::variants;
 };
+
+/// The number of variants of a law: 1 of a law that is not stateful.
+template <class L, class S>
+constexpr std::size_t variants_of() {
+  if constexpr (StatefulLaw<L, S>)
+    return L::variants;
+  else
+    return 1;
+}
 
 /// A law that also solves the local problems of several contacts at once, one per SIMD lane.
 ///

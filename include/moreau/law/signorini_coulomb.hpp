@@ -110,9 +110,10 @@ class SignoriniCoulomb {
   explicit SignoriniCoulomb(T friction = T(0), T restitution = T(0))
       : SignoriniCoulomb(friction, restitution, friction) {}
   /// A law with static friction.
-  /// @param friction        mu >= 0 if the contact slid in the step before [-]
+  /// @param friction        mu >= 0 if the contact slid in the step before [-]. With 0, a contact that slides
+  ///                        does so until it opens
   /// @param restitution     e in [0, 1] [-]
-  /// @param static_friction mu >= friction if the contact is new or stuck in the step before [-]
+  /// @param static_friction mu >= friction if the contact is new, or was stuck or open in the step before [-]
   /// @throws std::invalid_argument outside these ranges
   SignoriniCoulomb(T friction, T restitution, T static_friction)
       : friction_(friction), restitution_(restitution), static_(static_friction) {
@@ -169,16 +170,14 @@ class SignoriniCoulomb {
   SignoriniCoulomb variant(std::size_t k) const {
     return SignoriniCoulomb(k == 0 ? static_ : friction_, restitution_);
   }
-  /// See StatefulLaw: the contact slid if its impulse [N s], in its frame, lies on one of the two
-  /// cones. Always 1 if static and kinetic friction are equal.
+  /// See StatefulLaw: the contact slid if its impulse [N s] lies on the cone of variant k. Always 0 if
+  /// static and kinetic friction are equal.
   template <class Vector>
-  std::size_t variant_after(const Vector& impulse) const {
-    if (static_ == friction_) return 1;
+  std::size_t variant_after(std::size_t k, const Vector& impulse) const {
+    if (static_ == friction_ || !(impulse[0] > T(0))) return 0;
     const T length = impulse.template tail<Vector::RowsAtCompileTime - 1>().norm();
-    const T close = std::sqrt(std::numeric_limits<T>::epsilon()) * length;
-    const bool slid =
-        length > static_ * impulse[0] - close || std::abs(length - friction_ * impulse[0]) < close;
-    return length > T(0) && slid ? 1 : 0;
+    const T limit = (k == 0 ? static_ : friction_) * impulse[0];
+    return length >= limit * (T(1) - std::sqrt(std::numeric_limits<T>::epsilon())) ? 1 : 0;
   }
 
   /// See LaneLaw: the friction [-].

@@ -44,9 +44,10 @@ class NonlinearGaussSeidel {
   template <class Operator, class Law>
   struct Workspace {};
 
+  NonlinearGaussSeidel() = default;
   /// @throws std::invalid_argument for a tolerance that is not finite and positive, a cap or an
   ///         interval below 1, a relaxation outside (0, 1]
-  explicit NonlinearGaussSeidel(const Options& options = {}) : options_(options) {
+  explicit NonlinearGaussSeidel(const Options& options) : options_(options) {
     constexpr const char* self = "NonlinearGaussSeidel";
     detail::require_stopping(options, self);
     require(options.relaxation > 0 && options.relaxation <= 1, self, "relaxation",

@@ -43,11 +43,12 @@ class ProximalFallback {
         swept;  ///< result of the sweeps, in contact frames [N s]
   };
 
+  ProximalFallback() = default;
   /// @param options     of the sweeps
   /// @param max_seconds time of the proximal point method in one step [s], after which its best
   ///                    result is returned; a finite time makes results depend on the machine
   /// @throws std::invalid_argument as First does, or for a time that is not positive
-  explicit ProximalFallback(const Options& options = {},
+  explicit ProximalFallback(const Options& options,
                             double max_seconds = ProximalOptions{}.max_seconds)
       : first_(options), max_seconds_(max_seconds) {
     require(max_seconds > 0, "ProximalFallback", "max_seconds", max_seconds, "must be > 0");
@@ -125,7 +126,7 @@ class ProximalFallback {
   }
 
   First first_;
-  double max_seconds_;
+  double max_seconds_ = ProximalOptions{}.max_seconds;
 };
 
 }  // namespace moreau

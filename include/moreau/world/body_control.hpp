@@ -44,6 +44,7 @@ class BodyControl : public BodyAccess<ShapeT> {
   void prescribe_motion(BodyId grain) {
     assembly_.number_of_grain(grain, "Simulation::prescribe_motion");
     assembly_.bodies().prescribe_motion(grain.index());
+    assembly_.set_changed();
   }
   /// Makes a grain move under forces and contacts again, with its mass and inertia; its velocity does
   /// not change. The inverse of prescribe_motion(). No effect on a grain whose motion is not
@@ -54,6 +55,7 @@ class BodyControl : public BodyAccess<ShapeT> {
     Bodies<S>& bodies = assembly_.bodies();
     const std::size_t i = grain.index();
     if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.grain_mass[i], bodies.inertia_body[i]);
+    assembly_.set_changed();
   }
   /// Makes a wall move along one axis as a body of this mass, under set_force() and its contacts: a
   /// half-space along its normal, a mesh wall along the first axis of its frame, which its pose turns.
@@ -67,6 +69,7 @@ class BodyControl : public BodyAccess<ShapeT> {
     require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
             "must be > 0, with a finite inverse");
     assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
+    assembly_.set_changed();
   }
   /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
   /// and acts until it is set again. It does not move a body whose motion is prescribed, such

@@ -157,7 +157,8 @@ class ContactDetector {
     add_all();
     stale_ = stale;
     order_.invalidate();
-    bool valid = shifts_.size() == (cell_.is_open() ? 0 : pairs_.size());
+    bool valid = shifts_.size() == (cell_.is_open() ? 0 : pairs_.size()) ||
+                 (stale_ && shifts_.empty());  // set_cell() came after the last step
     for (const IndexPair& pair : pairs_)
       valid = valid && pair.first < pair.second && pair.second < grains_.size();
     valid = valid && caches_.are_valid(pairs_, grains_, stale_);

@@ -117,7 +117,6 @@ class Simulation : public BodyControl<ShapeT> {
     const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
     assembly_.set_grain(body, shape, mass);
     detector_.add_grain(body, assembly_.shape(shape));
-    if constexpr (!set_valued) dynamics_.forget();
     return body;
   }
   /// Removes a grain, with its contacts of the last step. Its id is refused from now on. All other ids
@@ -125,10 +124,8 @@ class Simulation : public BodyControl<ShapeT> {
   /// The measures of the last step no longer include the grain.
   /// @throws std::invalid_argument for a body that is not a grain of this simulation
   void remove_grain(BodyId grain) { remove(std::span(&grain, 1), "Simulation::remove_grain"); }
-  /// Removes grains as remove_grain() does. One call for many grains takes about as long as
-  /// for one.
-  /// @throws std::invalid_argument for a body that is not a grain of this simulation, or that is
-  ///         listed twice; no grain is removed then
+  /// Removes grains as remove_grain() does. One call for many takes about as long as for one.
+  /// @throws std::invalid_argument for a body that is no grain or is listed twice; none is removed then
   void remove_grains(std::span<const BodyId> grains) {
     if (!grains.empty()) remove(grains, "Simulation::remove_grains");
   }
@@ -202,13 +199,15 @@ class Simulation : public BodyControl<ShapeT> {
   const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
 
   /// Sets the pose of a body, world axes [m]; its velocity does not change.
-  /// @throws std::invalid_argument for a body that is not of this simulation, or a pose that is not
-  ///         finite or whose rotation is not of unit length
+  /// @throws std::invalid_argument for a body that is not of this simulation, a pose that is not finite
+  ///         or whose rotation is not of unit length, a wall across a periodic axis
   void set_pose(BodyId body, const Pose<S>& pose) {
-    assembly_.require_body(body, "Simulation::set_pose");
-    assembly_.require_pose(pose, "Simulation::set_pose");
+    constexpr const char* self = "Simulation::set_pose";
+    assembly_.require_body(body, self);
+    assembly_.require_pose(pose, self);
+    assembly_.require_walls_fit(cell(), body, pose, self);
     assembly_.bodies().pose[body.index()] = pose;
-    if constexpr (!set_valued) dynamics_.forget();
+    assembly_.set_changed();
   }
   /// Sets the acceleration of gravity on grains, world axes [m/s^2]; zero at first.
   /// @throws std::invalid_argument for a vector that is not finite
@@ -225,7 +224,7 @@ class Simulation : public BodyControl<ShapeT> {
   }
   /// Sets the solver from the next step on.
   void set_solver(const Solver& solver) requires set_valued { dynamics_.set_solver(solver); }
-  /// Sets the integrator, with its options, from the next step on.
+  /// Sets the integrator from the next step on.
   void set_integrator(const Integrator& integrator) { dynamics_.set_integrator(integrator); }
   /// Sets how overlaps are corrected, from the next step on.
   /// @throws std::invalid_argument for options out of range; see OverlapCorrection
@@ -240,12 +239,14 @@ class Simulation : public BodyControl<ShapeT> {
     require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
             materials.count(), "must stay as it was");
     materials_ = materials;
+    assembly_.set_changed();
   }
 
   /// Advances the time by `step` [s], > 0.
   /// @returns results of the step, and how well the contact problem was solved
   /// @throws std::invalid_argument for a step that is not positive or not finite
-  /// @throws std::runtime_error naming a body whose velocity or position is not finite
+  /// @throws std::runtime_error naming a body with a velocity or position that is not finite. The step
+  ///         is then half made: continue from a snapshot
   StepReport step(Scalar step);
 
   Scalar time() const { return time_; }              ///< sum of the steps [s]
@@ -297,7 +298,6 @@ class Simulation : public BodyControl<ShapeT> {
                      const char* function) {
     const BodyId body = assembly_.add_body(pose, material, materials_.count(), function);
     assembly_.set_wall(body, shape), detector_.add_wall(body, shape);
-    if constexpr (!set_valued) dynamics_.forget();
     return body;
   }
   friend struct SerializationAccess;
@@ -306,10 +306,10 @@ class Simulation : public BodyControl<ShapeT> {
                     contacts_, detector_);
   }
   void deserialized() {
+    const std::size_t laws = materials_.laws().size(), variants = variants_of<Law, S>();
     require(assembly_.is_valid(materials_.count()) &&
-                contacts_.are_valid(bodies().size(), materials_.laws().size()),
-            "Simulation", "bodies", bodies().size(),
-            "must be the bodies that contacts, pairs and materials refer to");
+                contacts_.are_valid(bodies().size(), laws, variants),
+            "Simulation", "bodies", bodies().size(), "must be those of contacts and materials");
     require(dynamics_.is_valid(contacts_.size()), "Simulation", "contacts", contacts_.size(),
             "must be as many as the laws have memories");
     detector_.rebuild([&] { assembly_.add_to(detector_); });
@@ -325,7 +325,6 @@ class Simulation : public BodyControl<ShapeT> {
     contacts_.erase(is_lost);
     detector_.remove_grains(removed);
     assembly_.remove_marked();
-    if constexpr (!set_valued) dynamics_.forget();
   }
 
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
@@ -376,13 +375,14 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {
-    if (!dynamics_.is_ready(assembly_.bodies().size())) {
+    if (assembly_.take_change() || !dynamics_.is_ready(assembly_.bodies().size())) {
       detect(report);
       dynamics_.evaluate(context, 0, report);
       report = {};
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
+  assembly_.require_finite("Simulation::step");
   detect(report, clock);
   const auto detected = Clock::now();
   if constexpr (set_valued) {

@@ -37,8 +37,8 @@ typename S::Vector turned_memory(const Contact<S>& before, const Contact<S>& now
   return memory;
 }
 
-/// Carries vectors in contact frames over to the contacts of the same keys. Contacts without a
-/// predecessor get zero.
+/// Carries vectors in contact frames, and the variants of the laws, over to the contacts of the same keys.
+/// Contacts without a predecessor get zero.
 /// @param before,now each sorted by its keys
 /// @param old        one per contact of `before`
 /// @param out        out: one per contact of `now`
@@ -46,7 +46,7 @@ typename S::Vector turned_memory(const Contact<S>& before, const Contact<S>& now
 /// @param team       threads that share the work
 /// @returns how many contacts have a predecessor
 template <class S, class Turn>
-std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
+std::size_t carry(const Contacts<S>& before, Contacts<S>& now,
                   const std::vector<typename S::Vector>& old, std::vector<typename S::Vector>& out,
                   const Turn& turn, const Team& team = {}) {
   struct Count {
@@ -69,6 +69,7 @@ std::size_t carry(const Contacts<S>& before, const Contacts<S>& now,
                                     i += begin;
                                     j += skipped;
                                     out[i] = turn(before.points[j], now.points[i], old[j]);
+                                    now.points[i].variant = before.points[j].variant;
                                   })};
              })
       .value;
@@ -92,7 +93,7 @@ std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now, const 
 
 /// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of
 /// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
-/// contact.
+/// contact. A contact without an impulse of its own takes the variant of the law, too.
 /// @param before,now each sorted by its keys; the impulses of `now` are those of
 ///                   remember_springs()
 /// @returns how many contacts handed their impulse over
@@ -116,6 +117,7 @@ std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now) {
     for (auto it = first; it != last; ++it)
       if (distance(it) < distance(nearest)) nearest = it;
     const auto i = std::size_t(nearest - now.keys.begin());
+    if (now.impulses[i].isZero(0)) now.points[i].variant = before.points[j].variant;
     now.impulses[i] += turned_memory(before.points[j], now.points[i], before.impulses[j]);
     ++count;
   }

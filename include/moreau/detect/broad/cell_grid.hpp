@@ -150,7 +150,9 @@ class CellGrid {
     Cell c;
     for (std::size_t k = 0; k < dim; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      c[k] = static_cast<std::int32_t>(std::floor((x[axis] - origin_[axis]) / level.width));
+      constexpr Scalar most = Scalar(1 << 30);  // boxes beyond share the outermost cells
+      const Scalar place = std::floor((x[axis] - origin_[axis]) / level.width);
+      c[k] = static_cast<std::int32_t>(place > -most ? (place < most ? place : most) : -most);
     }
     return c;
   }

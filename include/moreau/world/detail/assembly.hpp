@@ -11,12 +11,14 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -66,6 +68,7 @@ class Assembly {
                   const char* function) {
     require(material.index() < materials, function, "material", material,
             "must be the id of a material");
+    set_changed();
     if (free_.empty()) {
       bodies_.push_back(pose, material);
       return bodies_.id.back();
@@ -96,6 +99,7 @@ class Assembly {
   }
   /// Removes the grains that the last mark() was given. Their indices become free.
   void remove_marked() {
+    set_changed();
     for (const BodyId grain : grain_ids_) {
       if (marked_[grain.index()] == 0) continue;
       bodies_.remove(grain.index());
@@ -130,6 +134,12 @@ class Assembly {
             mass.center, "must be the origin of the shape's frame");
     return mass;
   }
+
+  /// Notes that the contact forces no longer belong to the bodies: a pose, what moves a body, or a law
+  /// has changed.
+  void set_changed() { changed_ = true; }
+  /// Whether set_changed() was called since the last call of this function.
+  bool take_change() { return std::exchange(changed_, false); }
 
   const ShapeT& shape(ShapeId id) const { return shapes_[id.index()]; }  ///< not checked
   Bodies<S>& bodies() { return bodies_; }
@@ -177,7 +187,16 @@ class Assembly {
   void require_wall(BodyId body, const char* function) const {
     bool found = std::find(walls_.begin(), walls_.end(), body) != walls_.end();
     for (const MeshBody<S>& mesh : meshes_) found = found || mesh.body == body;
-    require(found, function, "wall", body, "must be the id of a wall");
+    require(found, function, "wall", body, "must be the id of a half-space or of a mesh wall");
+  }
+  /// Checks that a wall at a pose does not lie across a periodic axis. Any other body passes.
+  void require_walls_fit(const PeriodicCell<S>& cell, BodyId body, const Pose<S>& pose,
+                         const char* function) const {
+    if (std::find(walls_.begin(), walls_.end(), body) != walls_.end())
+      cell.require_along(pose.rotation * S::Vector::UnitX(), function);
+    for (const CylinderBody<S>& cylinder : cylinders_)
+      if (cylinder.body == body)
+        cell.require_around(product(S::adjoint(pose.rotation), cylinder.shape.axis()), function);
   }
   void require_grain(std::size_t k, const char* function) const {
     require(k < grains_.size(), function, "k", k, "must be below the number of grains");
@@ -223,7 +242,7 @@ class Assembly {
 
   friend struct moreau::SerializationAccess;
   auto serialized_members() {
-    return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_);
+    return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_, changed_);
   }
   void deserialized() {
     grain_ids_.clear();
@@ -247,6 +266,7 @@ class Assembly {
   std::vector<CylinderBody<S>> cylinders_;
   std::vector<MeshBody<S>> meshes_;
   Bodies<S> bodies_;
+  bool changed_ = false;
 };
 
 }  // namespace detail

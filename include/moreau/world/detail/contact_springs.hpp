@@ -105,7 +105,7 @@ class ContactSprings {
       if (!std::isfinite(u[0])) continue;
       if (r[0] > 0) {
         const Scalar own = compliance_[c][0];
-        stiffest = std::min(stiffest, double(own / (problem.delassus.block(c).normal - own)));
+        stiffest = std::min(stiffest, double(own / (normal_of(problem.delassus.block(c)) - own)));
       }
       const Contact<S>& point = context.contacts.points[c];
       if (!problem.law(c).keeps_normal_impulse())
@@ -156,6 +156,14 @@ class ContactSprings {
     }
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };
+
+  /// w_nn of a contact [1/kg].
+  static Scalar normal_of(const auto& block) {
+    if constexpr (RollingLaw<Law, S>)
+      return block.point.normal;
+    else
+      return block.normal;
+  }
 
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(last_step_, energies_); }

@@ -42,8 +42,6 @@ class ForceDynamics {
 
   /// Whether the forces belong to the present configuration.
   bool is_ready(std::size_t bodies) const { return loads_.size() == bodies; }
-  /// The forces are evaluated anew before the next step.
-  void forget() { loads_.clear(); }
   /// Removes the memory of contacts with removed grains.
   /// @param is_gone function: index of a contact -> whether it is removed
   void erase(const auto& is_gone) { erase_at(memory_, is_gone); }

@@ -7,7 +7,7 @@
 //   3. assemble the Delassus operator
 //   4. warm start from the impulses of the step before
 //   5. correct overlaps: bodies and gaps move, velocities do not
-//   6. variants: the law of each contact in this step, where it depends on the impulse before
+//   6. variants: the law of each contact in this step, where it depends on the step before
 //   7. offset velocities: what each law adds to the normal velocity, from the corrected gaps
 //   8. solve the contact problem; by default with solve/coloured_gauss_seidel.hpp
 //   9. velocities after the impulses
@@ -38,6 +38,7 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/split_shared_bodies.hpp"
 #include "moreau/solve/shared_bodies.hpp"
+#include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/contact_unknowns.hpp"
 #include "moreau/world/detail/step_context.hpp"
@@ -224,13 +225,22 @@ class ImpulseDynamics {
       else
         problem_.laws.push_back(law);
   }
-  /// The law of a contact in this step, which may depend on the impulse before.
-  std::uint32_t variant_of(const Law& law, std::uint32_t index, const auto& impulse) const {
+  /// The law of a contact in this step: index into problem_.laws.
+  static std::uint32_t law_of(const Contact<S>& contact) {
     if constexpr (stateful)
-      return static_cast<std::uint32_t>(index * Law::variants +
-                                        law.variant_after(typename S::Vector(impulse)));
+      return contact.law * static_cast<std::uint32_t>(Law::variants) + contact.variant;
     else
-      return index;
+      return contact.law;
+  }
+  /// Chooses the laws of the next step, from impulses that still are those of the laws.
+  template <class L>  // clang would instantiate a function that is no template with the class
+  void choose_variants(const Materials<L>& materials, Contacts<S>& contacts) {
+    const auto impulses = unknowns_.impulses(contacts);
+    team_.share_each(contacts.size(), 512, [&](std::size_t c) {
+      Contact<S>& contact = contacts.points[c];
+      contact.variant = static_cast<std::uint32_t>(materials.laws()[contact.law].variant_after(
+          contact.variant, typename S::Vector(impulses[c].template head<S::dim>())));
+    });
   }
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
@@ -267,7 +277,7 @@ class ImpulseDynamics {
                            [&](Largest& fastest, std::size_t c) {
                              const Contact<S>& contact = context.contacts.points[c];
                              const Law& law = context.materials.laws()[contact.law];
-                             problem_.law_of[c] = variant_of(law, contact.law, impulses[c]);
+                             problem_.law_of[c] = law_of(contact);
                              before_[c] = BodyDelassus<S>::relative_velocity(
                                  contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
                              fastest.add({-before_[c][0]});
@@ -289,61 +299,18 @@ class ImpulseDynamics {
     if constexpr (compliant)
       springs_.measure(context, problem_, unknowns_.impulses(context.contacts), report,
                        shared_.get());
+    if constexpr (stateful) choose_variants(context.materials, context.contacts);
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, -1);
     unknowns_.finish(problem_.delassus, context.contacts);
   }
 
-  /// V = V_free and what the impulses have changed. Throws if a velocity is not finite; no body has moved
-  /// yet.
+  /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
   void velocities_after() {
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
       after_[i] = free_[i] + problem_.delassus.velocity_change(i);
       if (!all_finite(after_[i]))
         throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
     });
-  }
-
-  /// Energies that the impulses took from the bodies in a step [J].
-  struct Losses {
-    double friction = 0, rolling = 0, dissipation = 0;
-    void add(const Losses& other) {
-      friction += other.friction;
-      rolling += other.rolling;
-      dissipation += other.dissipation;
-    }
-  };
-  /// Energy that the impulses took from the bodies, -sum r . (u before + u after)/2, and the same
-  /// for the couples.
-  void measure_dissipation(const Context& context, StepReport& report) const {
-    const Losses losses =
-        sum_of<Losses>(team_, context.contacts.size(),
-                       [&](Losses& sum, std::size_t c) { add_losses(context, c, sum); });
-    report.friction += losses.friction;
-    report.rolling += losses.rolling;
-    report.dissipation += losses.dissipation;
-  }
-  void add_losses(const Context& context, std::size_t c, Losses& sum) const {
-    constexpr int tangents = S::dim - 1;
-    const Bodies<S>& bodies = context.bodies;
-    const Contacts<S>& contacts = context.contacts;
-    const Contact<S>& contact = contacts.points[c];
-    const std::uint32_t a = contact.a, b = contact.b;
-    const Vector& impulse = contacts.impulses[c];
-    if (impulse.isZero(0)) return;
-    Vector mean = BodyDelassus<S>::relative_velocity(contact, after_[a], after_[b]);
-    for (int k = 0; k < S::dim; ++k) mean[k] = (before_[c][k] + mean[k]) / 2;
-    const double friction =
-        -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
-    sum.friction += friction;
-    sum.dissipation += friction - double(impulse[0] * mean[0]);
-    if (contacts.couples.empty()) return;
-    Twist turn;
-    for (int k = 0; k < S::dofs; ++k)
-      turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after_[b][k] - after_[a][k]) / 2;
-    const double rolling =
-        -double((S::angular_frame(contact.frame) * contacts.couples[c]).dot(angular<S>(turn)));
-    sum.rolling += rolling;
-    sum.dissipation += rolling;
   }
 
   Team team_;
@@ -384,7 +351,11 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context
   solve(context, report);
   report.ms_contacts = clock.lap();
   velocities_after();
-  measure_dissipation(context, report);
+  const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
+                                                 std::span(before_), std::span(after_));
+  report.friction += losses.friction;
+  report.rolling += losses.rolling;
+  report.dissipation += losses.dissipation;
   const std::span<const Twist> after(after_);
   if constexpr (requires {
                   integrator_.advance_configuration(context.bodies, after, context.step, team_);

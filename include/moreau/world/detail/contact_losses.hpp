@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The energy that the contact impulses and couples of a step took from the bodies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/team.hpp"
+#include "moreau/core/twist.hpp"
+
+namespace moreau::detail {
+
+/// Energies that the impulses took from the bodies in a step [J].
+struct ContactLosses {
+  double friction = 0, rolling = 0;  ///< by tangential impulses, by couples
+  double dissipation = 0;            ///< by all impulses and couples
+  void add(const ContactLosses& other) {
+    friction += other.friction;
+    rolling += other.rolling;
+    dissipation += other.dissipation;
+  }
+};
+
+template <class S>
+void add_losses(const Bodies<S>& bodies, const Contacts<S>& contacts, std::size_t c,
+                const typename S::Vector& before, std::span<const typename S::Twist> after,
+                ContactLosses& sum) {
+  constexpr int tangents = S::dim - 1;
+  const Contact<S>& contact = contacts.points[c];
+  const std::uint32_t a = contact.a, b = contact.b;
+  const typename S::Vector& impulse = contacts.impulses[c];
+  if (impulse.isZero(0)) return;
+  typename S::Vector mean = BodyDelassus<S>::relative_velocity(contact, after[a], after[b]);
+  for (int k = 0; k < S::dim; ++k) mean[k] = (before[k] + mean[k]) / 2;
+  const double friction =
+      -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
+  sum.friction += friction;
+  sum.dissipation += friction - double(impulse[0] * mean[0]);
+  if (contacts.couples.empty()) return;
+  typename S::Twist turn;
+  for (int k = 0; k < S::dofs; ++k)
+    turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after[b][k] - after[a][k]) / 2;
+  const double rolling =
+      -double((S::angular_frame(contact.frame) * contacts.couples[c]).dot(angular<S>(turn)));
+  sum.rolling += rolling;
+  sum.dissipation += rolling;
+}
+
+/// -sum r . (u before + u after)/2 over the contacts, and the same for the couples.
+/// @param bodies with the velocities before the step
+/// @param before one per contact: relative velocity before the step, contact frame [m/s]
+/// @param after  one per body: velocity after the step
+template <class S>
+ContactLosses contact_losses(const Team& team, const Bodies<S>& bodies, const Contacts<S>& contacts,
+                             std::span<const typename S::Vector> before,
+                             std::span<const typename S::Twist> after) {
+  return sum_of<ContactLosses>(team, contacts.size(), [&](ContactLosses& sum, std::size_t c) {
+    add_losses<S>(bodies, contacts, c, before[c], after, sum);
+  });
+}
+
+}  // namespace moreau::detail

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// What a contact, a wall or a pair of bodies remembers when something changes between two steps: the state of
+// friction, the forces of springs, the cell.
+#include <cmath>
+#include <cstddef>
+#include <doctest/doctest.h>
+#include <stdexcept>
+#include <vector>
+
+#include "moreau/boundary/servo.hpp"
+#include "moreau/io/snapshot.hpp"
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/facet_mesh.hpp"
+#include "moreau/solve/proximal_fallback.hpp"
+#include "moreau/world/simulation.hpp"
+
+using namespace moreau;
+using S = Space<2>;
+using Vector = S::Vector;
+using Coulomb = SignoriniCoulomb<double>;
+
+namespace {
+
+/// A disk of 10 cm that slides on a floor, or over a fixed disk of 2 m, on which the normal turns.
+template <class Law>
+struct Slide {
+  Simulation<Disk<double>, Law> world;
+
+  Slide(const Law& law, bool curved) : world(0.1, Materials<Law>(1, law)) {
+    const ShapeId disk = world.add_shape(Disk<double>(0.05));
+    Vector centre(0, 0.05 - 1e-4), along(1, 0);
+    if (curved) {
+      world.prescribe_motion(
+          world.add_grain(world.add_shape(Disk<double>(1)), Pose<S>(Vector(0, -1)), 1000));
+      const Vector out = Vector(-0.3, 1).normalized();
+      centre = Vector(0, -1) + (1.05 - 1e-4) * out;
+      along = Vector(out.y(), -out.x());
+    } else {
+      world.add_wall({0, 1}, {0, 0});
+    }
+    world.set_velocity(world.add_grain(disk, Pose<S>(centre), 1000), 3 * along);
+    world.set_gravity({0, -98.1});
+  }
+  /// |r_t| / (r_n + pull h) of each step.
+  std::vector<double> friction(const std::vector<double>& lengths, double pull = 0) {
+    std::vector<double> ratios;
+    for (const double h : lengths) {
+      world.step(h);
+      REQUIRE(world.contacts().size() == 1);
+      const Vector& r = world.contacts().impulses[0];
+      ratios.push_back(std::abs(r[1]) / (r[0] + pull * h));
+    }
+    return ratios;
+  }
+};
+
+/// Static friction in the first step, `slip` from then on.
+void check_friction(const std::vector<double>& ratios, double slip) {
+  CHECK(ratios.front() == doctest::Approx(0.4).epsilon(1e-6));
+  for (std::size_t k = 1; k < ratios.size(); ++k)
+    CHECK(ratios[k] == doctest::Approx(slip).epsilon(1e-6));
+}
+
+}  // namespace
+
+TEST_CASE("static friction ends with the first slip, also where the normal turns") {
+  const std::vector<double> steps(20, 2e-4);
+  for (const bool curved : {false, true}) {
+    CAPTURE(curved);
+    check_friction(Slide<Coulomb>(Coulomb(0.2, 0, 0.4), curved).friction(steps), 0.2);
+    check_friction(Slide<Coulomb>(Coulomb(0, 0, 0.4), curved).friction(steps), 0);
+    using Springs = Compliant<Coulomb>;
+    check_friction(Slide<Springs>(Springs(Coulomb(0.2, 0, 0.4), 1e6), curved).friction(steps), 0.2);
+  }
+  // The pull of a step is its length times the attraction.
+  const std::vector<double> uneven{1e-4, 1.5e-4, 1e-4, 2e-4, 1e-4, 1.5e-4};
+  using Sticky = Cohesive<Coulomb>;
+  check_friction(Slide<Sticky>(Sticky(Coulomb(0.2, 0, 0.4), 50, 1e-2), false).friction(uneven, 50),
+                 0.2);
+}
+
+TEST_CASE("a snapshot between two steps keeps the state of friction") {
+  Slide<Coulomb> slide(Coulomb(0.2, 0, 0.4), false), copy(Coulomb(0.2, 0, 0.4), false);
+  slide.friction({2e-4});
+  restore_snapshot(snapshot(slide.world), copy.world);
+  CHECK(copy.friction({2e-4}).front() == doctest::Approx(0.2).epsilon(1e-6));
+}
+
+TEST_CASE("springs in series with rolling resistance: a disk is slowed down as by the rigid law") {
+  // A disk that rolls is slowed down by eta g / (1 + k), k = 1/2.
+  using Law = Compliant<RollingResistance<double>>;
+  const double eta = 0.1, g = 9.81, h = 1e-3;
+  Simulation<Disk<double>, Law> world(
+      0.1, Materials<Law>(1, Law(RollingResistance<double>(0.5, eta), 1e6)));
+  world.add_wall({0, 1}, {0, 0});
+  const BodyId disk =
+      world.add_grain(world.add_shape(Disk<double>(0.05)), Pose<S>(Vector(0, 0.05)), 1000);
+  world.set_velocity(disk, {1, 0});
+  world.set_spin(disk, S::Angular::Constant(-1 / 0.05));
+  world.set_gravity({0, -g});
+  for (int step = 0; step < 100; ++step) CHECK(world.step(h).solve.converged);
+  CHECK(world.velocity(disk).x() == doctest::Approx(1 - 0.1 * eta * g / 1.5).epsilon(0.01));
+}
+
+TEST_CASE("a solver's place may be left to its default where the solver is the reference") {
+  using Law = RollingResistance<double>;
+  const Materials<Law> materials(1, Law(0.4, 0.1));
+  CHECK(Simulation<Disk<double>, Law>(0.1, materials, {}, Tolerances()).grain_size() == 0.1);
+  CHECK(ProximalFallback<>().options().tolerance == ProximalFallback<>::Options().tolerance);
+}
+
+TEST_CASE("a snapshot between set_periodic() and the next step can be read back") {
+  using Sim = Simulation<Disk<double>, Coulomb>;
+  const auto make = [] {
+    Sim world(0.1, Materials<Coulomb>(1, Coulomb(0.3)));
+    const ShapeId disk = world.add_shape(Disk<double>(0.05));
+    for (int k = 0; k < 6; ++k) world.add_grain(disk, Pose<S>(Vector(0.0999 * k, 0.05)), 1000);
+    world.add_wall({0, 1}, {0, 0});
+    world.set_gravity({0, -9.81});
+    for (int step = 0; step < 5; ++step) world.step(1e-3);
+    return world;
+  };
+  Sim world = make(), copy = make();
+  world.set_periodic(0, -1, 1);
+  restore_snapshot(snapshot(world), copy);
+  for (int step = 0; step < 3; ++step) world.step(1e-3), copy.step(1e-3);
+  CHECK(snapshot(copy) == snapshot(world));
+  CHECK(world.contacts().size() > 6);
+}
+
+TEST_CASE("springs push anew after what moves a body, or a law, has changed") {
+  using Law = LinearSpringDashpot<double>;
+  const double stiffness = 1e5, overlap = 1e-4, h = 1e-6;
+  const Materials<Law> soft(1, Law(stiffness / 10, stiffness / 20, 1, 0)),
+      stiff(1, Law(stiffness, stiffness / 2, 1, 0));
+  // Two disks, which overlap, are held for a step. What is changed then must act in the next step.
+  const auto speed_after = [&](const auto& change) {
+    Simulation<Disk<double>, Law> world(0.1, soft);
+    const ShapeId shape = world.add_shape(Disk<double>(0.05));
+    const BodyId left = world.add_grain(shape, Pose<S>(Vector(0, 0)), 1000),
+                 right = world.add_grain(shape, Pose<S>(Vector(0.1 - overlap, 0)), 1000);
+    world.prescribe_motion(left);
+    change(world, right, false);
+    world.step(h);
+    world.set_velocity(right, {0, 0});
+    world.set_pose(right, Pose<S>(Vector(0.1 - overlap, 0)));
+    world.step(h);
+    world.set_velocity(right, {0, 0});
+    change(world, right, true);
+    const double before = world.velocity(right).x();
+    world.step(h);
+    return (world.velocity(right).x() - before) * world.bodies().grain_mass[right.index()] / h;
+  };
+  const double released = speed_after([](auto& world, BodyId right, bool now) {
+    now ? world.release(right) : world.prescribe_motion(right);
+  });
+  CHECK(released == doctest::Approx(stiffness / 10 * overlap).epsilon(1e-3));
+  const double stiffened = speed_after([&](auto& world, BodyId, bool now) {
+    if (now) world.set_materials(stiff);
+  });
+  CHECK(stiffened == doctest::Approx(stiffness * overlap).epsilon(1e-3));
+}
+
+TEST_CASE("a pressure acts on half-spaces alone, and no wall lies across a periodic axis") {
+  Simulation<Disk<double>, Coulomb> world(0.1, Materials<Coulomb>(1, Coulomb(0.3)));
+  FacetMesh<S> segments;
+  segments.vertices = {{-1, 0}, {1, 0}};
+  segments.facets = {{1, 0}};
+  const BodyId mesh = world.add_mesh_wall(segments, {}, WallSides::both);
+  const auto load = [&](BodyId wall) { PressureLoad(world, wall, 1e3, 1.0, [] { return 1.0; }); };
+  CHECK_THROWS_WITH_AS(load(mesh), "PressureLoad: wall = 0 must be the id of a half-space",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(load(world.add_cylinder({0, 0}, S::Angular::Ones(), 5.0)),
+                       "PressureLoad: wall = 1 must be the id of a half-space",
+                       std::invalid_argument);
+
+  Simulation<Disk<double>, Coulomb> periodic(0.1, Materials<Coulomb>(1, Coulomb(0.3)));
+  const BodyId floor = periodic.add_wall({0, 1}, {0, 0});
+  periodic.set_periodic(0, -1, 1);
+  Pose<S> pose = periodic.pose(floor);
+  pose.position.y() = -0.1;
+  periodic.set_pose(floor, pose);
+  pose.rotation = S::exp(S::Angular::Constant(0.5)) * pose.rotation;
+  CHECK_THROWS_WITH_AS(periodic.set_pose(floor, pose),
+                       doctest::Contains("Simulation::set_pose: normal"), std::invalid_argument);
+  CHECK(periodic.pose(floor).position.y() == -0.1);
+}
