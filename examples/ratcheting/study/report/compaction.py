@@ -4,12 +4,12 @@
     ln strain = ln a + p ln(measure / unit) - b ln n
 
 The measures are the time t_u during which the driving force is below the thrust of the grains, and the
-excursion of the wall over the length of the box. The periods of a run are taken together in groups
+excursion of the wall and the scaled load, both over the length of the box. The periods of a run are taken together in groups
 1, 2, 3-4, 5-8, ... The errors are those of the jackknife over the samples, because neither the groups of a
 run nor the runs of a sample are independent; with fewer than three samples, over the runs."""
 import math
 
-from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, select,
+from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, scaled_load, select,
                   strain, unjammed_time)
 
 UNIT = 0.01  # [s]
@@ -19,8 +19,14 @@ def excursion_over_length(run):
     return run["dx_active"] / run["length"]
 
 
+def load_over_length(run):
+    """The scaled load (mg)^2 / [(m + m_w) fmax nu^2] over the length of the box."""
+    return scaled_load(run) / run["length"]
+
+
 # Function of a run and unit.
-MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1e-3)}
+MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1e-3),
+            "load": (load_over_length, 1e-2)}
 
 
 def groups(run):
@@ -35,21 +41,22 @@ def groups(run):
     return found
 
 
-def loading_runs(runs, shape, method="contact-dynamics"):
-    """All runs that jam and differ in the load, the box, the wall or the lid, without those whose
-    displacement is mostly elastic."""
+def loading_runs(runs, shape, method="contact-dynamics", **more):
+    """All runs that jam and differ in the load, the box, the wall or the lid, without those that are not
+    judged."""
     wanted = {"frequency": ANY, "fmax": ANY, "gravity": ANY, "wall_mass_ratio": ANY,
               "box_ratio": ANY, "lid_force_weights": ANY, "size_reading": ANY, "size_scale": ANY}
     if method == "compliant":
         wanted = COMPLIANT | wanted
+    wanted |= more
     found = [run for run in select(runs, shape, **wanted)
-             if run["parameters"]["fmax"] >= CASE["fmax"] / 6 and run["parameters"]["duration"] <= 5
+             if run["parameters"]["fmax"] / run["parameters"]["grains"] >= CASE["fmax"] / CASE["grains"] / 6 and run["parameters"]["duration"] <= 5
              and judged(run)]
     # A long run repeats the first second of a short one.
     keys = {}
     for run in found:
         p = run["parameters"]
-        key = tuple(str(p[k]) for k in ("seed", "frequency", "fmax", "gravity", "wall_mass_ratio",
+        key = tuple(str(p[k]) for k in ("seed", "grains", "frequency", "fmax", "gravity", "wall_mass_ratio",
                                         "box_ratio", "lid_force_weights", "size_reading",
                                         "size_scale")) + ("from" in p,)
         if key not in keys or p["duration"] > keys[key]["parameters"]["duration"]:
@@ -57,10 +64,11 @@ def loading_runs(runs, shape, method="contact-dynamics"):
     return list(keys.values())
 
 
-def jammed_runs(runs, shape):
-    """The runs with compliant contacts that start from a jammed state, without those whose excursion is
-    not judged."""
-    return [run for run in loading_runs(runs, shape, "compliant")
+def jammed_runs(runs, shape, boxes=False):
+    """The judged runs with compliant contacts that start from a jammed state: in boxes as high as long, or in
+    all boxes."""
+    usual = {} if boxes else {"box_ratio": 1.0, "size_scale": 1.0}
+    return [run for run in loading_runs(runs, shape, "compliant", **usual)
             if "from" in run["parameters"]]
 
 

@@ -9,7 +9,7 @@ C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
 import bisect
 import math
 
-from runs import ANY, COMPLIANT, judged, exponent, scaled_load, select
+from runs import ANY, COMPLIANT, exponent, judged, number, power, scaled_load, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
@@ -92,6 +92,7 @@ class Prediction:
     def __init__(self, runs, shape, curves=None, **wanted):
         self.pairs = {"frequency": [], "fmax": [], "gravity": [], "wall_mass_ratio": []}  # run, predicted
         self.bases, self.thrusts = [], []
+        self.excluded = 0  # runs that are not judged
         self.shares = {}  # beta by sample
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
@@ -110,8 +111,10 @@ class Prediction:
             for name, pairs in self.pairs.items():
                 for run in select(runs, shape, seed=seed, **({"frequency": 5.0} | {name: ANY}), **wanted):
                     p = run["parameters"]
-                    if p["fmax"] < 1000 or p["duration"] > 5 or not judged(run) or \
-                            p[name] == base["parameters"][name]:
+                    if p["fmax"] < 1000 or p["duration"] > 5 or p[name] == base["parameters"][name]:
+                        continue
+                    if not judged(run):
+                        self.excluded += 1
                         continue
                     pairs.append((run, displacement(
                         lambda x, weight=run["weight"]: thrust_at(x) * weight,
@@ -125,6 +128,12 @@ class Prediction:
                  if run["parameters"]["frequency"] > 1.5]
         return (exponent(found, name, lambda run: run["dx_active"]).text(),
                 exponent(found, name, lambda run: predicted[id(run)]).text())
+
+    def trend(self):
+        """Power of the ratio measured / predicted over the measured excursion, and the scatter about it, as text."""
+        points = [(run["dx_active"], run["dx_active"] / value) for pairs in self.pairs.values() for run, value in pairs]
+        _, b, error, scatter = power(points)
+        return f"{number(b, error)}, {100 * scatter:.0f} %"
 
     def ratios(self, *names):
         """Measured over predicted excursion of the runs over these parameters, or over all."""

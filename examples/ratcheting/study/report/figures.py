@@ -484,9 +484,9 @@ def compaction_law(runs, path):
 
 
 def one_state(runs, path):
-    """Strain over t_u and over the excursion, from one jammed state of each sample, with compliant contacts."""
+    """Strain over t_u and over the scaled load, from one jammed state of each sample, with compliant contacts."""
     rows = [("t_u  [ms]", lambda r: 1e3 * unjammed_time(r), "[0.5:300]", "6e-4 * x / 10", "∝ t_u", 2),
-            ("Δx / L", compaction.excursion_over_length, "[1e-5:0.2]", "1e-3 * sqrt(x / 1e-3)", "∝ Δx^{1/2}", 2)]
+            ("ℓ / L", compaction.load_over_length, "[1e-4:10]", "7.5e-3 * sqrt(x)", "0.0075 (ℓ/L)^{1/2}", 2)]
     panels, shapes = [], []
     for label, value, limits, line, title, dash in rows:
         for shape in SHAPES:
@@ -512,15 +512,26 @@ def one_state(runs, path):
                                 for e in [Estimate([strain(r, 0, 4) for r in group])]],
                                color, symbol - 1 if is_open else symbol,
                                None if is_open else f"{fmax / 1000:g} kN", 0.9)
+            groups = {}
+            for r in select(runs, shape, frequency=ANY, fmax=ANY, grains=ANY, box_ratio=ANY, size_scale=ANY, jammed=True, **COMPLIANT):
+                p = r["parameters"]
+                other = (p["grains"], p["box_ratio"], p["size_scale"])
+                if other != (CASE["grains"], 1.0, 1.0) and p["fmax"] / p["grains"] == 5 and value(r) > 0:
+                    groups.setdefault((*other, p["frequency"]), []).append(r)
+            for is_open in (False, True):
+                panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.error)
+                            for group in groups.values() if all(judged(r) for r in group) != is_open
+                            for e in [Estimate([strain(r, 0, 4) for r in group])] if e.mean > 0],
+                           BLACK, 12 if is_open else 13, None if is_open else "other boxes", 0.9)
             panel.function(line, GREY, title, dash)
             panels.append(panel)
     if not panels:
         raise Missing
     draw(path, panels, 2, len(panels) // 2, 1500, 860, "0.065, 0.99, 0.08, 0.95", "0.045, 0.12")
     return ("Strain of a period, mean over four periods from one jammed state of each sample, over the time t_u during which f "
-            "is below the thrust and over the excursion: 1 to 60 Hz, three forces; means over up to five samples, bars: standard error. Open: in one "
-            "sample or more the jammed wall moves by more than 30 % of "
-            f"the displacement (not judged). The lines have the same prefactor in all panels of a row. N = 1200; {COMPLIANT_TEXT}.")
+            "is below the thrust, and over the scaled load ℓ = (mg)²/[(m + m_w) fmax ν²]: 1 to 60 Hz, three forces; other boxes and sizes of grains at 5 N per grain. Means over up to "
+            "five samples (20 in the smallest boxes), bars: standard error. Open: in one sample or more the jammed wall moves by more than 30 % of the displacement "
+            f"(not judged). The lines have the same prefactor in all panels of a row. N = 1200, but 94 or 111 in the smallest boxes; {COMPLIANT_TEXT}.")
 
 
 def thrust(runs, path):

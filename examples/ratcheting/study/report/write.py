@@ -79,13 +79,14 @@ def thrust_text(runs):
 
 def root_text(runs):
     """The law of compaction with converged contacts, in a sentence."""
-    laws = {s: compaction.Law(compaction.jammed_runs(runs, s), ("excursion",)) for s in SHAPES}
+    laws = {s: compaction.Law(compaction.jammed_runs(runs, s), ("load",)) for s in SHAPES}
     fitted = [s for s in SHAPES if laws[s].fitted]
     if not fitted:
         return ""
-    return (" From one jammed state, with compliant contacts, the strain of the n-th period goes as (Δx/L)^q n^−b with "
+    return (" From one jammed state, with compliant contacts, the strain of the n-th period goes as (ℓ/L)^q n^−b, where ℓ = (mg)²/[(m + m_w) fmax ν²] "
+            "is the scaled load, with "
             + "; ".join(f"q = {number(laws[s].p, laws[s].p_error)}, b = {number(laws[s].b, laws[s].b_error)} "
-                        f"({TITLE[s].split(', ')[1]})" for s in fitted) + ": nearly as the root of the excursion.")
+                        f"({TITLE[s].split(', ')[1]})" for s in fitted) + ". The box changes the excursion, but hardly the compaction.")
 
 
 def method(runs):
@@ -378,23 +379,24 @@ def compaction_section(runs, laws, aside):
                      other.text(),
                      second_of_law(runs, shape, law),
                      ten.rate_exponent(runs, shape, 9, 61, first_second).text()])
-        others.append([TITLE[shape], *two_measures(compaction.loading_runs(runs, shape))])
+        others.append([TITLE[shape], *measures_of(compaction.loading_runs(runs, shape), ("excursion",), ("load",), ("t_u", "load"))])
     falls = [wall_ratio(runs, lambda r: r["dx_active"]), wall_ratio(runs, lambda r: strain(r, 0, 4))]
     return ["## 5. Compaction, rigid contacts", "",
             "The paper takes the compaction of a period to be proportional to the excursion. It is not: over the wall masses m/10 to "
             f"4 m the excursion of polyhedra falls {falls[0]:.1f} times, the strain of a period {falls[1]:.1f} times. "
-            "Two powers describe the strain of all runs alike: that of the time t_u during which the force is below the thrust, when grains can "
-            "rearrange under their weight (equation 2), and that of the excursion; both times a power of the number n of the period.", "",
+            "Three powers describe the strain of all runs nearly alike, each times a power of the number n of the period: that of the time t_u during which "
+            "the force is below the thrust, when grains can rearrange under their weight (equation 2), that of the excursion, and that of the scaled load "
+            "ℓ = (mg)²/[(m + m_w) fmax ν²].", "",
             "strain of period n = a (t_u / 10 ms)^p n^−b,  t_u = arccos(1 − 2F/fmax)/(πν) ≈ (2/πν) √(F/fmax).", "",
             *table(["", "runs; points", "a [1e-3]", "p", "p, t_u > 20 ms", "b", "scatter",
                     "each sample predicted by the others: rms (means)",
                     "power of the rate over one second, 10 to 60 Hz: equation 2", "measured"], rows),
             "Errors by the jackknife over samples. The fits are of the judged runs over ν, fmax, g, m_w, boxes and lid forces. "
             "Each sample is predicted by the fit of the others; the form of the equation was found with all. "
-            "The same fits with the excursion in place of t_u, and with both:", "",
-            *table(["", "power of Δx/L alone", "scatter", "powers of both: t_u", "Δx/L", "scatter"], others),
-            "Over ν, fmax and g both measures change together, and these runs do not tell them apart: the numerical drift of rigid contacts is "
-            "part of the strain. Section 6 does. Three things follow from either:", "",
+            "The same fits with other measures in place of t_u, and with two:", "",
+            *table(["", "Δx/L: power", "scatter", "ℓ/L: power", "scatter", "t_u and ℓ/L: power of t_u", "of ℓ/L", "scatter"], others),
+            "Over ν, fmax and g all measures change together, and these runs, which begin with the filling, hardly tell them apart. Section 6 has one "
+            "state to begin with, contacts that are solved, and other boxes. Three things follow from each of the three measures:", "",
             "- Over a given number of periods the rate ν × strain is nearly constant, because the strain goes nearly as 1/ν. In space "
             "it falls below 3 Hz: the strain of a long period saturates.",
             "- Over one second, as in the paper, the rate declines with ν, because more periods fit into a second and grains age. "
@@ -403,22 +405,14 @@ def compaction_section(runs, laws, aside):
             "- The strain falls with the number of the period (lower row of the [figure](figures/compaction_law.png)).", ""]
 
 
-def two_measures(runs):
-    """Cells: the law of compaction by the excursion alone, and by t_u and the excursion."""
-    alone, both = compaction.Law(runs, ("excursion",)), compaction.Law(runs, ("t_u", "excursion"))
-    return [number(alone.p, alone.p_error), f"{100 * alone.scatter:.0f} %",
-            *(number(p, e) for p, e in zip(both.powers, both.power_errors)),
-            f"{100 * both.scatter:.0f} %"]
-
-
 JAMMED = COMPLIANT | {"jammed": True}
 
 
 def root_share(found):
-    """Mean strain of four periods over the root of the excursion over the length: mean, scatter."""
-    mean, spread = excursion.mean_and_scatter([strain(r, 0, 4) / math.sqrt(compaction.excursion_over_length(r))
+    """Mean strain of four periods over the root of the scaled load over the length: mean, scatter."""
+    mean, spread = excursion.mean_and_scatter([strain(r, 0, 4) / math.sqrt(compaction.load_over_length(r))
                                                for r in found if strain(r, 0, 4) > 0])
-    return f"{mean:.3f}, {100 * spread:.0f} %"
+    return f"{1e3 * mean:.2f}, {100 * spread:.0f} %"
 
 
 def frequencies(found):
@@ -428,12 +422,11 @@ def frequencies(found):
 
 def settled_section(runs):
     """Runs with compliant contacts that start from one jammed state of each sample."""
-    rows, laws, tests, powers = [], [], [], []
+    rows, laws, tests, powers, judged_counts, trends = [], [], [], [], [], []
     for shape in SHAPES:
         found = compaction.jammed_runs(runs, shape)
-        law = compaction.Law(found, ("excursion",))
-        other = compaction.Prediction(found, ("excursion",))
-        time = compaction.Law(found)
+        law = compaction.Law(found, ("load",))
+        other = compaction.Prediction(found, ("load",))
         c, scatter, n = ten.line_scatter(runs, shape, **JAMMED)
         if law.fitted and n > 2:
             rows.append([TITLE[shape], len({r["parameters"]["seed"] for r in found}),
@@ -441,8 +434,7 @@ def settled_section(runs):
                          number(1e3 * law.share, 1e3 * law.share_error), number(law.p, law.p_error),
                          number(law.b, law.b_error), f"{100 * law.scatter:.0f} %",
                          other.text(), root_share(found)])
-            laws.append([TITLE[shape], number(1e3 * time.share, 1e3 * time.share_error), number(time.p, time.p_error), number(time.b, time.b_error),
-                         f"{100 * time.scatter:.0f} %", *two_measures(found)[2:]])
+            laws.append([TITLE[shape], *measures_of(found, ("excursion",), ("t_u",), ("t_u", "load"))])
         test = excursion.Prediction(runs, shape, excursion.thrust_curves(runs, shape), **JAMMED)
         own = excursion.Prediction(runs, shape, **JAMMED)
         if test.shares:
@@ -453,6 +445,8 @@ def settled_section(runs):
                     mean, spread = excursion.mean_and_scatter(prediction.ratios(*names))
                     cells.append(f"{mean:.2f}, {100 * spread:.0f} %" if math.isfinite(mean) else "–")
             tests.append([TITLE[shape], len(test.shares), *cells])
+            judged_counts.append(f"{len(test.ratios())} of {len(test.ratios()) + test.excluded} ({TITLE[shape].split(', ')[1]})")
+            trends.append(f"{test.trend()} ({TITLE[shape].split(', ')[1]})")
             powers.append([TITLE[shape]] + [
                 text for name in ("frequency", "fmax", "gravity") for text in test.exponents(name)])
     if not rows:
@@ -462,30 +456,121 @@ def settled_section(runs):
              "the age of the packing. The excursion is without the elastic rebound. Runs in which the jammed wall moves by more than "
              f"{100 * JAMMED_MOTION:.0f} % of the displacement, by rebound or by drift, are open symbols in the figure below and not judged: at high frequencies and forces the wall "
              "mostly moves elastically, and the packing compacts by its load cycles.", "",
-             "**Compaction goes nearly as the root of the excursion:** strain of period n = a (10³ Δx/L)^q n^−b. The fit is of all periods: four, of the ageing runs twenty.", "",
+             "**What sets compaction is the load.** The strain of period n is a (100 ℓ/L)^q n^−b, where ℓ = (mg)²/[(m + m_w) fmax ν²] is the "
+             "scaled load of the paper, a length. Boxes as high as long. The fit is of all periods: four, of the ageing runs twenty.", "",
              *table(["", "samples", "runs; points", "ν", "C of all loads, scatter", "a [1e-3]", "q", "b",
-                     "scatter", "each sample predicted by the others: rms (means)", "mean strain of four periods / √(Δx/L), scatter"], rows),
-             "The last column has no exponent to fit: space and plane differ little at the same Δx/L.", "",
-             "The same by t_u, equation 2, and by both:", "",
-             *table(["", "a [1e-3]", "p", "b", "scatter", "powers of both: t_u", "Δx/L", "scatter"], laws),
-             "With both measures the power of t_u is small, and the scatter is that of the excursion alone. The wall masses, which change Δx more "
-             "than t_u, tell the two apart.", "", *ageing(runs)]
+                     "scatter", "each sample predicted by the others: rms (means)", "mean strain of four periods / √(ℓ/L) [1e-3], scatter"], rows),
+             "In these boxes the excursion, Δx = Cℓ, does as well. The time t_u does worse, and adds nothing to either. The wall masses, which "
+             "change ℓ and hardly t_u, tell them apart:", "",
+             *table(["", "Δx/L: power", "scatter", "t_u: power", "scatter", "t_u and ℓ/L: power of t_u", "of ℓ/L", "scatter"], laws),
+             *boxes(runs), *ageing(runs)]
     if tests:
         lines += ["**The excursion predicted.** From the jammed state the wall is moved outward at 2 mm/s. The force of the grains "
                   "on it falls with the displacement: the thrust F(x) ([figure](figures/predicted.png)). The equation of motion (m_w + βm) dv/dt = F(x) − f(t) then gives "
                   "the excursion. β is chosen such that the run at 5 Hz, 6 kN and m_w = m/2 has its measured excursion. "
-                  "It is near 1: the wall moves as if all grains moved with it. (It is not the β of section 1, which is fitted to the force with a constant F.) "
-                  "Beyond the end of the test, 1.5 mm, F is taken as constant. All other runs are predicted. Beside it the prediction from the "
+                  "It is a fitted constant, and not the β of section 1, which is fitted to the force with a constant F. "
+                  "Beyond the end of the test, 1.5 mm, F is taken as constant. The other judged runs are predicted: " + ", ".join(judged_counts) + ". Not judged are "
+                  "those at high frequencies and forces and with heavy walls, where the jammed wall moves elastically as far. Beside it the prediction from the "
                   "constant thrust and the β that are fitted to the force on the wall in that run, which knows nothing of F(x). "
                   "Measured over predicted excursion: mean, scatter.", "",
                   *table(["", "samples", "F(x): β", "fmax, g", "wall masses", "ν", "all",
                           "constant F: β", "fmax, g", "wall masses", "ν", "all"], tests),
+                  "The ratio is not only scattered: it rises with the excursion. Its power over Δx, and the scatter about it: " + "; ".join(trends) + ". "
+                  "So the test overestimates the thrust of short excursions or underestimates that of long ones.", "",
                   "Exponents of the excursion over the same runs above 1 Hz, measured and predicted from F(x). The thrust falls with the "
                   "displacement, so a longer excursion gains less than by the powers −2, −1 and 2 of a constant thrust. The predicted departures have "
-                  "the sign of the measured ones; those of polyhedra are larger:", "",
+                  "the sign of the measured ones. Those of polyhedra are larger by a half, for the same reason as the trend:", "",
                   *table(["", "ν: measured", "predicted", "fmax: measured", "predicted", "g: measured", "predicted"], powers),
                   *box_prediction(runs)]
     return lines
+
+
+def measures_of(found, *sets):
+    """Cells: the powers of the law of compaction by each set of measures, and its scatter."""
+    cells = []
+    for measures in sets:
+        law = compaction.Law(found, measures)
+        cells += [number(p, e) for p, e in zip(law.powers, law.power_errors)] + [f"{100 * law.scatter:.0f} %"]
+    return cells
+
+
+def boxes(runs):
+    """Compaction in boxes of other shapes and lengths and of other grains, from jammed states."""
+    rows, laws = [], []
+    for shape in SHAPES:
+        cases = {}
+        for run in select(runs, shape, frequency=5.0, fmax=ANY, grains=ANY, box_ratio=ANY, size_scale=ANY, **JAMMED):
+            p = run["parameters"]
+            if p["fmax"] / p["grains"] == 5 and len(run["periods"]["x_j"]) <= 5:
+                cases.setdefault((p["grains"], p["size_scale"], p["box_ratio"]), []).append(run)
+        if len(cases) < 2:
+            continue
+        for (grains, size, ratio), found in sorted(cases.items(), reverse=True):
+            def mean(value, factor=1.0):
+                return over_samples(found, lambda r: factor * value(r)).text()
+            rows.append([TITLE[shape], grains, f"{ratio:g}" + (f", sizes × {size:g}" if size != 1 else ""), len(found),
+                         f"{over_samples(found, lambda r: r['length']).mean:.2f}", mean(lambda r: r["dx_active"], 1e3),
+                         f"{1e3 * over_samples(found, compaction.unjammed_time).mean:.1f}", mean(lambda r: strain(r, 0, 4), 1e4),
+                         mean(lambda r: strain(r, 0, 4) * r["length"], 1e3),
+                         mean(lambda r: strain(r, 0, 4) / math.sqrt(compaction.load_over_length(r)), 1e3)])
+        everything = compaction.jammed_runs(runs, shape, True)
+        law = compaction.Law(everything, ("load",))
+        if law.fitted and len({r["parameters"]["box_ratio"] for r in everything}) > 2:
+            laws.append([TITLE[shape], law.run_count, *measures_of(everything, ("load",), ("excursion",), ("t_u",), ("t_u", "load"))])
+    if not rows:
+        return []
+    return ["**Other boxes.** The same at 5 Hz and 5 N of force per grain, from a jammed state of each box; four periods. The shape of the box changes the thrust, and "
+            "so the excursion and t_u: " + spread_of_boxes(runs) + ".", "",
+            *table(["", "grains", "H/L, prepared", "samples", "L [m]", "Δx [mm]", "t_u [ms]", "strain of a period [1e-4]",
+                    "x_j − x_j′ [mm]", "strain / √(ℓ/L) [1e-3]"], rows),
+            "The last column is that of a law ∝ √(ℓ/L). Disks in the small box compact less. Which length scales ℓ is not settled: in space L changes by a factor of 1.7 alone, and H with it. "
+            "The law over all boxes of 1200 grains and the loads above:", "",
+            *table(["", "runs", "ℓ/L: power", "scatter", "Δx/L: power", "scatter", "t_u: power", "scatter", "t_u and ℓ/L: power of t_u", "of ℓ/L",
+                    "scatter"], laws), *from_the_filling(runs)]
+
+
+def spread_of_boxes(runs):
+    """By what factors the excursion and the strain over √(ℓ/L) change over the shapes of the box."""
+    texts = []
+    for shape in ("polyhedron", "polygon"):
+        means = [[], []]
+        for ratio in (0.42, 0.7, 1.0, 1.5):
+            found = [r for r in select(runs, shape, frequency=5.0, box_ratio=ratio, **JAMMED) if len(r["periods"]["x_j"]) <= 5]
+            if found:
+                means[0].append(over_samples(found, lambda r: r["dx_active"]).mean)
+                means[1].append(over_samples(found, lambda r: strain(r, 0, 4) / math.sqrt(compaction.load_over_length(r))).mean)
+        if len(means[0]) > 1:
+            texts.append(f"Δx by a factor of {max(means[0]) / min(means[0]):.1f} ({TITLE[shape].split(', ')[1]}), the strain over √(ℓ/L) by "
+                         f"{max(means[1]) / min(means[1]):.2f}")
+    return "; ".join(texts)
+
+
+def from_the_filling(runs):
+    """The same laws for runs with compliant contacts that begin with the filling."""
+    found = [r for r in compaction.loading_runs(runs, "polyhedron", "compliant") if "from" not in r["parameters"]]
+    law = compaction.Law(found, ("load",))
+    if not law.fitted:
+        return []
+    cells = measures_of(found, ("t_u",), ("excursion",), ("load",))
+    text = (f"**From the filling on** the periods also end the filling, and fall faster: b = {number(law.b, law.b_error)}. Polyhedra in all boxes, sizes and forces "
+            f"({law.run_count} judged runs): the strain goes as t_u^{cells[0]} (scatter {cells[1]}), (Δx/L)^{cells[2]} ({cells[3]}) or (ℓ/L)^{cells[4]} ({cells[5]}).")
+    rows = []
+    for shape in SHAPES:
+        cells = []
+        for jammed in (True, False):
+            series_of = [r for r in series(runs, shape, "wall_mass_ratio", frequency=5.0, jammed=jammed, **COMPLIANT)
+                         if len(r["periods"]["x_j"]) in (4, 5)]
+            seeds = {}
+            for r in series_of:
+                seeds.setdefault(r["parameters"]["seed"], []).append((scaled_load(r), strain(r, 0, 4)))
+            e = Estimate([power(points)[1] for points in seeds.values() if len(points) > 2])
+            cells.append(e.text())
+        if "–" not in cells:
+            rows.append(f"{cells[0]} and {cells[1]} ({TITLE[shape].split(', ')[1]})")
+    if rows:
+        text += (" Over the wall masses alone, which hardly change t_u, the strain goes as ℓ to the power of, from the jammed state and from the filling, "
+                 + "; ".join(rows) + ": the state to begin with matters.")
+    return [text, ""]
 
 
 def ageing(runs):
