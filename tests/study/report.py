@@ -4,6 +4,7 @@ repository, which must be what its table of runs gives. Argument: the top folder
 import math
 import pathlib
 import random
+import re
 import shutil
 import sys
 import tempfile
@@ -128,6 +129,12 @@ class Report(unittest.TestCase):
             if line.startswith("![") and "](figures/" in line:
                 name = line[line.index("](") + 2:-1]
                 self.assertTrue((results / name).exists(), name)
+
+    def test_numbers_of_the_results_page_are_those_of_the_report(self):
+        report = (STUDY / "results/report.md").read_text(encoding="utf8")
+        page = (STUDY / "results/README.md").read_text(encoding="utf8")
+        for number in re.findall(r"−?[\d.]+ ± [\d.]*\d", page):
+            self.assertIn(number, report, number)
 
 
 if __name__ == "__main__":

@@ -710,7 +710,7 @@ def way_back(runs, path):
                          TITLE[shape])
     if not panels[0].curves:
         raise Missing
-    draw(path, panels, 1, 4, 1700, 430, "0.045, 0.99, 0.15, 0.89", "0.055, 0.1")
+    draw(path, panels, 1, 4, 1700, 430, "0.052, 0.99, 0.15, 0.89", "0.055, 0.1")
     return ("The way back of the wall. First panel: when the wall turns back (open) and when it is fastest (filled). If the motion "
             "scaled with the frequency, all points of a symbol would lie on a horizontal line in all panels. Means over periods and samples; "
             f"frequencies at which all runs are judged. N = 1200, fmax = 6 kN, from one jammed state; {COMPLIANT_TEXT}. Symbols are shifted by 2 to 6 %.")
