@@ -125,15 +125,15 @@ class Simulation : public BodyControl<ShapeT> {
   /// The measures of the last step no longer include the grain.
   /// @throws std::invalid_argument for a body that is not a grain of this simulation
   void remove_grain(BodyId grain) { remove(std::span(&grain, 1), "Simulation::remove_grain"); }
-  /// Removes grains as remove_grain() does. One call for many grains takes about as long as
-  /// for one.
+  /// Removes grains as remove_grain() does. One call for many grains takes about as long as for one.
   /// @throws std::invalid_argument for a body that is not a grain of this simulation, or that is
   ///         listed twice; no grain is removed then
   void remove_grains(std::span<const BodyId> grains) {
     if (!grains.empty()) remove(grains, "Simulation::remove_grains");
   }
 
-  /// Adds a half-space as a wall: fixed, or moving at the velocity that set_velocity gives.
+  /// Adds a half-space as a wall: fixed, or moving with set_velocity() and set_spin(). A spin turns it
+  /// about `point`: a spin along the normal drags grains around the point, any other tilts the plane.
   /// @param normal   unit vector out of the solid, towards the grains, world axes
   /// @param point    any point of its plane, in the plane of its line, world axes [m]
   /// @param material of its surface
