@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# What Doxygen reads of a header: awk -f filter_header.awk include/moreau/<room>/<name>.hpp
+# What Doxygen reads of a header: awk -f filter_header.awk include/moreau/<folder>/<name>.hpp
 #
-#  - All names of a public header are in the group of its room (rooms.dox), so headers need no line for it.
-#    Headers in folders named detail/ and in private rooms are in no group.
+#  - All names of a public header are in the group of its folder (folders.dox), so headers need no line for it.
+#    Headers in folders named detail/ and in private sub-folders are in no group.
 #  - Specialisations of variables are left out: their primary has the description.
 #  - The short names that every class has for the types of its space are left out: conventions.md has them.
 #  - "this file" becomes its path, which Doxygen makes a link to the listing.
@@ -22,11 +22,11 @@ FNR == 1 {
   program = FILENAME !~ /include\/moreau\//
   path = FILENAME
   sub(/.*include\//, "", path)
-  room = FILENAME
-  private_room = room ~ /\/detail\/|\/detect\/(convex|polytope|pairs)\/|\/solve\/coloured\//
-  sub(/.*include\/moreau\//, "", room)
-  room = room ~ /\// && !private_room ? substr(room, 1, index(room, "/") - 1) : ""
-  begin = " /** @addtogroup " room " */ /** @{ */"
+  folder = FILENAME
+  is_private = folder ~ /\/detail\/|\/detect\/(convex|polytope|pairs)\/|\/solve\/coloured\//
+  sub(/.*include\/moreau\//, "", folder)
+  folder = folder ~ /\// && !is_private ? substr(folder, 1, index(folder, "/") - 1) : ""
+  begin = " /** @addtogroup " folder " */ /** @{ */"
   end = "/** @} */ "
 }
 program { print ""; next }
@@ -35,10 +35,10 @@ program { print ""; next }
 /^template </ || (head && /^ /) { head = head $0 "\n"; next }
 head && /^inline constexpr [a-z]+ [a-z_]+<.*> = .*;$/ { gsub(/[^\n]+/, "", head); $0 = "" }
 # The definition of a member outside its class belongs to the class and not to the group.
-room && /^[A-Za-z].*[{,]$/ && declarator($0) ~ /[A-Za-z0-9>]::~?[A-Za-z_]+$/ { head = end head; member = 1 }
+folder && /^[A-Za-z].*[{,]$/ && declarator($0) ~ /[A-Za-z0-9>]::~?[A-Za-z_]+$/ { head = end head; member = 1 }
 member && /^\}$/ { $0 = $0 begin; member = 0 }
 { printf "%s", head; head = "" }
 $0 ~ "^ +using (" short_names ") = .*;( *//.*)?$" { print ""; next }
-room && /^namespace moreau[a-z_:]* \{/ { print $0 begin; next }
-room && /^\}  \/\/ namespace moreau/ { print end $0; next }
+folder && /^namespace moreau[a-z_:]* \{/ { print $0 begin; next }
+folder && /^\}  \/\/ namespace moreau/ { print end $0; next }
 { print }

@@ -24,7 +24,7 @@ namespace avalanche {
 constexpr double size = 0.02;                             // diameter of the smallest grain [m]
 constexpr double gravity = 9.81, density = 2500;          // [m/s^2], [kg/m^3]
 constexpr double friction = 0.4, incline = 36;            // [-], [degrees]
-constexpr double margin = 0.1;                            // detection margin / size [-]
+constexpr double margin = 0.1;                            // margin / size [-]
 constexpr std::size_t shape_count = 300;                  // the grains share this many shapes
 constexpr double settle_speed = 0.05, rest_speed = 0.02;  // mean speeds / sqrt(gravity size) [-]
 

@@ -2,7 +2,7 @@
 // An integrator of one's own for laws that give impulses. Contacts are detected where the bodies are
 // at the start of the step; then the bodies move with the new velocities:
 //
-//   v_free = v_i + h M^-1 F,   v_{i+1} = v_free + M^-1 J^T r,   q_{i+1} = q_i + h v_{i+1}
+//   v_free = v_i + h M^-1 f,   v_{i+1} = v_free + M^-1 J^T r,   q_{i+1} = q_i + h v_{i+1}
 #pragma once
 
 #include <Eigen/LU>

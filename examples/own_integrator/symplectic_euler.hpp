@@ -10,7 +10,7 @@
 #include "moreau/core/twist.hpp"
 #include "moreau/integrate/concepts.hpp"
 
-/// v += h M^-1 F, then q += h v; the angular momentum L += h torque is the same about all axes.
+/// v += h M^-1 f, then q += h v; the angular momentum L += h torque is the same about all axes.
 struct SymplecticEuler {
   template <class S>
   void predict_configuration(moreau::Bodies<S>& bodies, std::span<const typename S::Twist> loads,

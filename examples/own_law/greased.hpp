@@ -18,7 +18,8 @@ struct Greased {
     return std::max(0.0, gap) / step;
   }
 
-  /// Grease is Coulomb's friction behind a dashpot: with u_t + r_t / drag for u_t it is his law.
+  /// Grease is a dashpot in series with Coulomb friction. The law is Coulomb's law if u_t is replaced by
+  /// u_t + r_t / drag.
   template <class S>
   typename S::Vector solve(const moreau::LocalBlock<S>& block, const typename S::Vector& b,
                            const typename S::Vector& guess) const {

@@ -147,7 +147,7 @@ class Assembly {
 };
 
 /// Largest allowed overlap [m]. Springs are compressed. Rigid grains may overlap only by their
-/// motion in one step: through a gap that was larger than the alert distance, or, under a law with
+/// motion in one step: through a gap that was larger than the margin, or, under a law with
 /// restitution, through any gap.
 template <class A>
 double deepest_allowed(const A& grains, typename A::T step, typename A::T size) {

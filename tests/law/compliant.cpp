@@ -316,7 +316,7 @@ TEST_CASE("compliant: the energy of springs leaves with a removed grain") {
   }
 }
 
-TEST_CASE("compliant: the stiffness of a pair does not depend on the detection margin") {
+TEST_CASE("compliant: the stiffness of a pair does not depend on the margin") {
   // A square of 2 cm that touches the floor with one corner; another one is open by 3 % of its size.
   const auto relative_compliance = [](double margin) {
     Tolerances tolerances;

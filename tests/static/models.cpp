@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which type models which concept, and which type an alias names, room by room. examples/guide/reference.md
+// Which type models which concept, and which type an alias names, folder by folder. examples/guide/reference.md
 // shows these lines.
 #include <concepts>
 #include <type_traits>

@@ -6,15 +6,19 @@
 //   PressureServo lid(wall, 1e4, gain, speed, [&] { return width * depth; });
 //   for (...) { lid.apply(world, h); world.step(h); }
 //
-// PressureLoad is for rigid grains. It gives the wall a mass and applies the force pressure x area
+// PressureLoad is for grains under a set-valued law. It gives the wall a mass and applies the force pressure x area
 // to it. If the wall is at rest, the grains carry this force up to the residual of the contact
 // solver. The mass determines how fast the wall responds.
 //
-// PressureServo is for grains with a regularized contact law, whose contact force is a continuous
-// function of the wall's position. It moves the wall with the velocity v = gain (pressure -
-// measured pressure). Let k be the stiffness of the sample in the direction of the wall [N/m] and h
-// the step [s]. In each step the error of the pressure is multiplied by 1 - gain k h / area. Keep
-// gain k h / area below 1. If it exceeds 2, the servo is unstable.
+// PressureServo is for grains under a regularized law (springs), whose contact force is a continuous
+// function of the position of the wall. So is the contact force under Compliant<Law>, which has springs
+// in series with a set-valued law: PressureServo works with it, too, and PressureLoad is simpler. Under
+// the other set-valued laws the servo does not reach its pressure.
+//
+// The servo moves the wall with the velocity v = gain (pressure - measured pressure). Let k be the
+// stiffness of the sample in the direction of the wall [N/m] and h the step [s]. In each step the error
+// of the pressure is multiplied by 1 - gain k h / area. Keep gain k h / area below 1. If it exceeds 2,
+// the servo is unstable.
 #pragma once
 
 #include <algorithm>
@@ -120,7 +124,8 @@ class PressureLoad {
   Area area_;
 };
 
-/// A pressure controlled by the velocity of a wall without set_wall_mass(), for compliant grains.
+/// A pressure controlled by the velocity of a wall without set_wall_mass(), for grains under a
+/// regularized law (springs) or under Compliant<Law>.
 template <AreaFunction Area>
 class PressureServo {
  public:

@@ -52,7 +52,7 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
   return w;
 }
 
-/// The change of velocity h M^-1 F of body i, world axes [m/s], by the forces on its centre of mass:
+/// The change of velocity h M^-1 f of body i, world axes [m/s], by the forces f on its centre of mass:
 /// gravity, the external force Bodies::force and the force `load`. It is zero along axes without
 /// inverse mass.
 /// @param load    a further force, world axes [N]; zero for integrators of impulses

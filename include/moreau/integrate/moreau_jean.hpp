@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Moreau-Jean time stepping. Velocities jump once per step, at a configuration within the step.
-// With the generalized coordinates q, velocities v, external forces F and contact impulses r:
+// With the generalized coordinates q, velocities v, external forces f and contact impulses r:
 //
 //   q_m = q_i + h (1 - theta) v_i      detection configuration
-//   v_free = v_i + h M^-1 F
+//   v_free = v_i + h M^-1 f
 //   v_{i+1} = v_free + M^-1 J^T r      r: solution of the contact problem
 //   q_{i+1} = q_m + h theta v_{i+1}
 //

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Velocity Verlet for forces that depend smoothly on the configuration, as in molecular dynamics:
 //
-//   v_{i+1/2} = v_i + h/2 M^-1 F_i         q_{i+1} = q_i + h v_{i+1/2}
-//   F_{i+1} from q_{i+1}, v_{i+1/2}        v_{i+1} = v_{i+1/2} + h/2 M^-1 F_{i+1}
+//   v_{i+1/2} = v_i + h/2 M^-1 f_i         q_{i+1} = q_i + h v_{i+1/2}
+//   f_{i+1} from q_{i+1}, v_{i+1/2}        v_{i+1} = v_{i+1/2} + h/2 M^-1 f_{i+1}
 //
 // Rotations are treated in the same way, with the angular momentum L in place of v. The angular
 // velocity w at the half step solves I(q_{i+1/2}) w = L_{i+1/2}. So L is conserved to rounding if

@@ -32,8 +32,8 @@ class Cohesive : public Law {
  public:
   /// @param law      the law without adhesion
   /// @param adhesion gamma >= 0, per contact point [N]
-  /// @param range    largest gap with adhesion, >= 0 [m]; beyond the alert distance there is no
-  ///                 contact and so no adhesion
+  /// @param range    largest gap with adhesion, >= 0 [m]; at a gap above the margin
+  ///                 (Tolerances::margin) there is no contact and so no adhesion
   /// @throws std::invalid_argument outside these ranges
   explicit Cohesive(const Law& law = Law{}, Scalar adhesion = 0, Scalar range = 0)
       : Law(law), adhesion_(adhesion), range_(range) {

@@ -62,7 +62,7 @@ namespace moreau {
 /// stiffness is that of a pair of bodies: if the pair has n contact points, each has 1/n of it, so
 /// that the stiffness of a contact between faces does not depend on the number of its points. Open
 /// points count in part, from 1 where they touch to 0 at a gap of 2 % of the grain size, or of the
-/// detection margin if that is smaller.
+/// margin if the margin is smaller.
 /// All points of a contact between faces are used, unless Simulation::set_contact_points() says few.
 /// Model of CompliantLaw.
 /// @tparam Law    the set-valued law: SignoriniCoulomb, Frictionless, Cohesive, RollingResistance

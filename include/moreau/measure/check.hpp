@@ -19,7 +19,7 @@ namespace moreau {
 /// @param simulation after step()
 /// @param report     what step() returned
 /// @returns one sentence with numbers for each of the following faults; empty if there are none:
-///          - the surfaces of a contact that was found approached by more than the detection margin
+///          - the surfaces of a contact that was found approached by more than the margin
 ///            in the step: others may have been missed
 ///          - the smallest grain is five times smaller or larger than the grain size, to which all
 ///            tolerances are relative (for shapes that have a circumradius())

@@ -130,7 +130,8 @@ class Simulation : public BodyControl<ShapeT> {
     if (!grains.empty()) remove(grains, "Simulation::remove_grains");
   }
 
-  /// Adds a half-space as a wall: fixed, or moving at the velocity that set_velocity gives.
+  /// Adds a half-space as a wall: fixed, or moving with set_velocity() and set_spin(). A spin turns it
+  /// about `point`: a spin along the normal drags grains around the point, any other tilts the plane.
   /// @param normal   unit vector out of the solid, towards the grains, world axes
   /// @param point    any point of its plane, in the plane of its line, world axes [m]
   /// @param material of its surface
@@ -147,9 +148,8 @@ class Simulation : public BodyControl<ShapeT> {
     return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
   }
   /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
-  /// fixed, or moving with the velocities of set_velocity and set_spin, e.g.
-  /// set_spin(cylinder, rate * axis). walls() does not contain it and it cannot have a mass. Laws
-  /// with an effective radius treat it as flat.
+  /// fixed, or moving with set_velocity() and set_spin(cylinder, rate * axis). walls() does not contain
+  /// it and it cannot have a mass. Laws with an effective radius treat it as flat.
   /// @param point    any point of its axis, world axes [m]
   /// @param axis     unit vector of the axis, world axes; in the plane the number 1 or -1
   /// @param radius   [m], > 0

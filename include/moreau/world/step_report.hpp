@@ -14,12 +14,16 @@ namespace moreau {
 
 /// Results of one step. In the plane, energies are per length if densities are.
 struct StepReport {
-  std::size_t candidate_pairs = 0;  ///< pairs of boxes within the margin, without walls
-  std::size_t pairs = 0;            ///< pairs with at least one contact point
-  std::size_t points = 0;           ///< contact points
-  std::size_t warm_started = 0;     ///< points that were in contact in the step before
-  /// Largest approach velocity of the contacts that were found, before the step, x step / detection
-  /// margin [-]. Above 1, surfaces can come within the margin and overlap in one step. 0 under a regularized law.
+  /// Pairs of grains in the list of the broad phase, without walls: the boxes of the grains were closer
+  /// than margin + 2 skin along every axis when the list was made.
+  std::size_t candidate_pairs = 0;
+  std::size_t pairs = 0;   ///< pairs with at least one contact point, walls included
+  std::size_t points = 0;  ///< contact points
+  /// Contact points whose key (bodies, parts and features) a contact point of the step before had, also
+  /// if its impulse was 0.
+  std::size_t warm_started = 0;
+  /// Largest approach velocity of the contacts that were found, before the step, x step / margin [-].
+  /// Above 1, surfaces can come within the margin and overlap in one step. 0 under a regularized law.
   double approach = 0;
   std::size_t overlapping = 0;  ///< points with gap < 0 as detected
   double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]

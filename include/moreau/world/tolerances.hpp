@@ -7,18 +7,18 @@
 
 namespace moreau {
 
-/// The alert distance and the other lengths of detection.
+/// The margin and the other lengths of detection.
 template <class T>
 struct DetectionLengths {
-  T margin;      ///< alert distance: largest gap of a contact, >= 0 [m]
+  T margin;      ///< largest gap at which a contact is made, >= 0 [m]
   T skin;        ///< the list of pairs stays valid for motions of this size, >= 0 [m]
   T resolution;  ///< contact points closer together than this are merged, >= 0 [m]
 };
 
 /// Lengths that act as tolerances, each relative to the grain size [-].
 struct Tolerances {
-  /// Alert distance, > 0: largest gap of a contact. Times the grain size it must exceed the
-  /// distance by which two bodies approach in a step.
+  /// Largest gap at which a contact is made, > 0 (LMGC90 calls it alert distance). Times the grain size
+  /// it must exceed the distance by which two bodies approach in a step.
   double margin = 0.02;
   double skin = 0.05;        ///< the list of pairs is kept until a box has moved this far, >= 0
   double resolution = 1e-3;  ///< contact points closer together than this are merged, >= 0

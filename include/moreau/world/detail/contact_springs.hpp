@@ -38,8 +38,8 @@ class ContactSprings {
 
   /// c = C / h^2 of every contact [1/kg]. The points of a pair share its stiffness: C is that of the
   /// pair times the number of its points. A point that is open by the gap g counts as 1 - g / l, so
-  /// that the stiffness does not jump when a point comes near; l is the default detection margin, or
-  /// that of the simulation if it is smaller.
+  /// that the stiffness does not jump when a point comes near; l is the default margin (Tolerances), or
+  /// the margin of the simulation if it is smaller.
   std::span<const Row> compliances(const StepContext<S, Law>& context) {
     const Contacts<S>& contacts = context.contacts;
     compliance_.resize(contacts.size());

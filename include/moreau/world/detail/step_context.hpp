@@ -17,7 +17,7 @@ struct StepContext {
   Contacts<S>& contacts;          ///< contacts of this step
   typename S::Scalar grain_size;  ///< length that tolerances are relative to [m]
   typename S::Scalar step;        ///< h [s]
-  typename S::Scalar margin;      ///< detection margin [m]
+  typename S::Scalar margin;      ///< largest gap at which a contact is made [m]
 };
 
 }  // namespace moreau::detail

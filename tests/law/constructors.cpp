@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Every law of the library with its parameters, as examples/guide/laws.md shows them.
+#include <doctest/doctest.h>
+
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+TEST_CASE("the constructors of the set-valued laws") {
+  using Coulomb = moreau::SignoriniCoulomb<double>;
+  const Coulomb rough(0.4);               // friction 0.4, no restitution
+  const Coulomb bouncing(0.3, 0.5);       // friction 0.3, restitution 0.5
+  const Coulomb sticking(0.3, 0.0, 0.4);  // friction 0.3 in slip and 0.4 at rest, no restitution
+  const moreau::Frictionless<double> smooth(0.5);  // restitution 0.5
+  // Friction 0.4; the bodies attract each other with 1e-3 N at each contact point, up to a gap of 1e-5 m.
+  const moreau::Cohesive<Coulomb> wet(rough, 1e-3, 1e-5);
+  // Friction 0.4; the couple is at most 0.1 x effective radius x normal force.
+  const moreau::RollingResistance<double> rolling(0.4, 0.1);
+  // Friction 0.4; springs with a normal stiffness of 1e8 N/m and a tangential stiffness of 7e7 N/m.
+  const moreau::Compliant<Coulomb> elastic(rough, 1e8, 7e7);
+
+  CHECK(rough.friction() == 0.4);
+  CHECK(rough.static_friction() == 0.4);
+  CHECK(rough.restitution() == 0);
+  CHECK(bouncing.restitution() == 0.5);
+  CHECK(sticking.friction() == 0.3);
+  CHECK(sticking.static_friction() == 0.4);
+  CHECK(smooth.restitution() == 0.5);
+  CHECK(wet.friction() == 0.4);
+  CHECK(wet.attraction(1e-5) == 1e-3);
+  CHECK(wet.attraction(2e-5) == 0);
+  CHECK(rolling.friction() == 0.4);
+  CHECK(rolling.rolling() == 0.1);
+  CHECK(rolling.restitution() == 0);
+  CHECK(elastic.friction() == 0.4);
+  CHECK(elastic.normal_compliance() == 1e-8);
+  CHECK(elastic.tangential_stiffness() == 7e7);
+}
+
+TEST_CASE("the constructors of the regularized laws") {
+  // Stiffness 1e5 N/m along the normal and 7e4 N/m across it, friction 0.4, restitution 0.5.
+  const moreau::LinearSpringDashpot<double> springs(1e5, 7e4, 0.4, 0.5);
+  const double h = springs.duration(0.01) / 20;  // a good step for an effective mass of 0.01 kg [s]
+  // Young's modulus 1e8 Pa and Poisson's ratio 0.3 of the material, friction 0.4, restitution 0.5.
+  const auto spheres = moreau::HertzMindlin<double>::of_material(1e8, 0.3, 0.4, 0.5);
+
+  CHECK(springs.stiffness() == 1e5);
+  CHECK(springs.friction() == 0.4);
+  CHECK(h > 4e-5);
+  CHECK(h < 6e-5);
+  CHECK(spheres.young() == doctest::Approx(1e8 / 1.82));
+  CHECK(spheres.shear() == doctest::Approx(1e8 / 2.6 / 3.4));
+  CHECK(spheres.friction() == 0.4);
+}
