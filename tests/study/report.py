@@ -25,7 +25,8 @@ def made_up(seed, frequency, thrust=80.0, count=16):
     """A run of polyhedra whose strains follow 0.002 (t_u / 10 ms)^0.9 n^-0.5."""
     parameters = runs.CASE | runs.RIGID | {
         "shape": "polyhedron", "seed": seed, "frequency": frequency, "duration": 1.0}
-    run = {"name": f"s{seed}-{frequency}", "parameters": parameters, "thrust": thrust, "length": 0.3}
+    run = {"name": f"s{seed}-{frequency}", "parameters": parameters, "thrust": thrust, "length": 0.3,
+           "creep": 0.0, "dx_max": 1e-3}
     t_u, x, before, after = runs.unjammed_time(run), 0.0, [], []
     for n in range(1, count + 1):
         before.append(x)

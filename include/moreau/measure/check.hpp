@@ -40,7 +40,7 @@ template <class Simulation>
   const double size = double(simulation.grain_size());
   if (report.approach > 1)
     say("step too long: in one step the surfaces of a contact approach by ", report.approach,
-        " times the detection margin; contacts can be missed. Use a step ", report.approach,
+        " times the margin; contacts can be missed. Use a step ", report.approach,
         " times shorter, or a larger margin");
   using Shape = std::decay_t<decltype(simulation.shape_of_grain(0))>;
   if constexpr (HasCircumradius<Shape>) {

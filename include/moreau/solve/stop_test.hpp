@@ -14,7 +14,7 @@ namespace moreau {
 enum class StopTest {
   natural_map,  ///< SolveReport::residual
   /// LMGC90's criterion: quad_dv, quad_dvr <= tolerance and maxm_dv, maxm_dvr <= 16.67 tolerance.
-  /// It measures the change per sweep and is weaker than the residual.
+  /// It measures the change per sweep, not the error: it can stop before the residual does, or after it.
   qm16,
 };
 
