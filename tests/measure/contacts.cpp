@@ -32,7 +32,7 @@ struct Assembly {
            const typename S::Vector& normal, const typename S::Vector& impulse, double gap = 0) {
     const typename S::Matrix frame = S::contact_frame(normal);
     const typename S::Vector lever_a = point - position[a], lever_b = point - position[b];
-    contacts.points.push_back({a, b, 0, 0, gap, frame, lever_a, lever_b});
+    contacts.points.push_back({a, b, 0, gap, frame, lever_a, lever_b});
     contacts.keys.push_back({a, b, FeatureKey{}});
     contacts.classes.push_back(ContactClass::vertex_face);
     contacts.impulses.push_back(frame.transpose() * impulse);
@@ -59,7 +59,7 @@ struct Assembly {
 
 template <class S>
 Contact<S> touching(std::uint32_t a, std::uint32_t b, double gap) {
-  return {a, b, 0, 0, gap, S::Matrix::Identity(), S::Vector::Zero(), S::Vector::Zero()};
+  return {a, b, 0, gap, S::Matrix::Identity(), S::Vector::Zero(), S::Vector::Zero()};
 }
 
 }  // namespace

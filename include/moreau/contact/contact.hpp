@@ -21,16 +21,16 @@ namespace moreau {
 /// One contact point. Across a periodic boundary, the centre of b is that of its touching image.
 template <class S>
 struct Contact {
-  std::uint32_t a;    ///< first body, BodyId::index()
-  std::uint32_t b;    ///< second body
-  std::uint32_t law;  ///< index into the table of laws, Materials::laws()
-  std::uint32_t variant =
-      0;                   ///< after the step: variant of the law in the next one, see StatefulLaw
-  typename S::Scalar gap;  ///< along the normal at the detection configuration [m], < 0 is
-                           ///< penetration; after the step, with the overlap correction
+  std::uint32_t a;             ///< first body, BodyId::index()
+  std::uint32_t b;             ///< second body
+  std::uint32_t law;           ///< index into the table of laws, Materials::laws()
+  typename S::Scalar gap;      ///< along the normal at the detection configuration [m], < 0 is
+                               ///< penetration; after the step, with the overlap correction
   typename S::Matrix frame;    ///< columns n (unit, from a to b), t[, s]; right-handed, world axes
   typename S::Vector lever_a;  ///< from the centre of a to the contact point, world axes [m]
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
+  /// After the step: variant of the law in the next step, see StatefulLaw.
+  std::uint32_t variant = 0;
 };
 
 /// Identifies a contact point from step to step. Keys are ordered by the bodies, then by their parts,
