@@ -5,8 +5,8 @@ import math
 
 import excursion
 from figures import density_rate, first_second, return_phases, rise
-from runs import (ANY, COMPLIANT, SHAPES, constant, exponent, judged, number, of_one_length, over_samples,
-                  power, select, series, strain)
+from runs import (ANY, COMPLIANT, SHAPES, TITLE, constant, exponent, judged, number, of_one_length, over_samples,
+                  power, scaled_load, select, series, strain)
 
 
 # The parameters of the load, and what is fixed in the series of each.
@@ -116,6 +116,18 @@ def wall_scatter(runs, shape):
         m = sum(v) / len(v)
         return 100 * math.sqrt(sum((x - m) ** 2 for x in v) / (len(v) - 1))
     return sum(deviation(v) for v in scatters.values()) / len(scatters)
+
+
+def decades(runs):
+    """Over how many decades of the scaled load excursions are judged: the least and the most of the shapes."""
+    ranges = []
+    for shape in SHAPES:
+        values = [scaled_load(r) for parameter, fixed in LOADS for r in loaded(runs, shape, parameter, **fixed)]
+        if values:
+            ranges.append((math.log10(max(values) / min(values)), TITLE[shape].split(", ")[1]))
+    if not ranges:
+        return "some"
+    return " to ".join(f"{value:.1f} ({shape})" for value, shape in (min(ranges), max(ranges)))
 
 
 def line_scatter(runs, shape, **wanted):

@@ -54,8 +54,8 @@ def abstract(runs):
         "We repeat the simulations of Azéma, Radjai, Peyroux, Richefeu and Saussine "
         "([arXiv 0711.1081](https://arxiv.org/abs/0711.1081)): 1200 grains in a box, one of whose walls is "
         "pushed by a harmonic force. We use polyhedra and spheres in space, polygons and disks in the plane. "
-        "The excursion of the wall follows the paper's law, Δx = C m/(m + m_w) · mg/fmax · g/ν², over more than three "
-        f"decades of load. But C is not a material constant. It is {c3.text()} for polyhedra and {c2.text()} for "
+        "The excursion of the wall follows the paper's law, Δx = C m/(m + m_w) · mg/fmax · g/ν², over "
+        f"{ten.decades(runs)} decades of load. But C is not a material constant. It is {c3.text()} for polyhedra and {c2.text()} for "
         "polygons in boxes as high as long, where the paper has 0.01 and 0.05, and it depends on the shape of "
         "the box through the thrust of the grains." + where + thrust_text(runs) +
         " The compaction of a period is not proportional to the excursion, as the paper assumes." + root_text(runs) +
