@@ -187,13 +187,13 @@ class ThreadPool final : public TeamThreads {
     start();
     take_part(0);
     end_.wait();
-    busy_.store(false, std::memory_order_release);
     // That of the lowest rank, which has the first part of the work: the error of one thread.
     std::exception_ptr first;
     for (std::exception_ptr& error : errors_) {
       if (!first) first = error;
       error = nullptr;
     }
+    busy_.store(false, std::memory_order_release);  // last: another simulation may begin
     if (first) std::rethrow_exception(first);
   }
 
