@@ -31,7 +31,7 @@ namespace {
 
 struct Options {
   fs::path output = "biaxial-output";
-  std::size_t plane = 600, space = 1000, samples = 3, rows = 40;
+  std::size_t plane = 600, space = 500, samples = 3, rows = 40;
   std::vector<std::string> shapes{"disk", "polygon", "ball", "polyhedron"};
   std::vector<std::string> preparations{"dense", "loose"};
 };

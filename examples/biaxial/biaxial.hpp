@@ -74,25 +74,24 @@ struct Stress {
   }
 };
 
-/// A row of the table. Stresses are means over the steps of the row.
+/// A row of the table. Stresses are means over the steps of the row. Three of them are results of
+/// contact_stress() in different control volumes.
 struct Row {
   double strain = 0;         ///< axial: decrease of the height / height before the shear [-]
   double volume_strain = 0;  ///< increase of the volume / volume before the shear [-]
   Stress walls;              ///< from the forces on the walls
-  Stress
-      inside;  ///< contact_stress() in a control volume that ends one grain diameter from the walls
-  Stress
-      beyond;  ///< contact_stress() in a control volume that ends beyond the walls, for the volume
-               ///< between the walls
-  Stress ending;            ///< contact_stress() in a control volume that ends on the walls: wrong
-  double coordination = 0;  ///< neighbours of a grain, without rattlers
-  double anisotropy = 0;    ///< axial component of the anisotropy tensor of the contact normals [-]
-  double sweeps = 0;        ///< mean per step
-  double residual = 0;      ///< largest
+  Stress inside;             ///< the control volume ends one grain diameter inside the walls
+  Stress beyond;             ///< it ends beyond the walls; the stress is that of the box
+  Stress ending;             ///< it ends on the walls: too small
+  double coordination = 0;   ///< neighbours of a grain, without rattlers
+  double anisotropy = 0;     ///< axial component of the anisotropy tensor of contact normals [-]
+  double sweeps = 0;         ///< mean per step
+  double residual = 0;       ///< largest
   std::size_t unsolved = 0;  ///< steps that the solver did not solve
-  double work = 0, dissipation = 0,
-         kinetic = 0;  ///< of the walls, of contacts, increase; since the
-                       ///< beginning of the shear [J]
+  // Since the beginning of the shear [J]:
+  double work = 0;         ///< of the walls
+  double dissipation = 0;  ///< of the contacts
+  double kinetic = 0;      ///< increase of the kinetic energy
 };
 
 /// A sample of grains between walls.
@@ -122,6 +121,7 @@ class Specimen {
       simulation_.add_grain(simulation_.add_shape(shape), poses[k], density);
       top = std::max(top, poses[k].position[up] + radii[k]);
     }
+    for (const double grain : simulation_.bodies().grain_mass) mass_ += grain;
     for (int axis = 0; axis < S::dim; ++axis) {
       const Vector normal = Vector::Unit(axis);
       lower_[axis] = simulation_.add_wall(normal, Vector::Zero(), smooth);
@@ -133,15 +133,11 @@ class Specimen {
 
   /// Compresses the grains by the same pressure on all movable walls, until 100 steps in a row are calm.
   /// @param grain_friction friction between grains: the smaller, the denser the sample becomes
-  /// @param longest  time [s]
+  /// @param longest time [s]
   /// @returns whether the sample came to rest
   bool compress(double grain_friction, double longest) {
     simulation_.set_materials(materials(grain_friction));
-    double mass = 0;
-    for (const double grain : simulation_.bodies().grain_mass) mass += grain;
-    for (int axis = 0; axis < S::dim; ++axis)
-      loads_.emplace_back(simulation_, upper_[axis], pressure, mass,
-                          [this, axis] { return area(axis); });
+    for (int axis = 0; axis < S::dim; ++axis) load_wall(axis);
     int calm = 0;
     while (calm < 100 && simulation_.time() < longest)
       calm = is_calm(step(h_compression)) ? calm + 1 : 0;
@@ -150,15 +146,15 @@ class Specimen {
 
   /// Shears the compressed sample up to an axial strain of 0.005 times the number of rows.
   /// @param grain_friction friction between grains
-  /// @param path     beginning of the names of files for ParaView, written after every tenth row; none
-  ///                 if empty
+  /// @param path beginning of the names of files for ParaView, written after every tenth row; none
+  ///             if empty
   std::vector<Row> shear(double grain_friction, std::size_t rows,
                          const std::filesystem::path& path) {
     simulation_.set_materials(materials(grain_friction));
     const double rate = inertial / inertial_time();
     const auto steps = static_cast<int>(std::lround(row_strain / (rate * h)));
     const double speed = row_strain / (steps * h) * length(up);
-    drop_top_wall_at(speed);
+    drive_wall(up, speed);
 
     const double height = length(up), before = volume();
     moreau::EnergyBalance<S> energy(simulation_);
@@ -196,12 +192,8 @@ class Specimen {
     for (int axis = 0; axis < S::dim; ++axis) volume *= length(axis);
     return volume;
   }
-  double solid_fraction() const {  ///< of the grains in the box [-]
-    double solid = 0;
-    for (const double mass : simulation_.bodies().grain_mass) solid += mass / density;
-    return solid / volume();
-  }
-  std::size_t steps() const { return steps_; }   ///< so far
+  double solid_fraction() const { return mass_ / density / volume(); }  ///< of the grains [-]
+  std::size_t steps() const { return steps_; }                          ///< so far
   double approach() const { return approach_; }  ///< largest StepReport::approach so far
   double overlap() const { return overlap_; }    ///< largest overlap so far [m]
 
@@ -226,8 +218,21 @@ class Specimen {
     return tolerances;
   }
 
+  /// Puts the pressure p on the movable wall of an axis.
+  void load_wall(int axis) {
+    loads_[axis].emplace(simulation_, upper_[axis], pressure, mass_,
+                         [this, axis] { return area(axis); });
+  }
+  /// Moves the movable wall of an axis towards the other one, at a constant speed [m/s].
+  void drive_wall(int axis, double speed) {
+    loads_[axis].reset();
+    simulation_.set_wall_mass(upper_[axis], std::numeric_limits<double>::infinity());
+    simulation_.set_velocity(upper_[axis], -speed * Vector::Unit(axis));
+  }
+
   moreau::StepReport step(double duration) {
-    for (const auto& load : loads_) load.apply(simulation_);
+    for (const auto& load : loads_)
+      if (load) load->apply(simulation_);
     const moreau::StepReport report = simulation_.step(duration);
     ++steps_;
     approach_ = std::max(approach_, report.approach);
@@ -257,13 +262,6 @@ class Specimen {
     return calm;
   }
 
-  /// Takes the pressure from the top wall and prescribes its velocity.
-  void drop_top_wall_at(double speed) {
-    loads_.pop_back();  // the load of the last axis
-    simulation_.set_wall_mass(upper_[up], std::numeric_limits<double>::infinity());
-    simulation_.set_velocity(upper_[up], -speed * Vector::Unit(up));
-  }
-
   /// Mean stress in the box, made smaller by a length on all sides. If the length is negative, the
   /// control volume ends beyond the walls, and the stress is that of the box.
   Stress contact_stress(double inset) const {
@@ -277,9 +275,9 @@ class Specimen {
     return {stress(up, up), (stress.trace() - stress(up, up)) / up};
   }
   moreau::Aabb<S> control_volume(double inset) const {
-    moreau::Aabb<S> box{Vector::Constant(inset), Vector::Constant(-inset)};
-    for (int axis = 0; axis < S::dim; ++axis) box.upper[axis] += length(axis);
-    return box;
+    moreau::Aabb<S> box{Vector::Zero(), Vector::Zero()};
+    for (int axis = 0; axis < S::dim; ++axis) box.upper[axis] = length(axis);
+    return box.inflated(-inset);
   }
 
   /// Adds a step to a row.
@@ -304,7 +302,9 @@ class Specimen {
 
   moreau::Simulation<Shape, Law> simulation_;
   std::array<moreau::BodyId, std::size_t{S::dim}> lower_, upper_;
-  std::vector<moreau::PressureLoad<std::function<double()>>> loads_;
+  using Load = moreau::PressureLoad<std::function<double()>>;
+  std::array<std::optional<Load>, std::size_t{S::dim}> loads_;  // empty: the wall is driven
+  double mass_ = 0;                                             // of all grains, and of a wall [kg]
   std::vector<moreau::PairForce<S>> pairs_;
   std::size_t steps_ = 0;
   double approach_ = 0, overlap_ = 0;
