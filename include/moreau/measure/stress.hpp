@@ -17,6 +17,13 @@ namespace moreau {
 /// branch vector, even if a centre lies outside. At a wall, which has no centre, the branch vector
 /// ends at the contact point. The tensor is symmetric if no grain has an angular acceleration. In
 /// the plane it is per unit of thickness.
+///
+/// The control volume must not end on a wall. Contact points on the wall can then lie outside, because
+/// of a gap, an overlap or rounding, and their forces are missing: the stress is too small by up to the
+/// ratio of a grain diameter to the length of the control volume. Let the control volume end at least one
+/// grain diameter inside the walls. Or let it end beyond all walls of the container and multiply the
+/// result by its volume / volume of the container: if the grains are at rest without gravity, this is
+/// the stress that follows from the forces on the walls.
 /// @param step           length of the step [s], > 0, by which impulses are divided
 /// @param control_volume world axes [m]
 /// @param position_of    function: index of a body -> its centre of mass in world axes [m]
