@@ -76,7 +76,7 @@ class CsvWriter {
   /// Size of the table so far [bytes], including rows that are not yet in the file.
   std::uintmax_t size() const { return written_ + lines_.size(); }
 
-  /// Adds a row of numbers (floating-point or integer), one per column.
+  /// Adds a row of numbers (floating-point, integer, or bool as 0 or 1), one per column.
   /// @throws std::system_error naming the path if the file cannot be written, e.g. on a full disk
   /// @throws std::invalid_argument if the number of values is not the number of columns
   template <class... Numbers>
@@ -158,6 +158,7 @@ class CsvWriter {
             "must be the end of a line of '" + path.string() + "'");
   }
 
+  void append(bool yes, std::size_t start) { append(yes ? 1 : 0, start); }
   void append(auto number, std::size_t start) {
     if (lines_.size() > start) lines_ += ',';
     char digits[64];  // the shortest form of a double has at most 24 characters
