@@ -48,6 +48,19 @@ constexpr double h = 2.5e-4, h_compression = 1e-4;  // steps of shear and compre
 constexpr double inertial = 1e-3;                   // inertial number of the shear [-]
 constexpr double row_strain = 0.005;  // axial strain between two rows of the table [-]
 
+/// One value per axis, which an int counts as in Eigen.
+template <class T, int Axes>
+class PerAxis {
+ public:
+  T& operator[](int axis) { return values_[std::size_t(axis)]; }
+  const T& operator[](int axis) const { return values_[std::size_t(axis)]; }
+  auto begin() const { return values_.begin(); }
+  auto end() const { return values_.end(); }
+
+ private:
+  std::array<T, std::size_t(Axes)> values_;
+};
+
 /// The time d sqrt(rho / p) in which the pressure moves a grain by about its diameter [s]. The inertial
 /// number is a strain rate times this time.
 inline double inertial_time() {
@@ -301,10 +314,10 @@ class Specimen {
   }
 
   moreau::Simulation<Shape, Law> simulation_;
-  std::array<moreau::BodyId, std::size_t{S::dim}> lower_, upper_;
+  PerAxis<moreau::BodyId, S::dim> lower_, upper_;
   using Load = moreau::PressureLoad<std::function<double()>>;
-  std::array<std::optional<Load>, std::size_t{S::dim}> loads_;  // empty: the wall is driven
-  double mass_ = 0;                                             // of all grains, and of a wall [kg]
+  PerAxis<std::optional<Load>, S::dim> loads_;  // empty: the wall is driven
+  double mass_ = 0;                             // of all grains, and of a wall [kg]
   std::vector<moreau::PairForce<S>> pairs_;
   std::size_t steps_ = 0;
   double approach_ = 0, overlap_ = 0;
