@@ -382,7 +382,6 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
-  assembly_.require_finite("Simulation::step");
   detect(report, clock);
   const auto detected = Clock::now();
   if constexpr (set_valued) {

@@ -221,16 +221,17 @@ def flat_jamming(runs):
             continue
         cells = []
         for n in range(4):
-            e = over_samples(found, lambda r: 100 * r["periods"]["creep"][n] / r["periods"]["dx_max"][n])
-            jammed = sum(abs(r["periods"]["creep"][n]) <= JAMMED_MOTION * abs(r["periods"]["dx_max"][n]) for r in found)
+            e = over_samples(found, lambda r: 1e3 * r["periods"]["creep"][n])
+            jammed = sum(abs(r["periods"]["creep"][n]) <= JAMMED_MOTION * r["periods"]["dx_active"][n] for r in found)
             cells.append(f"{e.text()} ({jammed} of {e.n})")
-        rows.append([f"{1e-3 * fmax:g}", *cells, over_samples(found, constant_of_last).text()])
+        rows.append([f"{1e-3 * fmax:g}", *cells, over_samples(found, lambda r: 1e3 * sum(r["periods"]["dx_active"][2:4]) / 2).text(),
+                     over_samples(found, constant_of_last).text()])
     if len(rows) < 2:
         return []
     return ["In the flat box, H/L = 0.42, the wall still moves inward while f falls from its maximum to the weight of the grains: the packing is "
-            "compacted by the filling. This motion over the displacement of the period, in percent, mean over samples; in brackets, in how many "
-            f"of them it is below {100 * JAMMED_MOTION:.0f} %, that is, jammed. Compliant contacts, one second, 5 Hz:", "",
-            *table(["fmax [kN]", "period 1", "2", "3", "4", "C of periods 3 and 4"], rows)]
+            "compacted by the filling. This motion [mm], mean over samples; in brackets, in how many "
+            f"of them it is below {100 * JAMMED_MOTION:.0f} % of the excursion of the period, that is, jammed. Compliant contacts, one second, 5 Hz:", "",
+            *table(["fmax [kN]", "period 1", "2", "3", "4", "Δx of periods 3 and 4 [mm]", "C of them"], rows)]
 
 
 def constant_of_last(run):

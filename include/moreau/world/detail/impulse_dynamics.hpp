@@ -236,11 +236,11 @@ class ImpulseDynamics {
   template <class L>  // clang would instantiate a function that is no template with the class
   void choose_variants(const Materials<L>& materials, Contacts<S>& contacts) {
     const auto impulses = unknowns_.impulses(contacts);
-    team_.share_each(contacts.size(), 512, [&](std::size_t c) {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
       Contact<S>& contact = contacts.points[c];
       contact.variant = static_cast<std::uint32_t>(materials.laws()[contact.law].variant_after(
           contact.variant, typename S::Vector(impulses[c].template head<S::dim>())));
-    });
+    }
   }
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
