@@ -231,7 +231,9 @@ def flat_jamming(runs):
     return ["In the flat box, H/L = 0.42, the wall still moves inward while f falls from its maximum to the weight of the grains: the packing is "
             "compacted by the filling. This motion [mm], mean over samples; in brackets, in how many "
             f"of them it is below {100 * JAMMED_MOTION:.0f} % of the excursion of the period, that is, jammed. Compliant contacts, one second, 5 Hz:", "",
-            *table(["fmax [kN]", "period 1", "2", "3", "4", "Δx of periods 3 and 4 [mm]", "C of them"], rows)]
+            *table(["fmax [kN]", "period 1", "2", "3", "4", "Δx of periods 3 and 4 [mm]", "C of them"], rows),
+            "From 2 to 6 kN the packing jams from the third or fourth period on. At 10 kN the excursion is so short that the wall, while it is jammed, still "
+            "moves by a third of it.", ""]
 
 
 def constant_of_last(run):
@@ -461,8 +463,8 @@ def settled_section(runs):
              "scaled load of the paper, a length. Boxes as high as long. The fit is of all periods: four, of the ageing runs twenty.", "",
              *table(["", "samples", "runs; points", "ν", "C of all loads, scatter", "a [1e-3]", "q", "b",
                      "scatter", "each sample predicted by the others: rms (means)", "mean strain of four periods / √(ℓ/L) [1e-3], scatter"], rows),
-             "In these boxes the excursion, Δx = Cℓ, does as well. The time t_u does worse, and adds nothing to either. The wall masses, which "
-             "change ℓ and hardly t_u, tell them apart:", "",
+             "In these boxes the excursion, Δx = Cℓ, does as well. The time t_u does worse, and adds to ℓ nothing that exceeds its error. The wall masses, which "
+             "change ℓ and hardly t_u, tell them apart, but not for polygons, of which few runs with heavy walls are judged:", "",
              *table(["", "Δx/L: power", "scatter", "t_u: power", "scatter", "t_u and ℓ/L: power of t_u", "of ℓ/L", "scatter"], laws),
              *boxes(runs), *ageing(runs)]
     if tests:
