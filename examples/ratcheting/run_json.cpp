@@ -14,7 +14,7 @@ Json to_json(const Period& period) {
           {"delay", period.delay()},
           {"dx_max", period.dx_max},
           {"elastic_energy", period.elastic_energy},
-          {"creep", period.active.drift},
+          {"drift", period.active.drift},
           {"dx_active", period.active.dx},
           {"v_max_active", period.active.v_out},
           {"v_max_passive", period.active.v_in},

@@ -26,7 +26,7 @@ def made_up(seed, frequency, thrust=80.0, count=16):
     parameters = runs.CASE | runs.RIGID | {
         "shape": "polyhedron", "seed": seed, "frequency": frequency, "duration": 1.0}
     run = {"name": f"s{seed}-{frequency}", "parameters": parameters, "thrust": thrust, "length": 0.3,
-           "creep": 0.0, "dx_max": 1e-3}
+           "drift": 0.0, "dx_max": 1e-3}
     t_u, x, before, after = runs.unjammed_time(run), 0.0, [], []
     for n in range(1, count + 1):
         before.append(x)

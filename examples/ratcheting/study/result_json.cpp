@@ -27,7 +27,7 @@ void each(const auto& field, const char* name, auto& member, auto&&... others) {
 
 void describe(Some<ratcheting::Period> auto& p, const auto& field) {
   each(field, "t_start", p.start, "t_finish", p.finish, "x_j", p.jam_before, "x_j_after",
-       p.jam_after, "t_force_minimum", p.force_minimum, "dx_max", p.dx_max, "creep", p.active.drift,
+       p.jam_after, "t_force_minimum", p.force_minimum, "dx_max", p.dx_max, "drift", p.active.drift,
        "dx_active", p.active.dx, "t_onset", p.active.onset, "t_peak", p.active.peak, "v_max_active",
        p.active.v_out, "v_max_passive", p.active.v_in, "t_v_max_passive", p.active.v_in_time,
        "f_g_active", p.active.thrust, "steady_thrust", p.active.carried.thrust, "carried_mass",
@@ -62,7 +62,7 @@ void describe(Some<Behaviour> auto& b, const auto& field) {
 void describe(Some<Result> auto& r, const auto& field) {
   each(field, "facts", r.facts, "mass", r.mass, "wall_mass", r.wall_mass, "length", r.length,
        "height", r.height, "weight", r.weight, "dx_max", r.dx_max, "dx_spread", r.dx_spread,
-       "v_max", r.v_max, "delay", r.delay, "dx_active", r.dx_active, "creep", r.drift, "thrust",
+       "v_max", r.v_max, "delay", r.delay, "dx_active", r.dx_active, "drift", r.drift, "thrust",
        r.thrust, "steady_thrust", r.steady_thrust, "carried_share", r.carried_share, "explained",
        r.explained, "rest_share", r.rest_share, "net_contraction", r.net_contraction, "contracting",
        r.contracting, "rho_initial", r.rho_initial, "rho_0", r.rho_0, "rho_final", r.rho_final,

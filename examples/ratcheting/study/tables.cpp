@@ -68,7 +68,7 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
   std::string text =
       "case,name,sets,shape,seed,frequency,fmax,fmin,gravity,wall_mass_ratio,box_ratio,size_scale,"
       "reading,lid_force,step,tolerance,corrected,duration,mass,wall_mass,length,height,settled,"
-      "periods,dx_max,dx_spread,dx_active,creep,v_max,delay,thrust_over_weight,net_contraction,"
+      "periods,dx_max,dx_spread,dx_active,drift,v_max,delay,thrust_over_weight,net_contraction,"
       "contracting,"
       "rho_initial,rho_0,rho_final,rho_box_initial,rho_box_final,rate,compaction_per_period,C,"
       "dx_over_closed_form_third,steady_thrust_over_weight,carried_share,explained,"

@@ -40,6 +40,7 @@ concept AreaFunction = requires(const F area) {
 
 namespace detail {
 
+/// @throws std::invalid_argument, in the name of `function`, for a body that is not in walls()
 template <class Simulation>
 void require_half_space(const Simulation& simulation, BodyId wall, const char* function) {
   const auto walls = simulation.walls();

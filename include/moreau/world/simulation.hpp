@@ -375,9 +375,10 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {
-    if (assembly_.take_change() || !dynamics_.is_ready(assembly_.bodies().size())) {
+    if (assembly_.has_changed() || !dynamics_.has_loads_of(assembly_.bodies().size())) {
       detect(report);
       dynamics_.evaluate(context, 0, report);
+      assembly_.set_changed(false);
       report = {};
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);

@@ -5,7 +5,7 @@ import math
 
 import excursion
 from figures import density_rate, first_second, return_phases, rise
-from runs import (ANY, COMPLIANT, SHAPES, TITLE, constant, exponent, judged, number, of_one_length, over_samples,
+from runs import (COMPLIANT, SHAPES, TITLE, constant, exponent, judged, number, of_one_length, over_samples,
                   power, scaled_load, select, series, strain)
 
 
@@ -104,18 +104,6 @@ def predicted_exponent(runs, shape, parameter, **wanted):
 def loaded(runs, shape, parameter, **wanted):
     return [r for r in series(runs, shape, parameter, **wanted)
             if r["parameters"]["fmax"] >= 1000 and judged(r)]
-
-
-def wall_scatter(runs, shape):
-    """Standard deviation of ln [dx (m + m_w)] over the wall masses, in percent: mean over samples."""
-    scatters = {}
-    for run in series(runs, shape, "wall_mass_ratio", frequency=5.0):
-        scatters.setdefault(run["parameters"]["seed"], []).append(
-            math.log(run["dx_active"] * (run["mass"] + run["wall_mass"])))
-    def deviation(v):
-        m = sum(v) / len(v)
-        return 100 * math.sqrt(sum((x - m) ** 2 for x in v) / (len(v) - 1))
-    return sum(deviation(v) for v in scatters.values()) / len(scatters)
 
 
 def decades(runs):

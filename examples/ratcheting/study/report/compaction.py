@@ -24,6 +24,22 @@ def load_over_length(run):
     return scaled_load(run) / run["length"]
 
 
+def strain_over_load(run):
+    """Mean strain of four periods over the root of the scaled load over the length of the box."""
+    return strain(run, 0, 4) / math.sqrt(load_over_length(run))
+
+
+def is_short(run):
+    """Whether the run has four periods or five, as all but those of the ageing have."""
+    return len(run["periods"]["x_j"]) <= 5
+
+
+def has_usual_force(run):
+    """Whether the largest force per grain is that of the paper's case."""
+    p = run["parameters"]
+    return p["fmax"] / p["grains"] == CASE["fmax"] / CASE["grains"]
+
+
 # Function of a run and unit.
 MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1e-3),
             "load": (load_over_length, 1e-2)}

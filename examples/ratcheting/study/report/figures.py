@@ -6,7 +6,7 @@ import compaction
 import excursion
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
 from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, judged,
-                  over_samples, power, scaled_load, select, series, shapes_of, strain, thrust_ratio,
+                  over_samples, scaled_load, select, series, shapes_of, strain, thrust_ratio,
                   unjammed_time)
 
 RIGID_TEXT = "rigid contacts, QM/16 at 1e-4"
@@ -491,7 +491,7 @@ def one_state(runs, path):
     for label, value, limits, line, title, dash in rows:
         for shape in SHAPES:
             found = [r for r in select(runs, shape, frequency=ANY, fmax=ANY, jammed=True, **COMPLIANT)
-                     if len(r["periods"]["x_j"]) <= 5]
+                     if compaction.is_short(r)]
             if len({r["parameters"]["frequency"] for r in found}) < 3:
                 continue
             first = not shapes or shape == shapes[0]
@@ -516,7 +516,7 @@ def one_state(runs, path):
             for r in select(runs, shape, frequency=ANY, fmax=ANY, grains=ANY, box_ratio=ANY, size_scale=ANY, jammed=True, **COMPLIANT):
                 p = r["parameters"]
                 other = (p["grains"], p["box_ratio"], p["size_scale"])
-                if other != (CASE["grains"], 1.0, 1.0) and p["fmax"] / p["grains"] == 5 and value(r) > 0:
+                if other != (CASE["grains"], 1.0, 1.0) and compaction.has_usual_force(r) and value(r) > 0:
                     groups.setdefault((*other, p["frequency"]), []).append(r)
             for is_open in (False, True):
                 panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.error)
@@ -672,7 +672,7 @@ def return_phases(runs, shape):
     found = {}
     for run in select(runs, shape, frequency=ANY, jammed=True, **COMPLIANT):
         p, periods = run["parameters"], run["periods"]
-        if "t_v_max_passive" not in periods or len(periods["x_j"]) > 5:
+        if "t_v_max_passive" not in periods or not compaction.is_short(run):
             continue
         nu, rows = p["frequency"], found.setdefault(p["frequency"], [])
         if not judged(run):

@@ -191,7 +191,7 @@ def judged(run):
     """Whether the wall hardly moves while the packing is jammed, from the maximum of f to where f has fallen
     to the weight: outward by elastic rebound or numerical drift, inward by drift or because the packing is
     still being compacted. Else the displacement mostly is this motion, and the excursion has no beginning."""
-    return abs(run["creep"]) <= JAMMED_MOTION * abs(run["dx_max"])
+    return abs(run["drift"]) <= JAMMED_MOTION * abs(run["dx_max"])
 
 
 def scaled_load(run):

@@ -221,8 +221,8 @@ def flat_jamming(runs):
             continue
         cells = []
         for n in range(4):
-            e = over_samples(found, lambda r: 1e3 * r["periods"]["creep"][n])
-            jammed = sum(abs(r["periods"]["creep"][n]) <= JAMMED_MOTION * r["periods"]["dx_active"][n] for r in found)
+            e = over_samples(found, lambda r: 1e3 * r["periods"]["drift"][n])
+            jammed = sum(abs(r["periods"]["drift"][n]) <= JAMMED_MOTION * r["periods"]["dx_active"][n] for r in found)
             cells.append(f"{e.text()} ({jammed} of {e.n})")
         rows.append([f"{1e-3 * fmax:g}", *cells, over_samples(found, lambda r: 1e3 * sum(r["periods"]["dx_active"][2:4]) / 2).text(),
                      over_samples(found, constant_of_last).text()])
@@ -413,8 +413,7 @@ JAMMED = COMPLIANT | {"jammed": True}
 
 def root_share(found):
     """Mean strain of four periods over the root of the scaled load over the length: mean, scatter."""
-    mean, spread = excursion.mean_and_scatter([strain(r, 0, 4) / math.sqrt(compaction.load_over_length(r))
-                                               for r in found if strain(r, 0, 4) > 0])
+    mean, spread = excursion.mean_and_scatter([compaction.strain_over_load(r) for r in found if strain(r, 0, 4) > 0])
     return f"{1e3 * mean:.2f}, {100 * spread:.0f} %"
 
 
@@ -504,7 +503,7 @@ def boxes(runs):
         cases = {}
         for run in select(runs, shape, frequency=5.0, fmax=ANY, grains=ANY, box_ratio=ANY, size_scale=ANY, **JAMMED):
             p = run["parameters"]
-            if p["fmax"] / p["grains"] == 5 and len(run["periods"]["x_j"]) <= 5:
+            if compaction.has_usual_force(run) and compaction.is_short(run):
                 cases.setdefault((p["grains"], p["size_scale"], p["box_ratio"]), []).append(run)
         if len(cases) < 2:
             continue
@@ -515,7 +514,7 @@ def boxes(runs):
                          f"{over_samples(found, lambda r: r['length']).mean:.2f}", mean(lambda r: r["dx_active"], 1e3),
                          f"{1e3 * over_samples(found, compaction.unjammed_time).mean:.1f}", mean(lambda r: strain(r, 0, 4), 1e4),
                          mean(lambda r: strain(r, 0, 4) * r["length"], 1e3),
-                         mean(lambda r: strain(r, 0, 4) / math.sqrt(compaction.load_over_length(r)), 1e3)])
+                         mean(compaction.strain_over_load, 1e3)])
         everything = compaction.jammed_runs(runs, shape, True)
         law = compaction.Law(everything, ("load",))
         if law.fitted and len({r["parameters"]["box_ratio"] for r in everything}) > 2:
@@ -538,10 +537,10 @@ def spread_of_boxes(runs):
     for shape in ("polyhedron", "polygon"):
         means = [[], []]
         for ratio in (0.42, 0.7, 1.0, 1.5):
-            found = [r for r in select(runs, shape, frequency=5.0, box_ratio=ratio, **JAMMED) if len(r["periods"]["x_j"]) <= 5]
+            found = [r for r in select(runs, shape, frequency=5.0, box_ratio=ratio, **JAMMED) if compaction.is_short(r)]
             if found:
                 means[0].append(over_samples(found, lambda r: r["dx_active"]).mean)
-                means[1].append(over_samples(found, lambda r: strain(r, 0, 4) / math.sqrt(compaction.load_over_length(r))).mean)
+                means[1].append(over_samples(found, compaction.strain_over_load).mean)
         if len(means[0]) > 1:
             texts.append(f"Δx by a factor of {max(means[0]) / min(means[0]):.1f} ({TITLE[shape].split(', ')[1]}), the strain over √(ℓ/L) by "
                          f"{max(means[1]) / min(means[1]):.2f}")
@@ -671,7 +670,7 @@ def method_of_2008(runs):
                                 lambda r, quantity=quantity: r[quantity]).text()
                        for quantity in ("dx_max", "dx_active")]
             for run in found[:1]:
-                rows.append([TITLE[shape], name, f"{1e3 * run['dx_max']:.2f}", f"{1e3 * run['creep']:.3f}",
+                rows.append([TITLE[shape], name, f"{1e3 * run['dx_max']:.2f}", f"{1e3 * run['drift']:.3f}",
                              f"{constant(run):.3f}", *over_nu, f"{1e4 * strain(run, 0, 4):.1f}",
                              f"{run['facts']['max_overlap_over_d']:.1e}",
                              f"{run['facts']['capped_steps']} of {run['facts']['steps']}"])
@@ -703,9 +702,9 @@ def limits(runs, folder):
              + ", ".join(f"{100 * ten.line_scatter(runs, s)[1]:.0f} % ({TITLE[s].split(', ')[1]})" for s in SHAPES)
              + " with rigid contacts. It is not noise: C falls where the excursion is long, because the thrust does (section 6).",
              "**Drift.** The jammed wall of polygons with rigid contacts at 1e-4 drifts outward by "
-             + over_samples(ten.base(runs, "polygon"), lambda r: 1e3 * r["creep"]).text() + " mm in a period at 5 Hz, "
-             + over_samples(ten.base(runs, "polygon"), lambda r: 100 * r["creep"] / r["dx_max"]).text() + " % of its displacement, and by "
-             + over_samples(select(runs, "polygon", frequency=60.0), lambda r: 100 * r["creep"] / r["dx_max"]).text()
+             + over_samples(ten.base(runs, "polygon"), lambda r: 1e3 * r["drift"]).text() + " mm in a period at 5 Hz, "
+             + over_samples(ten.base(runs, "polygon"), lambda r: 100 * r["drift"] / r["dx_max"]).text() + " % of its displacement, and by "
+             + over_samples(select(runs, "polygon", frequency=60.0), lambda r: 100 * r["drift"] / r["dx_max"]).text()
              + " % at 60 Hz; that of polyhedra drifts inward at high frequencies. "
              f"The exponents over ν with drift are not those without: polygons {of('polygon', 'dx_max')} and "
              f"{of('polygon', 'dx_active')}. Runs in which the drift exceeds {100 * JAMMED_MOTION:.0f} % of the displacement are not judged. At a tenth of the tolerance they agree: {of('polygon', 'dx_max', tolerance=1e-5)} and "

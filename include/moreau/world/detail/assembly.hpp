@@ -11,7 +11,6 @@
 #include <limits>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
@@ -135,11 +134,10 @@ class Assembly {
     return mass;
   }
 
-  /// Notes that the contact forces no longer belong to the bodies: a pose, what moves a body, or a law
-  /// has changed.
-  void set_changed() { changed_ = true; }
-  /// Whether set_changed() was called since the last call of this function.
-  bool take_change() { return std::exchange(changed_, false); }
+  /// Notes whether the contact forces of a regularized law no longer belong to the bodies: a pose, what
+  /// moves a body, or a law has changed.
+  void set_changed(bool changed = true) { changed_ = changed; }
+  bool has_changed() const { return changed_; }
 
   const ShapeT& shape(ShapeId id) const { return shapes_[id.index()]; }  ///< not checked
   Bodies<S>& bodies() { return bodies_; }

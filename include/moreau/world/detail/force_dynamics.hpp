@@ -40,8 +40,8 @@ class ForceDynamics {
   explicit ForceDynamics(const Integrator& integrator = Integrator{}) : integrator_(integrator) {}
   void set_integrator(const Integrator& integrator) { integrator_ = integrator; }
 
-  /// Whether the forces belong to the present configuration.
-  bool is_ready(std::size_t bodies) const { return loads_.size() == bodies; }
+  /// Whether forces have been evaluated for as many bodies.
+  bool has_loads_of(std::size_t bodies) const { return loads_.size() == bodies; }
   /// Removes the memory of contacts with removed grains.
   /// @param is_gone function: index of a contact -> whether it is removed
   void erase(const auto& is_gone) { erase_at(memory_, is_gone); }
