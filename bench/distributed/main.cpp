@@ -81,15 +81,8 @@ void print_state(const World& world) {
   const double height = world.pose(world.walls().back()).position[2];
   const Aabb<S> inner({0.1 * length, 0.1 * length, 0.1 * height},
                       {0.9 * length, 0.9 * length, 0.9 * height});
-  ClipWorkspace<S> workspace;
-  const double fraction = solid_fraction(
-      inner,
-      world.grain_count(), [&](std::size_t k) -> const auto& { return world.shape_of_grain(k); },
-      [&](std::size_t k) -> const auto& { return world.pose(world.grain(k)); }, workspace);
-  const auto stress = contact_stress(
-      world.contacts(), bench::packing_step, inner,
-      [&](std::uint32_t body) { return world.bodies().pose[body].position; },
-      [&](std::uint32_t body) { return world.is_grain(body); });
+  const double fraction = solid_fraction(world, inner);
+  const auto stress = contact_stress(world, bench::packing_step, inner);
   std::printf("  lid at %.8f m, solid fraction %.7f, vertical stress %.2f Pa\n", height, fraction,
               stress(2, 2));
 }

@@ -29,7 +29,6 @@
 #include "moreau/measure/coordination.hpp"
 #include "moreau/measure/energy_balance.hpp"
 #include "moreau/measure/fabric.hpp"
-#include "moreau/measure/pair_forces.hpp"
 #include "moreau/measure/stress.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"
@@ -278,12 +277,8 @@ class Specimen {
   /// Mean stress in the box, made smaller by a length on all sides. If the length is negative, the
   /// control volume ends beyond the walls, and the stress is that of the box.
   Stress contact_stress(double inset) const {
-    const auto& bodies = simulation_.bodies();
-    const auto position_of = [&](std::size_t body) { return bodies.pose[body].position; };
-    const auto is_grain = [&](std::size_t body) { return simulation_.is_grain(body); };
     moreau::Aabb<S> box = control_volume(inset);
-    typename S::Matrix stress =
-        moreau::contact_stress(simulation_.contacts(), h, box, position_of, is_grain);
+    typename S::Matrix stress = moreau::contact_stress(simulation_, h, box);
     if (inset < 0) stress *= moreau::volume(box) / volume();
     return {stress(up, up), (stress.trace() - stress(up, up)) / up};
   }
@@ -302,11 +297,7 @@ class Specimen {
     row.beyond.add(contact_stress(-mean), weight);
     row.ending.add(contact_stress(0), weight);
     row.coordination += weight * moreau::coordination(simulation_, 2).neighbours;
-    const auto& bodies = simulation_.bodies();
-    const auto position_of = [&](std::size_t body) { return bodies.pose[body].position; };
-    const auto is_grain = [&](std::size_t body) { return simulation_.is_grain(body); };
-    moreau::pair_forces(simulation_.contacts(), h, pairs_);
-    const auto fabric = moreau::fabric<S>(pairs_, control_volume(mean), position_of, is_grain);
+    const moreau::Fabric<S> fabric = moreau::fabric(simulation_, h, control_volume(mean));
     row.anisotropy += weight * fabric.anisotropy()(up, up);
     row.sweeps += weight * double(report.solve.sweeps);
     row.residual = std::max(row.residual, report.solve.residual);
@@ -318,7 +309,6 @@ class Specimen {
   using Load = moreau::PressureLoad<std::function<double()>>;
   PerAxis<std::optional<Load>, S::dim> loads_;  // empty: the wall is driven
   double mass_ = 0;                             // of all grains, and of a wall [kg]
-  std::vector<moreau::PairForce<S>> pairs_;
   std::size_t steps_ = 0;
   double approach_ = 0, overlap_ = 0;
 };

@@ -22,6 +22,7 @@
 #include "moreau/measure/energy_balance.hpp"
 #include "moreau/measure/fabric.hpp"
 #include "moreau/measure/force_distribution.hpp"
+#include "moreau/measure/pair_forces.hpp"
 #include "moreau/measure/stress.hpp"
 
 namespace fs = std::filesystem;
@@ -94,9 +95,6 @@ void run(const fs::path& folder) {
   simulation.set_wall_mass(lid, mass);
   simulation.set_force(lid, -pressure * area * Vector::Unit(up));
 
-  const auto& bodies = simulation.bodies();
-  const auto position_of = [&](std::size_t body) { return bodies.pose[body].position; };
-  const auto is_grain = [&](std::size_t body) { return simulation.is_grain(body); };
   std::vector<Vector> start;
   for (const moreau::BodyId grain : simulation.grains())
     start.push_back(simulation.pose(grain).position);
@@ -121,11 +119,9 @@ void run(const fs::path& folder) {
   // One grain diameter inside the walls: contact points on a wall can lie outside a control volume that
   // ends on the wall, and the stress is then several percent too small.
   const moreau::Aabb<S> inside = box.inflated(-size);
-  const typename S::Matrix stress =
-      moreau::contact_stress(simulation.contacts(), h, inside, position_of, is_grain);
-  std::vector<moreau::PairForce<S>> pairs;
-  moreau::pair_forces(simulation.contacts(), h, pairs);
-  const auto fabric = moreau::fabric<S>(pairs, inside, position_of, is_grain);
+  const typename S::Matrix stress = moreau::contact_stress(simulation, h, inside);
+  const moreau::Fabric<S> fabric = moreau::fabric(simulation, h, inside);
+  const std::vector<moreau::PairForce<S>> pairs = moreau::pair_forces(simulation, h);
   const auto forces = moreau::force_distribution<double>(
       pairs.size(), [&](std::size_t k) { return pairs[k].normal_force; }, 12, 4.0);
   const moreau::Coordination coordination = moreau::coordination(simulation, 2);

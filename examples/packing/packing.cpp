@@ -77,15 +77,11 @@ bool is_calm(const Simulation& simulation, const moreau::StepReport& report) {
 
 /// Prints the solid fraction inside the packing and the mean number of neighbours.
 void print(const Simulation& simulation) {
-  const auto shape_of = [&](std::size_t k) -> const Shape& { return simulation.shape_of_grain(k); };
-  const auto pose_of = [&](std::size_t k) { return simulation.pose(simulation.grain(k)); };
   moreau::Aabb<S> inner{Vector::Constant(0.03), Vector::Constant(width - 0.03)};
   inner.upper[S::dim - 1] = 0.09;  // below the surface of the packing
-  moreau::ClipWorkspace<S> workspace;
-  const double fraction =
-      moreau::solid_fraction(inner, simulation.grain_count(), shape_of, pose_of, workspace);
-  std::cout << "solid fraction " << fraction << ", mean number of neighbours "
-            << moreau::coordination(simulation, 2).neighbours << '\n';
+  std::cout << "solid fraction " << moreau::solid_fraction(simulation, inner)
+            << ", mean number of neighbours " << moreau::coordination(simulation, 2).neighbours
+            << '\n';
 }
 
 int main() {

@@ -108,9 +108,7 @@ class Recorder {
     };
     const auto is_grain = [&](std::size_t body) { return simulation.is_grain(body); };
     const typename S::Matrix stress =
-        moreau::contact_stress<S>(simulation.contacts(), parameters_.step, inner_, position,
-                                  is_grain) /
-        experiment_.thickness();
+        moreau::contact_stress(simulation, parameters_.step, inner_) / experiment_.thickness();
     moreau::VelocityField<S> field(experiment_.box(), 6, 6);
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       const std::size_t body = simulation.grain(k).index();
@@ -135,16 +133,7 @@ class Recorder {
   }
 
   double solid_fraction(const moreau::Aabb<S>& volume) {
-    const auto& simulation = experiment_.simulation();
-    return moreau::solid_fraction(
-        volume, simulation.grain_count(),
-        [&](std::size_t k) -> const typename ExperimentT::Shape& {
-          return simulation.shape_of_grain(k);
-        },
-        [&](std::size_t k) -> const moreau::Pose<S>& {
-          return simulation.pose(simulation.grain(k));
-        },
-        workspace_);
+    return moreau::solid_fraction(experiment_.simulation(), volume, workspace_);
   }
 
   Record record() const {

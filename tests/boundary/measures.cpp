@@ -3,13 +3,18 @@
 // boundary, and while the simulation runs.
 #include <cmath>
 #include <doctest/doctest.h>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
+#include "moreau/measure/contact_classes.hpp"
 #include "moreau/measure/coordination.hpp"
 #include "moreau/measure/energy_balance.hpp"
+#include "moreau/measure/fabric.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/measure/pair_forces.hpp"
+#include "moreau/measure/solid_fraction.hpp"
 #include "moreau/measure/stress.hpp"
 #include "moreau/measure/velocity_field.hpp"
 
@@ -147,8 +152,70 @@ TEST_CASE_TEMPLATE("measures see contacts across the boundary", ShapeT, moreau::
     CHECK((segment.from - segment.point).norm() < radius);
     CHECK((segment.to - segment.point).norm() < radius);
   }
+  // All images of the balls are in the cell, whose sides cut some of them.
+  const double solid = 3 * ShapeT(radius).volume();
+  CHECK(moreau::solid_fraction(ring, volume) ==
+        doctest::Approx(solid / moreau::volume(volume)).epsilon(1e-12));
+  Aabb<S> twice = volume;
+  twice.upper[0] += length;
+  CHECK(moreau::solid_fraction(ring, twice) ==
+        doctest::Approx(solid / moreau::volume(volume)).epsilon(1e-12));
+  Aabb<S> left = volume, right = volume;
+  left.upper[0] = right.lower[0] = 0.37;
+  CHECK(moreau::solid_fraction(ring, left) * moreau::volume(left) +
+            moreau::solid_fraction(ring, right) * moreau::volume(right) ==
+        doctest::Approx(solid).epsilon(1e-12));
   moreau::VelocityField<S> field(volume, 3, 1);
   for (std::uint32_t k = 0; k < 3; ++k)
     field.add(ring.bodies().pose[k].position, Vector::UnitX(), ring.cell());
   for (std::size_t column = 0; column < 3; ++column) CHECK(field.sample(column, 0).grains == 1);
+}
+
+TEST_CASE_TEMPLATE("measures of a simulation count images", ShapeT, moreau::Ball<>,
+                   moreau::Disk<>) {
+  // One ball lies on the floor, another on it, across the periodic boundary.
+  using S = moreau::SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1;
+  const double h = 1e-3, radius = 0.1, distance = 2 * radius - 1e-4, length = 1, offset = 0.1;
+  scenes::World<ShapeT> pile(0.2, moreau::Materials<Law>(1, Law(0.3)));
+  pile.set_periodic(0, 0, length);
+  pile.set_gravity(-9.81 * Vector::Unit(up));
+  pile.add_wall(Vector::Unit(up), Vector::Zero());
+  const auto shape = pile.add_shape(ShapeT(radius));
+  Pose<S> lower, upper;
+  lower.position[0] = 0.05;
+  lower.position[up] = radius;
+  const Vector branch = -offset * Vector::UnitX() +
+                        std::sqrt(distance * distance - offset * offset) * Vector::Unit(up);
+  upper.position = lower.position + branch + length * Vector::UnitX();
+  pile.add_grain(shape, lower, 1000);
+  pile.add_grain(shape, upper, 1000);
+  pile.step(h);
+  REQUIRE(pile.contacts().size() == 2);
+
+  Aabb<S> volume;
+  volume.lower.setConstant(-0.5);
+  volume.upper.setConstant(0.5);
+  const auto is_grain = [&](std::size_t body) { return pile.is_grain(body); };
+  const auto stress = moreau::contact_stress(pile, h, volume);
+  CHECK(stress == moreau::contact_stress(pile.contacts(), h, volume, position_of<S>(pile), is_grain,
+                                         pile.cell()));
+  CHECK(stress(up, up) > 0);
+  CHECK(moreau::pair_forces(pile, h).size() == 2);
+  const auto fabric = moreau::fabric(pile, h, volume);
+  REQUIRE(fabric.pairs == 1);
+  const Vector normal = branch / distance;
+  CHECK((fabric.tensor - normal * normal.transpose()).norm() < 1e-3);
+  double neighbours = 0;
+  for (const auto& share : moreau::contact_classes(pile, h).shares) neighbours += share.neighbours;
+  CHECK(neighbours == moreau::coordination(pile).neighbours);
+  CHECK(neighbours == 1.5);
+  for (const auto& segments : {moreau::force_chains(pile, h), moreau::contact_segments(pile, h)}) {
+    REQUIRE(segments.size() == 2);
+    for (const auto& segment : segments) CHECK((segment.to - segment.from).norm() < 2 * radius);
+  }
+  CHECK_THROWS_AS(moreau::contact_stress(pile, 0, volume), std::invalid_argument);
+  CHECK_THROWS_AS(moreau::pair_forces(pile, 0), std::invalid_argument);
+  CHECK_THROWS_AS(moreau::fabric(pile, h, Aabb<S>{}), std::invalid_argument);
 }

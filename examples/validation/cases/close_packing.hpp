@@ -97,11 +97,7 @@ class Compression {
   }
   double fraction() const {
     moreau::Aabb<S> inner{Vector::Constant(2 * size), corner() - Vector::Constant(2 * size)};
-    moreau::ClipWorkspace<S> workspace;
-    return moreau::solid_fraction(
-        inner, world_.grain_count(),
-        [&](std::size_t k) -> const ShapeT& { return world_.shape_of_grain(k); },
-        [&](std::size_t k) -> const Pose<S>& { return world_.pose(world_.grain(k)); }, workspace);
+    return moreau::solid_fraction(world_, inner);
   }
   /// Contacts with less than a thousandth of the mean force count as open.
   double coordination() const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "moreau/measure/detail/of_simulation.hpp"
 #include "moreau/measure/pair_forces.hpp"
 
 namespace moreau {
@@ -57,6 +58,18 @@ ContactClasses contact_classes(std::span<const PairForce<S>> pairs, std::size_t 
     share.force = sum > 0 ? share.force / sum : 0;
   }
   return result;
+}
+
+/// The same for the grains of a simulation and its last step.
+/// @param simulation a Simulation
+/// @param step       length of its last step [s], > 0
+/// @throws std::invalid_argument if the step is not positive
+template <class Simulation>
+ContactClasses contact_classes(const Simulation& simulation, typename Simulation::Scalar step) {
+  using S = typename Simulation::S;
+  const auto pairs = pair_forces(simulation, step);
+  return contact_classes<S>(std::span<const PairForce<S>>(pairs), simulation.grain_count(),
+                            detail::grain_in(simulation));
 }
 
 }  // namespace moreau

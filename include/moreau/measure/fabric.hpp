@@ -7,6 +7,7 @@
 
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
+#include "moreau/measure/detail/of_simulation.hpp"
 #include "moreau/measure/pair_forces.hpp"
 
 namespace moreau {
@@ -58,6 +59,20 @@ Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_vol
   }
   if (result.pairs > 0) result.tensor /= static_cast<typename S::Scalar>(result.pairs);
   return result;
+}
+
+/// The same for the grains of a simulation and its last step, also in a periodic cell.
+/// @param simulation a Simulation
+/// @param step       length of its last step [s], > 0
+template <class Simulation>
+Fabric<typename Simulation::S> fabric(const Simulation& simulation,
+                                      typename Simulation::Scalar step,
+                                      const Aabb<typename Simulation::S>& control_volume) {
+  using S = typename Simulation::S;
+  const auto pairs = pair_forces(simulation, step);
+  return fabric<S>(std::span<const PairForce<S>>(pairs), control_volume,
+                   detail::position_in(simulation), detail::grain_in(simulation),
+                   simulation.cell());
 }
 
 }  // namespace moreau

@@ -11,6 +11,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/measure/detail/of_simulation.hpp"
 
 namespace moreau {
 
@@ -90,6 +91,32 @@ void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, cons
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
+}
+
+/// The segments of those contact points of a simulation that have a normal force > 0 in its last step.
+/// @param simulation a Simulation
+/// @param step       length of its last step [s], > 0
+/// @throws std::invalid_argument if the step is not finite or not positive
+template <class Simulation>
+std::vector<ContactSegment<typename Simulation::S>> force_chains(const Simulation& simulation,
+                                                                 typename Simulation::Scalar step) {
+  std::vector<ContactSegment<typename Simulation::S>> segments;
+  force_chains(simulation.contacts(), step, detail::position_in(simulation),
+               detail::grain_in(simulation), segments, simulation.cell());
+  return segments;
+}
+
+/// The segments of all contact points of a simulation.
+/// @param simulation a Simulation
+/// @param step       length of its last step [s], > 0
+/// @throws std::invalid_argument if the step is not finite or not positive
+template <class Simulation>
+std::vector<ContactSegment<typename Simulation::S>> contact_segments(
+    const Simulation& simulation, typename Simulation::Scalar step) {
+  std::vector<ContactSegment<typename Simulation::S>> segments;
+  contact_segments(simulation.contacts(), step, detail::position_in(simulation),
+                   detail::grain_in(simulation), segments, simulation.cell());
+  return segments;
 }
 
 }  // namespace moreau

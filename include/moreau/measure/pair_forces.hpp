@@ -72,4 +72,16 @@ void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,
   }
 }
 
+/// The pairs of a simulation that carry force in its last step.
+/// @param simulation a Simulation
+/// @param step       length of its last step [s], > 0
+/// @throws std::invalid_argument if the step is not positive
+template <class Simulation>
+std::vector<PairForce<typename Simulation::S>> pair_forces(const Simulation& simulation,
+                                                           typename Simulation::Scalar step) {
+  std::vector<PairForce<typename Simulation::S>> pairs;
+  pair_forces(simulation.contacts(), step, pairs);
+  return pairs;
+}
+
 }  // namespace moreau

@@ -2,8 +2,10 @@
 // The fraction of a control volume that is filled by grains, computed exactly, without sampling.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/clip.hpp"
 #include "moreau/measure/control_volume.hpp"
 #include "moreau/measure/detail/clip_sphere.hpp"
@@ -42,6 +44,54 @@ typename S::Scalar solid_fraction(const Aabb<S>& control_volume, std::size_t gra
   for (std::size_t k = 0; k < grain_count; ++k)
     solid += clipped_volume(shape_of(k), pose_of(k), control_volume, workspace);
   return solid / volume(control_volume);
+}
+
+namespace detail {
+
+/// Calls use(pose) for every image of a shape, along this axis and those after it, whose bounding box
+/// reaches into the control volume.
+template <class S>
+void for_images(const PeriodicCell<S>& cell, int axis, const Aabb<S>& bounds, const Pose<S>& pose,
+                const Aabb<S>& control_volume, const auto& use) {
+  if (axis == S::dim) return use(pose);
+  if (!cell.is_periodic(axis)) return for_images(cell, axis + 1, bounds, pose, control_volume, use);
+  const typename S::Scalar length = cell.length()[axis];
+  const auto first = std::ceil((control_volume.lower[axis] - bounds.upper[axis]) / length);
+  const auto last = std::floor((control_volume.upper[axis] - bounds.lower[axis]) / length);
+  for (auto k = first; k <= last; ++k) {
+    Pose<S> image = pose;
+    image.position[axis] += k * length;
+    for_images(cell, axis + 1, bounds, image, control_volume, use);
+  }
+}
+
+}  // namespace detail
+
+/// The solid fraction of the grains of a simulation in a control volume [-]; see above. In a periodic
+/// cell, all images of the grains count.
+/// @param simulation     a Simulation
+/// @param control_volume world axes [m]
+/// @param workspace      buffers, which may be reused for the next call
+template <class Simulation, class S = typename Simulation::S>
+typename S::Scalar solid_fraction(const Simulation& simulation, const Aabb<S>& control_volume,
+                                  ClipWorkspace<S>& workspace) {
+  require_control_volume(control_volume, "solid_fraction");
+  typename S::Scalar solid = 0;
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const auto& shape = simulation.shape_of_grain(k);
+    const Pose<S>& pose = simulation.pose(simulation.grain(k));
+    detail::for_images(simulation.cell(), 0, shape.bounding_box(pose), pose, control_volume,
+                       [&](const Pose<S>& image) {
+                         solid += clipped_volume(shape, image, control_volume, workspace);
+                       });
+  }
+  return solid / volume(control_volume);
+}
+/// The same with buffers of its own.
+template <class Simulation, class S = typename Simulation::S>
+typename S::Scalar solid_fraction(const Simulation& simulation, const Aabb<S>& control_volume) {
+  ClipWorkspace<S> workspace;
+  return solid_fraction(simulation, control_volume, workspace);
 }
 
 }  // namespace moreau

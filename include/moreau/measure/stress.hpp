@@ -8,6 +8,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/control_volume.hpp"
+#include "moreau/measure/detail/of_simulation.hpp"
 
 namespace moreau {
 
@@ -59,6 +60,18 @@ typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scala
     sum += branch * (contact.frame * contacts.impulses[c]).transpose();
   }
   return sum / (step * volume(control_volume));
+}
+
+/// The same for the grains of a simulation and its last step, also in a periodic cell.
+/// @param simulation a Simulation
+/// @param step       length of its last step [s], > 0
+template <class Simulation>
+typename Simulation::S::Matrix contact_stress(const Simulation& simulation,
+                                              typename Simulation::Scalar step,
+                                              const Aabb<typename Simulation::S>& control_volume) {
+  return contact_stress(simulation.contacts(), step, control_volume,
+                        detail::position_in(simulation), detail::grain_in(simulation),
+                        simulation.cell());
 }
 
 }  // namespace moreau

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What measures ask of a simulation: where a body is, and whether it is a grain.
+#pragma once
+
+#include <cstddef>
+
+namespace moreau::detail {
+
+/// Function: index of a body -> its centre of mass in world axes [m]. Refers to the simulation.
+template <class Simulation>
+auto position_in(const Simulation& simulation) {
+  return [&bodies = simulation.bodies()](std::size_t body) -> const typename Simulation::Vector& {
+    return bodies.pose[body].position;
+  };
+}
+
+/// Function: index of a body -> false for a wall. Refers to the simulation.
+template <class Simulation>
+auto grain_in(const Simulation& simulation) {
+  return [&simulation](std::size_t body) { return simulation.is_grain(body); };
+}
+
+}  // namespace moreau::detail
