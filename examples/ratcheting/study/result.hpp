@@ -66,6 +66,9 @@ struct Result {
   /// to the force on the wall [m].
   double flight_displacement() const;
   double scaled_load() const;  ///< (m g)^2 / ((m + m_w) fmax nu^2) [m]
+  /// Whether the jammed wall moves by at most 30 % of the displacement; the report uses no other runs
+  /// for what depends on the excursion.
+  bool is_judged() const { return std::abs(drift) <= 0.3 * std::abs(dx_max); }
 };
 
 inline double Result::early_rate(double Jam::*rho) const {

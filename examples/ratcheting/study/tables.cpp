@@ -74,7 +74,9 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
       "dx_over_closed_form_third,steady_thrust_over_weight,carried_share,explained,"
       "dx_over_flight,early_rate_inner,early_rate_box,steps,capped_steps,mean_sweeps,worst_"
       "residual,mean_overlap_over_d,"
-      "max_overlap_over_d\n";
+      "max_overlap_over_d,grains,method,stiffness,friction,flatness,fewest_vertices,most_vertices,"
+      "wall_"
+      "speed,from,judged\n";
   for (const Result& r : results) {
     const Parameters& p = r.c.parameters;
     CsvLine line;
@@ -95,6 +97,9 @@ void write_cases(const std::filesystem::path& folder, const std::vector<Result>&
     const Facts& f = r.facts;
     line << double(f.steps) << double(f.capped_steps) << f.mean_sweeps << f.worst_residual
          << f.mean_overlap << f.max_overlap;
+    line << double(p.grains) << p.method << p.stiffness << p.friction << p.flatness
+         << double(p.fewest_vertices) << double(p.most_vertices) << p.wall_speed
+         << (p.from.empty() ? "filling" : p.from) << double(r.is_judged());
     text += std::move(line).end();
   }
   moreau::write_atomically(folder / "cases.csv", text);

@@ -78,9 +78,9 @@ def cause_of_speed(runs):
             f"jammed state, turns back {low.turn:.3f} periods after the minimum of f at {low.frequency:g} Hz and {high.turn:.3f} at "
             f"{high.frequency:g} Hz, and has its largest speed {low.fastest:.3f} and {high.fastest:.3f} periods after the minimum "
             f"([figure](figures/way_back.png)). So the rising force pushes it for a longer part of the period. At that moment the grains bear "
-            f"{low.force:.2f} and {high.force:.2f} fmax: after a small excursion the packing gives way at a larger force. The grains take the same share "
-            f"of the impulse of f on the way back at all frequencies, {min(shares):.2f} to {max(shares):.2f}. So v_max ν rises as the impulse of f times ν does. For the same "
-            "reason the phase portraits do not collapse.")
+            f"{low.force:.2f} and {high.force:.2f} fmax: after a small excursion the packing gives way at a larger force. The share of the impulse of f on the way "
+            f"back that the grains take is {min(shares):.2f} to {max(shares):.2f} at all frequencies, so the rise of v_max ν is that of the impulse of f. The phase portraits do "
+            f"not collapse for the same reason. Means over {low.samples} to {high.samples} samples at these two frequencies.")
 
 
 def four_periods(run):
@@ -252,7 +252,7 @@ def claims(runs):
               "angle of the displacement field of a period [mrad]" if has_field else
               "rotation of the velocity field in contraction [mrad/s]", "clockwise (< 0), wall's side not "
               "given", over_shapes(lambda s: turned[s].text()) if has_field else rolls,
-              ("sense depends on the wall's side" if turns else "velocities turn, displacements of a period do not")
+              ("sense depends on the wall's side" if turns else "reproduced in the velocities, if the wall is on the left; no convection")
               if has_field else "not decided",
               ("Clockwise with the wall on the " + ("left" if turned["polyhedron"].mean > 0 else "right")
                if turns else "The field of polyhedra has no sense beyond its error") + ". The paper shows velocities in "
@@ -265,7 +265,8 @@ def claims(runs):
               "change of ρ of the inner volume in contraction [1e-4]", "< 0",
               at_base(lambda r: r["behaviour"]["rho_contraction"], 1e4), "not reproduced",
               f"Most of the compaction does happen in extension ({extension.text()} for polyhedra), but the "
-              "inner volume also densifies in contraction. The whole box does the opposite by definition." + other_volumes(runs)),
+              "inner volume does not loosen in contraction. The whole box does the opposite by definition." + other_volumes(runs) + " No volume falls by more than its error; "
+              "how the paper defines contraction and its volume is not known."),
         Claim("The excursion goes as ν⁻².", "exponent of Δx over ν above 1 Hz, without drift, judged runs", "−2",
               [e.text() for e in powers.values()],
               "reproduced to 0.1" if abs(powers["polyhedron"].mean + 2) <= 0.1 else "not reproduced: less steep",

@@ -92,7 +92,7 @@ class Prediction:
     def __init__(self, runs, shape, curves=None, **wanted):
         self.pairs = {"frequency": [], "fmax": [], "gravity": [], "wall_mass_ratio": []}  # run, predicted
         self.bases, self.thrusts = [], []
-        self.excluded = 0  # runs that are not judged
+        self.excluded = []  # run, predicted: the runs that are not judged
         self.shares = {}  # beta by sample
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
@@ -113,10 +113,7 @@ class Prediction:
                     p = run["parameters"]
                     if p["fmax"] < 1000 or p["duration"] > 5 or p[name] == base["parameters"][name]:
                         continue
-                    if not judged(run):
-                        self.excluded += 1
-                        continue
-                    pairs.append((run, displacement(
+                    (pairs if judged(run) else self.excluded).append((run, displacement(
                         lambda x, weight=run["weight"]: thrust_at(x) * weight,
                         run["wall_mass"] + share * run["mass"], p["fmax"], p["frequency"])))
 
@@ -134,6 +131,10 @@ class Prediction:
         points = [(run["dx_active"], run["dx_active"] / value) for pairs in self.pairs.values() for run, value in pairs]
         _, b, error, scatter = power(points)
         return f"{number(b, error)}, {100 * scatter:.0f} %"
+
+    def every_ratio(self):
+        """Measured over predicted excursion, with the runs that are not judged."""
+        return self.ratios() + [run["dx_active"] / predicted for run, predicted in self.excluded]
 
     def ratios(self, *names):
         """Measured over predicted excursion of the runs over these parameters, or over all."""

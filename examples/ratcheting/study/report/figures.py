@@ -174,7 +174,7 @@ def f_g_x(runs, path):
             peak = max(r[1] for r in rows)
             panel.curve([(r[1] / peak, r[3] / weight) for r in rows], colors[number],
                         f"period {number + 1}", 1.2)
-        panel.commands += ["set yrange [0:6]", "set xrange [-2.6:1.1]"]
+        panel.commands += ["set yrange [0:6]", "set xrange [-1.4:1.1]"]
 
     panels, run = panel_per_course(runs, "(x − x_j) / Δx_{max}", "f_g / mg",
                                    ["set key bottom left"], add)
@@ -282,9 +282,9 @@ def phase_portrait(runs, path):
 def dx_v_frequency(runs, path):
     panels = [Panel("excursion without drift", "ν  [Hz]", "Δx  [mm]",
                     ["set logscale xy", "set key bottom left",
-                                                                        "set xrange [0.8:75]"]),
+                     "set xrange [0.8:75]"]),
               Panel("largest inward speed", "ν  [Hz]", "v_{max}  [mm/s]",
-                    ["set logscale xy", "set key bottom left", "set xrange [0.8:75]"]),
+                    ["set logscale xy", "set key bottom left", "set xrange [0.8:75]", "set yrange [8:*]"]),
               Panel("the same over ν^{−2}: the paper's C", "ν  [Hz]", "C",
                     ["set logscale x", "set yrange [0:0.09]", "set key top right maxrows 3",
                      "set xrange [0.8:75]"]),
@@ -478,7 +478,7 @@ def compaction_law(runs, path):
         panels.append(panel)
     draw(path, panels, 2, len(shapes), 1600, 860, "0.055, 0.99, 0.08, 0.95", "0.035, 0.12")
     return ("Strain of a period. Above: over the time t_u during which f is below the thrust of the grains, "
-            "times n^b; all ν, fmax, g, m_w, boxes and lid forces. Below: over the number n of the period, "
+            "times n^b; ν = 1 to 60 Hz, all fmax, g, m_w, boxes and lid forces. Below: over the number n of the period, "
             "over the fit at n = 1, at four frequencies; bars: standard error over three samples. "
             f"N = 1200; {RIGID_TEXT}.")
 
@@ -598,7 +598,7 @@ def box_runs(runs, shape):
 
 def box(runs, path):
     axis = ["set logscale x", "set xrange [0.27:1.8]", "set xtics (0.3, 0.42, 0.5, 0.7, 1, 1.5)"]
-    panels = [Panel("prefactor", "H / L", "C", [*axis, "set logscale y", "set yrange [0.005:0.3]",
+    panels = [Panel("prefactor", "H / L", "C", [*axis, "set logscale y", "set yrange [0.005:0.2]",
                                                  "set key top left"]),
               Panel("thrust in extension", "H / L", "F / mg",
                     [*axis, "set logscale y", "set yrange [0.08:0.9]", "set key top left",
@@ -663,6 +663,7 @@ class ReturnPhase:
         def mean(k):
             return sum(row[k] for row in rows) / len(rows)
         self.frequency = frequency
+        self.samples = len({row[5] for row in rows})
         self.turn, self.fastest, self.force, self.share, self.speed = (mean(k) for k in range(5))
 
 
@@ -687,7 +688,7 @@ def return_phases(runs, shape):
             def impulse(phase):  # of f / fmax since the minimum, in periods
                 return phase / 2 - math.sin(2 * math.pi * phase) / (4 * math.pi)
             pushed = p["fmax"] * (impulse(b) - impulse(a)) / nu
-            rows.append((a, b, math.sin(math.pi * b) ** 2, 1 - run["wall_mass"] * v / pushed, v * nu))
+            rows.append((a, b, math.sin(math.pi * b) ** 2, 1 - run["wall_mass"] * v / pushed, v * nu, p["seed"]))
     return [ReturnPhase(nu, rows) for nu, rows in sorted(found.items()) if rows and None not in rows]
 
 

@@ -135,21 +135,24 @@ def power(points):
     return math.exp(a), b, error, scatter
 
 
-def exponent(runs, parameter, value):
-    """The exponent of value(run) over a parameter, fitted sample by sample: Estimate. With one sample
-    the error is that of its fit, with two at least that of their fits."""
+def exponent_of_samples(runs, argument, value):
+    """The exponent of value(run) over argument(run), fitted sample by sample: Estimate. The error is the
+    larger of that over the samples, which may agree by chance, and that of their fits."""
     seeds = {}
     for run in runs:
-        seeds.setdefault(run["parameters"]["seed"], []).append(
-            (run["parameters"][parameter], value(run)))
+        seeds.setdefault(run["parameters"]["seed"], []).append((argument(run), value(run)))
     fits = [power(points) for points in seeds.values() if len({p[0] for p in points}) > 2]
+    fits = [fit for fit in fits if math.isfinite(fit[1])]
     e = Estimate([fit[1] for fit in fits])
-    own = [fit[2] for fit in fits if math.isfinite(fit[1])]
-    if e.n == 1:
-        e.error = own[0]
-    if e.n == 2:  # two samples may agree by chance
-        e.error = max(e.error, math.sqrt(sum(error ** 2 for error in own)) / 2)
+    if e.n > 0:
+        of_fits = math.sqrt(sum(fit[2] ** 2 for fit in fits)) / e.n
+        e.error = max(e.error, of_fits) if e.n > 1 else of_fits
     return e
+
+
+def exponent(runs, parameter, value):
+    """The exponent of value(run) over a parameter; see exponent_of_samples()."""
+    return exponent_of_samples(runs, lambda run: run["parameters"][parameter], value)
 
 
 def solve(matrix, right):
