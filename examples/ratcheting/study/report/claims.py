@@ -176,21 +176,24 @@ def in_contraction(run, volume, end="t_finish"):
     return 1e4 * sum(changes) / len(changes)
 
 
+VOLUMES = {"rho_inner": "inner", "rho_to_wall": "up to the wall", "rho_to_lid": "up to the lid",
+           "rho_moving": "moving with the wall"}
+
+
 def other_volumes(runs):
     """What other control volumes say of contraction, for polyhedra."""
     found = base(runs, "polyhedron", **COMPLIANT)
     texts = []
-    for volume, name in (("rho_inner", "the inner volume"), ("rho_to_wall", "a volume up to the wall"),
-                         ("rho_to_lid", "one up to the lid"), ("rho_moving", "one that moves with the wall")):
+    for volume, name in VOLUMES.items():
         e = over_samples(found, lambda r, volume=volume: in_contraction(r, volume))
         if e.n:
-            texts.append(f"{e.text()} in {name}")
+            texts.append(f"{e.text()} ({name})")
     if not texts:
         return ""
     until = over_samples(found, lambda r: in_contraction(r, "rho_inner", "t_v_max_passive"))
     before = (f" Until the wall is fastest, before the packing jams, the inner volume changes by {until.text()}." if until.n else "")
-    return (" With compliant contacts the change from the largest x to the next maximum of f is "
-            + ", ".join(texts) + " (polyhedra)." + before)
+    return (" With compliant contacts the change from the largest x to the next maximum of f is, by the place of the volume, "
+            + ", ".join(texts) + " (polyhedra; all shapes below)." + before)
 
 
 class Claim:
@@ -229,7 +232,7 @@ def claims(runs):
     return [
         Claim("The initial solid fraction is 0.50.", "ρ of the whole box at t = 0", "0.50",
               at_base(lambda r: r["rho_box_initial"]),
-              "depends on the box" if in_flat else "not reproduced",
+              "reproduced in a flat box; depends on the box" if in_flat else "not reproduced",
               f"The gap of 1 cm below the lid is a larger share of a flat box: {flat_rho.text()} at "
               f"{flat_text} (samples: {flat_rho.n}). Spheres and polyhedra differ by 0.01."
               if in_flat else "0.529 at H/L = 0.7: the gap below the lid is a larger share of a flat box. "
@@ -265,7 +268,7 @@ def claims(runs):
               "change of ρ of the inner volume in contraction [1e-4]", "< 0",
               at_base(lambda r: r["behaviour"]["rho_contraction"], 1e4), "not reproduced",
               f"Most of the compaction does happen in extension ({extension.text()} for polyhedra), but the "
-              "inner volume does not loosen in contraction. The whole box does the opposite by definition." + other_volumes(runs) + " No volume falls by more than its error; "
+              "inner volume does not loosen in contraction. The whole box loosens in extension by definition." + other_volumes(runs) + " No volume of any shape loosens; "
               "how the paper defines contraction and its volume is not known."),
         Claim("The excursion goes as ν⁻².", "exponent of Δx over ν above 1 Hz, without drift, judged runs", "−2",
               [e.text() for e in powers.values()],

@@ -530,7 +530,7 @@ def one_state(runs, path):
     draw(path, panels, 2, len(panels) // 2, 1500, 860, "0.065, 0.99, 0.08, 0.95", "0.045, 0.12")
     return ("Strain of a period, mean over four periods from one jammed state of each sample, over the time t_u during which f "
             "is below the thrust, and over the scaled load ℓ = (mg)²/[(m + m_w) fmax ν²]: 1 to 60 Hz, three forces; other boxes and sizes of grains at 5 N per grain. Means over up to "
-            "five samples (20 in the smallest boxes), bars: standard error. Open: in one sample or more the jammed wall moves by more than 30 % of the displacement "
+            "five samples (20 in the smallest boxes), bars: standard error (none: one sample). Open: in one sample or more the jammed wall moves by more than 30 % of the displacement "
             f"(not judged). The lines have the same prefactor in all panels of a row. N = 1200, but 94 or 111 in the smallest boxes; {COMPLIANT_TEXT}.")
 
 
