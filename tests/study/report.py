@@ -135,7 +135,7 @@ class Report(unittest.TestCase):
         report = (STUDY / "results/report.md").read_text(encoding="utf8")
         page = (STUDY / "results/README.md").read_text(encoding="utf8")
         for number in re.findall(r"−?[\d.]+ ± [\d.]*\d", page):
-            self.assertIn(number, report, number)
+            self.assertTrue(number in report, f"{number} of the results page is not in the report")
 
 
 if __name__ == "__main__":
