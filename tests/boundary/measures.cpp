@@ -215,6 +215,10 @@ TEST_CASE_TEMPLATE("measures of a simulation count images", ShapeT, moreau::Ball
     REQUIRE(segments.size() == 2);
     for (const auto& segment : segments) CHECK((segment.to - segment.from).norm() < 2 * radius);
   }
+  Aabb<S> twice = volume;
+  twice.upper[0] += length;  // two images of a contact lie in it
+  CHECK_THROWS_AS(moreau::contact_stress(pile, h, twice), std::invalid_argument);
+  CHECK_THROWS_AS(moreau::fabric(pile, h, twice), std::invalid_argument);
   CHECK_THROWS_AS(moreau::contact_stress(pile, 0, volume), std::invalid_argument);
   CHECK_THROWS_AS(moreau::pair_forces(pile, 0), std::invalid_argument);
   CHECK_THROWS_AS(moreau::fabric(pile, h, Aabb<S>{}), std::invalid_argument);

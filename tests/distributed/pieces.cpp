@@ -50,3 +50,18 @@ TEST_CASE("Each process writes its grains and contacts") {
   }
   CHECK_THROWS_AS(write_pieces("a&b", packing), std::invalid_argument);
 }
+
+TEST_CASE("If one process cannot write, all throw") {
+  const std::string folder = "unwritable-" + std::to_string(ranks());
+  const int last = ranks() - 1;
+  if (rank() == 0)  // a folder in the place of a file
+    std::filesystem::create_directories(folder + "/run_grains_" + std::to_string(last) + ".vtp/in");
+  const auto build = [] { return box_of_grains<Balls>(60); };
+  DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>(build));
+  packing.step(step);
+  CHECK_THROWS(write_pieces(std::filesystem::path(folder) / "run", packing, step));
+  CHECK_THROWS_AS(write_pieces(std::filesystem::path(folder) / "run", packing, 0),
+                  std::invalid_argument);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank() == 0) std::filesystem::remove_all(folder);
+}

@@ -100,3 +100,20 @@ TEST_CASE("Exact sums do not depend on the order, and are rounded once") {
   sum.add(std::numeric_limits<double>::infinity());
   CHECK(std::isnan(sum.value()));
 }
+
+TEST_CASE("Without processes, a wall with a mass touches any number of grains") {
+  OrderedPolygons row = empty_world<OrderedPolygons>(1e-4);
+  const ShapeId shape = row.add_shape(regular_shape<Polygon<>>(size));
+  const Space<2>::Rotation flat = Space<2>::exp(Space<2>::Angular(0.0));
+  for (int k = 0; k < 300; ++k)
+    row.add_grain(shape, {Space<2>::Vector(1.2 * size * k, 0), flat}, 2700);
+  const double up = row.shape(shape).bounding_box({}).upper[1];
+  row.add_wall({0, 1}, {0, -up});
+  const BodyId lid = row.add_wall({0, -1}, {0, up});
+  row.set_wall_mass(lid, 1);
+  row.set_force(lid, {0, -10});
+  const StepReport report = row.step(step);
+  CHECK(report.points >= 600);
+  CHECK(report.solve.converged);
+  CHECK(row.velocity(lid).norm() < 1e-3 * 10 * step);
+}

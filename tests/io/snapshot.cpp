@@ -10,8 +10,10 @@
 #include <functional>
 #include <string>
 
+#include "moreau/law/regularized.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
 
 #include "temporary_folder.hpp"
 
@@ -116,4 +118,28 @@ TEST_CASE("a snapshot that cannot be read, is empty or of other types says so") 
   write_snapshot(path, disks, 1);
   CHECK(said_by_reading(path) == "read_snapshot: '" + path.string() +
                                      "' holds 1 objects, not 0, that go with the simulation");
+}
+
+namespace {
+
+/// A law without members.
+struct NoForce {
+  using S = Space<2>;
+  S::Vector force(const ContactMotion<S>&, S::Vector& memory) const {
+    memory.setZero();
+    return S::Vector::Zero();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("laws without members can be read back") {
+  using World = Simulation<Disk<>, NoForce>;
+  World world(0.1, Materials<NoForce>(64));
+  world.add_grain(world.add_shape(Disk<>(0.05)), {}, 1);
+  world.step(1e-3);
+  const std::string bytes = snapshot(world);
+  World other(0.1, Materials<NoForce>(64));
+  restore_snapshot(bytes, other);
+  CHECK(snapshot(other) == bytes);
 }

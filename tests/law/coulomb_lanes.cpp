@@ -118,3 +118,25 @@ TEST_CASE("a polished impulse that slips lies on the cone to the last digit") {
   }
   CHECK(slips > 300);
 }
+
+TEST_CASE_TEMPLATE("loads of any size have finite impulses in the cone", S,
+                   MOREAU_TYPES((Space<3>), (Space<3, float>))) {
+  using T = typename S::Scalar;
+  using Block = LaneBlock<S>;
+  using W = typename Block::W;
+  const Block block = Block::unit();
+  const auto friction = W::broadcast(T(0.5));
+  for (const double speed : {0.0, 1e-9, 1e-3, 1.0})
+    for (double load = 1; load > 1e-46; load /= 10)
+      for (const double start : {0.0, 1.0, 1e10, 1e30}) {
+        typename Block::Vector b{W::broadcast(static_cast<T>(-load)),
+                                 W::broadcast(static_cast<T>(speed)),
+                                 W::broadcast(static_cast<T>(speed / 2))};
+        auto alpha = W::broadcast(static_cast<T>(start));
+        const auto r = detail::CoulombLanes<S>::solve(block, b, friction, alpha, true);
+        const double tangential = std::hypot(double(r[1][0]), double(r[2][0]));
+        INFO("load ", load, ", speed ", speed, ", alpha ", start);
+        CHECK(std::isfinite(double(r[0][0])));
+        CHECK(tangential <= 0.51 * double(r[0][0]) + 1e-38);
+      }
+}

@@ -9,8 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/world/simulation.hpp"
 
 #include "types.hpp"
 
@@ -410,4 +414,19 @@ TEST_CASE("control volumes are checked") {
     CHECK(message.find("(1, 1.5, 1)") != std::string::npos);
     CHECK(message.find("box [(0, 0, 0), (1, 1, 1)]") != std::string::npos);
   }
+}
+
+TEST_CASE("solid fraction of grains of several types in a simulation") {
+  using S = Space<3>;
+  using Shape = OneOf<Ball<>, Polyhedron<>>;
+  using Law = SignoriniCoulomb<>;
+  Simulation<Shape, Law> world(0.4, Materials<Law>(1, Law(0.4)));
+  world.add_grain(world.add_shape(Ball<>(0.2)), {V3<double>(0.5, 0.5, 0.5), S::identity()}, 1);
+  world.add_grain(world.add_shape(cuboid<double>(V3<double>::Constant(0.2))),
+                  {V3<double>(1.5, 0.5, 0.5), S::identity()}, 1);
+  const double ball = 4 * std::numbers::pi / 3 * 0.008, cube = 0.064;
+  CHECK(solid_fraction(world, box_of<double>(0, 0, 0, 2, 1, 1)) ==
+        doctest::Approx((ball + cube) / 2));
+  CHECK(solid_fraction(world, box_of<double>(0.5, 0, 0, 1.5, 1, 1)) ==
+        doctest::Approx((ball + cube) / 2));
 }

@@ -137,6 +137,7 @@ TEST_CASE_TEMPLATE("parts that overlap need mass properties", S,
     return message_of([&] { Grain(std::span<const Part>(close), bad); });
   };
   CHECK(refused([](auto& m) { m.inertia.setZero(); }).find("inertia") != std::string::npos);
+  CHECK(refused([](auto& m) { m.inertia *= 2700; }).find("inertia") != std::string::npos);
   CHECK(refused([](auto& m) { m.mass *= 1000; }).find("volume") != std::string::npos);
   CHECK(refused([&](auto& m) { m.center = 5 * x; }).find("center") != std::string::npos);
   if constexpr (S::dim == 3) {

@@ -149,7 +149,6 @@ TEST_CASE("springs push anew after what moves a body, or a law, has changed") {
     world.set_velocity(right, {0, 0});
     world.set_pose(right, Pose<S>(Vector(0.1 - overlap, 0)));
     world.step(h);
-    world.set_velocity(right, {0, 0});
     change(world, right, true);
     const double before = world.velocity(right).x();
     world.step(h);
@@ -188,4 +187,22 @@ TEST_CASE("a pressure acts on half-spaces alone, and no wall lies across a perio
   CHECK_THROWS_WITH_AS(periodic.set_pose(floor, pose),
                        doctest::Contains("Simulation::set_pose: normal"), std::invalid_argument);
   CHECK(periodic.pose(floor).position.y() == -0.1);
+}
+
+TEST_CASE("dashpots push anew after a velocity has been set") {
+  // A ball that hits a floor is stopped. What is left is the force of the spring.
+  using Law = LinearSpringDashpot<double>;
+  const double stiffness = 1e5, radius = 0.05;
+  const Law law(stiffness, 0, 0, 0.3);
+  Simulation<Disk<double>, Law> world(0.1, Materials<Law>(1, law));
+  world.add_wall({0, 1}, {0, 0});
+  const BodyId ball =
+      world.add_grain(world.add_shape(Disk<double>(radius)), Pose<S>(Vector(0, radius)), 1000);
+  const double mass = world.bodies().grain_mass[ball.index()], h = law.duration(mass) / 200;
+  world.set_velocity(ball, {0, -1});
+  for (int k = 0; k < 40; ++k) world.step(h);
+  const double overlap = radius - world.pose(ball).position.y();
+  world.set_velocity(ball, {0, 0});
+  world.step(h);
+  CHECK(world.velocity(ball).y() * mass / h == doctest::Approx(stiffness * overlap).epsilon(0.03));
 }

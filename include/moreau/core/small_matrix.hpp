@@ -5,8 +5,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace moreau {
@@ -41,6 +44,17 @@ template <class T, int N>
 Eigen::Matrix<T, N, 1> transposed_product(const Eigen::Matrix<T, N, N>& m,
                                           const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
   return m.transpose() * x;
+}
+
+/// The inverse of a matrix with positive trace, such as an inertia. The determinant is that of a matrix near 1, so
+/// that it neither underflows nor overflows for small and large bodies.
+template <class Matrix>
+Matrix inverse_of(const Matrix& m) {
+  using T = typename Matrix::Scalar;
+  constexpr int most = std::numeric_limits<T>::max_exponent - 2;
+  const T scale = std::ldexp(T(1), -std::clamp(std::ilogb(m.trace()), -most, most));  // exact
+  const Matrix scaled = m * scale, inverse = scaled.inverse();
+  return inverse * scale;
 }
 
 /// x + t d, for instance the point at t of a line.

@@ -17,6 +17,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <numbers>
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -73,9 +74,11 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
 
   /// The rotation by the angle w [rad].
   static Rotation exp(const AngularArgument& w) { return Rotation(w[0]); }
-  /// Removes the rounding errors that many small rotations cause. For an angle nothing has to be
-  /// done.
-  static Rotation normalized(const Rotation& q) { return q; }
+  /// The same rotation with an angle in [-pi, pi], so that small rotations are not lost beside many turns.
+  static Rotation normalized(const Rotation& q) {
+    constexpr T pi = std::numbers::pi_v<T>;
+    return std::abs(q.angle()) <= pi ? q : Rotation(std::remainder(q.angle(), 2 * pi));
+  }
   static Rotation identity() { return Rotation(T(0)); }  ///< no rotation
   /// Whether the angle is finite.
   static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }

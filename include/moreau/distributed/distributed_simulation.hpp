@@ -141,7 +141,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
     return guarded([&] { return redistribution_.gather(); });
   }
 
-  Scalar time() const { return world_.time(); }  ///< sum of the steps [s]
+  double time() const { return world_.time(); }  ///< sum of the steps [s]
   /// Grains of all processes together.
   std::size_t grain_count() {
     return std::size_t(processes_.sum(double(redistribution_.own_grains())));

@@ -2,15 +2,19 @@
 // Grains and contacts of a distributed simulation for ParaView: one file per process, and an index.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/distributed/communicator.hpp"
 #include "moreau/distributed/distributed_simulation.hpp"
 #include "moreau/io/output_file.hpp"
 #include "moreau/io/vtk.hpp"
@@ -19,6 +23,21 @@
 namespace moreau {
 
 namespace detail {
+
+/// Does this process' part of a work. If one process throws, all do: none waits for another.
+/// @throws the exception of this process; else std::runtime_error if another process threw
+template <class Work>
+void together(Communicator& processes, const Work& work) {
+  std::exception_ptr error;
+  try {
+    work();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  const double failed = processes.sum(error ? 1 : 0);
+  if (error) std::rethrow_exception(error);
+  if (failed > 0) throw std::runtime_error("write_pieces: another process cannot write");
+}
 
 /// An array of the files, as the index declares it.
 struct PieceArray {
@@ -58,8 +77,11 @@ inline std::string piece_index(const std::string& on, std::span<const PieceArray
 /// | out/run_0010_contacts_0.vtp, ..                  | VtkWriter::write_contacts() of each        |
 ///
 /// All processes call it, and see the same folder, which must exist. Poses are not moved to their
-/// place in a periodic cell.
+/// place in a periodic cell. If a process cannot write, the function throws in all processes, so that
+/// none waits for another.
 /// @param step length of the last step [s], by which impulses are divided
+/// @throws std::invalid_argument for a name that XML cannot hold, a step that is not positive
+/// @throws std::runtime_error if a file of this process or of another one cannot be written
 template <class World>
 void write_pieces(const std::filesystem::path& path, DistributedSimulation<World>& simulation,
                   double step = 1, const VtkOptions& options = {}) {
@@ -77,44 +99,48 @@ void write_pieces(const std::filesystem::path& path, DistributedSimulation<World
     if (simulation.owns(local.grain(k))) own.push_back(k);
   const auto body = [&](std::size_t k) { return local.grain(own[k]).index(); };
 
-  VtkWriter<S> writer(options);
-  writer.write_grains(
-      piece(path.string(), "grains", rank),
-      own.size(), [&](std::size_t k) -> const auto& { return local.shape_of_grain(own[k]); },
-      [&](std::size_t k) -> const Pose<S>& { return local.bodies().pose[body(k)]; },
-      [&](std::size_t k) { return local.bodies().velocity[body(k)]; });
-  std::vector<ContactSegment<S>> segments;
-  contact_segments<S>(
-      local.contacts(), static_cast<typename S::Scalar>(step),
-      [&](std::size_t i) { return local.bodies().pose[i].position; },
-      [&](std::size_t i) { return local.is_grain(i); }, segments, local.cell());
-  writer.write_contacts(piece(path.string(), "contacts", rank), segments);
-
+  require(std::isfinite(step) && step > 0, "write_pieces", "step", step, "must be finite and > 0");
+  Communicator& processes = simulation.processes();
+  detail::together(processes, [&] {
+    VtkWriter<S> writer(options);
+    writer.write_grains(
+        piece(path.string(), "grains", rank),
+        own.size(), [&](std::size_t k) -> const auto& { return local.shape_of_grain(own[k]); },
+        [&](std::size_t k) -> const Pose<S>& { return local.bodies().pose[body(k)]; },
+        [&](std::size_t k) { return local.bodies().velocity[body(k)]; });
+    std::vector<ContactSegment<S>> segments;
+    contact_segments<S>(
+        local.contacts(), static_cast<typename S::Scalar>(step),
+        [&](std::size_t i) { return local.bodies().pose[i].position; },
+        [&](std::size_t i) { return local.is_grain(i); }, segments, local.cell());
+    writer.write_contacts(piece(path.string(), "contacts", rank), segments);
+  });
   // The index comes last: what it names exists.
-  simulation.processes().sum(0);
-  if (rank != 0) return;
-  using Shape = std::remove_cvref_t<decltype(local.shape_of_grain(0))>;
-  bool as_points = false;
-  if constexpr (std::same_as<Shape, BallIn<S>>) as_points = options.balls_as_points;
-  constexpr detail::PieceArray of_grains[] = {{"Int32", "id", 1},
-                                              {"Float32", "size", 1},
-                                              {"Float32", "velocity", 3},
-                                              {"Float32", "speed", 1},
-                                              {"Float32", "spin", 1}};
-  constexpr detail::PieceArray of_contacts[] = {{"Float32", "normal_force", 1},
-                                                {"Float32", "friction_force", 1},
-                                                {"Float32", "gap", 1},
-                                                {"Int32", "class", 1},
-                                                {"Float32", "point", 3}};
-  std::vector<std::string> grains, contacts;
-  for (int other = 0; other < size; ++other) {
-    grains.push_back(piece(name, "grains", other));
-    contacts.push_back(piece(name, "contacts", other));
-  }
-  write_atomically(path.string() + "_grains.pvtp",
-                   detail::piece_index(as_points ? "PointData" : "CellData", of_grains, grains));
-  write_atomically(path.string() + "_contacts.pvtp",
-                   detail::piece_index("CellData", of_contacts, contacts));
+  detail::together(processes, [&] {
+    if (rank != 0) return;
+    using Shape = std::remove_cvref_t<decltype(local.shape_of_grain(0))>;
+    bool as_points = false;
+    if constexpr (std::same_as<Shape, BallIn<S>>) as_points = options.balls_as_points;
+    constexpr detail::PieceArray of_grains[] = {{"Int32", "id", 1},
+                                                {"Float32", "size", 1},
+                                                {"Float32", "velocity", 3},
+                                                {"Float32", "speed", 1},
+                                                {"Float32", "spin", 1}};
+    constexpr detail::PieceArray of_contacts[] = {{"Float32", "normal_force", 1},
+                                                  {"Float32", "friction_force", 1},
+                                                  {"Float32", "gap", 1},
+                                                  {"Int32", "class", 1},
+                                                  {"Float32", "point", 3}};
+    std::vector<std::string> grains, contacts;
+    for (int other = 0; other < size; ++other) {
+      grains.push_back(piece(name, "grains", other));
+      contacts.push_back(piece(name, "contacts", other));
+    }
+    write_atomically(path.string() + "_grains.pvtp",
+                     detail::piece_index(as_points ? "PointData" : "CellData", of_grains, grains));
+    write_atomically(path.string() + "_contacts.pvtp",
+                     detail::piece_index("CellData", of_contacts, contacts));
+  });
 }
 
 }  // namespace moreau

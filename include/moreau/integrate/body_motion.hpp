@@ -46,7 +46,7 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
     typename S::Inertia jacobian = S::gyroscopic_jacobian(inertia, w);
     for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)
       jacobian.data()[k] = inertia.data()[k] + h * jacobian.data()[k];
-    const typename S::Inertia inverse = jacobian.inverse();
+    const typename S::Inertia inverse = inverse_of(jacobian);
     w -= product(inverse, error);
   }
   return w;

@@ -77,7 +77,7 @@ class MoreauJean {
       linear<S>(free[i]) += velocity_change<S>(bodies, i, S::Vector::Zero(), gravity, step);
       if (!bodies.rotates(i)) return;
       momentum[i] += step * angular<S>(bodies.force[i]);
-      const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
+      const typename S::Inertia inverse = inverse_of(bodies.inertia(i, bodies.pose[i].rotation));
       angular<S>(free[i]) = product(inverse, momentum[i]);
     });
   }

@@ -48,7 +48,7 @@ class VelocityVerlet {
       angular<S>(middle) = spin_after(bodies, i, momentum, spin, step / 2);
       advance_pose(bodies.pose[i], middle, step);
       bodies.velocity[i] = middle;
-      const typename S::Inertia inverse = bodies.inertia(i, bodies.pose[i].rotation).inverse();
+      const typename S::Inertia inverse = inverse_of(bodies.inertia(i, bodies.pose[i].rotation));
       angular<S>(bodies.velocity[i]) = inverse * momentum;
     }
   }
@@ -68,7 +68,7 @@ class VelocityVerlet {
       if (bodies.rotates(i))
         angular<S>(bodies.velocity[i]) +=
             step / 2 *
-            (bodies.inertia(i, bodies.pose[i].rotation).inverse() * torque(bodies, i, loads[i]));
+            (inverse_of(bodies.inertia(i, bodies.pose[i].rotation)) * torque(bodies, i, loads[i]));
     }
   }
 

@@ -3,12 +3,15 @@
 // measured.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
@@ -43,6 +46,23 @@ void require_control_volume(const Aabb<S>& box, std::string_view function) {
   if (is_control_volume(box)) return;
   throw_invalid(function, "control_volume", detail::describe(box),
                 "must be finite with lower < upper on every axis");
+}
+
+/// Checks that a control volume is not longer than a periodic cell, so that at most one image of a point
+/// lies in it. The lower side of the next image may lie on its upper side.
+/// @throws std::invalid_argument naming the function and the control volume
+template <class S>
+void require_within(const PeriodicCell<S>& cell, const Aabb<S>& control_volume,
+                    std::string_view function) {
+  using Scalar = typename S::Scalar;
+  constexpr Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon();
+  for (int axis = 0; axis < S::dim; ++axis) {
+    const Scalar lower = control_volume.lower[axis], upper = control_volume.upper[axis];
+    if (cell.is_periodic(axis) &&
+        upper - lower > cell.length()[axis] + rounding * (std::abs(lower) + std::abs(upper)))
+      throw_invalid(function, "control_volume", detail::describe(control_volume),
+                    "must not be longer than the periodic cell");
+  }
 }
 
 /// Checks that a control volume lies inside the container of the grains. Both are boxes in world

@@ -42,12 +42,14 @@ struct Fabric {
 /// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall
 /// @param cell           periodic cell of the simulation. A pair is counted if one of its images
 ///                       lies in the control volume, which must not be longer than the cell
-/// @throws std::invalid_argument if the control volume is empty, inverted or not finite
+/// @throws std::invalid_argument if the control volume is empty, inverted, not finite, or longer than
+///         the periodic cell
 /// Source: M. Satake, IUTAM Conf. on Deformation and Failure of Granular Materials (1982) 63.
 template <class S>
 Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_volume,
                  const auto& position_of, const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   require_control_volume(control_volume, "fabric");
+  require_within(cell, control_volume, "fabric");
   Fabric<S> result;
   for (const PairForce<S>& pair : pairs) {
     if (!is_grain(pair.a) || !is_grain(pair.b)) continue;

@@ -26,6 +26,18 @@ typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
   return sum * shape.volume_share();
 }
 
+/// The volume of that part of a shape of several types (OneOf) which lies in a control volume [m^D].
+template <class Shape, class S = SpaceOf<Shape>>
+requires requires(const Shape& shape) {
+  shape.visit([](const auto&) {});
+}
+typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
+                                  const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
+  return shape.visit([&](const auto& held) -> typename S::Scalar {
+    return clipped_volume(held, pose, control_volume, workspace);
+  });
+}
+
 /// The solid fraction in a control volume [-]: the volume of the grains inside the control volume
 /// divided by the volume of the control volume. Where two grains overlap, the overlap counts twice.
 /// @param control_volume  world axes [m]. If it reaches beyond the container, the volume outside of

@@ -35,7 +35,7 @@ namespace moreau {
 ///                       as differences of levers
 /// @returns stress tensor, D x D, world axes [Pa], in the plane [N/m]
 /// @throws std::invalid_argument if the step is not positive, or the control volume is empty,
-///         inverted or not finite
+///         inverted, not finite, or longer than the periodic cell
 /// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.
 /// (1998).
 template <class S>
@@ -46,6 +46,7 @@ typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scala
   require(std::isfinite(step) && step > 0, "contact_stress", "step", step,
           "must be finite and > 0");
   require_control_volume(control_volume, "contact_stress");
+  require_within(cell, control_volume, "contact_stress");
   typename S::Matrix sum = S::Matrix::Zero();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<S>& contact = contacts.points[c];

@@ -224,6 +224,9 @@ class Compound {
     require(
         given.mass <= Scalar(1.001) * edges.prod(), self, "volume", given.mass,
         "m^D must be at most that of the box around the parts: give mass properties at density 1");
+    const Scalar polar = given.inertia.trace() / Scalar(Space::dim - 1);
+    require(std::isfinite(polar) && polar <= given.mass * edges.squaredNorm(), self, "inertia",
+            polar, "m^(D+2) must be that of a body in the box around the parts, at density 1");
     if constexpr (Space::dim == 3) {
       using Inertia = typename Space::Inertia;
       const Scalar trace = given.inertia.trace(), rounding = Scalar(1e-5) * std::abs(trace);

@@ -86,6 +86,7 @@ class BodyControl : public BodyAccess<ShapeT> {
   void set_velocity(BodyId body, const VectorArgument<S>& velocity) {
     assembly_.require_body(body, "Simulation::set_velocity", "velocity", velocity);
     linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
+    note_speed_of(body);
   }
   /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
   /// from x to y. A body without inertia, such as a wall, and one whose motion is prescribed keep it.
@@ -94,12 +95,20 @@ class BodyControl : public BodyAccess<ShapeT> {
   void set_spin(BodyId body, const AngularArgument<S>& spin) {
     assembly_.require_body(body, "Simulation::set_spin", "spin", spin);
     angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
+    note_speed_of(body);
   }
 
  protected:
   BodyControl() = default;
 
   using BodyAccess<ShapeT>::assembly_;
+
+ private:
+  /// The forces of dashpots no longer belong to the velocities. Those on a body whose motion is prescribed,
+  /// whose velocity a drive sets in every step, follow in the next step, as its motion does.
+  void note_speed_of(BodyId body) {
+    if (!assembly_.bodies().inverse_mass[body.index()].isZero(0)) assembly_.set_changed();
+  }
 };
 
 }  // namespace moreau

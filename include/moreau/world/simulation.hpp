@@ -249,7 +249,7 @@ class Simulation : public BodyControl<ShapeT> {
   ///         is then half made: continue from a snapshot
   StepReport step(Scalar step);
 
-  Scalar time() const { return time_; }              ///< sum of the steps [s]
+  double time() const { return time_; }              ///< sum of the steps [s]
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
   /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
   const Contacts<S>& contacts() const { return contacts_; }
@@ -332,14 +332,14 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param clock started before the prediction
   void detect(StepReport& report, StepReport::StageClock clock = {}) {
     const std::span<const Pose<S>> poses(assembly_.bodies().pose);
-    std::swap(contacts_, previous_);
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     report.ms_place = clock.lap();
     detector_.find_pairs(lengths());
     report.ms_pairs = clock.lap();
-    detector_.detect(lengths(), bodies(), previous_, contacts_);
-    assign_laws(assembly_.bodies(), materials_, contacts_, team_);
+    detector_.detect(lengths(), bodies(), contacts_, previous_);
+    assign_laws(assembly_.bodies(), materials_, previous_, team_);
+    std::swap(contacts_, previous_);  // last: what throws above changes no contacts
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     report.pairs = detector_.touching_count();
@@ -352,7 +352,7 @@ class Simulation : public BodyControl<ShapeT> {
   Materials<Law> materials_;
   Dynamics dynamics_;
   Vector gravity_ = Vector::Zero();
-  Scalar time_ = 0;
+  double time_ = 0;
 
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;

@@ -150,9 +150,16 @@ class EpaPolytope {
   void start() {
     points_ = {reach_(Vector::UnitX()), reach_(Vector(-Vector::UnitX()))};
     const Vector along = points_[1].point - points_[0].point;
-    const Vector across = Space<3, T>::contact_frame(along.normalized()).col(1);
-    add_farther(across, points_[0].point);
-    const Vector normal = along.cross(points_[2].point - points_[0].point).normalized();
+    const auto frame = Space<3, T>::contact_frame(along.normalized());
+    Vector normal;
+    for (const int axis : {1, 2}) {
+      add_farther(frame.col(axis), points_[0].point);
+      normal = along.cross(points_[2].point - points_[0].point);
+      if (normal.squaredNorm() > T(0)) break;
+      // C is flat along this axis, as for two cores without thickness in one plane.
+      if (axis == 1) points_.pop_back();
+    }
+    normal = normal.squaredNorm() > T(0) ? Vector(normal.normalized()) : Vector(frame.col(1));
     add_farther(normal, points_[0].point);
     const bool is_above = normal.dot(points_[3].point - points_[0].point) > T(0);
     const std::array<std::size_t, 4> v =

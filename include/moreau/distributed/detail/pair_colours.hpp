@@ -68,9 +68,19 @@ class PairColours {
  private:
   static constexpr std::size_t words = 4, colours = 64 * words;
 
+  /// The walls that move under contacts, ascending: the bodies that do not move alike along all axes.
+  static std::vector<std::uint32_t> moving_walls(const BodyDelassus<S>& op) {
+    std::vector<std::uint32_t> walls;
+    for (std::uint32_t c = 0; c < op.size(); ++c)
+      for (const std::uint32_t body : op.bodies(c))
+        if (op.inverse_mass(body).moves() && !op.inverse_mass(body).is_isotropic())
+          walls.push_back(body);
+    std::sort(walls.begin(), walls.end());
+    walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
+    return walls;
+  }
   void find_pairs(const BodyDelassus<S>& op, OrderedSharing* sharing) {
-    walls_.clear();
-    if (sharing) walls_ = sharing->moving_walls();
+    walls_ = sharing ? sharing->moving_walls() : moving_walls(op);
     pairs_.clear();
     bodies_.clear();
     priority_.clear();

@@ -132,6 +132,7 @@ std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& 
   World result = world;
   Parts whole(result);
   whole.dynamics().share_bodies(nullptr);
+  whole.dynamics().forget_problem();  // that of this process
   whole.detector().set_filter(std::function<bool(std::uint32_t, std::uint32_t)>());
   set_bodies(whole, list, grains);
   whole.contacts() = std::move(contacts.contacts);

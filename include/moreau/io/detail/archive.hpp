@@ -214,7 +214,7 @@ class ArchiveReader {
   void list(List& items) {
     using Item = typename List::value_type;
     items.clear();
-    for (std::size_t more = count(); more > 0; --more) {
+    for (std::size_t more = count(!std::is_empty_v<Item>); more > 0; --more) {
       items.push_back(SerializationAccess::blank<Item>());
       transfer(*this, items.back());
     }
@@ -249,14 +249,16 @@ class ArchiveReader {
   static X blank() {
     return SerializationAccess::blank<X>();
   }
-  /// Reads the size of a list. Because each item has at least one byte, a size larger than the rest
-  /// of the bytes is an error.
-  std::size_t count() {
+  /// Reads the size of a list. If each item has at least one byte, a size larger than the rest of the
+  /// bytes is an error. Items without members, such as laws of one's own, have none.
+  std::size_t count(bool has_bytes = true) {
     std::uint64_t count = 0;
     number(count);
-    if (count > left_.size()) throw std::runtime_error("ends within a list");
+    if (count > (has_bytes ? left_.size() : most_empty))
+      throw std::runtime_error("ends within a list");
     return static_cast<std::size_t>(count);
   }
+  static constexpr std::size_t most_empty = 1u << 24;
 
   std::string_view left_;
 };

@@ -168,13 +168,19 @@ class CoulombLanes {
       fallback = upper < most ? fallback : beyond;
       trial = ((next > lower) & (next < upper)) ? next : fallback;
     }
+    // A load at the limit of the numbers, as in solve_slip.
+    Indices finite = W::absolute(alpha) <= most;
+    for (std::size_t t = 0; t < tangents; ++t) finite = finite & (W::absolute(result[t]) <= most);
+    for (std::size_t t = 0; t < tangents; ++t) result[t] = finite ? result[t] : zero;
+    alpha = finite ? alpha : zero;
     return result;
   }
 
-  /// The projection onto the cone: Newton's method leaves a small distance.
+  /// The projection onto the cone: Newton's method leaves a small distance. Impulses so small that their
+  /// square underflows, whose root may be 0, stay as they are.
   Tangent onto_cone(const Tangent& r) const {
-    const Values zero{}, length2 = squared(r);
-    const Values scale = length2 > zero ? limit(r) / W::square_root(length2) : zero;
+    const Values length2 = squared(r), least = W::broadcast(std::numeric_limits<T>::min());
+    const Values scale = length2 >= least ? limit(r) / W::square_root(length2) : W::broadcast(1);
     Tangent on;
     for (std::size_t t = 0; t < tangents; ++t) on[t] = scale * r[t];
     return on;

@@ -107,6 +107,7 @@ class ImpulseDynamics {
   }
   const OverlapCorrection<S>& correction() const { return correction_; }
   const Problem& problem() const { return problem_; }  ///< of the last step
+  void forget_problem() { problem_ = {}; }
   /// Removes the springs of contacts with removed grains.
   /// @param is_gone function: index of a contact -> whether it is removed
   void erase([[maybe_unused]] const auto& is_gone) {
