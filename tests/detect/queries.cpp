@@ -2,6 +2,8 @@
 // The queries overlap, distance and collide for all pairs of elementary shapes.
 #include "detect/queries.hpp"
 
+#include "moreau/shape/support_box.hpp"
+
 using namespace queries;
 
 TEST_CASE("every query for every pair in space") {
@@ -59,5 +61,32 @@ TEST_CASE("what a polytope shows of its support gives the gap of its faces and e
                               samples::rotation(Space<3>{}, random)};
     const auto exact = distance(Placed(a.inside), Placed(b.inside, pose));
     CHECK(std::abs(distance(Placed(a), Placed(b, pose)).gap - exact.gap) < tiny);
+  }
+}
+
+namespace {
+
+/// A disc without thickness, perpendicular to its z axis.
+struct FlatDisc {
+  using Space = moreau::Space<3>;
+  using Vector = Space::Vector;
+  Vector support(const Vector& d) const {
+    const double across = std::hypot(d[0], d[1]);
+    return across > 0 ? Vector(d[0] / across, d[1] / across, 0) : Vector(0, 0, 0);
+  }
+  Aabb<Space> bounding_box(const Pose<Space>& pose) const { return support_box(*this, pose); }
+};
+
+}  // namespace
+
+TEST_CASE("discs without thickness that overlap in one plane have a unit normal") {
+  const FlatDisc core;
+  for (const Space<3>::Vector& place :
+       {Space<3>::Vector(0.5, 0, 0), Space<3>::Vector(0, 0.5, 0), Space<3>::Vector(0.3, 0.4, 0)}) {
+    const Pose<Space<3>> pose{place, Space<3>::identity()};
+    const auto found = distance(Placed(core, {}), Placed(core, pose));
+    CHECK(found.normal.norm() == doctest::Approx(1));
+    CHECK(found.gap <= 0);
+    CHECK(found.gap >= -1e-6);
   }
 }
