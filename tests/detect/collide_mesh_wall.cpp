@@ -343,7 +343,7 @@ TEST_CASE("a ball on a tilted floor of rounded coordinates has one contact every
   CHECK(worst <= wall.flatness());
 }
 
-// Triangles of less than the flatness: faces of many triangles, with vertices beside their planes.
+// Ridges with small angles, which end at tips.
 TEST_CASE("a ball on a finely divided hill has a contact everywhere") {
   using S = Volume;
   const MeshWall<S> wall(squares<S>(100, [](double x, double y) {
