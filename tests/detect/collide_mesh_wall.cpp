@@ -7,6 +7,7 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <set>
 #include <vector>
@@ -86,6 +87,54 @@ FacetMesh<Plane> convex_mesh(Plane, std::uint64_t seed) {
     mesh.facets.push_back({i, (i + 1) % count});
   }
   return mesh;
+}
+
+/// A floor of n x n squares of two triangles each; place(x, y) gives the vertex of x, y in [0, 1].
+template <class S, class Place>
+FacetMesh<S> squares(int n, const Place& place) {
+  FacetMesh<S> mesh;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) mesh.vertices.push_back(place(double(i) / n, double(j) / n));
+  const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return mesh;
+}
+
+/// The distance of a point from the nearest facet; it is less than 0.06.
+template <class S>
+double facet_distance(const MeshWall<S>& wall, const typename S::Vector& x) {
+  double least = std::numeric_limits<double>::infinity();
+  Aabb<S> around;
+  around.merge(x);
+  around = around.inflated(0.06);
+  wall.tree().query([&](const Aabb<S>& box) { return box.overlaps(around); },
+                    [&](std::uint32_t k) {
+                      const typename S::Matrix corners = wall.side(k).corners.colwise() - x;
+                      least = std::min(least, double(detail::nearest_on_facet(corners).norm()));
+                    });
+  return least;
+}
+/// A place above x, in direction `up`, at a distance from the wall.
+template <class S>
+typename S::Vector above(const MeshWall<S>& wall, const typename S::Vector& x,
+                         const typename S::Vector& up, double distance) {
+  double low = 0, high = 2 * distance;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = (low + high) / 2;
+    (facet_distance(wall, x + middle * up) < distance ? low : high) = middle;
+  }
+  return x + high * up;
+}
+
+/// The contacts of a ball of radius 0.05 with its centre at a place.
+template <class S>
+auto points_of_ball(const MeshWall<S>& wall, const typename S::Vector& at) {
+  const BallIn<S> ball(0.05);
+  return points_of(Placed<BallIn<S>>(ball, {at, S::identity()}), wall, 1e-3);
 }
 
 template <class ShapeT>
@@ -235,4 +284,178 @@ TEST_CASE("a large floor with rounded coordinates holds grains everywhere") {
     CAPTURE(size);
     CHECK(missed == 0);
   }
+}
+
+// Between the normals of two segments a disk touches their common end, however small their angle is.
+TEST_CASE("a disk on a finely divided crest has one contact everywhere") {
+  using S = Plane;
+  constexpr double overlap = 5e-6;
+  for (const int n : {200, 2000, 5000}) {
+    FacetMesh<S> mesh;
+    for (int i = 0; i <= n; ++i) {
+      const double x = double(i) / n;
+      mesh.vertices.push_back({x, 0.01 * std::cos(2 * std::numbers::pi * x / 0.7)});
+      if (i > 0) mesh.facets.push_back({std::uint32_t(i), std::uint32_t(i - 1)});
+    }
+    const MeshWall<S> wall(mesh);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> place(0.62, 0.78);
+    int missed = 0, several = 0;
+    double worst = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const double x = place(random);
+      const auto points = points_of_ball<S>(wall, above<S>(wall, {x, 0}, {0, 1}, 0.05 - overlap));
+      missed += points.empty();
+      several += points.size() > 1;
+      if (!points.empty()) worst = std::max(worst, std::abs(points[0].at.gap + overlap));
+    }
+    CAPTURE(n);
+    CHECK(missed == 0);
+    CHECK(several == 0);
+    CHECK(worst <= wall.flatness() + 1e-9);
+  }
+}
+
+// Of a plane floor, the facets differ by the rounding of their coordinates.
+TEST_CASE("a ball on a tilted floor of rounded coordinates has one contact everywhere") {
+  using S = Volume;
+  const double angle = std::numbers::pi / 6;
+  const auto mesh = squares<S>(100, [&](double x, double y) {
+    return S::Vector(float(x * std::cos(angle)), float(y), float(x * std::sin(angle)));
+  });
+  const MeshWall<S> wall(mesh);
+  const S::Vector up(-std::sin(angle), 0, std::cos(angle));
+  const auto vertex = [&](int i, int j) { return mesh.vertices[std::size_t(101 * j + i)]; };
+  int missed = 0, several = 0;
+  double worst = 0;
+  for (int j = 20; j < 80; ++j)
+    for (int i = 20; i < 80; ++i)
+      for (const S::Vector& end :
+           {vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)}) {
+        const S::Vector x = (vertex(i, j) + end) / 2;
+        const auto points = points_of_ball<S>(wall, x + 0.05 * (1 - 1e-4) * up);
+        missed += points.empty();
+        several += points.size() > 1;
+        if (!points.empty()) worst = std::max(worst, std::abs(points[0].at.gap + 5e-6));
+      }
+  CHECK(missed == 0);
+  CHECK(several == 0);
+  CHECK(worst <= wall.flatness());
+}
+
+// Ridges with small angles, which end at tips.
+TEST_CASE("a ball on a finely divided hill has a contact everywhere") {
+  using S = Volume;
+  const MeshWall<S> wall(squares<S>(100, [](double x, double y) {
+    return S::Vector(x, y, -0.02 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)));
+  }));
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int missed = 0, several = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    // Over a vertex or the middle of an edge, exactly or by less than the radius times the angle.
+    const int i = 30 + int(40 * uniform(random)), j = 30 + int(40 * uniform(random));
+    const double x = (i + 0.5 * (trial % 2)) / 100, y = (j + 0.5 * (trial / 2 % 2)) / 100;
+    const double aside = trial % 3 == 0 ? 0 : 1e-5;
+    const S::Vector up = S::Vector(0.04 * (x - 0.5), 0.04 * (y - 0.5), 1).normalized();
+    const S::Vector at(x + aside * (uniform(random) - 0.5), y + aside * (uniform(random) - 0.5),
+                       -0.02 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)) - 1e-5);
+    const auto points = points_of_ball<S>(wall, above<S>(wall, at, up, 0.05 * (1 - 1e-4)));
+    missed += points.empty();
+    several += points.size() > 1;
+  }
+  CHECK(missed == 0);
+  CHECK(several == 0);
+}
+
+// Where face and ridge meet, one of them gives the contact.
+TEST_CASE("a ball that moves over the edge of a table has one contact all the time") {
+  using S = Volume;
+  FacetMesh<S> table;
+  table.vertices = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {0, 0, -1}, {0, 1, -1}};
+  table.facets = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(table, sides);
+    for (const double x : {-1e-3, -1e-6, -1e-9, 0.0, 5e-10, 1e-9, 1e-8, 4e-8, 5.1e-8, 1e-6, 1e-4}) {
+      const auto points = points_of_ball<S>(wall, {x, 0.53, 0.05});
+      CAPTURE(x);
+      REQUIRE(points.size() == 1);
+      const double gap = std::hypot(std::max(x, 0.0), 0.05) - 0.05;
+      CHECK(std::abs(points[0].at.gap - gap) < 1e-12);
+      CHECK(points[0].normal[2] < -0.99);
+    }
+  }
+}
+TEST_CASE("a disk above a corner has one contact") {
+  using S = Plane;
+  FacetMesh<S> table;
+  table.vertices = {{-1, 0}, {0, 0}, {0, -1}};
+  table.facets = {{1, 0}, {2, 1}};
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(table, sides);
+    for (const double x : {-1e-3, -1e-8, -1e-9, 0.0, 5e-10, 1e-9, 1e-8, 5.1e-8, 1e-6, 1e-3}) {
+      const auto points = points_of_ball<S>(wall, {x, 0.05});
+      CAPTURE(x);
+      REQUIRE(points.size() == 1);
+      CHECK(std::abs(points[0].at.gap - std::hypot(std::max(x, 0.0), 0.05) + 0.05) < 1e-12);
+    }
+  }
+}
+
+// A vertex in the middle of a straight ridge is no tip: the ridges have it.
+TEST_CASE("a ball and a capsule on the ridge of a roof have one contact at each place") {
+  using S = Volume;
+  FacetMesh<S> roof;
+  for (int j = 0; j <= 3; ++j)
+    for (int i = -1; i <= 1; ++i)
+      roof.vertices.push_back({double(i), double(j), -std::abs(double(i))});
+  for (std::uint32_t j = 0; j < 3; ++j)
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const std::uint32_t at = 3 * j + i;
+      roof.facets.push_back({at, at + 1, at + 4});
+      roof.facets.push_back({at, at + 4, at + 3});
+    }
+  const MeshWall<S> wall(roof);
+  const Capsule<> capsule(0.2, 0.05);
+  for (const double y : {1.0, 1 + 4e-16, 1 - 4e-16, 1 + 1e-12, 1.5}) {
+    CAPTURE(y);
+    const auto points = points_of_ball<S>(wall, {0, y, 0.05});
+    REQUIRE(points.size() == 1);
+    CHECK(std::abs(points[0].at.gap) < 1e-12);
+    CHECK((points[0].normal + S::Vector::UnitZ()).norm() < 1e-9);
+    // Across the ridge: its edge touches.
+    const Pose<S> pose({0, y, 0.05}, S::identity());
+    CHECK(points_of(Placed<Capsule<>>(capsule, pose), wall, 1e-3).size() == 1);
+  }
+}
+
+TEST_CASE("walls and grains in single precision: one contact over edges and vertices") {
+  using S = Space<3, float>;
+  FacetMesh<S> roof;
+  for (int j = 0; j <= 3; ++j)
+    for (int i = -1; i <= 1; ++i)
+      roof.vertices.push_back({float(i), float(j), -0.1F * std::abs(float(i))});
+  for (std::uint32_t j = 0; j < 3; ++j)
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const std::uint32_t at = 3 * j + i;
+      roof.facets.push_back({at, at + 1, at + 4});
+      roof.facets.push_back({at, at + 4, at + 3});
+    }
+  const MeshWall<S> wall(roof);
+  const BallIn<S> ball(0.05F);
+  MeshScratch scratch;
+  Manifold<S> manifold;
+  for (const float y : {1.0F, 1.3F})
+    for (const float x : {0.0F, 1e-7F, 1e-6F, 1e-5F, 1e-4F, 1e-3F, 4e-3F, 6e-3F, 0.1F}) {
+      // Above the slope, or above the ridge.
+      const float slope = 0.1F * x;
+      const float z = x > 5e-3F ? 0.05F * std::sqrt(1.01F) - slope : std::sqrt(0.0025F - x * x);
+      std::size_t count = 0;
+      const Placed<BallIn<S>> placed(ball, {{x, y, z}, S::identity()});
+      collide_each(placed, wall, 1e-3F, scratch, manifold,
+                   [&](std::uint32_t) { count += manifold.points.size(); });
+      CAPTURE(x);
+      CAPTURE(y);
+      CHECK(count == 1);
+    }
 }

@@ -5,11 +5,15 @@
 // of segments) meet in one of three ways, seen from outside:
 //
 //   - flat: the ridge is no feature of the surface. Facets that are connected over flat ridges form a
-//     face, and a grain that slides over it does not notice its ridges;
+//     face, and a grain that slides over it does not notice its ridges: the space above the face is
+//     divided among the facets by planes that two neighbours share;
 //   - concave: a grain outside touches the two facets, never the ridge;
 //   - convex: a grain can touch the ridge, with a normal between those of the two facets. The rim of an
 //     open surface counts as convex: normals there lie between the normal of the facet and the
 //     direction that continues the facet beyond its rim.
+//
+// Between different faces there is no angle too small to be convex or concave. High above a convex ridge
+// the space between the two faces is wide even if their angle is small.
 //
 // A wall with two sides consists of the facets and of their reversed copies, which join at the rim.
 #pragma once
@@ -55,8 +59,8 @@ class MeshWall {
     Vector normal;       ///< of the face, unit, to the outside
     Scalar offset;       ///< of the face: normal . x of the points x of its plane [m]
     std::uint32_t face;  ///< lowest number of the facets of the face, in the order of the mesh
-    /// For each ridge (number k lies opposite corner k): unit vector in the facet, away from the ridge
-    /// to the inside, and its product with the points of the ridge [m].
+    /// For each ridge (number k lies opposite corner k): unit vector in the plane of the face, away from
+    /// the ridge to the inside, and its product with the points of the ridge [m].
     std::array<Vector, std::size_t(S::dim)> inward;
     std::array<Scalar, std::size_t(S::dim)> inward_offset;  ///< see inward
     std::array<std::uint32_t, std::size_t(S::dim)> ridge;   ///< number of a convex ridge, or `none`
@@ -65,10 +69,10 @@ class MeshWall {
   struct ConvexRidge {
     std::array<std::uint32_t, std::size_t(S::dim - 1)> vertices;  ///< its ends; in the plane one
     /// Directions d of contact normals at the ridge, towards the grain, satisfy d . beyond >= 0 for
-    /// both: unit vectors in the planes of the two facets, away from the facets; at a rim, the second
-    /// is the normal of the facet.
+    /// both: unit vectors in the planes of the two faces, away from the facets; at a rim, the second
+    /// is the normal of the facet, without its component along the ridge.
     std::array<Vector, 2> beyond;
-    Vector middle;                       ///< of these directions: unit
+    Vector middle;                       ///< of the directions d: unit
     std::array<std::uint32_t, 2> facet;  ///< that join; the same twice at a rim
   };
 
@@ -110,14 +114,12 @@ class MeshWall {
       if (is_tip(v)) return false;
     return true;
   }
-  /// Whether a direction d is a possible contact normal at a vertex, towards the grain: all facets at
-  /// the vertex lie below the plane through it.
-  /// @param tolerance sine of the largest angle of a facet above the plane [-]
+  /// Whether a direction d is a possible contact normal at a tip, towards the grain: all faces at the
+  /// vertex lie below the plane through it.
+  /// @param tolerance sine of the largest angle of a face above the plane [-]
   bool is_top(std::size_t v, const Vector& d, Scalar tolerance) const {
-    for (std::uint32_t k = ring_begin_[v]; k < ring_begin_[v + 1]; ++k) {
-      const Vector along = mesh_.vertices[ring_[k]] - mesh_.vertices[v];
-      if (d.dot(along) > tolerance * along.norm()) return false;
-    }
+    for (std::uint32_t k = ring_begin_[v]; k < ring_begin_[v + 1]; ++k)
+      if (d.dot(ring_[k]) > tolerance) return false;
     return true;
   }
   /// The boxes of the facets [m]. A query gives the places k of side().
@@ -135,13 +137,19 @@ class MeshWall {
   void build();
   void set_sides();
   void join_faces(const std::vector<Ridge<S>>& ridges);
+  void set_inward();
   void set_ridges(const std::vector<Ridge<S>>& ridges);
-  void set_rings();
+  void set_tips();
+  void set_rings(const std::vector<Ridge<S>>& ridges);
   void sort_by_place();
-  /// The height of the corner of facet g that is not on the ridge above the plane of facet f [m].
-  Scalar height_above(const Ridge<S>& ridge, std::uint32_t f) const {
-    const Vector& corner = mesh_.vertices[facets_[ridge.facet][ridge.corner]];
-    return facet_sides_[f].normal.dot(corner - mesh_.vertices[facets_[f][0]]);
+  /// A vector without its component along a ridge.
+  Vector across(const Ridge<S>& ridge, Vector x) const {
+    if constexpr (S::dim == 3) {
+      const Vector along =
+          (mesh_.vertices[ridge.vertices[1]] - mesh_.vertices[ridge.vertices[0]]).normalized();
+      x -= x.dot(along) * along;
+    }
+    return x;
   }
 
   FacetMesh<S> mesh_;
@@ -151,7 +159,9 @@ class MeshWall {
   std::vector<Aabb<S>> boxes_;
   std::vector<ConvexRidge> ridges_;
   std::vector<unsigned char> is_tip_;
-  std::vector<std::uint32_t> ring_, ring_begin_;  ///< the neighbours of each vertex
+  /// Unit vectors from each tip along the lines in which its faces meet, and within the faces.
+  std::vector<Vector> ring_;
+  std::vector<std::uint32_t> ring_begin_;  ///< the first of each vertex
   detail::BoxTree<S> tree_;
   Scalar flat_ = 0;  ///< a corner closer to the plane of a neighbour than this lies in it [m]
 };
@@ -171,8 +181,10 @@ void MeshWall<S>::build() {
   // The two sides of a thin wall join at its rim alone: the ridges of each side are paired first.
   const auto ridges = ridges_of<S>(facets_);
   join_faces(ridges);
+  set_inward();
   set_ridges(ridges);
-  set_rings();
+  set_tips();
+  set_rings(ridges);
   sort_by_place();
 }
 
@@ -208,18 +220,6 @@ void MeshWall<S>::set_sides() {
     side.face = std::uint32_t(f);
     side.corners = corners;
     side.offset = side.normal.dot(corners.rowwise().mean());
-    for (int k = 0; k < S::dim; ++k) {
-      // The direction to corner k, without its components along the ridge opposite to it.
-      const Vector on_ridge = corners.col((k + 1) % S::dim);
-      Vector inward = corners.col(k) - on_ridge;
-      for (int other = 0; other < S::dim; ++other) {
-        if (other == k || other == (k + 1) % S::dim) continue;
-        const Vector along = (corners.col(other) - on_ridge).normalized();
-        inward -= inward.dot(along) * along;
-      }
-      side.inward[std::size_t(k)] = inward.normalized();
-      side.inward_offset[std::size_t(k)] = side.inward[std::size_t(k)].dot(on_ridge);
-    }
     side.ridge.fill(none);
   }
 }
@@ -261,15 +261,38 @@ void MeshWall<S>::join_faces(const std::vector<Ridge<S>>& ridges) {
   }
 }
 
+/// Sets the planes that bound the space above each facet. They contain the normal of the face: two
+/// facets of a face share the plane through their ridge.
+template <EuclideanSpace S>
+void MeshWall<S>::set_inward() {
+  for (Side& side : facet_sides_)
+    for (int k = 0; k < S::dim; ++k) {
+      const Vector on_ridge = side.corners.col((k + 1) % S::dim);
+      Vector inward;
+      if constexpr (S::dim == 3)
+        inward = side.normal.cross(Vector(side.corners.col((k + 2) % 3) - on_ridge));
+      else
+        inward = {-side.normal[1], side.normal[0]};
+      if (inward.dot(side.corners.col(k) - on_ridge) < 0) inward = -inward;
+      side.inward[std::size_t(k)] = inward.normalized();
+      side.inward_offset[std::size_t(k)] = side.inward[std::size_t(k)].dot(on_ridge);
+    }
+}
+
 template <EuclideanSpace S>
 void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
   const auto add = [&](const Ridge<S>& a, const Ridge<S>& b) {
     const Vector of_a = -facet_sides_[a.facet].inward[a.corner];
-    const Side& side_b = facet_sides_[b.facet];
-    const Vector of_b = a.facet == b.facet ? side_b.normal : Vector(-side_b.inward[b.corner]);
+    const Vector normal = facet_sides_[a.facet].normal, other = facet_sides_[b.facet].normal;
+    const bool is_rim = a.facet == b.facet;
+    const Vector of_b = is_rim ? Vector(across(a, normal).normalized())
+                               : Vector(-facet_sides_[b.facet].inward[b.corner]);
+    // Where the angle is small, the sum of these two is too short to have an accurate direction.
+    Vector middle = of_a + of_b;
+    if (!is_rim) middle += across(a, normal + other);
     for (const Ridge<S>& ridge : {a, b})
       facet_sides_[ridge.facet].ridge[ridge.corner] = std::uint32_t(ridges_.size());
-    ridges_.push_back({a.vertices, {of_a, of_b}, (of_a + of_b).normalized(), {a.facet, b.facet}});
+    ridges_.push_back({a.vertices, {of_a, of_b}, middle.normalized(), {a.facet, b.facet}});
   };
   for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
     // Of a surface, two facets join; with both sides, two pairs of them, or the two sides of a rim.
@@ -284,7 +307,8 @@ void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
           is_paired[i] = is_paired[j] = 1;
           if (facet_sides_[a.facet].face == facet_sides_[b.facet].face) continue;
           const bool is_fold = (a.facet < mesh_.facets.size()) != (b.facet < mesh_.facets.size());
-          if (is_fold || height_above(b, a.facet) < -flat_) add(a, b);
+          const Vector& inward = facet_sides_[a.facet].inward[a.corner];
+          if (is_fold || facet_sides_[b.facet].normal.dot(inward) < 0) add(a, b);
         }
     };
     const std::size_t front = mesh_.facets.size();
@@ -296,21 +320,7 @@ void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
 }
 
 template <EuclideanSpace S>
-void MeshWall<S>::set_rings() {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (const Facet& facet : mesh_.facets)
-    for (const std::uint32_t v : facet)
-      for (const std::uint32_t w : facet)
-        if (v != w) pairs.emplace_back(v, w);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  ring_begin_.assign(mesh_.vertices.size() + 1, 0);
-  ring_.clear();
-  for (const auto& [v, w] : pairs) {
-    ++ring_begin_[v + 1];
-    ring_.push_back(w);
-  }
-  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) ring_begin_[v + 1] += ring_begin_[v];
+void MeshWall<S>::set_tips() {
   // The other ends of the convex ridges at a vertex must not lie in one line with it. In the plane a
   // ridge is a vertex.
   is_tip_.assign(mesh_.vertices.size(), 0);
@@ -325,6 +335,42 @@ void MeshWall<S>::set_rings() {
         if (std::abs(along.dot(first[v])) < Scalar(1 - 1e-10)) is_tip_[v] = 1;
       }
     }
+}
+
+template <EuclideanSpace S>
+void MeshWall<S>::set_rings(const std::vector<Ridge<S>>& ridges) {
+  const std::size_t count = mesh_.vertices.size(), front = mesh_.facets.size();
+  std::vector<std::pair<std::uint32_t, Vector>> found;  // tip, direction
+  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
+    const auto add = [&](std::uint32_t v, const Vector& along) {
+      if (is_tip_[v] != 0) found.emplace_back(v, along);
+    };
+    // With both sides, the facets of the back are last: they have the same directions.
+    const Side& a = facet_sides_[at[0].facet];
+    const bool is_rim = at.size() < 2 || at[1].facet >= front;
+    const Side& b = is_rim ? a : facet_sides_[at[1].facet];
+    if constexpr (S::dim == 2) {
+      add(at[0].vertices[0], a.inward[at[0].corner]);
+      if (!is_rim) add(at[0].vertices[0], b.inward[at[1].corner]);
+    } else {
+      const auto [v, w] = at[0].vertices;
+      Vector along = mesh_.vertices[w] - mesh_.vertices[v];
+      along = (along - along.dot(a.normal) * a.normal).normalized();
+      // Facets of a face lie near its plane only: two planes need not meet in the ridge.
+      const Vector line = a.normal.cross(b.normal);
+      const Scalar length = line.norm(), part = line.dot(along);
+      if (a.face != b.face && std::abs(part) > length / 2 && length > Scalar(1e-9))
+        along = part > 0 ? Vector(line / length) : Vector(-line / length);
+      add(v, along);
+      add(w, -along);
+    }
+  });
+  ring_begin_.assign(count + 1, 0);
+  for (const auto& [v, along] : found) ++ring_begin_[v + 1];
+  for (std::size_t v = 0; v < count; ++v) ring_begin_[v + 1] += ring_begin_[v];
+  ring_.resize(found.size());
+  std::vector<std::uint32_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
+  for (const auto& [v, along] : found) ring_[end[v]++] = along;
 }
 
 }  // namespace moreau

@@ -14,7 +14,9 @@
 // A normal of 2, 3 and 4 must lie between the normals of the facets that join there: in the normal
 // cone of the ridge or the tip. The shape must lie on one side of the plane through the point, so that
 // the normal lies in its normal cone as well. Therefore no ridge between coplanar facets and no
-// concave ridge ever gives a contact, and of several facets that join only one gives it.
+// concave ridge ever gives a contact, and of several facets that join only one gives it. Where two
+// normal cones meet, each of them takes what rounding errors might push out of it, and a contact that
+// is known is left out: those of faces come first, those of tips last.
 #pragma once
 
 #include <algorithm>
@@ -28,52 +30,17 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
+#include "moreau/detect/pairs/mesh_collidable.hpp"
 #include "moreau/detect/pairs/mesh_core.hpp"
 #include "moreau/detect/pairs/mesh_neighbours.hpp"
+#include "moreau/detect/pairs/mesh_scratch.hpp"
 #include "moreau/detect/pairs/nearest_on_facet.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/shape_kinds.hpp"
 #include "moreau/detect/tolerance.hpp"
-#include "moreau/shape/compound.hpp"
 #include "moreau/shape/mesh_wall.hpp"
 
 namespace moreau {
-
-namespace detail {
-
-/// Whether a shape can touch a mesh wall.
-template <class ShapeT>
-inline constexpr bool touches_mesh = false;
-template <class S>
-inline constexpr bool touches_mesh<BallIn<S>> = true;
-template <class S>
-inline constexpr bool touches_mesh<Segment<S>> = true;
-template <class T>
-inline constexpr bool touches_mesh<Polygon<T>> = true;
-template <class T>
-inline constexpr bool touches_mesh<Polyhedron<T>> = true;
-template <class Core>
-inline constexpr bool touches_mesh<Rounded<Core>> = touches_mesh<Core>;
-template <class... Shapes>
-inline constexpr bool touches_mesh<OneOf<Shapes...>> = (touches_mesh<Shapes> && ...);
-template <class Part>
-inline constexpr bool touches_mesh<Compound<Part>> = touches_mesh<Part>;
-
-}  // namespace detail
-
-/// A shape that can touch a mesh wall: balls, polygons, polyhedra, capsules, rounded shapes of these,
-/// OneOf and Compound of these.
-template <class ShapeT>
-concept MeshCollidable = detail::touches_mesh<ShapeT>;
-
-/// Memory of collisions with mesh walls, used again from one to the next.
-struct MeshScratch {
-  std::vector<NearFacet> facets;      ///< of the present face
-  std::vector<NearFacet> all;         ///< near the shape, if not known before
-  std::vector<std::uint32_t> ridges;  ///< convex ridges near the shape
-  std::vector<std::uint32_t> low;     ///< vertices of the shape
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
-};
 
 namespace detail {
 
@@ -105,6 +72,7 @@ class MeshCollision {
   bool touch_faces(const Aabb<S>& box, std::span<const NearFacet> near, const Use& use) {
     scratch_.ridges.clear();
     scratch_.tips.clear();
+    scratch_.known.clear();
     const Aabb<S> around = box.inflated(margin_ - radius_);
     bool touch = false;
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
@@ -122,15 +90,27 @@ class MeshCollision {
     sort_short(scratch_.ridges);
     sort_short(scratch_.tips);
     bool touch = false;
+    const T flatness = wall_.flatness();
     const auto add = [&](const Vector& to_shape, T gap, const Vector& x, FeatureKey key) {
+      const T near = 2 * flatness + 4 * near_ + T(1e-4) * std::abs(gap);
+      if (!scratch_.known.add(x, to_shape, gap, near)) return;
       out_.set_single_point(-to_shape, gap, center_ + (x - gap / 2 * to_shape), key);
       finish();
       use(Wall::none);
       touch = true;
     };
     for (const std::uint32_t r : scratch_.ridges) touch_ridge(S{}, r, add);
-    for (std::size_t k = 0; k < scratch_.tips.size(); ++k)
-      if (k == 0 || scratch_.tips[k].first != scratch_.tips[k - 1].first) touch_tip(k, add);
+    touch_tips(aligned, add);
+    if (radius_ > 0 && scratch_.known.is_empty()) {
+      // High above a corner of faces whose vertices lie near their planes only, normal cones that were
+      // computed from these planes can leave a gap.
+      T least = std::numeric_limits<T>::infinity();
+      const auto find = [&](const Vector&, T gap, const auto&...) { least = std::min(least, gap); };
+      touch_tips(uneven, find);
+      touch_tips(uneven, [&](const Vector& to_shape, T gap, const auto&... rest) {
+        if (gap == least && !touch) add(to_shape, gap, rest...);
+      });
+    }
     return touch;
   }
 
@@ -203,6 +183,7 @@ class MeshCollision {
         if (!is_above(facet.place, center_ + x, gap_v)) continue;
         out_.points.push_back({center_ + (x + T(0.5) * gap_v * normal), gap_v,
                                FeatureKey(vertex_on_face(S{}), v, face)});
+        scratch_.known.add_new(x, Vector(-normal), gap_v);
         return;
       }
     });
@@ -255,9 +236,9 @@ class MeshCollision {
       touch_ridge(r, v, from, along, length2, add);
     }
   }
-  bool is_in_cone(std::uint32_t r, const Vector& d, T tolerance) const {
+  bool is_in_cone(std::uint32_t r, const Vector& d) const {
     const auto& beyond = wall_.ridge(r).beyond;
-    return d.dot(beyond[0]) >= tolerance && d.dot(beyond[1]) >= tolerance;
+    return d.dot(beyond[0]) >= -aligned && d.dot(beyond[1]) >= -aligned;
   }
   /// The contact of an edge, from vertex v to vertex w, with a ridge.
   template <class Add>
@@ -270,36 +251,41 @@ class MeshCollision {
     const T on_edge = apart.cross(along).dot(across), on_ridge = apart.cross(edge).dot(across);
     if (!(on_edge >= 0 && on_edge <= across2 && on_ridge >= 0 && on_ridge <= across2)) return;
     Vector d = across / std::sqrt(across2);
-    if (!is_in_cone(r, d, -aligned)) d = -d;
+    if (!is_in_cone(r, d)) d = -d;
     const T gap = -d.dot(apart);
-    if (!is_in_cone(r, d, -aligned) || !is_near(gap) || !is_lowest(p, d)) return;
+    if (!is_in_cone(r, d) || !is_near(gap) || !is_lowest(p, d)) return;
     add(d, gap, Vector(p + on_edge / across2 * edge),
         FeatureKey(FeatureKey::Kind::edge_edge, e, r));
   }
-  /// The contact of vertex v with a ridge, if it is nearest to the ridge: strictly between the facets,
-  /// because above a facet it touches the facet.
+  /// The contact of vertex v with a ridge, if it is nearest to the ridge.
   template <class Add>
   void touch_ridge(std::uint32_t r, std::uint32_t v, const Vector& from, const Vector& along,
                    T length2, const Add& add) {
     const Vector x = core_.vertex(v), apart = x - from;
-    const T part = apart.dot(along) / length2;
-    if (!(part > 0 && part < 1)) return;
+    const T exact = apart.dot(along) / length2, part = std::clamp(exact, T(0), T(1));
     const Vector away = apart - part * along;
-    const T gap = away.norm();
-    if (!(gap > near_ && gap <= margin_)) return;
+    const T gap = away.norm(), off = (exact - part) * (exact - part) * length2;
+    if (!(gap > near_ && gap <= margin_ && off <= bent * bent * gap * gap)) return;
     const Vector d = away / gap;
-    if (is_in_cone(r, d, aligned) && is_lowest(x, d))
+    if (is_in_cone(r, d) && is_lowest(x, d))
       add(d, gap, x, FeatureKey(FeatureKey::Kind::vertex_edge, v, r));
   }
+  /// @param tolerance sine of the largest angle outside of the normal cone of a tip [-]
   template <class Add>
-  void touch_tip(std::size_t first, const Add& add) {
+  void touch_tips(T tolerance, const Add& add) {
+    const auto& tips = scratch_.tips;
+    for (std::size_t k = 0; k < tips.size(); ++k)
+      if (k == 0 || tips[k].first != tips[k - 1].first) touch_tip(k, tolerance, add);
+  }
+  template <class Add>
+  void touch_tip(std::size_t first, T tolerance, const Add& add) {
     const std::uint32_t v = scratch_.tips[first].first;
     const Vector x = wall_.vertex(v) - center_;
     if (!is_within(x)) return;
     const auto found = core_.distance(x, margin_);
     if (!is_near(found.distance)) return;
     const Vector d = -found.outward;
-    if (!wall_.is_top(v, d, aligned)) return;
+    if (!wall_.is_top(v, d, tolerance)) return;
     bool is_outside = false;
     for (std::size_t k = first; k < scratch_.tips.size() && scratch_.tips[k].first == v; ++k)
       is_outside = is_outside || d.dot(wall_.side(scratch_.tips[k].second).normal) >= -aligned;
@@ -322,6 +308,8 @@ class MeshCollision {
   }
 
   static constexpr T aligned = T(1e-6);  ///< sine of the largest angle outside of a normal cone [-]
+  static constexpr T bent = T(2e-5);     ///< the same of two ridges without a tip between them [-]
+  static constexpr T uneven = T(1e-2);   ///< the same at a corner of uneven faces [-]
   const MeshCore<ShapeT> core_;
   const Wall& wall_;
   const Vector center_;
