@@ -646,7 +646,7 @@ def ageing(runs):
         return []
     return ["**Ageing.** Strain per period over that of the first four periods, twenty periods at 5 Hz and 20 Hz. If grains age with the number of the "
             "period, both frequencies agree; if they age with time, the strain at 5 Hz falls four times as early. Over periods 9 to 20 the strain at 5 Hz "
-            "is smaller than that at 20 Hz by " + ", ".join(differences) + ". Of polyhedra both agree within their errors. In all other shapes the strain falls "
+            "is smaller than that at 20 Hz by " + ", ".join(differences) + ". For polyhedra the difference is below two errors. In the other shapes the strain falls "
             "more at 5 Hz, where the excursions are longer.", "",
             *table(["", "runs, 5 Hz", "20 Hz", "periods 5 to 8: 5 Hz", "20 Hz", "9 to 20: 5 Hz", "20 Hz"], rows)]
 
@@ -670,7 +670,7 @@ def thousand(runs):
     if not rows:
         return []
     return ["**A thousand periods** at 20 Hz and 6 kN, one sample ([figure](figures/long_course.png)). The solid fraction of the logarithmic law is a + b ln n, with "
-            "one b. Here b grows with n: ρ grows somewhat faster than ln n, and does not saturate. b [1e-4] in ranges of n, with the error of the fit:", "",
+            "one b. Here b grows with n: ρ grows faster than ln n, and does not saturate in a thousand periods. b [1e-4] in ranges of n, with the error of the fit:", "",
             *table(["", "ρ of", *(f"n = {low} to {high}" for low, high in windows)], rows)]
 
 
