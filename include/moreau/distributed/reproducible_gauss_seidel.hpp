@@ -110,19 +110,18 @@ class OrderedSweeps {
     const double trace = total(traces), rows = count() * double(Vector::RowsAtCompileTime);
     const double scale = trace > 0 ? trace / rows : 1;
     ResidualSums<Operator, Law> all;
-    ExactSum sums[6];
+    ExactSum sums[5];
     for (std::size_t c = 0; c < problem_.size(); ++c) {
       ResidualSums<Operator, Law> one;
       one.add(problem_, c, impulses_[c], scale);
-      const double terms[] = {one.map,     one.norm,  one.approach,
-                              one.closing, one.speed, one.dissipation};
+      const double terms[] = {one.map, one.norm, one.approach, one.closing, one.dissipation};
       for (std::size_t k = 0; k < std::size(terms); ++k) sums[k].add(terms[k]);
       all.add(one);
     }
     double extremes[] = {all.velocity, all.cone, all.complementarity};
     if (sharing_) sharing_->largest(extremes);
-    all = {total(sums[0]), total(sums[1]), total(sums[2]), total(sums[3]), total(sums[4]),
-           total(sums[5]), extremes[0],    extremes[1],    extremes[2]};
+    all = {total(sums[0]), total(sums[1]), total(sums[2]), total(sums[3]),
+           total(sums[4]), extremes[0],    extremes[1],    extremes[2]};
     all.write(report);
   }
   /// Contacts of all processes.

@@ -60,16 +60,15 @@ namespace detail {
 /// The sums of measure_residual() over some contacts.
 template <class Operator, class Law>
 struct ResidualSums {
-  double map = 0, norm = 0, approach = 0, closing = 0, speed = 0;  // squared
-  double dissipation = 0;                                          // of the wrong sign
-  double velocity = 0, cone = 0, complementarity = 0;              // largest violations
+  double map = 0, norm = 0, approach = 0, closing = 0;  // squared
+  double dissipation = 0;                               // of the wrong sign
+  double velocity = 0, cone = 0, complementarity = 0;   // largest violations
 
   void add(const ResidualSums& other) {
     map += other.map;
     norm += other.norm;
     approach += other.approach;
     closing += other.closing;
-    speed += other.speed;
     dissipation += other.dissipation;
     velocity = std::max(velocity, other.velocity);
     cone = std::max(cone, other.cone);
@@ -81,27 +80,23 @@ struct ResidualSums {
     report.worst_cone = cone;
     report.worst_complementarity = complementarity;
     report.wrong_sign_dissipation = dissipation;
-    // The map is a difference of impulses and velocities. If all loads are as small as the rounding
-    // errors of the velocities, as in a free fall, no impulses have a smaller one.
-    const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
-    const double above = std::max(0.0, map - 64 * rounding * rounding * speed);
-    report.residual = norm > 0 ? std::sqrt(above / norm) : std::sqrt(above);
+    report.residual = norm > 0 ? std::sqrt(map / norm) : std::sqrt(map);
     // The map has the rounding of r at least: impulses so large that the velocities vanish in it show
     // nothing else. Beside the map stands the approach velocity, because with large mu the map of an
     // approach with slip and without impulse is only 1/mu of the approach.
-    const double remaining = std::max(above + rounding * rounding * norm, closing);
+    const double rounding = double(std::numeric_limits<typename Operator::Scalar>::epsilon());
+    const double remaining = std::max(map + rounding * rounding * norm, closing);
     report.relative_approach = approach > 0 ? std::sqrt(remaining / approach) : 0;
     if (std::isfinite(map) && std::isfinite(norm)) return;
     report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
   }
   /// Makes the sums those of all processes.
   void add_up(SharedBodies& shared) {
-    double sums[] = {map, norm, approach, closing, speed, dissipation};
+    double sums[] = {map, norm, approach, closing, dissipation};
     double extremes[] = {velocity, cone, complementarity};
     shared.sum(sums);
     shared.largest(extremes);
-    map = sums[0], norm = sums[1], approach = sums[2], closing = sums[3];
-    speed = sums[4], dissipation = sums[5];
+    map = sums[0], norm = sums[1], approach = sums[2], closing = sums[3], dissipation = sums[4];
     velocity = extremes[0], cone = extremes[1], complementarity = extremes[2];
   }
   /// Adds contact c with impulse r.
@@ -119,8 +114,12 @@ struct ResidualSums {
     const Vector scaled = r * to_velocity;
     const double left = std::min(0.0, double(u[0]));
     closing += left * left;
-    speed += double(u.squaredNorm());
-    map += double(natural_map(problem.law(c), u, scaled, to_velocity).squaredNorm());
+    // The map is a difference of impulses and velocities. If the load is as small as the rounding errors of
+    // the velocity, as in a free fall, no impulse has a smaller one.
+    constexpr double rounding =
+        8 * double(std::numeric_limits<typename Operator::Scalar>::epsilon());
+    map += std::max(0.0, double(natural_map(problem.law(c), u, scaled, to_velocity).squaredNorm()) -
+                             rounding * rounding * double(u.squaredNorm()));
     norm += double(scaled.squaredNorm());
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
     const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));

@@ -32,7 +32,8 @@ class Expansion {
     return e;
   }
 
-  void add(double x) {
+  /// Adds a number. Rarely called: most signs follow from double precision alone.
+  [[gnu::cold, gnu::noinline]] void add(double x) {
     std::size_t kept = 0;
     for (const double term : terms_) {
       const double sum = x + term;
@@ -71,22 +72,22 @@ class Expansion {
 };
 
 /// a d - b c without rounding error.
-inline Expansion minor(const Expansion& a, const Expansion& b, const Expansion& c,
-                       const Expansion& d) {
+[[gnu::cold]] inline Expansion minor(const Expansion& a, const Expansion& b, const Expansion& c,
+                                     const Expansion& d) {
   Expansion m = a * d;
   m -= b * c;
   return m;
 }
 
-inline double exact_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                                const Eigen::Vector2d& c) {
+[[gnu::cold]] inline double exact_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                              const Eigen::Vector2d& c) {
   return minor(Expansion::difference(b.x(), a.x()), Expansion::difference(b.y(), a.y()),
                Expansion::difference(c.x(), a.x()), Expansion::difference(c.y(), a.y()))
       .leading();
 }
 
-inline double exact_orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
+[[gnu::cold]] inline double exact_orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                              const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
   Expansion u[3], v[3], w[3];
   for (int k = 0; k < 3; ++k) {
     u[k] = Expansion::difference(b[k], a[k]);
