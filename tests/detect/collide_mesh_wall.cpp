@@ -104,6 +104,24 @@ FacetMesh<S> squares(int n, const Place& place) {
   return mesh;
 }
 
+/// A roof with its ridge along y from 0 to 3, divided at 1 and 2, and with slopes of the width 1.
+template <class S>
+FacetMesh<S> roof(typename S::Scalar slope) {
+  FacetMesh<S> mesh;
+  for (int j = 0; j <= 3; ++j)
+    for (int i = -1; i <= 1; ++i) {
+      const auto x = static_cast<typename S::Scalar>(i), y = static_cast<typename S::Scalar>(j);
+      mesh.vertices.push_back({x, y, -slope * std::abs(x)});
+    }
+  for (std::uint32_t j = 0; j < 3; ++j)
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const std::uint32_t at = 3 * j + i;
+      mesh.facets.push_back({at, at + 1, at + 4});
+      mesh.facets.push_back({at, at + 4, at + 3});
+    }
+  return mesh;
+}
+
 /// The distance of a point from the nearest facet; it is less than 0.06.
 template <class S>
 double facet_distance(const MeshWall<S>& wall, const typename S::Vector& x) {
@@ -405,17 +423,7 @@ TEST_CASE("a disk above a corner has one contact") {
 // A vertex in the middle of a straight ridge is no tip: the ridges have it.
 TEST_CASE("a ball and a capsule on the ridge of a roof have one contact at each place") {
   using S = Volume;
-  FacetMesh<S> roof;
-  for (int j = 0; j <= 3; ++j)
-    for (int i = -1; i <= 1; ++i)
-      roof.vertices.push_back({double(i), double(j), -std::abs(double(i))});
-  for (std::uint32_t j = 0; j < 3; ++j)
-    for (std::uint32_t i = 0; i < 2; ++i) {
-      const std::uint32_t at = 3 * j + i;
-      roof.facets.push_back({at, at + 1, at + 4});
-      roof.facets.push_back({at, at + 4, at + 3});
-    }
-  const MeshWall<S> wall(roof);
+  const MeshWall<S> wall(roof<S>(1));
   const Capsule<> capsule(0.2, 0.05);
   for (const double y : {1.0, 1 + 4e-16, 1 - 4e-16, 1 + 1e-12, 1.5}) {
     CAPTURE(y);
@@ -431,17 +439,7 @@ TEST_CASE("a ball and a capsule on the ridge of a roof have one contact at each 
 
 TEST_CASE("walls and grains in single precision: one contact over edges and vertices") {
   using S = Space<3, float>;
-  FacetMesh<S> roof;
-  for (int j = 0; j <= 3; ++j)
-    for (int i = -1; i <= 1; ++i)
-      roof.vertices.push_back({float(i), float(j), -0.1F * std::abs(float(i))});
-  for (std::uint32_t j = 0; j < 3; ++j)
-    for (std::uint32_t i = 0; i < 2; ++i) {
-      const std::uint32_t at = 3 * j + i;
-      roof.facets.push_back({at, at + 1, at + 4});
-      roof.facets.push_back({at, at + 4, at + 3});
-    }
-  const MeshWall<S> wall(roof);
+  const MeshWall<S> wall(roof<S>(0.1F));
   const BallIn<S> ball(0.05F);
   MeshScratch scratch;
   Manifold<S> manifold;
