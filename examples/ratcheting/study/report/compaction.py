@@ -179,6 +179,20 @@ class Prediction:
                 + ", ".join(f"{100 * b:+.0f}" for b in self.bias.values()).replace("-", "−") + ")")
 
 
+class SetAside:
+    """The runs that were set aside (runs.read()), predicted by the fit of the others: their number and that of
+    their points, rms and mean of ln(measured / predicted), and the fit, whose scatter is that of the others."""
+
+    def __init__(self, runs, measures=("t_u",)):
+        aside = [r for r in runs if r.get("set_aside")]
+        self.law = Law([r for r in runs if not r.get("set_aside")], measures)
+        data = points(aside, measures) if self.law.fitted else []
+        self.run_count, self.count = len(aside), len(data)
+        residuals = self.law.residuals(data)
+        self.rms = math.sqrt(sum(v * v for v in residuals) / len(data)) if data else math.nan
+        self.mean = sum(residuals) / len(data) if data else math.nan
+
+
 def local_power(runs, shape, law, shortest):
     """The fit of the strain, times n^b, over t_u above `shortest` [s]: a, power, its error, scatter."""
     data = [(x, y + law.b * n) for (x,), n, y in points(loading_runs(runs, shape))

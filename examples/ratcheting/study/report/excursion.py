@@ -94,6 +94,7 @@ class Prediction:
         self.bases, self.thrusts = [], []
         self.excluded = []  # run, predicted: the runs that are not judged
         self.shares = {}  # beta by sample
+        self.set_aside_ratios = []  # measured over predicted, of the judged runs that were set aside
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
                 continue
@@ -108,14 +109,19 @@ class Prediction:
                 continue
             self.bases.append(base)
             self.shares[seed] = share
+
+            def predicted(run, thrust_at=thrust_at, share=share):
+                weight, p = run["weight"], run["parameters"]
+                return displacement(lambda x: thrust_at(x) * weight, run["wall_mass"] + share * run["mass"], p["fmax"],
+                                    p["frequency"])
+            self.set_aside_ratios += [run["dx_active"] / predicted(run) for run in select(
+                runs, shape, seed=seed, frequency=ANY, fmax=ANY, **wanted) if run.get("set_aside") and judged(run)]
             for name, pairs in self.pairs.items():
                 for run in select(runs, shape, seed=seed, **({"frequency": 5.0} | {name: ANY}), **wanted):
                     p = run["parameters"]
                     if p["fmax"] < 1000 or p["duration"] > 5 or p[name] == base["parameters"][name]:
                         continue
-                    (pairs if judged(run) else self.excluded).append((run, displacement(
-                        lambda x, weight=run["weight"]: thrust_at(x) * weight,
-                        run["wall_mass"] + share * run["mass"], p["fmax"], p["frequency"])))
+                    (pairs if judged(run) else self.excluded).append((run, predicted(run)))
 
     def exponents(self, name):
         """Exponents over a parameter of the measured and of the predicted excursion, as text."""

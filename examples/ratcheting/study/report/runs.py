@@ -4,6 +4,7 @@
 A run is the dictionary of its line in runs.jsonl. All quantities are in SI units."""
 import json
 import math
+import pathlib
 from collections import Counter
 
 SHAPES = ("polyhedron", "polygon", "sphere", "disk")
@@ -27,9 +28,15 @@ ANY = object()
 
 def read(path):
     """The runs of a table. If none has the paper's number of grains, as in the plan `small`, the case
-    that select() demands becomes the most frequent one."""
+    that select() demands becomes the most frequent one. Runs named in set_aside.txt beside the table are marked
+    `set_aside`: they were made after the laws had been fitted to the others."""
     with open(path, encoding="utf8") as file:
         runs = [json.loads(line) for line in file]
+    aside = pathlib.Path(path).parent / "set_aside.txt"
+    if aside.exists():
+        names = set(aside.read_text(encoding="utf8").split())
+        for run in runs:
+            run["set_aside"] = run["name"] in names
     if runs and not any(run["parameters"]["grains"] == CASE["grains"] for run in runs):
         for known, keys in ((CASE, ("grains", "fmax")), (RIGID, ("step",))):
             for key in keys:

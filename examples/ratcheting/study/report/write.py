@@ -470,7 +470,7 @@ def frequencies(found):
 
 def settled_section(runs):
     """Runs with compliant contacts that start from one jammed state of each sample."""
-    rows, laws, tests, powers, judged_counts, trends, every = [], [], [], [], [], [], []
+    rows, laws, tests, powers, judged_counts, trends, every, aside = [], [], [], [], [], [], [], []
     for shape in SHAPES:
         found = compaction.jammed_runs(runs, shape)
         law = compaction.Law(found, ("load",))
@@ -484,6 +484,7 @@ def settled_section(runs):
                          other.text(), root_share(found)])
             laws.append([TITLE[shape], *measures_of(found, ("excursion",), ("t_u",), ("t_u", "load"))])
         test = excursion.Prediction(runs, shape, excursion.thrust_curves(runs, shape), **JAMMED)
+        aside += set_aside_row(shape, found, test)
         own = excursion.Prediction(runs, shape, **JAMMED)
         if test.shares:
             cells = []
@@ -512,7 +513,7 @@ def settled_section(runs):
              "In these boxes the excursion, Δx = Cℓ, does as well. The time t_u does worse. Beside ℓ its power is zero within its error where runs with "
              "heavy walls, which change ℓ and hardly t_u, are judged: of polygons there are few.", "",
              *table(["", "Δx/L: power", "scatter", "t_u: power", "scatter", "t_u and ℓ/L: power of t_u", "of ℓ/L", "scatter"], laws),
-             *boxes(runs), *ageing(runs), *thousand(runs)]
+             *set_aside(runs, aside), *boxes(runs), *ageing(runs), *thousand(runs)]
     if tests:
         lines += ["**The excursion predicted.** From the jammed state the wall is moved outward at 2 mm/s. The force of the grains "
                   "on it falls with the displacement: the thrust F(x) ([figure](figures/predicted.png)). The equation of motion (m_w + βm) dv/dt = F(x) − f(t) then gives "
@@ -533,6 +534,34 @@ def settled_section(runs):
                   *table(["", "ν: measured", "predicted", "fmax: measured", "predicted", "g: measured", "predicted"], powers),
                   *box_prediction(runs)]
     return lines
+
+
+def set_aside_row(shape, found, test):
+    """The table's row: the runs that were set aside, and what the others predict of them."""
+    load = compaction.SetAside(found, ("load",))
+    if load.count == 0:
+        return []
+    time = compaction.SetAside(found)
+    mean, spread = excursion.mean_and_scatter(test.set_aside_ratios)
+    n = len(test.set_aside_ratios)
+    return [[TITLE[shape], f"{load.run_count}; {load.count}",
+             number(1e3 * load.law.share, 1e3 * load.law.share_error), number(load.law.p, load.law.p_error),
+             number(load.law.b, load.law.b_error), f"{100 * load.law.scatter:.0f} %", f"{100 * load.rms:.0f} %",
+             f"{100 * load.mean:+.0f} %".replace("-", "−"),
+             number(time.law.p, time.law.p_error), f"{100 * time.law.scatter:.0f} %", f"{100 * time.rms:.0f} %",
+             f"{n}: {mean:.2f}, {100 * spread:.0f} %" if n > 1 else "–"]]
+
+
+def set_aside(runs, rows):
+    if not rows:
+        return []
+    made = [r for r in runs if r.get("set_aside")]
+    return [f"**Runs set aside.** {len(made)} runs ([names](set_aside.txt)) were made after these laws had been fitted to the others: a third of those from one "
+            "jammed state, most at 2 and 27 kN. The fit of the others predicts the strain of those that are judged. Scatter: of the fit, about itself; rms: of "
+            "measured over predicted strain.", "",
+            *table(["", "judged runs; points", "ℓ/L, fit of the others: a [1e-3]", "q", "b", "scatter of the fit", "rms of the runs set aside", "mean",
+                    "t_u: power", "scatter of the fit", "rms of the runs set aside",
+                    "Δx measured over predicted from F(x): runs, mean, scatter"], rows)]
 
 
 def measures_of(found, *sets):
