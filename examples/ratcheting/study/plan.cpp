@@ -469,6 +469,20 @@ std::vector<Case> settled_plan() {
         p.correction = false;
         p.duration = std::max(1.0, 5 / frequency);
       });
+  // The exponent over three frequencies again, at half the step and at a tenth of the tolerance.
+  const auto converged = [&](const char* shape, std::size_t seed, Numbers frequencies) {
+    for (const double frequency : frequencies)
+      for (const auto& [step, tolerance] : {std::pair{1e-4, 1e-5}, {2e-4, 1e-6}})
+        add_jammed(plan, "converged", shape, seed, 4, [&](Parameters& p) {
+          p.frequency = frequency;
+          p.step = step;
+          p.tolerance = tolerance;
+        });
+  };
+  for (const std::size_t seed : {1u, 2u, 3u}) {
+    converged("polygon", seed, {7, 3.5, 2});
+    converged("polyhedron", seed, {15, 7, 3.5});
+  }
   return std::move(plan).cases();
 }
 
