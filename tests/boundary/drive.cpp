@@ -160,3 +160,19 @@ TEST_CASE("a velocity drives a grain of prescribed motion, a force does not") {
                        "VelocityDrive::apply: body = 1 must be the id of a body",
                        std::invalid_argument);
 }
+
+TEST_CASE("the lid of a shear cell moves under its pressure while a drive shears it") {
+  LoneWall<moreau::Disk<>> scene;  // normal along x
+  using V = Space<2>::Vector;
+  const PressureLoad load(scene.simulation, scene.wall, 1, 2, [] { return 1.0; });
+  const VelocityDrive shear(scene.wall, V(0, 1), [](double) { return 0.1; });
+  const V start = scene.simulation.pose(scene.wall).position;
+  for (int k = 0; k < 1000; ++k) {
+    load.apply(scene.simulation, 1e-3);
+    shear.apply(scene.simulation, 1e-3);
+    scene.simulation.step(1e-3);
+  }
+  const V way = scene.simulation.pose(scene.wall).position - start;
+  CHECK(std::abs(way[0]) == doctest::Approx(0.5 * 2).epsilon(1e-2));  // 2 N/m on 1 kg for 1 s
+  CHECK(way[1] == doctest::Approx(0.1));
+}

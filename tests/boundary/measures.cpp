@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/rolling_resistance.hpp"
 #include "moreau/measure/contact_classes.hpp"
 #include "moreau/measure/coordination.hpp"
 #include "moreau/measure/energy_balance.hpp"
@@ -47,6 +49,7 @@ moreau::EnergyBalance<moreau::SpaceOf<ShapeT>> balance_of(double h) {
   world.set_wall_mass(box.walls[1], 0.01);
   world.set_force(box.walls[1], -0.5 * Vector::UnitX());
   world.set_force(box.grains[0], 0.01 * Vector::UnitX());
+  world.set_torque(box.grains[1], S::Angular(1e-5 * S::Angular::Unit(S::angular_dim - 1)));
   moreau::EnergyBalance<S> energy(world);
   for (double t = 0; t < 0.2; t += h) energy.add(world, world.step(h), h);
   return energy;
@@ -222,4 +225,20 @@ TEST_CASE_TEMPLATE("measures of a simulation count images", ShapeT, moreau::Ball
   CHECK_THROWS_AS(moreau::contact_stress(pile, 0, volume), std::invalid_argument);
   CHECK_THROWS_AS(moreau::pair_forces(pile, 0), std::invalid_argument);
   CHECK_THROWS_AS(moreau::fabric(pile, h, Aabb<S>{}), std::invalid_argument);
+}
+
+TEST_CASE(
+    "the balance of balls that twist against each other closes where the net impulse is zero") {
+  using Law = moreau::Cohesive<moreau::RollingResistance<>>;
+  moreau::Simulation<moreau::Ball<>, Law> world(
+      0.02, moreau::Materials<Law>(1, Law(moreau::RollingResistance<>(0.5, 0.1), 1.0)));
+  const moreau::ShapeId shape = world.add_shape(moreau::Ball<>(0.01));
+  const moreau::BodyId a = world.add_grain(shape, {{0, 0, 0}}, 2500);
+  const moreau::BodyId b = world.add_grain(shape, {{0.02, 0, 0}}, 2500);
+  world.set_spin(a, {10, 0, 0});
+  world.set_spin(b, {-10, 0, 0});
+  moreau::EnergyBalance<Space<3>> energy(world);
+  for (int k = 0; k < 20; ++k) energy.add(world, world.step(1e-5), 1e-5);
+  CHECK(energy.terms().rolling > 1e-6);
+  CHECK(std::abs(energy.imbalance()) < 1e-12 * energy.kinetic_at_start());
 }

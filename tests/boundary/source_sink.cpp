@@ -215,3 +215,19 @@ TEST_CASE("bad options of a source and a sink are named") {
   CHECK_THROWS_AS(Sink<S>::outside(Aabb<S>()), std::invalid_argument);
   CHECK(shaft.world.grain_count() == 0);
 }
+
+TEST_CASE("a source counts the grains that it added before it threw") {
+  using ShapeT = Disk<>;
+  World<ShapeT> world(0.02, Materials<LawOf<ShapeT>>(1, LawOf<ShapeT>(0.4)));
+  world.set_periodic(0, 0, 0.2);
+  const ShapeId small = world.add_shape(ShapeT(0.005)), wide = world.add_shape(ShapeT(0.06));
+  SourceOptions<Space<2>> options;
+  options.region = {{0.0, 0.0}, {0.2, 0.4}};
+  options.shapes = {small, small, small, wide};
+  options.density = 2500;
+  options.grain_limit = 50;
+  Source<Space<2>> source(options);
+  CHECK_THROWS_AS(source.apply(world, h), std::invalid_argument);  // too wide for the cell
+  CHECK(source.added().size() == world.grain_count());
+  CHECK(source.total().count == world.grain_count());
+}

@@ -71,4 +71,6 @@ TEST_CASE("images of a point") {
   CHECK_THROWS_WITH_AS(cell.set(0, 3, 1),
                        "PeriodicCell::set: upper = 1 must be finite and above lower",
                        std::invalid_argument);
+  cell.set(1, 0, 1);
+  CHECK(cell.wrap(Vector(1, -1e-17)) == Vector(1, 0));  // not 1, by rounding
 }

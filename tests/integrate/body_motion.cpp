@@ -2,6 +2,7 @@
 #include "moreau/integrate/body_motion.hpp"
 
 #include <doctest/doctest.h>
+#include <random>
 
 #include "conformance/integrator.hpp"
 
@@ -41,4 +42,39 @@ TEST_CASE("the spin at the end of a rotation has the angular momentum that is gi
   const Eigen::Vector3d spin = spin_after<S>(body.bodies, 0, momentum, {1, 1, 1}, 0.2);
   const Eigen::Vector3d result = body.bodies.inertia(0, S::exp(0.2 * spin)) * spin;
   CHECK((result - momentum).norm() < 1e-14);
+}
+
+TEST_CASE("the spin of slender bodies meets the angular momentum for large rotations") {
+  using S = Space<3>;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (const double turn : {0.3, 0.8, 1.5}) {
+    CAPTURE(turn);
+    int missed = 0;
+    for (int k = 0; k < 300; ++k) {
+      conformance::FreeBody<S> body(1, Eigen::Vector3d(1, 0.95, 0.1).asDiagonal());
+      body.bodies.pose[0].rotation = S::exp({normal(random), normal(random), normal(random)});
+      const Eigen::Vector3d axis(normal(random), normal(random), normal(random));
+      const Eigen::Vector3d start = turn * axis.normalized();
+      const Eigen::Vector3d momentum = body.bodies.inertia(0, body.bodies.pose[0].rotation) * start;
+      const Eigen::Vector3d spin = spin_after<S>(body.bodies, 0, momentum, start, 1);
+      const Eigen::Vector3d result =
+          body.bodies.inertia(0, S::exp(spin) * body.bodies.pose[0].rotation) * spin;
+      missed += (result - momentum).norm() > 1e-12 * momentum.norm();
+    }
+    CHECK(missed == 0);
+  }
+}
+
+TEST_CASE("the Jacobian of the exponential is that of differences") {
+  using S = Space<3>;
+  for (const double angle : {1e-9, 0.05, 0.0999, 0.1001, 1.0, 3.0}) {
+    const Eigen::Vector3d x = angle * Eigen::Vector3d(1, -2, 2) / 3;
+    const Eigen::Matrix3d jacobian = S::exp_jacobian(x);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d dx = 1e-6 * Eigen::Vector3d::Unit(k);
+      const Eigen::Quaterniond way = S::exp(x + dx) * S::exp(x - dx).conjugate();
+      CHECK((way.vec() / 1e-6 - jacobian.col(k)).norm() < 1e-8);
+    }
+  }
 }

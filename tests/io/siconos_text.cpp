@@ -107,6 +107,8 @@ TEST_CASE("bad texts are refused by name") {
         std::string::npos);
   CHECK(error_of("2 1 1 2 2 1 1 1 2 2 2 1 0 9 0 0 1 0 0 1 -1 0 0.3").find("index1") !=
         std::string::npos);
+  CHECK(error_of("2 2 1 4 4 2 2 2 2 4 2 4 3 2 0 1 1 0 1 0 1 0 0 1 1 2 0 0 2 0.5 0 -1 0 0.3 0.3") ==
+        self + "index1 = 1 must end at the number of blocks");
   CHECK(error_of("2 1 1 2 2 1 1 1 2 2 2 1 0 1 7 0 1 0 0 1 -1 0 0.3").find("index2") !=
         std::string::npos);
   CHECK(error_of("2 1 0 2 2 2 2 1 1e-400 0 1e400 -1 0 0.3") ==

@@ -11,6 +11,7 @@
 
 #include "moreau/contact/detail/warm_start.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/measure/energy_balance.hpp"
 #include "moreau/shape/ball.hpp"
@@ -337,4 +338,24 @@ TEST_CASE("compliant: the stiffness of a pair does not depend on the margin") {
     return report.relative_compliance;
   };
   CHECK(relative_compliance(0.04) == doctest::Approx(relative_compliance(0.2)).epsilon(1e-12));
+}
+
+TEST_CASE("compliant: an attraction closes a new contact, with restitution, too") {
+  using Sticky = Compliant<Cohesive<Coulomb>>;
+  const double pull = 1, stiffness = 1e4;
+  for (const double restitution : {0.0, 0.5}) {
+    CAPTURE(restitution);
+    Simulation<Disk<double>, Sticky> world(
+        0.02, Materials<Sticky>(
+                  1, Sticky(Cohesive<Coulomb>(Coulomb(0.3, restitution), pull), stiffness)));
+    const ShapeId shape = world.add_shape(Disk<double>(0.01));
+    const BodyId a = world.add_grain(shape, {{0, 0}}, 2500);
+    const BodyId b = world.add_grain(shape, {{0.02 - 1e-9, 0}}, 2500);
+    const StepReport first = world.step(1e-5);
+    CHECK(first.elastic_energy < 1e-3 * pull * pull / (2 * stiffness));
+    CHECK(std::abs(first.dissipation) < 1e-3 * pull * pull / (2 * stiffness));
+    for (int k = 0; k < 4000; ++k) world.step(1e-5);
+    const double overlap = 0.02 - (world.pose(b).position - world.pose(a).position)[0];
+    CHECK(overlap == doctest::Approx(pull / stiffness).epsilon(1e-2));
+  }
 }

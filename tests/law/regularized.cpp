@@ -60,3 +60,14 @@ TEST_CASE("the duration of an impact is that of the law") {
   }
   CHECK(time == doctest::Approx(law.duration(1)).epsilon(1e-3));
 }
+
+TEST_CASE("friction takes energy after a step whose normal force was cut to zero") {
+  const Springs law(1e6, 5e5, 0.5, 0.5);
+  S::Vector memory = S::Vector::Zero();
+  // It leaves so fast that the dashpot would pull, and slides.
+  const moreau::ContactMotion<S> leaving{-1e-7, {0.5, 0.2}, 0.01, 0.005, 1e-6};
+  CHECK(law.force(leaving, memory).norm() == 0);
+  CHECK(memory[1] == 0);
+  const moreau::ContactMotion<S> pressed{-1e-5, {-0.05, 0.01}, 0.01, 0.005, 1e-6};
+  CHECK(law.force(pressed, memory)[1] < 0);
+}

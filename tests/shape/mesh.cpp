@@ -161,6 +161,20 @@ TEST_CASE("faults of a mesh in space name the triangle") {
   CHECK(fault(mesh).find("only at the vertex 6") != std::string::npos);
 }
 
+TEST_CASE("unused vertices are dropped; a corner out of range is refused") {
+  FacetMesh<Plane> mesh = cube(Plane{});
+  mesh.vertices.insert(mesh.vertices.begin(), {5, 5});
+  for (auto& facet : mesh.facets)
+    for (auto& v : facet) ++v;
+  CHECK(drop_unused_vertices(mesh) == 1);
+  CHECK(mesh.vertices == cube(Plane{}).vertices);
+  CHECK(mesh.facets == cube(Plane{}).facets);
+  mesh.facets[0][1] = 5000;
+  CHECK_THROWS_WITH_AS(drop_unused_vertices(mesh),
+                       "drop_unused_vertices: corner = 5000 must be the index of a vertex",
+                       std::invalid_argument);
+}
+
 TEST_CASE("faults of a mesh in the plane name the segment") {
   const FacetMesh<Plane> good = cube(Plane{});
   FacetMesh<Plane> mesh = good;

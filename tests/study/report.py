@@ -32,7 +32,7 @@ def made_up(seed, frequency, thrust=80.0, count=16):
         before.append(x)
         x -= 0.3 * 0.002 * (t_u / 0.01) ** 0.9 * n ** -0.5
         after.append(x)
-    run["periods"] = {"x_j": before, "x_j_after": after}
+    run["periods"] = {"x_j": before, "x_j_after": after, "drift": [0.0] * count, "dx_max": [1e-3] * count}
     return run
 
 
@@ -99,6 +99,15 @@ class Physics(unittest.TestCase):
     def test_time_below_the_thrust(self):
         run = made_up(1, 5.0, 3000.0)
         self.assertAlmostEqual(runs.unjammed_time(run), 0.1)
+
+    def test_motions_of_the_jammed_wall_do_not_cancel(self):
+        run = made_up(1, 5.0, count=4)
+        self.assertTrue(runs.judged(run))
+        for share, expected in ((0.29, True), (0.31, False)):
+            run["periods"]["drift"] = [share * 1e-3 * (-1) ** k for k in range(4)]
+            self.assertEqual(runs.judged(run), expected)
+        run["periods"] = {"drift": [], "dx_max": []}
+        self.assertFalse(runs.judged(run))
 
     def test_law_of_compaction_is_found(self):
         table = [made_up(seed, nu) for seed in (1, 2, 3) for nu in (2.0, 5.0, 10.0, 20.0, 60.0)]

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "moreau/instances/friction_problems.hpp"
+#include "moreau/io/snapshot.hpp"
 #include "moreau/solve/proximal_solver.hpp"
 
 #include "world/assemblies.hpp"
@@ -40,4 +41,15 @@ TEST_CASE_TEMPLATE("a step's problem is solved by the step's impulses, and by an
   CHECK(natural_map_residual(gathered.problem, impulses_of(simulation, gathered)) < 1e-3);
   // If there are many contacts, the impulses of a solution are not unique, but the velocities are.
   CHECK(natural_map_residual(gathered.problem, impulses) < 1e-10);
+}
+
+TEST_CASE("a simulation that was read from a snapshot has no problem to gather") {
+  BoxOfGrains<Polygon<>> scene(4);
+  auto& simulation = scene.simulation;
+  for (int k = 0; k < 400; ++k) simulation.step(5e-4);
+  const std::string before = snapshot(simulation);
+  REQUIRE(simulation.contacts().size() > 0);
+  simulation.step(5e-4);
+  restore_snapshot(before, simulation);
+  CHECK_THROWS_AS(gather_problem(simulation), std::invalid_argument);
 }

@@ -188,8 +188,27 @@ TEST_CASE("bad input is named") {
                        "Simulation: margin = inf must be finite and > 0", std::invalid_argument);
   CHECK_THROWS_AS(simulation.set_force(BodyId(7), S::Vector::Zero()), std::invalid_argument);
   CHECK_THROWS_AS(simulation.set_force(grain, S::Vector(nan, 0, 0)), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(simulation.set_torque(BodyId(7), S::Vector::Zero()),
+                       "Simulation::set_torque: body = 7 must be the id of a body",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(simulation.set_torque(grain, S::Vector(nan, 0, 0)), std::invalid_argument);
   CHECK_THROWS_AS(simulation.set_gravity(S::Vector(nan, 0, 0)), std::invalid_argument);
   CHECK_THROWS_WITH_AS(simulation.step(-1e-3),
                        "Simulation::step: step = -0.001 must be finite and > 0",
                        std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("a torque turns a grain about its centre until it is set again", ShapeT,
+                   moreau::Ball<>, moreau::Disk<>) {
+  using S = moreau::SpaceOf<ShapeT>;
+  scenes::World<ShapeT> world(0.02, moreau::Materials<scenes::LawOf<ShapeT>>(1));
+  const BodyId grain = world.add_grain(world.add_shape(ShapeT(0.01)), {}, 2500);
+  const typename S::Angular torque = 1e-6 * S::Angular::Unit(S::angular_dim - 1);
+  world.set_torque(grain, torque);
+  for (int k = 0; k < 100; ++k) world.step(1e-3);
+  world.set_torque(grain, S::Angular::Zero());
+  world.step(1e-3);
+  const double inertia = world.bodies().inertia_body[grain.index()](0, 0);
+  CHECK(world.spin(grain)[S::angular_dim - 1] == doctest::Approx(0.1 * 1e-6 / inertia));
+  CHECK(world.velocity(grain).norm() == 0);
 }

@@ -66,10 +66,19 @@ struct Result {
   /// to the force on the wall [m].
   double flight_displacement() const;
   double scaled_load() const;  ///< (m g)^2 / ((m + m_w) fmax nu^2) [m]
-  /// Whether the jammed wall moves by at most 30 % of the displacement; the report uses no other runs
-  /// for what depends on the excursion.
-  bool is_judged() const { return std::abs(drift) <= 0.3 * std::abs(dx_max); }
+  /// Whether the jammed wall moves by at most 30 % of the displacement, outward or inward, on average
+  /// over the periods; the report uses no other runs for what depends on the excursion.
+  bool is_judged() const;
 };
+
+inline bool Result::is_judged() const {
+  double jammed = 0, moved = 0;  // [m]
+  for (const ratcheting::Period& period : periods) {
+    jammed += std::abs(period.active.drift);
+    moved += std::abs(period.dx_max);
+  }
+  return !periods.empty() && jammed <= 0.3 * moved;
+}
 
 inline double Result::early_rate(double Jam::*rho) const {
   if (jams.size() < 2) return std::nan("");

@@ -99,8 +99,6 @@ class Drive {
     const bool accelerates = (root * direction_).norm() > Scalar(1e-5) * root.norm();
     require(accelerates == expected, self, "body", body_, expectation);
   }
-
- private:
   /// M^-1/2 of the linear motion of the body [kg^-1/2], D x D, world axes.
   auto linear_root(const auto& simulation, const char* self) const {
     if constexpr (requires { simulation.mobility_root(body_); }) {  // of several processes
@@ -113,6 +111,7 @@ class Drive {
     }
   }
 
+ private:
   BodyId body_;
   VectorT direction_;
   F f_;
@@ -150,9 +149,10 @@ class ForceDrive : public detail::Drive<VectorT, F> {
   }
 };
 
-/// A velocity f(t) [m/s] along a fixed direction of a body whose motion is prescribed: a wall without
-/// set_wall_mass(), or a grain after prescribe_motion(). It replaces the velocity that set_velocity()
-/// has set.
+/// A velocity f(t) [m/s] along a fixed direction of a body whose motion is prescribed along it: a wall without
+/// set_wall_mass(), a grain after prescribe_motion(), or a wall with a mass along a direction in its plane,
+/// as the lid of a shear cell. It replaces the velocity that set_velocity() has set; a wall with a mass keeps the
+/// velocity along its normal, which forces and contacts change.
 template <class VectorT, class F>
 class VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
@@ -172,10 +172,12 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   ///                               finite, or a step that is not finite or not positive
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
-    const VectorT velocity = this->value(simulation, step, self);
+    VectorT velocity = this->value(simulation, step, self);
     this->require_mass(
         simulation, false, self,
         "must have a prescribed motion along the direction, as a wall without set_wall_mass");
+    const auto root = this->linear_root(simulation, self);  // n n^T / sqrt(m), or 0
+    if (root.norm() > 0) velocity += root * simulation.velocity(this->body()) / root.norm();
     simulation.set_velocity(this->body(), velocity);
   }
 };

@@ -102,11 +102,12 @@ class Source {
     find_bodies(simulation);
     while (due_ >= 1 && simulation.grain_count() < options_.grain_limit && add(simulation)) {
       due_ -= 1;
-      ++now.count;
-      now.mass += double(simulation.bodies().grain_mass[added_.back().index()]);
+      const auto mass = double(simulation.bodies().grain_mass[added_.back().index()]);
+      for (GrainSum* sum : {&now, &total_}) {  // also if the next grain throws
+        ++sum->count;
+        sum->mass += mass;
+      }
     }
-    total_.count += now.count;
-    total_.mass += now.mass;
     return now;
   }
 

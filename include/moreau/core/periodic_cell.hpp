@@ -55,9 +55,11 @@ class PeriodicCell {
   Vector image_from(const VectorArgument<S>& from, const VectorArgument<S>& x) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
-      if (is_periodic(axis))
-        y[axis] = std::max(from[axis], x[axis] - length_[axis] * std::floor((x[axis] - from[axis]) /
-                                                                            length_[axis]));
+      if (is_periodic(axis)) {
+        const Scalar cells = std::floor((x[axis] - from[axis]) / length_[axis]);
+        y[axis] = std::max(from[axis], x[axis] - length_[axis] * cells);
+        if (!(y[axis] < from[axis] + length_[axis])) y[axis] = from[axis];  // by rounding
+      }
     return y;
   }
   /// The image of x nearest to the point `to`, world axes [m]. Along every periodic axis it is at

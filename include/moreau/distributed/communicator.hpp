@@ -31,7 +31,9 @@ class MpiSession {
     int runs = 0;
     MPI_Initialized(&runs);
     mine_ = runs == 0;
-    if (mine_) MPI_Init(&argc, &argv);
+    // Threads of a team share the work of a step; the thread of main() alone sends messages.
+    int given = 0;
+    if (mine_) MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &given);
   }
   ~MpiSession() {
     if (mine_) MPI_Finalize();

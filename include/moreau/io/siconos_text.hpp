@@ -153,6 +153,8 @@ inline void scan_blocks(TextScanner& scan, TextMatrix& raw) {
   const std::vector<int> first = scan_integers(scan, filled1, "index1");
   const std::vector<int> column_of = scan_integers(scan, filled2, "index2");
   require(filled2 == blocks, scan.function(), "filled2", filled2, "must be the number of blocks");
+  const int end = first.empty() ? 0 : first.back();
+  require(end == blocks, scan.function(), "index1", end, "must end at the number of blocks");
   for (int row = 0; row + 1 < filled1; ++row) {
     const auto here = std::size_t(row);
     require(first[here + 1] >= first[here] && first[here + 1] <= blocks, scan.function(), "index1",

@@ -82,11 +82,12 @@ typename S::Vector spring_friction(const ContactMotion<S>& motion, typename S::S
   shear = -stiffness * stretch - damping * slip;
   const T size = shear.norm(), limit = friction * normal;
   if (size > limit) {
+    const auto uncut = shear.eval();
     shear *= size > 0 ? limit / size : T(0);
     // What the dashpot alone would exceed the limit by is no stretch: the spring would then push
     // the slip on.
     if (stiffness > 0) stretch = -(shear + damping * slip) / stiffness;
-    if (stretch.dot(shear) > 0) stretch.setZero();
+    if (stretch.dot(uncut) > 0) stretch.setZero();
   }
   return force;
 }

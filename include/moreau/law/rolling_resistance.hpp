@@ -86,7 +86,7 @@ class RollingResistance {
     return point_.velocity_offset(gap, before, step);
   }
 
-  /// The solution of the local problem to rounding: the impulse (r_n, r_t, couple / R) on b, in the
+  /// A solution of the local problem to rounding: the impulse (r_n, r_t, couple / R) on b, in the
   /// frame of the contact [N s].
   /// @param block W of the contact [1/kg]
   /// @param b     D + A, (velocity, R spin) without impulse, with the offset [m/s]
@@ -122,13 +122,12 @@ class RollingResistance {
     constexpr int tangents = S::dim - 1;
     const T slide = x.template segment<tangents>(1).norm(), roll = angular<S>(x).norm();
     const T mu = friction(), eta = rolling_;
-    // x_n of the projection: the two limits may bind or not, so there are four cases.
+    // x_n of the projection is the zero of the smallest of four rising functions: each of the two limits
+    // may bind or not. So it is the largest of their zeros.
     T normal = 0;
     for (int binds = 0; binds < 4; ++binds) {
       const T a = binds & 1 ? mu : T(0), b = binds & 2 ? eta : T(0);
-      const T trial = (x[0] + a * slide + b * roll) / (1 + a * a + b * b);
-      const bool slipping = slide > mu * trial, turning = roll > eta * trial;
-      if (trial >= 0 && slipping == bool(binds & 1) && turning == bool(binds & 2)) normal = trial;
+      normal = std::max(normal, (x[0] + a * slide + b * roll) / (1 + a * a + b * b));
     }
     Vector p = Vector::Zero();
     if (!(normal > 0)) return p;
@@ -164,22 +163,48 @@ class RollingResistance {
       // would alternate for ever.
       const T share = iteration < 30 ? T(1) : T(0.5);
       angular<S>(r) += share * (couple - angular<S>(r));
-      if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) break;
+      if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) return r;
+    }
+    return settled<S>(block, b, r);
+  }
+  /// The fixed point of the natural map, by damped iteration from r. With a friction above 1 and levers
+  /// off the line of the centres the two halves of solve_unit() can alternate for ever.
+  /// @returns r if this does not converge
+  template <class S>
+  typename RollingBlock<S>::Vector settled(const RollingBlock<S>& block,
+                                           const typename RollingBlock<S>::Vector& b,
+                                           const typename RollingBlock<S>::Vector& r) const {
+    using Vector = typename RollingBlock<S>::Vector;
+    const auto w = matrix<S>(block);
+    const T scale = w.trace() / T(RollingBlock<S>::rows);
+    for (const T damping : {T(0.3), T(0.1), T(0.03)}) {
+      Vector x = r;
+      for (int iteration = 0; iteration < 20000; ++iteration) {
+        const Vector u = damping * (w * x + b);
+        const Vector change = natural_map(u, Vector(scale * x)) / scale;
+        x -= change;
+        if (change.norm() <= 4 * std::numeric_limits<T>::epsilon() * x.norm()) return x;
+      }
     }
     return r;
   }
 
-  /// u = 0 in all rows.
+  /// W of a block.
   template <class S>
-  static typename RollingBlock<S>::Vector sticking(const RollingBlock<S>& block,
-                                                   const typename RollingBlock<S>::Vector& b) {
+  static auto matrix(const RollingBlock<S>& block) {
     constexpr int d = S::dim, rows = RollingBlock<S>::rows;
     Eigen::Matrix<T, rows, rows> w;
     w.template topLeftCorner<d, d>() = block.point.matrix();
     w.template topRightCorner<d, rows - d>() = block.coupling;
     w.template bottomLeftCorner<rows - d, d>() = block.coupling.transpose();
     w.template bottomRightCorner<rows - d, rows - d>() = block.spin;
-    return -w.partialPivLu().solve(b);
+    return w;
+  }
+  /// u = 0 in all rows.
+  template <class S>
+  static typename RollingBlock<S>::Vector sticking(const RollingBlock<S>& block,
+                                                   const typename RollingBlock<S>::Vector& b) {
+    return -matrix<S>(block).partialPivLu().solve(b);
   }
 
   SignoriniCoulomb<T> point_;

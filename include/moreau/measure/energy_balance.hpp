@@ -45,7 +45,7 @@ struct EnergyTerms {
   double gravity = 0;  ///< work of gravity on grains: minus the increase of their potential energy
                        ///< [J]
   double forces = 0;   ///< work of the forces of set_force() on grains, and on walls along the axes
-                       ///< along which they have a mass [J]
+                       ///< along which they have a mass; of the torques of set_torque() [J]
   double drives = 0;   ///< work of the drives of bodies whose motion is prescribed, or prescribed
                        ///< along an axis [J]
   double impacts = 0;  ///< energy dissipated by normal impulses (inelastic impacts), > 0 for a loss
@@ -105,6 +105,10 @@ class EnergyBalance {
       if (!bodies.is_prescribed(i))
         terms_.gravity += double(bodies.grain_mass[i] * simulation.gravity().dot(way));
       terms_.forces += double(with_mass(bodies, i, force).dot(way));
+      if (bodies.rotates(i)) {
+        const typename S::Angular spins = spins_[i] + angular<S>(bodies.velocity[i]);
+        terms_.forces += double(angular<S>(bodies.force[i]).dot(spins) * step / 2);
+      }
     }
     terms_.drives += work_of_drives(bodies, simulation.contacts());
     terms_.friction += report.friction;
@@ -135,7 +139,7 @@ class EnergyBalance {
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(terms_, positions_, ids_, kinetic_, start_); }
+  auto serialized_members() { return std::tie(terms_, positions_, spins_, ids_, kinetic_, start_); }
 
   /// The component of a vector along those axes of the body along which the body has a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x) {
@@ -183,16 +187,19 @@ class EnergyBalance {
 
   void remember(const Bodies<S>& bodies) {
     positions_.resize(bodies.size());
+    spins_.resize(bodies.size());
     ids_ = bodies.id;
     kinetic_ = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       positions_[i] = bodies.pose[i].position;
+      spins_[i] = angular<S>(bodies.velocity[i]);
       kinetic_ += kinetic_energy(bodies, i);
     }
   }
 
   EnergyTerms terms_;
   std::vector<Vector> positions_;
+  std::vector<typename S::Angular> spins_;
   std::vector<BodyId> ids_;
   double kinetic_ = 0, start_ = 0;
 };

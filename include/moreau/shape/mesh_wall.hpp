@@ -38,8 +38,10 @@ namespace moreau {
 
 /// Which sides of its facets a mesh wall has.
 enum class WallSides : std::uint8_t {
-  outside,  ///< grains are held on the side to which the facets turn; from behind they pass
-  both,     ///< grains are held on both sides of a thin wall
+  /// Grains are held on the side from which the corners of a triangle run counter-clockwise; in the plane,
+  /// on the right of the way from the first corner of a segment to the second. From behind they pass.
+  outside,
+  both,  ///< grains are held on both sides of a thin wall
 };
 
 /// The surface of a mesh wall, in the frame of its body. It does not change.

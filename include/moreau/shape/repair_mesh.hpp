@@ -65,11 +65,16 @@ std::vector<std::uint32_t> first_within(const std::vector<typename S::Vector>& v
 
 /// Removes the vertices that belong to no facet. The others keep their order.
 /// @returns their number
+/// @throws std::invalid_argument if the corner of a facet is not the number of a vertex
 template <class S>
 std::size_t drop_unused_vertices(FacetMesh<S>& mesh) {
   std::vector<std::uint32_t> number(mesh.vertices.size(), 0);
   for (const auto& facet : mesh.facets)
-    for (const std::uint32_t v : facet) number[v] = 1;
+    for (const std::uint32_t v : facet) {
+      require(v < number.size(), "drop_unused_vertices", "corner", v,
+              "must be the index of a vertex");
+      number[v] = 1;
+    }
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
     if (number[v] == 0) continue;

@@ -46,12 +46,13 @@ namespace moreau {
 struct ColouredOptions {
   double tolerance = 1e-4;                     ///< on the quantity that stop_test names, > 0 [-]
   StopTest stop_test = StopTest::natural_map;  ///< what ends the sweeps
-  /// Cap, >= 1; if it ends the sweeps, SolveReport::capped is set. A second attempt has a cap of
-  /// its own.
+  /// Cap of an attempt, >= 1; if it ends the sweeps, SolveReport::capped is set. Where the first attempt has
+  /// diverged (SolveReport::relative_approach > 1), a second one begins with zero impulses, without
+  /// acceleration; its result is kept.
   int max_sweeps = 2000;
-  /// Cap of a second attempt, from zero impulses, where the first attempt has reached its cap: a
-  /// warm start can lie far from every solution. The result with the smaller residual is kept. 0: no
-  /// second attempt; without acceleration there is none.
+  /// Cap of a second attempt, from zero impulses, where the first attempt has reached its cap and has not
+  /// diverged: a warm start can lie far from every solution. The result with the smaller residual is kept.
+  /// 0: no such attempt. Without acceleration there is no second attempt at all.
   int cold_sweeps = 0;
   /// Sweeps from one stopping test to the next, >= 1. From 4 on there is one more test after the first
   /// quarter of them, which ends the sweeps at a tenth of the tolerance.

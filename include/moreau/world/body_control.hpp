@@ -79,6 +79,14 @@ class BodyControl : public BodyAccess<ShapeT> {
     assembly_.require_body(body, "Simulation::set_force", "force", force);
     linear<S>(assembly_.bodies().force[body.index()]) = force;
   }
+  /// Sets the external torque on a body about its centre of mass, world axes [N m]: a vector in space; in
+  /// the plane a number, > 0 from x to y. It acts until it is set again. It does not turn a body without
+  /// inertia, such as a wall, or one whose motion is prescribed.
+  /// @throws std::invalid_argument for a body of another simulation or a torque that is not finite
+  void set_torque(BodyId body, const AngularArgument<S>& torque) {
+    assembly_.require_body(body, "Simulation::set_torque", "torque", torque);
+    angular<S>(assembly_.bodies().force[body.index()]) = torque;
+  }
   /// Sets the velocity of the centre, world axes [m/s]. A body whose motion is prescribed, such as
   /// a wall without set_wall_mass(), keeps it.
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is

@@ -534,6 +534,33 @@ def one_state(runs, path):
             f"(not judged). The lines have the same prefactor in all panels of a row. N = 1200, but 94 or 111 in the smallest boxes; {COMPLIANT_TEXT}.")
 
 
+def set_aside(runs, path):
+    """Strain measured over that predicted by the law of the runs that were not set aside."""
+    panels = []
+    for shape in SHAPES:
+        found = compaction.jammed_runs(runs, shape)
+        test = compaction.SetAside(found, ("load",))
+        if test.count == 0:
+            continue
+        panel = Panel(TITLE[shape], "strain predicted", "" if panels else "strain measured",
+                      ["set logscale xy", "set xrange [5e-5:2e-2]", "set yrange [5e-5:2e-2]",
+                       "set format xy '10^{%L}'", "set key bottom right"])
+        for is_aside, color, symbol, title in ((False, GREY, 6, "fitted"), (True, COLOR[shape], 7, "set aside")):
+            data = compaction.points([r for r in found if r["set_aside"] == is_aside], ("load",))
+            panel.points([(math.exp(y - e), math.exp(y)) for (_, _, y), e in zip(data, test.law.residuals(data))],
+                         color, symbol, title, 0.6)
+        panel.function("x", BLACK, None, 1)
+        for factor in (math.exp(test.law.scatter), math.exp(-test.law.scatter)):
+            panel.function(f"{factor:.6g} * x", BLACK)
+        panels.append(panel)
+    if not panels:
+        raise Missing
+    draw(path, panels, 1, len(panels), 400 * len(panels), 460, "0.065, 0.99, 0.15, 0.9", "0.045, 0.1")
+    return ("Strain of the periods of runs that were set aside, over that predicted by the law that was fitted to the others (grey): a (100 ℓ/L)^q n^−b. "
+            "One point for each of the groups 1, 2, 3 and 4, ... of periods of a judged run. Broken: the scatter of the fit about itself. "
+            f"N = 1200; {COMPLIANT_TEXT}.")
+
+
 def thrust(runs, path):
     panels = [Panel("thrust", "Δx / d", "F / mg", ["set logscale x", "set format x '10^{%L}'",
                                                    "set yrange [0:0.6]", "set key bottom left"]),
@@ -762,5 +789,6 @@ FIGURES = (
     ("compaction_rate", "Compaction rate over frequency (paper, fig. 16)", compaction_rate),
     ("compaction_law", "The law of compaction", compaction_law),
     ("one_state", "Compaction from one jammed state", one_state),
+    ("set_aside", "Runs set aside", set_aside),
     ("long_course", "Many periods", long_course),
 )

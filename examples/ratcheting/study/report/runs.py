@@ -200,8 +200,10 @@ JAMMED_MOTION = 0.3  # largest motion of the jammed wall over the displacement i
 def judged(run):
     """Whether the wall hardly moves while the packing is jammed, from the maximum of f to where f has fallen
     to the weight: outward by elastic rebound or numerical drift, inward by drift or because the packing is
-    still being compacted. Else the displacement mostly is this motion, and the excursion has no beginning."""
-    return abs(run["drift"]) <= JAMMED_MOTION * abs(run["dx_max"])
+    still being compacted. Else the displacement mostly is this motion, and the excursion has no beginning.
+    The motion of each period counts by its size: motions outward and inward do not cancel."""
+    drift, moved = ([abs(v) for v in finite(run["periods"][key])] for key in ("drift", "dx_max"))
+    return len(moved) > 0 and sum(drift) <= JAMMED_MOTION * sum(moved)
 
 
 def scaled_load(run):

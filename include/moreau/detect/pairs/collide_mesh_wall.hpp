@@ -322,7 +322,7 @@ class MeshCollision {
   // Of reach().
   Vector last_direction_ = Vector::Zero();
   T last_reach_ = 0;
-  bool has_features_ = false;  // whether ridges or tips are near, whose contacts may be those of a face
+  bool has_features_ = false;  // whether there may be ridges or tips near: they repeat contacts
   // Of take_face().
   const typename Wall::Side* plane_ = nullptr;
   T above_ = 0, gap_ = 0;  // of the centre above the plane, of the shape [m]

@@ -33,7 +33,7 @@ void add_losses(const Bodies<S>& bodies, const Contacts<S>& contacts, std::size_
   const Contact<S>& contact = contacts.points[c];
   const std::uint32_t a = contact.a, b = contact.b;
   const typename S::Vector& impulse = contacts.impulses[c];
-  if (impulse.isZero(0)) return;
+  if (impulse.isZero(0) && (contacts.couples.empty() || contacts.couples[c].isZero(0))) return;
   typename S::Vector mean = BodyDelassus<S>::relative_velocity(contact, after[a], after[b]);
   for (int k = 0; k < S::dim; ++k) mean[k] = (before[k] + mean[k]) / 2;
   const double friction =

@@ -63,6 +63,9 @@ class ContactSprings {
     return compliance_;
   }
 
+  Scalar last_step() const {
+    return last_step_;
+  }  ///< length of the step before; 0 before the first [s]
   /// Makes the impulses of the step before those of the same forces over this step.
   /// @param impulses in: of the step before; out: s [N s]
   void scale(const StepContext<S, Law>& context, std::span<Row> impulses) {

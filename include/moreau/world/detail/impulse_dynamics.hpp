@@ -147,6 +147,8 @@ class ImpulseDynamics {
       return std::tie(solver_, correction_, integrator_);
   }
 
+  void deserialized() { forget_problem(); }
+
   static constexpr bool stateful = StatefulLaw<Law, S>;
   static constexpr bool compliant = CompliantLaw<Law, S>;
 
@@ -203,13 +205,34 @@ class ImpulseDynamics {
 
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
-    const std::size_t found =
-        unknowns_.start(problem_.delassus, context.previous, context.contacts, team_);
-    if constexpr (compliant) springs_.scale(context, unknowns_.impulses(context.contacts));
-    if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, 1);
-    if constexpr (compliant)
+    if constexpr (!compliant) {
+      const std::size_t found = start(context, context.previous);
+      if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, 1);
+      return found;
+    } else {
+      const std::size_t found = start(context, pushes_before(context));
+      springs_.scale(context, unknowns_.impulses(context.contacts));
       springs_.relax(context, unknowns_.impulses(context.contacts), problem_.delassus);
-    return found;
+      return found;
+    }
+  }
+  std::size_t start(const Context& context, const Contacts<S>& before) {
+    return unknowns_.start(problem_.delassus, before, context.contacts, team_);
+  }
+  /// The contacts of the step before with their pushes against the attraction that they had then: the
+  /// springs bear the pushes. Without attraction these are their impulses.
+  const Contacts<S>& pushes_before(const Context& context) {
+    if constexpr (AttractiveLaw<Law, S>) {
+      pushes_ = context.previous;
+      for (std::size_t c = 0; c < pushes_.size(); ++c) {
+        const Contact<S>& contact = pushes_.points[c];
+        pushes_.impulses[c][0] +=
+            springs_.last_step() * context.materials.laws()[contact.law].attraction(contact.gap);
+      }
+      return pushes_;
+    } else {
+      return context.previous;
+    }
   }
   /// From the impulse on b to the push against the attraction (sign 1), or back (-1).
   void shift_impulses(Contacts<S>& contacts, Scalar sign) {
@@ -332,6 +355,7 @@ class ImpulseDynamics {
   // One entry per contact.
   std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
   std::vector<Scalar> pulls_;   // impulse of the attraction, for a law that attracts [N s]
+  Contacts<S> pushes_;          // see pushes_before()
 };
 
 // Outside of the class: compiled once where a program declares the dynamics extern.
