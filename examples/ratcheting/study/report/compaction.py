@@ -181,10 +181,11 @@ class Prediction:
 
 class SetAside:
     """The runs that were set aside (runs.read()), predicted by the fit of the others: their number and that of
-    their points, rms and mean of ln(measured / predicted), and the fit, whose scatter is that of the others."""
+    their points, rms and mean of ln(measured / predicted), and the fit, whose scatter is that of the others. Of the
+    runs that were set aside only the wanted ones."""
 
-    def __init__(self, runs, measures=("t_u",)):
-        aside = [r for r in runs if r.get("set_aside")]
+    def __init__(self, runs, measures=("t_u",), wanted=lambda run: True):
+        aside = [r for r in runs if r.get("set_aside") and wanted(r)]
         self.law = Law([r for r in runs if not r.get("set_aside")], measures)
         data = points(aside, measures) if self.law.fitted else []
         self.run_count, self.count = len(aside), len(data)
