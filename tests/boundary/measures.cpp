@@ -49,7 +49,8 @@ moreau::EnergyBalance<moreau::SpaceOf<ShapeT>> balance_of(double h) {
   world.set_wall_mass(box.walls[1], 0.01);
   world.set_force(box.walls[1], -0.5 * Vector::UnitX());
   world.set_force(box.grains[0], 0.01 * Vector::UnitX());
-  world.set_torque(box.grains[1], S::Angular(1e-5 * S::Angular::Unit(S::angular_dim - 1)));
+  const typename S::Angular torque = 1e-5 * S::Angular::Unit(S::angular_dim - 1);
+  world.set_torque(box.grains[1], torque);
   moreau::EnergyBalance<S> energy(world);
   for (double t = 0; t < 0.2; t += h) energy.add(world, world.step(h), h);
   return energy;
