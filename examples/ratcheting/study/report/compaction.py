@@ -80,12 +80,12 @@ def loading_runs(runs, shape, method="contact-dynamics", **more):
     return list(keys.values())
 
 
-def jammed_runs(runs, shape, boxes=False):
+def jammed_runs(runs, shape, boxes=False, every_load=False):
     """The judged runs with compliant contacts that start from a jammed state: in boxes as high as long, or in
-    all boxes."""
+    all boxes; at scaled loads below the length of the box, where the law holds, or at every load."""
     usual = {} if boxes else {"box_ratio": 1.0, "size_scale": 1.0}
     return [run for run in loading_runs(runs, shape, "compliant", **usual)
-            if "from" in run["parameters"]]
+            if "from" in run["parameters"] and (every_load or load_over_length(run) < 1)]
 
 
 def points(runs, measures=("t_u",)):
@@ -181,11 +181,10 @@ class Prediction:
 
 class SetAside:
     """The runs that were set aside (runs.read()), predicted by the fit of the others: their number and that of
-    their points, rms and mean of ln(measured / predicted), and the fit, whose scatter is that of the others. Of the
-    runs that were set aside only the wanted ones."""
+    their points, rms and mean of ln(measured / predicted), and the fit, whose scatter is that of the others."""
 
-    def __init__(self, runs, measures=("t_u",), wanted=lambda run: True):
-        aside = [r for r in runs if r.get("set_aside") and wanted(r)]
+    def __init__(self, runs, measures=("t_u",)):
+        aside = [r for r in runs if r.get("set_aside")]
         self.law = Law([r for r in runs if not r.get("set_aside")], measures)
         data = points(aside, measures) if self.law.fitted else []
         self.run_count, self.count = len(aside), len(data)

@@ -294,14 +294,18 @@ def dx_v_frequency(runs, path):
     for shape in every_shape(runs):
         found = series(runs, shape, "frequency")
         shift = SPREAD[shape]
-        rows = [(x * shift, y, e) for x, y, e in
-                by_value(found, "frequency", lambda r: r["dx_active"], 1e3)]
-        panels[0].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
+        fewest = {nu: all(judged(r) for r in found if r["parameters"]["frequency"] == nu)
+                  for nu in {r["parameters"]["frequency"] for r in found}}
+
+        def draw_excursion(panel, value, unit=1.0):
+            for is_open in (False, True):
+                panel.bars([(x * shift, y, e) for x, y, e in by_value(found, "frequency", value, unit) if fewest[x] != is_open],
+                           COLOR[shape], POINT[shape] - is_open, None if is_open else TITLE[shape])
+        draw_excursion(panels[0], lambda r: r["dx_active"], 1e3)
         rows = [(x * shift, y, e) for x, y, e in
                 by_value(found, "frequency", lambda r: r["v_max"], 1e3)]
         panels[1].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
-        rows = [(x * shift, y, e) for x, y, e in by_value(found, "frequency", constant)]
-        panels[2].bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
+        draw_excursion(panels[2], constant)
         rows = by_value(found, "frequency", lambda r: r["v_max"] * r["parameters"]["frequency"])
         ten = next((y for x, y, _ in rows if x == 10), rows[0][1])
         panels[3].bars([(x * shift, y / ten, e / ten) for x, y, e in rows], COLOR[shape],
@@ -312,8 +316,8 @@ def dx_v_frequency(runs, path):
     panels[2].function("0.05", "#b3261e", "paper, 2D")
     panels[3].function("1", GREY)
     draw(path, panels, 2, 2, 1400, 1000)
-    return ("Excursion without drift and largest inward speed over the frequency; below, both multiplied by "
-            "the paper's powers. Bars: standard error over three samples (1 Hz: one sample). N = 1200, "
+    return ("Excursion without drift and largest inward speed over the frequency; below, C, and the speed times ν over its value at "
+            "10 Hz. Open: in one sample or more the run is not judged. Bars: standard error over three samples (1 Hz: one sample). N = 1200, "
             f"fmax = 6 kN, m_w = m/2; {RIGID_TEXT}. Symbols are shifted by 2 to 6 % in ν.")
 
 
@@ -362,10 +366,11 @@ def master(runs, path):
                 for group in found.values():
                     load, e = Estimate([scaled_load(r) for r in group]), over_samples(
                         group, lambda r: r["dx_active"])
-                    rows.append((1e3 * load.mean, 1e3 * e.mean, 1e3 * e.error))
+                    rows.append((1e3 * load.mean, 1e3 * e.mean, 1e3 * e.error, all(judged(r) for r in group)))
                 if near:
                     rows = [r for r in rows if r[0] <= 4]
-                panel.bars(rows, color, symbol, title, 0.9)
+                for is_open in (False, True):
+                    panel.bars([r[:3] for r in rows if r[3] != is_open], color, symbol - is_open, None if is_open else title, 0.9)
                 top, low = max([top] + [r[0] for r in rows]), min([low] + [r[0] for r in rows])
             c = over_samples(series(runs, shape, "frequency"), constant).mean
             panel.function(f"{c:.4f} * x", BLACK, f"C = {c:.3f}", 1)
@@ -378,7 +383,7 @@ def master(runs, path):
             panels.append(panel)
     draw(path, panels, 2, len(panels) // 2, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
     return ("Excursion without drift over the scaled load, all values of ν, fmax, g and m_w: means and "
-            f"standard errors of three samples. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
+            f"standard errors of three samples. Open: in one sample or more the run is not judged. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
             "the origin on linear axes (the paper's inset).")
 
 
@@ -590,7 +595,7 @@ def predicted(runs, path):
     """The thrust over the displacement of a slow wall, and the excursions that it predicts."""
     panels = [Panel("slow test", "displacement [mm]", "F / mg",
                     ["set xrange [0:1.6]", "set yrange [0:0.6]", "set key bottom left"]),
-              Panel("excursion of all loads", "measured Δx [mm]", "measured / predicted Δx",
+              Panel("excursion, one parameter changed", "measured Δx [mm]", "measured / predicted Δx",
                     ["set logscale x", "set xrange [0.02:60]", "set yrange [0.5:1.7]", "set key bottom right"])]
     for shape in every_shape(runs):
         curves = excursion.thrust_curves(runs, shape)

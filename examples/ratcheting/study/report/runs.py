@@ -197,13 +197,13 @@ def constant(run, displacement="dx_active"):
 JAMMED_MOTION = 0.3  # largest motion of the jammed wall over the displacement in a run that is judged
 
 
-def judged(run):
+def judged(run, share=JAMMED_MOTION):
     """Whether the wall hardly moves while the packing is jammed, from the maximum of f to where f has fallen
     to the weight: outward by elastic rebound or numerical drift, inward by drift or because the packing is
     still being compacted. Else the displacement mostly is this motion, and the excursion has no beginning.
     The motion of each period counts by its size: motions outward and inward do not cancel."""
     drift, moved = ([abs(v) for v in finite(run["periods"][key])] for key in ("drift", "dx_max"))
-    return len(moved) > 0 and sum(drift) <= JAMMED_MOTION * sum(moved)
+    return len(moved) > 0 and sum(drift) <= share * sum(moved)
 
 
 def scaled_load(run):
