@@ -33,8 +33,11 @@ requires requires {
   typename Matrix::PlainMatrix;
 }
 void print(std::ostream& out, const Matrix& value) {
-  static const Eigen::IOFormat row(9, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
-  out << value.format(row);
+  const auto& plain = value.eval();
+  for (Eigen::Index row = 0; row < plain.rows(); ++row)
+    for (Eigen::Index column = 0; column < plain.cols(); ++column)
+      out << (row + column > 0 ? ", " : "(") << plain(row, column);
+  out << (plain.size() > 0 ? ")" : "()");
 }
 
 }  // namespace detail

@@ -49,7 +49,7 @@ Eigen::Matrix<T, N, 1> transposed_product(const Eigen::Matrix<T, N, N>& m,
 /// The inverse of a matrix with positive trace, such as an inertia. The determinant is that of a matrix near 1, so
 /// that it neither underflows nor overflows for small and large bodies.
 template <class Matrix>
-Matrix inverse_of(const Matrix& m) {
+[[gnu::noinline]] Matrix inverse_of(const Matrix& m) {
   using T = typename Matrix::Scalar;
   constexpr int most = std::numeric_limits<T>::max_exponent - 2;
   const T scale = std::ldexp(T(1), -std::clamp(std::ilogb(m.trace()), -most, most));  // exact

@@ -110,8 +110,6 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
   static Inertia gyroscopic_jacobian(const Inertia&, const AngularArgument&) {
     return Inertia::Zero();
   }
-  /// The matrix J of exp(x + dx) = exp(J dx) exp(x) + O(dx^2).
-  static Inertia exp_jacobian(const AngularArgument&) { return Inertia::Identity(); }
   /// D x D, orthonormal, right-handed. The columns are the normal n and the tangent t.
   /// @param n  must be unit
   static Matrix contact_frame(const VectorArgument& n) {
@@ -169,19 +167,6 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   /// small rotation dr, d(I(q) w) = (lever(I w) - I lever(w)) dr, where lever(a) b = b x a.
   static Inertia gyroscopic_jacobian(const Inertia& I, const AngularArgument& w) {
     return lever(I * w) - I * lever(w);
-  }
-  /// The matrix J of exp(x + dx) = exp(J dx) exp(x) + O(dx^2): the left Jacobian of SO(3),
-  /// 1 + (1 - cos t)/t^2 X + (t - sin t)/t^3 X^2 with X y = x cross y and t = |x|.
-  /// Source: J. Sola et al., "A micro Lie theory for state estimation in robotics", arXiv 1812.01537,
-  /// equation 145.
-  static Inertia exp_jacobian(const AngularArgument& x) {
-    const T t2 = x.squaredNorm(), t = std::sqrt(t2);
-    // Below 0.1 the series: its next terms are t^6/40320 and t^6/362880.
-    const bool small = t2 < T(1e-2);
-    const T a = small ? T(0.5) - t2 / 24 * (1 - t2 / 30) : (1 - std::cos(t)) / t2;
-    const T b = small ? T(1) / 6 - t2 / 120 * (1 - t2 / 42) : (t - std::sin(t)) / (t2 * t);
-    const Inertia skew = lever(x);  // -X
-    return Inertia::Identity() - a * skew + b * (skew * skew);
   }
   /// D x D, orthonormal, right-handed. The columns are the normal n and the tangents t and s.
   /// Source: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).

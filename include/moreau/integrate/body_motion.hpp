@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -25,12 +26,53 @@ void advance_pose(Pose<S>& pose, const typename S::Twist& velocity, typename S::
   pose.rotation = S::normalized(S::exp(h * angular<S>(velocity)) * pose.rotation);
 }
 
-/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method, whose steps are
-/// halved until the error falls. The derivative of I(q) w with respect to a rotation is
-/// S::gyroscopic_jacobian, that of the rotation exp(h w) is S::exp_jacobian. The body i must rotate
+namespace detail {
+
+/// spin_after() for large rotations: Newton's method with a derivative by differences, whose steps are
+/// halved until the error falls.
+/// @returns the value with the least error of those that were tried
+template <class S>
+[[gnu::cold, gnu::noinline]] typename S::Angular spin_after_large(
+    const Bodies<S>& bodies, std::size_t i, const typename S::Angular& momentum,
+    const typename S::Angular& start, typename S::Scalar h) {
+  using Scalar = typename S::Scalar;
+  using Angular = typename S::Angular;
+  constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+  const Scalar step = std::sqrt(epsilon) * start.norm();
+  Angular best = start, change = Angular::Zero();
+  Scalar least = std::numeric_limits<Scalar>::infinity();
+  for (int iteration = 0; iteration < 50 && least > 2 * epsilon * momentum.norm(); ++iteration) {
+    typename S::Inertia jacobian;
+    Angular error;
+    // The error at w, then those beside it.
+    for (int k = S::angular_dim; k >= 0; --k) {
+      Angular w = best - change;
+      if (k < S::angular_dim) w[k] += step;
+      Angular other = product(bodies.inertia(i, S::exp(h * w) * bodies.pose[i].rotation), w);
+      other -= momentum;
+      if (k < S::angular_dim)
+        jacobian.col(k) = (other - error) / step;
+      else
+        error = other;
+    }
+    if (error.norm() < least) {
+      best -= change;
+      least = error.norm();
+      change = product(inverse_of(jacobian), error);
+    } else {
+      change /= 2;
+    }
+  }
+  return best;
+}
+
+}  // namespace detail
+
+/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method. The derivative
+/// of I(q) w with respect to a rotation is S::gyroscopic_jacobian. The body i must rotate
 /// (Bodies::rotates()); q is its rotation in bodies.pose. L is met to rounding for rotations h |w| up to
-/// 1.5, also of bodies ten times as long as wide; for larger ones w may not meet L, but the error is not above that
-/// of `start`.
+/// 1.5, also of bodies five times as long as wide; for larger ones w may not meet L, but the error is
+/// not above that of `start`.
 /// @param momentum L about the centre of mass, world axes [kg m^2/s]
 /// @param start    initial value of the iteration [rad/s]
 /// @param h        duration of the rotation [s]
@@ -40,31 +82,21 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
                                const typename S::Angular& start, typename S::Scalar h) {
   using Scalar = typename S::Scalar;
   const typename S::Rotation& q = bodies.pose[i].rotation;
-  const Scalar rounding = 2 * std::numeric_limits<Scalar>::epsilon() * momentum.norm();
-  typename S::Angular w = start, change = S::Angular::Zero();
-  typename S::Angular best = start;  // of the values so far
-  Scalar least = std::numeric_limits<Scalar>::infinity();
-  for (int iteration = 0; iteration < 50; ++iteration) {
+  typename S::Angular w = start;
+  for (int iteration = 0; iteration < 10; ++iteration) {
     const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
     typename S::Angular error = product(inertia, w);
     error -= momentum;
-    const Scalar size = error.norm();
-    if (size <= rounding) return w;
-    if (size < least) {
-      best = w;
-      least = size;
-      typename S::Inertia jacobian = S::gyroscopic_jacobian(inertia, w) * S::exp_jacobian(h * w);
-      for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)
-        jacobian.data()[k] = inertia.data()[k] + h * jacobian.data()[k];
-      const typename S::Inertia inverse = inverse_of(jacobian);
-      change = product(inverse, error);
-    } else {
-      if (least <= 16 * rounding) break;
-      change /= 2;
-    }
-    w = best - change;
+    // After some steps the error may stay at a few rounding errors.
+    const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * momentum.norm();
+    if (error.norm() <= (iteration < 6 ? 2 : 16) * rounding) return w;
+    typename S::Inertia jacobian = S::gyroscopic_jacobian(inertia, w);
+    for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)
+      jacobian.data()[k] = inertia.data()[k] + h * jacobian.data()[k];
+    const typename S::Inertia inverse = inverse_of(jacobian);
+    w -= product(inverse, error);
   }
-  return best;
+  return detail::spin_after_large<S>(bodies, i, momentum, start, h);
 }
 
 /// The change of velocity h M^-1 f of body i, world axes [m/s], by the forces f on its centre of mass:

@@ -355,7 +355,8 @@ class ImpulseDynamics {
   // One entry per contact.
   std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
   std::vector<Scalar> pulls_;   // impulse of the attraction, for a law that attracts [N s]
-  Contacts<S> pushes_;          // see pushes_before()
+  std::conditional_t<compliant && AttractiveLaw<Law, S>, Contacts<S>, NoSprings>
+      pushes_;  // see pushes_before()
 };
 
 // Outside of the class: compiled once where a program declares the dynamics extern.
