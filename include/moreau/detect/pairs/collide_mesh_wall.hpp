@@ -75,11 +75,8 @@ class MeshCollision {
     scratch_.known.clear();
     const Aabb<S> around = box.inflated(margin_ - radius_);
     bool touch = false;
-    has_features_ = false;
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
-      while (end < near.size() && near[end].face == near[begin].face)
-        has_features_ |= !near[end++].is_plain;
-      has_features_ |= end < near.size();  // two faces
+      while (end < near.size() && near[end].face == near[begin].face) ++end;
       if (!take_face(near.subspan(begin, end - begin), around) || !touch_face()) continue;
       finish();
       use(near[begin].face);
@@ -104,7 +101,7 @@ class MeshCollision {
     };
     for (const std::uint32_t r : scratch_.ridges) touch_ridge(S{}, r, add);
     touch_tips(aligned, add);
-    if (radius_ > 0 && has_features_ && scratch_.known.is_empty()) {
+    if (radius_ > 0 && scratch_.known.is_empty()) {
       // High above a corner of faces whose vertices lie near their planes only, normal cones that were
       // computed from these planes can leave a gap.
       T least = std::numeric_limits<T>::infinity();
@@ -186,7 +183,7 @@ class MeshCollision {
         if (!is_above(facet.place, center_ + x, gap_v)) continue;
         out_.points.push_back({center_ + (x + T(0.5) * gap_v * normal), gap_v,
                                FeatureKey(vertex_on_face(S{}), v, face)});
-        if (has_features_) scratch_.known.add_new(x, Vector(-normal), gap_v);
+        scratch_.known.add_new(x, Vector(-normal), gap_v);
         return;
       }
     });
@@ -322,7 +319,6 @@ class MeshCollision {
   // Of reach().
   Vector last_direction_ = Vector::Zero();
   T last_reach_ = 0;
-  bool has_features_ = false;  // whether there may be ridges or tips near: they repeat contacts
   // Of take_face().
   const typename Wall::Side* plane_ = nullptr;
   T above_ = 0, gap_ = 0;  // of the centre above the plane, of the shape [m]
