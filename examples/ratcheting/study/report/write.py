@@ -336,35 +336,57 @@ def thrust_of_walls(runs):
 SETTINGS = (("usual", {}), ("half the step", {"step": 1e-4}), ("a tenth of the tolerance", {"tolerance": 1e-6}))
 
 
+def jammed_position(run):
+    """Position of the wall at the first maximum of f over the length of the box: it tells jammed states apart."""
+    return run["periods"]["x_j"][0] / run["length"]
+
+
 def converged(runs):
-    """The exponent over the frequency at half the step and at a tenth of the tolerance, from the same jammed states:
-    of the samples and frequencies that are run, and judged, at all three settings."""
+    """The exponent over the frequency at half the step and at a tenth of the tolerance: of the samples and
+    frequencies whose runs start from the same state."""
     rows = []
     for shape in SHAPES:
         found = [{(r["parameters"]["seed"], r["parameters"]["frequency"]): r
-                  for r in series(runs, shape, "frequency", **(JAMMED | changed)) if judged(r)} for _, changed in SETTINGS]
-        common = sorted(set.intersection(*(set(f) for f in found)))
-        if len({nu for _, nu in common}) < 3:
-            continue
-        for (name, _), at in zip(SETTINGS, found):
-            same = [at[key] for key in common]
-            mean, spread = excursion.mean_and_scatter([at[key]["dx_active"] / found[0][key]["dx_active"] for key in common])
-            moved, _ = excursion.mean_and_scatter([strain(at[key], 0, 4) / strain(found[0][key], 0, 4) for key in common])
-            last = [r for r in same if r["parameters"]["frequency"] == common[-1][1]]
-            rows.append([TITLE[shape], name, len(common),
-                         *(exponent(same, "frequency", lambda r, q=q: r[q]).text() for q in ("dx_active", "dx_max")),
-                         f"{mean:.3f}, {100 * spread:.0f} %" if at is not found[0] else "1", f"{moved:.2f}" if at is not found[0] else "1",
-                         over_samples(last, lambda r: 1e6 * r["drift"]).text(),
-                         f"{sum(r['facts']['capped_steps'] for r in same)} of {sum(r['facts']['steps'] for r in same):,}"])
+                  for r in series(runs, shape, "frequency", **(JAMMED | changed))} for _, changed in SETTINGS]
+        for first in range(len(SETTINGS) - 1):
+            common = sorted(key for key, r in found[first].items() if all(
+                key in f and abs(jammed_position(f[key]) - jammed_position(r)) < 1e-4 for f in found[first:]))
+            if len({nu for _, nu in common}) >= 3:
+                rows += rows_of_settings(shape, found[first:], SETTINGS[first:], common)
+                break
     if not rows:
         return []
-    frequencies_of = "; ".join(f"{TITLE[shape].split(', ')[1]} at " + ", ".join(f"{nu:g}" for nu in sorted(
-        {r["parameters"]["frequency"] for r in series(runs, shape, "frequency", **(JAMMED | SETTINGS[1][1]))})) + " Hz"
-        for shape in SHAPES if any(row[0] == TITLE[shape] for row in rows))
-    return ["**Step and tolerance.** Compliant contacts, from the same jammed states, at half the step and at a tenth of the tolerance: "
-            + frequencies_of + ". The rebound of the jammed wall, too, is that of the usual settings: it is elastic, and not an error of the solver.", "",
-            *table(["", "setting", "runs", "exponent of Δx over ν", "with rebound", "Δx over usual: mean, scatter", "strain over usual",
+    return ["**Step and tolerance.** Compliant contacts, from the same jammed states, at half the step and at a tenth of the tolerance. "
+            "Of polygons the state of the usual settings was lost, so the other two are compared. The rebound of the jammed wall is the same, too: it is elastic, and not an error of the solver.", "",
+            *table(["", "setting", "ν [Hz]", "judged, of runs", "exponent of Δx over ν", "with rebound", "Δx over that of the first row: mean, scatter", "strain over that of the first row",
                     "rebound at the highest ν [µm]", "steps not solved"], rows)]
+
+
+def rows_of_settings(shape, found, settings, common):
+    rows, highest = [], max(nu for _, nu in common)
+    for (name, _), at in zip(settings, found):
+        same = [at[key] for key in common]
+        mean, spread = excursion.mean_and_scatter([at[key]["dx_active"] / found[0][key]["dx_active"] for key in common])
+        moved, _ = excursion.mean_and_scatter([strain(at[key], 0, 4) / strain(found[0][key], 0, 4) for key in common])
+        rows.append([TITLE[shape], name, ", ".join(f"{nu:g}" for nu in sorted({nu for _, nu in common})),
+                     f"{sum(judged(r) for r in same)} of {len(common)}",
+                     *(exponent(same, "frequency", lambda r, q=q: r[q]).text() for q in ("dx_active", "dx_max")),
+                     f"{mean:.3f}, {100 * spread:.0f} %" if at is not found[0] else "1", f"{moved:.2f}" if at is not found[0] else "1",
+                     over_samples([r for r in same if r["parameters"]["frequency"] == highest], lambda r: 1e6 * r["drift"]).text(),
+                     f"{sum(r['facts']['capped_steps'] for r in same)} of {sum(r['facts']['steps'] for r in same):,}"])
+    return rows
+
+
+def states(runs):
+    """How many jammed states the runs of each sample start from, as text."""
+    texts = []
+    for shape in SHAPES:
+        counts = []
+        for seed in range(1, 6):
+            places = sorted(jammed_position(r) for r in select(runs, shape, frequency=ANY, fmax=ANY, seed=seed, **JAMMED) if compaction.is_short(r))
+            counts.append(sum(k == 0 or places[k] - places[k - 1] > 1e-4 for k in range(len(places))))
+        texts.append(f"{', '.join(map(str, counts))} ({TITLE[shape].split(', ')[1]})")
+    return "; ".join(texts)
 
 
 def box_text(runs):
@@ -545,7 +567,7 @@ def settled_section(runs):
     if not rows:
         return []
     lines = ["## 6. Compliant contacts, from one jammed state", "",
-             "Each run continues one jammed state of its sample for four periods or more, so that the frequency is not mixed with "
+             "Each run continues a jammed state of its sample ([states](#7-limits-of-these-results)) for four periods or more, so that the frequency is not mixed with "
              "the age of the packing. The excursion is without the elastic rebound. Runs that are not judged are open symbols in the figure below: at high frequencies and forces the wall "
              "mostly moves elastically.", "",
              "**Compaction over the load.** The strain of period n is a (100 ℓ/L)^q n^−b, where ℓ = (mg)²/[(m + m_w) fmax ν²] is the "
@@ -895,6 +917,8 @@ def limits(runs, folder):
              "**Compaction** differs between samples: predicted by the fit of the others, single samples lie off by up to a half of the strain (sections 5 and 6), more than "
              "the scatter about the fits of spheres and disks."
              + ("" if any(r.get("set_aside") for r in runs) else " No fixed third of the runs was set aside; each sample is, in turn."),
+             f"**States.** A jammed state was made anew where the program had changed or the checkpoint was gone. So the runs of a sample, samples 1 to 5, start from this number of states: {states(runs)}. "
+             "Two states of one sample differ like two samples.",
              f"**Step.** With rigid contacts at half the step three frequencies of one sample of polyhedra are run (5, 20, 60 Hz), of which two are judged. All three have the exponent {fits[0]} without drift "
              f"and {fits[1]} with it; at the usual step {fits[2]} and {fits[3]}." if half else "",
              "**Frequencies and forces.** Of polyhedra with compliant contacts " + frequencies_by_sample(runs) + ". At 27 kN few runs from jammed states are judged: "
