@@ -93,12 +93,16 @@ class Drive {
   /// If expected is true, throws unless a force along the direction accelerates the body. If
   /// expected is false, throws if such a force accelerates the body. The motion of a wall is prescribed
   /// until set_wall_mass() is called; then a force can accelerate it, but only along its normal.
-  void require_mass(const auto& simulation, bool expected, const char* self,
+  /// @returns M^-1/2 of the linear motion of the body [kg^-1/2], D x D, world axes
+  auto require_mass(const auto& simulation, bool expected, const char* self,
                     const char* expectation) const {
     const auto root = linear_root(simulation, self);
     const bool accelerates = (root * direction_).norm() > Scalar(1e-5) * root.norm();
     require(accelerates == expected, self, "body", body_, expectation);
+    return root;
   }
+
+ private:
   /// M^-1/2 of the linear motion of the body [kg^-1/2], D x D, world axes.
   auto linear_root(const auto& simulation, const char* self) const {
     if constexpr (requires { simulation.mobility_root(body_); }) {  // of several processes
@@ -111,7 +115,6 @@ class Drive {
     }
   }
 
- private:
   BodyId body_;
   VectorT direction_;
   F f_;
@@ -173,10 +176,10 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
     VectorT velocity = this->value(simulation, step, self);
-    this->require_mass(
+    // Of a wall with a mass and the normal n: n n^T / sqrt(m); else 0.
+    const auto root = this->require_mass(
         simulation, false, self,
         "must have a prescribed motion along the direction, as a wall without set_wall_mass");
-    const auto root = this->linear_root(simulation, self);  // n n^T / sqrt(m), or 0
     if (root.norm() > 0) velocity += root * simulation.velocity(this->body()) / root.norm();
     simulation.set_velocity(this->body(), velocity);
   }

@@ -5,8 +5,6 @@
 // axes along which they have an inverse mass.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -82,13 +80,13 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
                                const typename S::Angular& start, typename S::Scalar h) {
   using Scalar = typename S::Scalar;
   const typename S::Rotation& q = bodies.pose[i].rotation;
+  const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * momentum.norm();
   typename S::Angular w = start;
   for (int iteration = 0; iteration < 10; ++iteration) {
     const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
     typename S::Angular error = product(inertia, w);
     error -= momentum;
     // After some steps the error may stay at a few rounding errors.
-    const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * momentum.norm();
     if (error.norm() <= (iteration < 6 ? 2 : 16) * rounding) return w;
     typename S::Inertia jacobian = S::gyroscopic_jacobian(inertia, w);
     for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)

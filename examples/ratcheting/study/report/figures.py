@@ -294,12 +294,12 @@ def dx_v_frequency(runs, path):
     for shape in every_shape(runs):
         found = series(runs, shape, "frequency")
         shift = SPREAD[shape]
-        fewest = {nu: all(judged(r) for r in found if r["parameters"]["frequency"] == nu)
+        all_judged = {nu: all(judged(r) for r in found if r["parameters"]["frequency"] == nu)
                   for nu in {r["parameters"]["frequency"] for r in found}}
 
         def draw_excursion(panel, value, unit=1.0):
             for is_open in (False, True):
-                panel.bars([(x * shift, y, e) for x, y, e in by_value(found, "frequency", value, unit) if fewest[x] != is_open],
+                panel.bars([(x * shift, y, e) for x, y, e in by_value(found, "frequency", value, unit) if all_judged[x] != is_open],
                            COLOR[shape], POINT[shape] - is_open, None if is_open else TITLE[shape])
         draw_excursion(panels[0], lambda r: r["dx_active"], 1e3)
         rows = [(x * shift, y, e) for x, y, e in

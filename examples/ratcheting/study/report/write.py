@@ -649,9 +649,8 @@ def beyond(runs):
     """Measured over predicted strain of the runs at loads above L, with the law of the others at lower loads."""
     texts = []
     for shape in SHAPES:
-        found = compaction.jammed_runs(runs, shape, every_load=True)
-        high = [r for r in found if compaction.load_over_length(r) >= 1]
-        law = compaction.Law([r for r in found if compaction.load_over_length(r) < 1], ("load",))
+        high = [r for r in compaction.jammed_runs(runs, shape, every_load=True) if compaction.load_over_length(r) >= 1]
+        law = compaction.Law(compaction.jammed_runs(runs, shape), ("load",))
         data = compaction.points(high, ("load",))
         if law.fitted and data:
             residuals = law.residuals(data)
