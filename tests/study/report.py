@@ -16,8 +16,10 @@ sys.path.insert(0, str(STUDY / "study/report"))
 
 import compaction  # noqa: E402
 import excursion  # noqa: E402
+import interval  # noqa: E402
 import plots  # noqa: E402
 import runs  # noqa: E402
+import template  # noqa: E402
 import write  # noqa: E402
 
 
@@ -54,14 +56,54 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(b, 1.1)
         self.assertAlmostEqual(error, math.sqrt(2.7 / 2 / 5))
 
+    def test_quantiles_of_student(self):
+        # Of the tables: 95 %, both sides.
+        for freedom, t in ((1, 12.706), (2, 4.303), (3, 3.182), (4, 2.776), (10, 2.228), (19, 2.093), (200, 1.972)):
+            self.assertAlmostEqual(interval.student(freedom), t, delta=6e-4)
+        self.assertTrue(interval.student(2) > interval.student(2.5) > interval.student(3))
+        self.assertTrue(math.isnan(interval.student(0)))
+
     def test_estimate_and_its_text(self):
         e = runs.Estimate([1, 2, 3, None, math.nan])
         self.assertEqual((e.n, e.mean), (3, 2))
         self.assertAlmostEqual(e.error, 1 / math.sqrt(3))
-        self.assertEqual(e.text(), "2.00 ± 0.58")
-        self.assertEqual(runs.number(-0.0123, 0.0004), "−0.01230 ± 0.00040")
-        self.assertEqual(runs.number(1234.5, 27), "1234 ± 27")
-        self.assertEqual(runs.number(math.nan), "–")
+        self.assertAlmostEqual(e.half, 4.3027 / math.sqrt(3), places=4)
+        self.assertEqual(e.text(), "2.0 [−0.5, 4.5]")
+        self.assertEqual(e.text(factor=-1), "−2.0 [−4.5, 0.5]")
+        self.assertEqual(runs.Estimate([2]).text(), "2")
+        self.assertEqual(interval.number(-0.0123, 0.0004), "−0.01230 [−0.01270, −0.01190]")
+        self.assertEqual(interval.number(1234.5, 27), "1234 [1208, 1262]")
+        self.assertEqual(interval.number(-0.0004, 0.5), "0.00 [−0.50, 0.50]")
+        self.assertEqual(interval.number(2.0, 1e-16), "2")
+        self.assertEqual(interval.number(math.nan), "–")
+
+    def test_ratios(self):
+        # An interval holds the true ratio in 95 % of the cases.
+        rng = random.Random(11)
+        covered = covered_of_means = 0
+        for _ in range(400):
+            a = [3 * math.exp(rng.gauss(0, 0.3)) for _ in range(4)]
+            b = [2 * math.exp(rng.gauss(0, 0.1)) for _ in range(15)]
+            value, low, high = interval.ratio(a, b)
+            self.assertAlmostEqual(value, math.exp(sum(map(math.log, a)) / 4 - sum(map(math.log, b)) / 15))
+            covered += low <= 1.5 <= high
+            _, low, high = interval.ratio_of_means([3 + rng.gauss(0, 0.6) for _ in range(4)],
+                                                   [2 + rng.gauss(0, 0.2) for _ in range(15)])
+            covered_of_means += low <= 1.5 <= high
+        self.assertTrue(370 <= covered <= 392, covered)
+        self.assertTrue(366 <= covered_of_means <= 394, covered_of_means)
+        self.assertTrue(math.isnan(interval.ratio([1], [2, 3])[1]))
+
+    def test_exponent_over_samples(self):
+        # Samples that agree by chance keep the interval of the scatter about their fits.
+        def sample(seed, noise):
+            return [{"parameters": {"seed": seed}, "x": x, "y": x ** -2 * math.exp(d)}
+                    for x, d in zip((1, 2, 4, 8), (noise, -noise, -noise, noise))]
+        table = sample(1, 0.1) + sample(2, 0.1) + sample(3, -0.1)
+        e = runs.exponent_of_samples(table, lambda r: r["x"], lambda r: r["y"])
+        self.assertAlmostEqual(e.mean, -2)
+        self.assertEqual((e.n, e.freedom), (3, 6))
+        self.assertGreater(e.half, 0.1)
 
     def test_least_squares(self):
         rows = [(1, x, x * x) for x in range(5)]
@@ -122,29 +164,54 @@ class Physics(unittest.TestCase):
         self.assertLess(aside.rms, 0.05)
 
 
+class Template(unittest.TestCase):
+    def test_names_are_replaced(self):
+        def values(name):
+            if name == "none":
+                raise KeyError("there is no none")
+            return name.upper()
+        self.assertEqual(template.fill("a {b c/d} e\n\n{f}", values), "a B C/D e\n\nF\n")
+        with self.assertRaisesRegex(ValueError, "page:2: {none}: 'there is no none'"):
+            template.fill("a\nb {none}", values, "page")
+        self.assertEqual(template.row([1, "a"]), "| 1 | a |")
+
+
+# value [low, high]
+INTERVAL = re.compile(r"−?[\d.]+ \[−?[\d.]+, −?[\d.]+\]")
+
+
 class Report(unittest.TestCase):
-    def test_report_of_the_repository(self):
+    def test_pages_of_the_repository(self):
         results = STUDY / "results"
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder)
-            for name in ("grains.csv", "wall_clock.csv", "remaining-paper.md", "remaining-settled.md"):
-                shutil.copy(results / name, copy)
+            for path in [results / name for name in ("grains.csv", "wall_clock.csv", "remaining-paper.md", "remaining-settled.md")]:
+                shutil.copy(path, copy)
+            for path in results.glob("*.md.in"):
+                shutil.copy(path, copy)
             plots.WANTED.add("none")
             table = runs.read(results / "runs.jsonl")
-            write.report(table, copy, write.draw_all(table, copy))
-            text = (copy / "report.md").read_text(encoding="utf8")
-        self.assertEqual(text, (results / "report.md").read_text(encoding="utf8"),
-                         "write it anew by report/write.py")
-        for line in text.splitlines():
-            if line.startswith("![") and "](figures/" in line:
-                name = line[line.index("](") + 2:-1]
-                self.assertTrue((results / name).exists(), name)
+            names = write.pages(table, copy, write.draw_all(table, copy))
+            self.assertEqual(names, ["README.md", "report.md", "supplement.md"])
+            for name in names:
+                text = (copy / name).read_text(encoding="utf8")
+                self.assertEqual(text, (results / name).read_text(encoding="utf8"), "write it anew by report/write.py")
+                for figure in re.findall(r"^!\[.*\]\((figures/.*)\)$", text, re.M):
+                    self.assertTrue((results / figure).exists(), figure)
 
-    def test_numbers_of_the_results_page_are_those_of_the_report(self):
-        report = (STUDY / "results/report.md").read_text(encoding="utf8")
-        page = (STUDY / "results/README.md").read_text(encoding="utf8")
-        for number in re.findall(r"−?[\d.]+ ± [\d.]*\d", page):
-            self.assertTrue(number in report, f"{number} of the results page is not in the report")
+    def test_length_of_the_report(self):
+        text = (STUDY / "results/report.md").read_text(encoding="utf8")
+        self.assertLessEqual(len(text.split()), 5000)
+        abstract = re.search(r"## Abstract\n(.*?)\n## ", text, re.S).group(1)
+        self.assertLessEqual(len(abstract.split()), 150)
+
+    def test_intervals_of_the_first_page_are_those_of_the_report(self):
+        pages = "".join((STUDY / "results" / name).read_text(encoding="utf8") for name in ("report.md", "supplement.md"))
+        first = " ".join((TOP / "README.md").read_text(encoding="utf8").split())
+        found = INTERVAL.findall(first)
+        self.assertGreater(len(found), 5)
+        for text in found:
+            self.assertTrue(text in pages, f"{text} of README.md is not in the report")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs a plan of cases and writes the tables of their results; report/write.py writes the report.
+// Runs a plan of cases and writes the tables of their results; report/write.py draws the figures and writes the pages.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -40,7 +40,8 @@ void list_cases(const std::vector<study::Case>& cases, const study::Places& plac
   }
 }
 
-/// Draws the figures and, of plans with all series, writes report.md, by report/write.py.
+/// Draws the figures and, of plans with all series, writes the pages of which the folder has templates, by
+/// report/write.py.
 /// @returns whether it ran without an error
 bool write_report(const Options& o) {
   const std::string only = o.plan == "small" ? " --figures-only" : "";
@@ -121,7 +122,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_flag("--list", o.list, "list number, state, name and series of the cases, and exit");
   app.add_flag("--report-only", o.report_only, "run no case; write tables, figures and report");
   app.add_flag("--no-report", o.no_report, "write no tables, figures and report");
-  app.add_flag("--no-figures", o.no_figures, "write tables, but no figures and no report.md");
+  app.add_flag("--no-figures", o.no_figures, "write tables, but no figures and no pages");
   app.add_option("--jobs", o.jobs, "number of cases that run at the same time")
       ->check(CLI::Range(1, 1024))
       ->default_str("all cores");
@@ -132,7 +133,9 @@ void add_options(CLI::App& app, Options& o) {
       "this folder alone. Default: OUTPUT/results");
   app.add_option("--program", o.program,
                  "program that runs a case. Default: ratcheting in the folder of this program");
-  app.add_option("--writer", o.writer, "script that draws the figures and writes report.md")
+  app.add_option("--writer", o.writer,
+                 "script that draws the figures and writes the pages of which RESULTS has "
+                 "templates (*.md.in)")
       ->default_str("examples/ratcheting/study/report/write.py");
 }
 

@@ -5,10 +5,11 @@
 
 The measures are the time t_u during which the driving force is below the thrust of the grains, and the
 excursion of the wall and the scaled load, both over the length of the box. The periods of a run are taken together in groups
-1, 2, 3-4, 5-8, ... The errors are those of the jackknife over the samples, because neither the groups of a
+1, 2, 3-4, 5-8, ... The intervals are those of the jackknife over the samples, because neither the groups of a
 run nor the runs of a sample are independent; with fewer than three samples, over the runs."""
 import math
 
+from interval import student
 from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, scaled_load, select,
                   strain, unjammed_time)
 
@@ -42,7 +43,7 @@ def has_usual_force(run):
 
 # Function of a run and unit.
 MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1e-3),
-            "load": (load_over_length, 1e-2)}
+            "load": (load_over_length, 1e-2), "nu": (lambda run: 1 / run["parameters"]["frequency"], 0.1)}
 
 
 def groups(run):
@@ -111,8 +112,8 @@ class Law:
         self.fitted = len(everything) >= 8 and len({p[0][0] for p in everything}) > 2 and \
             len({p[1] for p in everything}) > 1
         if not self.fitted:
-            self.a = self.b = self.b_error = self.scatter = self.share = self.share_error = math.nan
-            self.powers = self.power_errors = [math.nan] * len(measures)
+            self.a = self.b = self.b_half = self.scatter = self.share = self.share_half = math.nan
+            self.powers = self.power_halves = [math.nan] * len(measures)
             return
         self.a, *self.powers, self.b = self.fit(everything)
         self.scatter = self.deviation(everything)
@@ -125,17 +126,18 @@ class Law:
         means = [sum(part[j] for part in parts) / n for j in range(len(measures) + 2)]
         errors = [math.sqrt((n - 1) / n * sum((part[j] - means[j]) ** 2 for part in parts))
                   for j in range(len(measures) + 2)]
-        self.power_errors, self.b_error = errors[1:-1], errors[-1]
+        halves = [student(n - 1) * error for error in errors]
+        self.power_halves, self.b_half = halves[1:-1], halves[-1]
         self.share = math.exp(self.a)  # strain of the first period where each measure is its unit
-        self.share_error = self.share * errors[0]
+        self.share_half = self.share * halves[0]
 
     @property
     def p(self):
         return self.powers[0]
 
     @property
-    def p_error(self):
-        return self.power_errors[0]
+    def p_half(self):
+        return self.power_halves[0]
 
     @staticmethod
     def fit(data):

@@ -9,7 +9,8 @@ C = 0.228 (F / mg)^2 (m + m_w) / (m_w + beta m)."""
 import bisect
 import math
 
-from runs import ANY, COMPLIANT, exponent, judged, number, power, scaled_load, select
+from interval import number, student
+from runs import ANY, COMPLIANT, exponent, judged, power, scaled_load, select
 
 
 def displacement(thrust, mass, fmax, frequency, steps=2000):
@@ -136,11 +137,20 @@ class Prediction:
         """Power of the ratio measured / predicted over the measured excursion, and the scatter about it, as text."""
         points = [(run["dx_active"], run["dx_active"] / value) for pairs in self.pairs.values() for run, value in pairs]
         _, b, error, scatter = power(points)
-        return f"{number(b, error)}, {100 * scatter:.0f} %"
+        return f"{number(b, student(len(points) - 2) * error)}, {100 * scatter:.0f} %"
 
     def every_ratio(self):
         """Measured over predicted excursion, with the runs that are not judged."""
         return self.ratios() + [run["dx_active"] / predicted for run, predicted in self.excluded]
+
+    def null_ratios(self, fitted, *names):
+        """The null model: measured excursion over that of the base run times the ratio of the loads, or a power of it. The
+        power is fitted to the ratios of all parameters."""
+        bases = {run["parameters"]["seed"]: run for run in self.bases}
+        rows = [(name, math.log(run["dx_active"] / base["dx_active"]), math.log(scaled_load(run) / scaled_load(base)))
+                for name, pairs in self.pairs.items() for run, _ in pairs for base in [bases[run["parameters"]["seed"]]]]
+        p = sum(y * x for _, y, x in rows) / sum(x * x for _, _, x in rows) if fitted else 1
+        return [math.exp(y - p * x) for name, y, x in rows if not names or name in names]
 
     def ratios(self, *names):
         """Measured over predicted excursion of the runs over these parameters, or over all."""

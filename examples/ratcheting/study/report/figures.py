@@ -4,6 +4,7 @@ import math
 
 import compaction
 import excursion
+from interval import ratio, ratio_of_means
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
 from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, constant, judged,
                   over_samples, scaled_load, select, series, shapes_of, strain, thrust_ratio,
@@ -38,14 +39,14 @@ def caption(run, what):
 
 
 def by_value(runs, parameter, value, factor=1.0):
-    """Rows parameter, mean over the samples, standard error."""
+    """Rows parameter, mean over the samples, half of its 95 % interval."""
     found = {}
     for run in runs:
         found.setdefault(run["parameters"][parameter], []).append(run)
     rows = []
     for x, group in sorted(found.items()):
         e = over_samples(group, value)
-        rows.append((x, factor * e.mean, factor * e.error if e.n > 1 else math.nan))
+        rows.append((x, factor * e.mean, factor * e.half))
     return rows
 
 
@@ -316,9 +317,8 @@ def dx_v_frequency(runs, path):
     panels[2].function("0.05", "#b3261e", "paper, 2D")
     panels[3].function("1", GREY)
     draw(path, panels, 2, 2, 1400, 1000)
-    return ("Excursion without drift and largest inward speed over the frequency; below, C, and the speed times ν over its value at "
-            "10 Hz. Open: in one sample or more the run is not judged. Bars: standard error over three samples (1 Hz: one sample). N = 1200, "
-            f"fmax = 6 kN, m_w = m/2; {RIGID_TEXT}. Symbols are shifted by 2 to 6 % in ν.")
+    return ("Below: C, and the speed times ν over its value at 10 Hz. Open: in one sample or more the run is not judged. Bars: 95 % intervals over three samples (1 Hz: one sample). "
+            f"Excursion without drift. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
 
 
 def dx_loads(runs, path):
@@ -341,7 +341,7 @@ def dx_loads(runs, path):
         panel.function("1", GREY, "paper")
     draw(path, panels, 1, 3, 1500, 480, "0.055, 0.99, 0.14, 0.95", "0.06, 0.1")
     return ("Excursion without drift at 5 Hz over force, gravity and mass of the wall, multiplied by the "
-            "paper's powers: a horizontal line is the paper's law. Bars: standard error over three "
+            "paper's powers: a horizontal line is the paper's law. Bars: 95 % intervals over three "
             f"samples. N = 1200; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
@@ -366,7 +366,7 @@ def master(runs, path):
                 for group in found.values():
                     load, e = Estimate([scaled_load(r) for r in group]), over_samples(
                         group, lambda r: r["dx_active"])
-                    rows.append((1e3 * load.mean, 1e3 * e.mean, 1e3 * e.error, all(judged(r) for r in group)))
+                    rows.append((1e3 * load.mean, 1e3 * e.mean, 1e3 * e.half, all(judged(r) for r in group)))
                 if near:
                     rows = [r for r in rows if r[0] <= 4]
                 for is_open in (False, True):
@@ -383,7 +383,7 @@ def master(runs, path):
             panels.append(panel)
     draw(path, panels, 2, len(panels) // 2, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
     return ("Excursion without drift over the scaled load, all values of ν, fmax, g and m_w: means and "
-            f"standard errors of three samples. Open: in one sample or more the run is not judged. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
+            f"95 % intervals of three samples. Open: in one sample or more the run is not judged. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
             "the origin on linear axes (the paper's inset).")
 
 
@@ -414,8 +414,8 @@ def compaction_rate(runs, path):
             panel.curve(points, color, title, 1.2, 2)
     draw(path, panels, 1, len(panels), 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
     return ("Compaction rate, ν × strain per period, over the first four jammed periods and over the first "
-            "second of the force. Broken lines: the law of equation 2 with the mean thrust. Bars: standard "
-            f"error over three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
+            "second of the force. Broken lines: the law of t_u with the mean thrust. Bars: 95 % "
+            f"intervals over three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
 
 
 def last_in_first_second(run):
@@ -477,14 +477,14 @@ def compaction_law(runs, path):
                 if run["parameters"]["frequency"] == nu:
                     for t_u, n, eps, _ in compaction.groups(run):
                         rows.setdefault(n, []).append(eps / law.strain(t_u, 1))
-            panel.bars([(n, Estimate(v).mean, Estimate(v).error) for n, v in sorted(rows.items())],
+            panel.bars([(n, Estimate(v).mean, Estimate(v).half) for n, v in sorted(rows.items())],
                        color, symbol, f"{nu:g} Hz")
         panel.function(f"x**{-law.b:.4f}", GREY, f"n^{{−{law.b:.2f}}}", 1)
         panels.append(panel)
     draw(path, panels, 2, len(shapes), 1600, 860, "0.055, 0.99, 0.08, 0.95", "0.035, 0.12")
     return ("Strain of a period. Above: over the time t_u during which f is below the thrust of the grains, "
             "times n^b; ν = 1 to 60 Hz, all fmax, g, m_w, boxes and lid forces. Below: over the number n of the period, "
-            "over the fit at n = 1, at four frequencies; bars: standard error over three samples. "
+            "over the fit at n = 1, at four frequencies; bars: 95 % intervals over three samples. "
             f"N = 1200; {RIGID_TEXT}.")
 
 
@@ -512,7 +512,7 @@ def one_state(runs, path):
                     if r["parameters"]["fmax"] == fmax and strain(r, 0, 4) > 0 and value(r) > 0:
                         groups.setdefault(r["parameters"]["frequency"], []).append(r)
                 for is_open in (False, True):
-                    panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.error)
+                    panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.half)
                                 for group in groups.values() if all(judged(r) for r in group) != is_open
                                 for e in [Estimate([strain(r, 0, 4) for r in group])]],
                                color, symbol - 1 if is_open else symbol,
@@ -524,7 +524,7 @@ def one_state(runs, path):
                 if other != (CASE["grains"], 1.0, 1.0) and compaction.has_usual_force(r) and value(r) > 0:
                     groups.setdefault((*other, p["frequency"]), []).append(r)
             for is_open in (False, True):
-                panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.error)
+                panel.bars([(Estimate([value(r) for r in group]).mean, e.mean, e.half)
                             for group in groups.values() if all(judged(r) for r in group) != is_open
                             for e in [Estimate([strain(r, 0, 4) for r in group])] if e.mean > 0],
                            BLACK, 12 if is_open else 13, None if is_open else "other boxes", 0.9)
@@ -533,10 +533,9 @@ def one_state(runs, path):
     if not panels:
         raise Missing
     draw(path, panels, 2, len(panels) // 2, 1500, 860, "0.065, 0.99, 0.08, 0.95", "0.045, 0.12")
-    return ("Strain of a period, mean over four periods from one jammed state of each sample, over the time t_u during which f "
-            "is below the thrust, and over the scaled load ℓ = (mg)²/[(m + m_w) fmax ν²]: 1 to 60 Hz, three forces; other boxes and sizes of grains at 5 N per grain. Means over up to "
-            "five samples (20 in the smallest boxes), bars: standard error (none: one sample). Open: in one sample or more the jammed wall moves by more than 30 % of the displacement "
-            f"(not judged). The lines have the same prefactor in all panels of a row. N = 1200, but 94 or 111 in the smallest boxes; {COMPLIANT_TEXT}.")
+    return ("Mean strain of four periods over the time t_u during which f is below the thrust, and over the scaled load, 1 to 60 Hz; other boxes "
+            "and sizes at 5 N for each grain. Means over up to five samples (20 in the smallest boxes), bars: 95 % intervals (none: one sample). Open: "
+            f"a sample or more is not judged. The lines have the same prefactor in all panels of a row. N = 1200, 94 or 111; {COMPLIANT_TEXT}.")
 
 
 def set_aside(runs, path):
@@ -582,13 +581,12 @@ def thrust(runs, path):
             for group in groups.values():
                 e = over_samples(group, lambda r, key=key: r[key] if r[key] is not None else math.nan)
                 dx = over_samples(group, lambda r: r["dx_active"]).mean
-                rows.append((dx / SMALLEST, e.mean, e.error))
+                rows.append((dx / SMALLEST, e.mean, e.half))
             panel.bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
     draw(path, panels, 1, 2, 1200, 480, "0.07, 0.99, 0.14, 0.91", "0.07, 0.1")
     return ("Thrust and carried mass, fitted to the force on the wall in extension, f_g = F − βm a, over the "
-            "excursion: all ν, fmax and g. Bars: standard error over three samples. N = 1200, m_w = m/2, H/L = 1; "
-            f"{RIGID_TEXT}. Both fall with the excursion. Their ratio F²/(m_w + βm) is nearly constant, hence the "
-            "paper's powers, and falls where the excursion exceeds a hundredth of d, hence the departures.")
+            "excursion: all ν, fmax and g. Bars: 95 % intervals over three samples. N = 1200, m_w = m/2, H/L = 1; "
+            f"{RIGID_TEXT}. Both fall with the excursion.")
 
 
 def predicted(runs, path):
@@ -655,7 +653,7 @@ def box(runs, path):
                 for ratio, group in sorted(found.items()):
                     e = over_samples(group, value)
                     rows.append((Estimate([r["height"] / r["length"] for r in group]).mean
-                                 * (1 if shape == "polyhedron" else 1.02), e.mean, e.error))
+                                 * (1 if shape == "polyhedron" else 1.02), e.mean, e.half))
                 panel.bars(rows, COLOR[shape], symbol + (0 if shape == "polyhedron" else -2),
                            f"{text}, {'rigid' if method != 'compliant' else 'compliant'}")
     panels[0].function("0.01", "#1f5fa8", "paper, 3D")
@@ -664,7 +662,7 @@ def box(runs, path):
     draw(path, panels, 1, 3, 1500, 480, "0.062, 0.99, 0.14, 0.89", "0.06, 0.1")
     return ("Prefactor C (excursion without drift), mean force of the grains on the outward-moving wall, and "
             "initial solid fraction of the whole box, over its shape. 5 Hz, fmax = 6 kN, N = 1200. Filled: "
-            f"{COMPLIANT_TEXT}; open: {RIGID_TEXT}. Bars: standard error where there are three samples.")
+            f"{COMPLIANT_TEXT}; open: {RIGID_TEXT}. Bars: 95 % intervals where there are three samples.")
 
 
 def rise(run):
@@ -682,7 +680,7 @@ def force_rise(runs, path):
         panel.bars([(x * SPREAD[shape], y, e) for x, y, e in rows], COLOR[shape], POINT[shape],
                    TITLE[shape])
     draw(path, [panel], 1, 1, 760, 480, "0.1, 0.98, 0.13, 0.96")
-    return ("Rise of f_g while the wall moves out, over the mass of the wall. Bars: standard error over three "
+    return ("Rise of f_g while the wall moves out, over the mass of the wall. Bars: 95 % intervals over three "
             f"samples. N = 1200, ν = 5 Hz, fmax = 6 kN; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
@@ -722,6 +720,49 @@ def return_phases(runs, shape):
             pushed = p["fmax"] * (impulse(b) - impulse(a)) / nu
             rows.append((a, b, math.sin(math.pi * b) ** 2, 1 - run["wall_mass"] * v / pushed, v * nu, p["seed"]))
     return [ReturnPhase(nu, rows) for nu, rows in sorted(found.items()) if rows and None not in rows]
+
+
+CONTACTS = (("rigid, filling", {"jammed": False}), ("compliant, filling", COMPLIANT | {"jammed": False}),
+            ("compliant, jammed", COMPLIANT | {"jammed": True}))
+SMALL = {"polygon": 94, "disk": 111}
+
+
+def five_hertz(runs, shape, small=False, **wanted):
+    """Runs at 5 Hz and 5 N for each grain, one second from the filling on or four periods from a jammed state. `small`: in the
+    boxes of the plane that are as long as those of space; with rigid contacts to a tenth of the tolerance."""
+    if small:
+        rigid = {} if "method" in wanted else {"tolerance": 1e-5}
+        return select(runs, shape, frequency=5.0, grains=SMALL[shape], fmax=ANY, box_ratio=0.9, **(rigid | wanted))
+    found = select(runs, shape, frequency=5.0, **wanted)
+    return [r for r in found if (compaction.is_short(r) if wanted["jammed"] else r["parameters"]["duration"] == 1)]
+
+
+def dimension(runs, path):
+    """C and strain of a period, plane over space."""
+    panels = [Panel("C", "", "plane / space", ["set key top left"]), Panel("strain of a period", "", "", ["set key off"])]
+    names = ", ".join(f'"{name.replace(", ", chr(92) + "n")}" {k}' for k, (name, _) in enumerate(CONTACTS))
+    for panel in panels:
+        panel.commands += ["set logscale y", "set yrange [0.22:4.4]", "set xrange [-0.5:2.5]", f"set xtics ({names})",
+                           "set ytics (0.25, 0.5, 0.75, 1, 1.25, 1.5, 2)"]
+    quantities = ((constant, ratio), (lambda r: strain(r, 0, 4), ratio_of_means))
+    for k, (plane, space) in enumerate((("polygon", "polyhedron"), ("disk", "sphere"))):
+        for small in (False, True):
+            for panel, (value, compare) in zip(panels, quantities):
+                rows = []
+                for x, (_, wanted) in enumerate(CONTACTS):
+                    above, below = (over_samples(found, value) for found in (
+                        five_hertz(runs, plane, small, **wanted), five_hertz(runs, space, **wanted)))
+                    if above.n > 1 and below.n > 1 and not (small and x == 1):
+                        rows.append((x + 0.16 * (2 * k + small - 1.5), *compare(above.values, below.values)))
+                panel.ranges(rows, COLOR[plane], POINT[plane] - (not small),
+                             f"{TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}, {'one length' if small else '1200 grains in both'}")
+    if not panels[0].curves:
+        raise Missing
+    for panel in panels:
+        panel.function("1", GREY)
+    draw(path, panels, 1, 2, 1300, 480, "0.06, 0.99, 0.14, 0.91", "0.06, 0.1")
+    return ("Plane over space at 5 Hz and 5 N for each grain, with 95 % intervals. Filled: boxes of one length, 94 polygons or 111 disks (20 samples) against 1200 grains in "
+            "space; open: 1200 grains in both. 3 samples of 1200 grains from the filling on, 5 from jammed states.")
 
 
 def way_back(runs, path):
@@ -791,6 +832,7 @@ FIGURES = (
     ("thrust", "Thrust and carried mass over the excursion", thrust),
     ("predicted", "Thrust of a slow test, and the excursion predicted", predicted),
     ("box", "The prefactor and the shape of the box", box),
+    ("dimension", "Plane and space", dimension),
     ("compaction_rate", "Compaction rate over frequency (paper, fig. 16)", compaction_rate),
     ("compaction_law", "The law of compaction", compaction_law),
     ("one_state", "Compaction from one jammed state", one_state),

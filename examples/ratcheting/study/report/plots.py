@@ -30,12 +30,16 @@ class Panel:
         self.add(points, "1:2", f'with points pt {symbol} ps {size} lc rgb "{color}"', title)
 
     def bars(self, rows, color, symbol=7, title=None, size=1.1):
-        """Rows x, mean, standard error. An error that is not known has no bar."""
+        """Rows x, mean, half of the interval. An interval that is not known has no bar."""
         with_bars = [row[:3] for row in rows if math.isfinite(row[2])]
         self.add(with_bars, "1:2:3",
                  f'with yerrorbars pt {symbol} ps {size} lw 1.2 lc rgb "{color}"', title)
         alone = [row[:2] for row in rows if not math.isfinite(row[2])]
         self.points(alone, color, symbol, None if with_bars else title, size)
+
+    def ranges(self, rows, color, symbol=7, title=None, size=1.1):
+        """Rows x, value, low and high end of its interval."""
+        self.add(rows, "1:2:3:4", f'with yerrorbars pt {symbol} ps {size} lw 1.2 lc rgb "{color}"', title)
 
     def function(self, text, color, title=None, dash=2, width=1.2):
         name = f'title "{title}"' if title else "notitle"

@@ -7,6 +7,8 @@ import math
 import pathlib
 from collections import Counter
 
+from interval import Estimate, finite, student
+
 SHAPES = ("polyhedron", "polygon", "sphere", "disk")
 TITLE = {"polyhedron": "3D, polyhedra", "polygon": "2D, polygons", "sphere": "3D, spheres",
          "disk": "2D, disks"}
@@ -79,34 +81,6 @@ def of_one_length(runs):
     return [r for r in runs if lengths and r["parameters"]["duration"] == max(lengths)]
 
 
-def finite(values):
-    return [v for v in values if v is not None and math.isfinite(v)]
-
-
-class Estimate:
-    """Mean and standard error over samples."""
-
-    def __init__(self, values):
-        values = finite(values)
-        self.n = len(values)
-        self.mean = sum(values) / self.n if values else math.nan
-        variance = sum((v - self.mean) ** 2 for v in values) / (self.n - 1) if self.n > 1 else 0
-        self.error = math.sqrt(variance / self.n) if self.n > 1 else math.nan
-
-    def text(self, digits=2, factor=1.0):
-        return number(factor * self.mean, factor * self.error, digits)
-
-
-def number(value, error=math.nan, digits=2):
-    """value ± error: the error to two digits, the value to as many places."""
-    if not math.isfinite(value):
-        return "–"
-    if not math.isfinite(error) or error == 0:
-        return f"{value:.{digits + 1}g}".replace("-", "−")
-    places = max(1 - math.floor(math.log10(abs(error))), 0)
-    return f"{value:.{places}f} ± {error:.{places}f}".replace("-", "−")
-
-
 def over_samples(runs, value):
     """Estimate over the seeds of the mean of value(run) of each seed."""
     seeds = {}
@@ -131,29 +105,32 @@ def line(x, y):
     return a, b, scatter / math.sqrt(sxx), scatter
 
 
-def power(points):
+def power(points, fewest=3):
     """Fit of y = c x^b to pairs of positive numbers: c, b, error of b, scatter of ln y; nan if there
     are fewer than three."""
     points = [(math.log(x), math.log(y)) for x, y in points
               if x and y and math.isfinite(x) and math.isfinite(y) and x > 0 and y > 0]
-    if len(points) < 3:
+    if len(points) < fewest:
         return (math.nan,) * 4
     a, b, error, scatter = line([p[0] for p in points], [p[1] for p in points])
     return math.exp(a), b, error, scatter
 
 
-def exponent_of_samples(runs, argument, value):
-    """The exponent of value(run) over argument(run), fitted sample by sample: Estimate. The error is the
-    larger of that over the samples, which may agree by chance, and that of their fits."""
+def exponent_of_samples(runs, argument, value, fewest=3):
+    """The exponent of value(run) over argument(run), fitted sample by sample: Estimate. Its interval is the wider of that
+    over the samples, which may agree by chance, and that of the scatter about the fits. Samples with less than `fewest` values
+    of the argument are left out."""
     seeds = {}
     for run in runs:
         seeds.setdefault(run["parameters"]["seed"], []).append((argument(run), value(run)))
-    fits = [power(points) for points in seeds.values() if len({p[0] for p in points}) > 2]
+    fits = [power(points, fewest) + (len(points),) for points in seeds.values() if len({p[0] for p in points}) >= fewest]
     fits = [fit for fit in fits if math.isfinite(fit[1])]
     e = Estimate([fit[1] for fit in fits])
-    if e.n > 0:
-        of_fits = math.sqrt(sum(fit[2] ** 2 for fit in fits)) / e.n
-        e.error = max(e.error, of_fits) if e.n > 1 else of_fits
+    freedom = sum(fit[4] - 2 for fit in fits)
+    if freedom > 0:
+        of_fits = math.sqrt(sum(fit[2] ** 2 for fit in fits if fit[4] > 2)) / e.n
+        if e.n == 1 or student(freedom) * of_fits > student(e.n - 1) * e.error:
+            e.error, e.freedom = of_fits, freedom
     return e
 
 

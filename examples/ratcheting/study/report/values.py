@@ -1,0 +1,372 @@
+# SPDX-License-Identifier: MIT
+"""The numbers of the pages, by name (template.py). The first word of a name is a function of this module, the others are its
+arguments:
+
+    {C polyhedron rigid}                        mean over samples [95 % interval] (samples)
+    {C polygon jammed small / polyhedron jammed}    ratio [interval] (samples above, below)
+    {strain polyhedron jammed box=1.5 nu=2}     with other parameters than the paper's
+    {power nu dx polyhedron rigid judged 2-10}  exponent of the excursion over the frequency
+
+A selection of runs is SHAPE SET and parameters. Sets: `rigid` and `filling`, from the filling on, with rigid and with compliant
+contacts; `jammed`, compliant contacts from jammed states, four or five periods. `small`: the boxes of the plane that are as
+long as those of space."""
+import math
+
+import claims as ten
+import compaction
+import excursion
+import figures
+import tables
+import template
+from interval import Estimate, interval, number, ratio, ratio_of_means, student
+from runs import (ANY, COMPLIANT, SHAPES, SMALLEST, constant, exponent_of_samples, finite, judged, of_one_length, over_samples,
+                  power, scaled_load, select, series, strain)
+
+JAMMED = COMPLIANT | {"jammed": True}
+OPTIONS = {"box": "box_ratio", "nu": "frequency", "wall": "wall_mass_ratio", "mu": "friction", "size": "size_scale", "fmax": "fmax",
+           "lid": "lid_force_weights", "flat": "flatness", "fewest": "fewest_vertices"}
+
+
+def behaviour(name):
+    return lambda run: run["behaviour"][name]
+
+
+def strain_of(run):
+    return strain(run, 0, 4)
+
+
+# Name, function of a run, factor. Ratios are of geometric means, but of these, which may be negative, of means.
+OBSERVABLES = {
+    "C": (constant, 1), "C_drift": (lambda r: constant(r, "dx_max"), 1),
+    "dx": (lambda r: r["dx_active"], 1e3), "dx_drift": (lambda r: r["dx_max"], 1e3), "drift": (lambda r: r["drift"], 1e3),
+    "drift_share": (lambda r: r["drift"] / r["dx_max"], 100),
+    "strain": (strain_of, 1e4), "strain_root": (compaction.strain_over_load, 1e3), "load": (compaction.load_over_length, 1),
+    "length": (lambda r: r["length"] / SMALLEST, 1), "height": (lambda r: r["height"] / r["length"], 1),
+    "weight": (lambda r: r["weight"], 1), "height_jammed": (ten.jammed_ratio, 1),
+    "rate": (lambda r: r["rate"], 1e3), "rate_box": (figures.first_second, 1e3),
+    "rho_box": (lambda r: r["rho_box_initial"], 1), "rho_start": (lambda r: r["rho_initial"], 1), "rho_02": (lambda r: r["rho_0"], 1),
+    "stress": (ten.ratio("jammed"), 1), "stress_active": (ten.ratio("active"), 1),
+    "rise": (lambda r: r["behaviour"]["active_slope"] * r["dx_active"] / r["parameters"]["fmax"], 100), "rise_mean": (figures.rise, 1),
+    "delay": (lambda r: r["delay"], 1e3), "roll": (behaviour("roll"), 1e3), "turn": (ten.turning, 1),
+    "extension": (behaviour("rho_extension"), 1e4), "contraction": (behaviour("rho_contraction"), 1e4),
+    "explained": (lambda r: r["explained"], 100), "steady": (lambda r: r["steady_thrust"], 1),
+    "thrust": (lambda r: r["thrust"] / r["weight"], 1), "static": (excursion.static_thrust, 1)}
+MAY_BE_NEGATIVE = {"strain", "strain_root", "rate", "rate_box"}
+# Parameter of a series, and what is fixed in it.
+PARAMETERS = {"nu": ("frequency", lambda r: r["parameters"]["frequency"]), "fmax": ("fmax", lambda r: r["parameters"]["fmax"]),
+              "g": ("gravity", lambda r: r["parameters"]["gravity"]), "m": ("wall_mass_ratio", lambda r: r["mass"] + r["wall_mass"])}
+QUANTITIES = {"dx": lambda r: r["dx_active"], "drift": lambda r: r["dx_max"], "v": lambda r: r["v_max"],
+              "rate": figures.density_rate, "rate_box": figures.first_second, "rate_four": ten.four_periods}
+
+
+def with_samples(estimate, factor=1.0):
+    return f"{estimate.text(factor=factor)} ({estimate.n})" if estimate.n else "–"
+
+
+def percent(value):
+    return f"{100 * value:.0f} %".replace("-", "−") if math.isfinite(value) else "–"
+
+
+class Values:
+    """Called with a name, gives its text."""
+
+    def __init__(self, runs, folder, figures=None):
+        self.runs, self.folder, self.figures, self.known = runs, folder, figures or {}, {}
+        self.predictions = {}
+
+    def __call__(self, name):
+        if name not in self.known:
+            word, *rest = name.split()
+            if word in OBSERVABLES:
+                text = self.observable(word, rest)
+            else:
+                function = getattr(self, "of_" + word, None)
+                if function is None:
+                    raise KeyError(f"there is no {word}")
+                text = function(*rest)
+            self.known[name] = text
+        return self.known[name]
+
+    def selection(self, words):
+        """The runs of SHAPE SET and parameters."""
+        shape, kind, *more = words
+        if shape not in SHAPES or kind not in ("rigid", "filling", "jammed", "static"):
+            raise KeyError(f"no selection: {' '.join(words)}")
+        wanted = {"frequency": 5.0, "jammed": kind in ("jammed", "static")}
+        wanted |= {} if kind == "rigid" else COMPLIANT
+        if kind == "static":
+            wanted["wall_speed"] = 2e-3
+        for option in more:
+            if option == "small":
+                return figures.five_hertz(self.runs, shape, True, **{k: v for k, v in wanted.items() if k != "frequency"})
+            else:
+                key, value = option.split("=")
+                wanted[OPTIONS[key]] = float(value)
+        found = select(self.runs, shape, **wanted)
+        if kind == "static":
+            return found
+        return [r for r in found if compaction.is_short(r)] if kind == "jammed" else of_one_length(found)
+
+    def means(self, words, value):
+        """The mean of each sample."""
+        return over_samples(self.selection(words), value)
+
+    def observable(self, word, rest):
+        value, factor = OBSERVABLES[word]
+        if "/" not in rest:
+            return with_samples(self.means(rest, value), factor)
+        cut = rest.index("/")
+        above, below = self.means(rest[:cut], value), self.means(rest[cut + 1:], value)
+        compare = ratio_of_means if word in MAY_BE_NEGATIVE else ratio
+        return f"{interval(*compare(above.values, below.values))} ({above.n} and {below.n})"
+
+    def of_judged(self, *words):
+        """How many runs of a selection are judged."""
+        found = self.selection(words)
+        return f"{sum(judged(r) for r in found)} of {len(found)}"
+
+    def of_about(self, word, *rest):
+        """A mean alone."""
+        value, factor = OBSERVABLES[word]
+        return f"{factor * self.means(rest, value).mean:.3g}"
+
+    # Exponents.
+
+    def series(self, parameter, shape, kind, which, limits=None):
+        fixed = {} if parameter == "frequency" else {"frequency": 5.0}
+        low, high = (float(v) for v in limits.split("-")) if limits else (1.5, math.inf)
+        return [r for r in series(self.runs, shape, parameter, **(fixed | (JAMMED if kind == "jammed" else {})))
+                if r["parameters"]["fmax"] >= 1000 and low <= r["parameters"]["frequency"] <= high and (which == "all" or judged(r))]
+
+    def of_power(self, parameter, quantity, shape, kind, which, limits=None):
+        name, argument = PARAMETERS[parameter]
+        found = self.series(name, shape, kind, which, limits)
+        few = 2 if len({argument(r) for r in found if name == "frequency"}) == 2 else 3
+        return with_samples(exponent_of_samples(found, argument, QUANTITIES[quantity], few))
+
+    def of_counted(self, parameter, shape, kind, limits=None):
+        """How many runs of a series are judged, and up to which value."""
+        name, _ = PARAMETERS[parameter]
+        every = self.series(name, shape, kind, "all", limits)
+        return f"{sum(judged(r) for r in every)} of {len(every)}"
+
+    def of_highest(self, shape, kind):
+        """The highest frequency at which a run is judged."""
+        return f"{ten.highest(self.series('frequency', shape, kind, 'judged')):g}"
+
+    def of_limit(self, share):
+        """The exponent of the excursion of polyhedra with another limit of the motion of the jammed wall."""
+        found = [r for r in ten.above_1_hz(self.runs, "polyhedron") if judged(r, float(share))]
+        return with_samples(exponent_of_samples(found, PARAMETERS["nu"][1], QUANTITIES["dx"]))
+
+    def of_boxes(self, height, kind, nu, shape="polyhedron"):
+        """The exponent of C over H/L: prepared, at t = 0, or jammed."""
+        measure = {"prepared": lambda r: r["parameters"]["box_ratio"], "start": lambda r: r["height"] / r["length"],
+                   "jammed": ten.jammed_ratio}[height]
+        found = {}
+        for r in select(self.runs, shape, frequency=float(nu), box_ratio=ANY, jammed=kind == "jammed", **COMPLIANT):
+            p = r["parameters"]
+            key = (p["seed"], p["box_ratio"])
+            if compaction.is_short(r) and (kind == "jammed" or p["duration"] > 0.5) and (
+                    key not in found or p["duration"] > found[key]["parameters"]["duration"]):
+                found[key] = r
+        return with_samples(exponent_of_samples([r for r in found.values() if judged(r)], measure, constant))
+
+    # One line.
+
+    def line_runs(self, shape, kind):
+        found = {r["name"]: r for parameter, fixed in ten.LOADS for r in ten.loaded(
+            self.runs, shape, parameter, **(fixed | (JAMMED if kind == "jammed" else {})))}
+        return list(found.values())
+
+    def of_line(self, what, shape, kind, quantity="dx"):
+        """C over all loads: `power` of the load, `scatter` about power 1 and `left`, about the fitted power; `C`; `runs`; `decades`."""
+        found, value = self.line_runs(shape, kind), QUANTITIES[quantity]
+        logs = [math.log(value(r) / scaled_load(r)) for r in found]
+        if what == "power":
+            return with_samples(exponent_of_samples(found, scaled_load, value))
+        if what == "scatter":
+            return percent(math.sqrt(sum((v - sum(logs) / len(logs)) ** 2 for v in logs) / (len(logs) - 1)))
+        if what == "left":
+            return percent(power([(scaled_load(r), value(r)) for r in found])[3])
+        if what == "C":
+            return f"{math.exp(sum(logs) / len(logs)):.3f}"
+        if what == "runs":
+            return str(len(found))
+        if what == "decades":
+            loads = [scaled_load(r) for r in found]
+            return f"{math.log10(max(loads) / min(loads)):.1f}"
+        raise KeyError(what)
+
+    # Predictions and null models.
+
+    def prediction(self, shape, kind, by):
+        """excursion.Prediction: kind `jammed` or `rigid`, by `F`, the slow test, or `constant` thrust."""
+        key = (shape, kind, by)
+        if key not in self.predictions:
+            curves = excursion.thrust_curves(self.runs, shape) if by == "F" else None
+            self.predictions[key] = excursion.Prediction(self.runs, shape, curves, **(JAMMED if kind == "jammed" else {}))
+        return self.predictions[key]
+
+    def of_predict(self, model, shape, kind="jammed", by="F", *names):
+        """Mean and scatter of measured over predicted excursion: model `thrust`, `line` (Δx ∝ ℓ from the same run of the sample), or
+        `power` (the power of ℓ fitted to the same runs)."""
+        found = self.prediction(shape, kind, by)
+        mean, scatter = excursion.mean_and_scatter(found.ratios(*names) if model == "thrust" else
+                                                   found.null_ratios(model == "power", *names))
+        return f"{mean:.2f}, {percent(scatter)}" if math.isfinite(mean) else "–"
+
+    def of_predicted_runs(self, shape):
+        found = self.prediction(shape, "jammed", "F")
+        return f"{len(found.ratios())} of {len(found.every_ratio())}"
+
+    def of_all_predicted_runs(self):
+        found = [self.prediction(s, "jammed", "F") for s in SHAPES]
+        return f"{sum(len(f.ratios()) for f in found)} of {sum(len(f.every_ratio()) for f in found)}"
+
+    def of_share(self, shape):
+        """β′ of the slow test."""
+        return with_samples(Estimate(self.prediction(shape, "jammed", "F").shares.values()))
+
+    def of_scatter(self, model, shape, kind, by):
+        """The scatter alone of of_predict()."""
+        return self.of_predict(model, shape, kind, by).split(", ")[1]
+
+    def of_every_scatter(self, shape):
+        """The scatter of the prediction by F(x) with the runs that are not judged."""
+        return percent(excursion.mean_and_scatter(self.prediction(shape, "jammed", "F").every_ratio())[1])
+
+    def of_predicted_power(self, what, parameter, shape):
+        """The exponent of the excursion over a parameter, `measured` and `predicted` by F(x), of the same runs."""
+        return self.prediction(shape, "jammed", "F").exponents(PARAMETERS[parameter][0])[what == "predicted"]
+
+    def of_box_law(self, shape, measure):
+        """The scatter of the law of compaction over all boxes of 1200 grains."""
+        return percent(compaction.Law(compaction.jammed_runs(self.runs, shape, True), (measure,)).scatter)
+
+    def of_farthest(self, shape):
+        """By how much the fit of the others is off, on average, for the sample for which it is farthest off."""
+        found = compaction.Prediction(compaction.jammed_runs(self.runs, shape), ("load",))
+        return f"{100 * max(abs(b) for b in found.bias.values()):.0f} %"
+
+    def of_judged_force(self, shape, fmax):
+        """How many runs of all frequencies from jammed states are judged at this force."""
+        found = select(self.runs, shape, frequency=ANY, fmax=float(fmax), **JAMMED)
+        return f"{sum(judged(r) for r in found)} of {len(found)}"
+
+    def of_trend(self, shape):
+        """Power of measured over predicted excursion over the excursion, and the scatter about it."""
+        return self.prediction(shape, "jammed", "F").trend()
+
+    def of_law(self, what, shape, measure="load", low="0", high="1"):
+        """The law of compaction from jammed states: `a`, `q`, `b`, `scatter`, `rms` of each sample predicted by the others, `runs`, `samples`."""
+        found = [r for r in compaction.jammed_runs(self.runs, shape, every_load=True)
+                 if float(low) <= compaction.load_over_length(r) < float(high)]
+        law = compaction.Law(found, (measure,))
+        samples = len({r["parameters"]["seed"] for r in found})
+        if what in ("a", "q", "b"):
+            value, half = {"a": (1e3 * law.share, 1e3 * law.share_half), "q": (law.p, law.p_half), "b": (law.b, law.b_half)}[what]
+            return f"{number(value, half)} ({samples})"
+        if what == "rms":
+            return percent(compaction.Prediction(found, (measure,)).rms)
+        return {"scatter": percent(law.scatter), "runs": str(law.run_count), "samples": str(samples)}[what]
+
+    def of_mean_power(self, shape, low, high):
+        """The power of the mean strain of four periods over ℓ/L in a range of loads, by sample."""
+        found = [r for r in select(self.runs, shape, frequency=ANY, fmax=ANY, gravity=ANY, wall_mass_ratio=ANY, **JAMMED)
+                 if judged(r) and float(low) <= compaction.load_over_length(r) < float(high) and strain_of(r) > 0]
+        return with_samples(exponent_of_samples(found, lambda r: round(compaction.load_over_length(r), 9), strain_of))
+
+    def of_aside(self, what, shape, *measures):
+        """The runs that were set aside: `made`, `used`, `rms`, `scatter` of the fit to the others."""
+        found = compaction.jammed_runs(self.runs, shape)
+        if what == "made":
+            return str(sum(1 for r in self.runs if r.get("set_aside") and r["parameters"]["shape"] == shape))
+        test = compaction.SetAside(found, measures or ("load",))
+        return {"used": str(test.run_count), "rms": percent(test.rms), "mean": percent(test.mean), "scatter": percent(test.law.scatter)}[what]
+
+    def of_aside_total(self, what):
+        if what == "made":
+            return str(sum(bool(r.get("set_aside")) for r in self.runs))
+        return str(sum(compaction.SetAside(compaction.jammed_runs(self.runs, s), ("load",)).run_count for s in SHAPES))
+
+    # Tables and figures.
+
+    def of_table(self, name, *more):
+        """The rows of a table of tables.py."""
+        function = getattr(tables, name, None) if not name.startswith("_") else None
+        if function is None:
+            raise KeyError(f"there is no table {name}")
+        rows = function(self.folder, *more) if more else function(self.runs)
+        return "\n".join(template.row(cells) for cells in rows)
+
+    def of_not_run(self):
+        """Rows of the runs of both plans that are not done."""
+        return "\n".join(template.row([name, *cells[1:]]) for name in ("settled", "paper")
+                         for cells in tables.remaining(self.folder, name) if cells[0].startswith("all"))
+
+    def of_figure(self, name):
+        """A figure with its caption."""
+        if name not in self.figures:
+            return ""
+        title, text = self.figures[name]
+        return f"![{title}](figures/{name}.png)\n\n*{title}.* {text}"
+
+    # Others.
+
+    def of_runs(self, kind="all"):
+        found = {"all": self.runs, "compliant": [r for r in self.runs if r["parameters"]["method"] == "compliant"]}[kind]
+        return f"{len(found):,}"
+
+    def of_steps(self, what, kind):
+        """Steps, and steps that are not solved, of the rigid or the compliant runs."""
+        found = {"compliant": [r for r in self.runs if r["parameters"]["method"] == "compliant"],
+                 "friction": [r for r in self.runs if r["parameters"]["method"] == "compliant" and r["parameters"]["friction"] > 0.5],
+                 "rigid": [r for r in self.runs if r["parameters"]["method"] != "compliant" and r["parameters"]["tolerance"] == 1e-4],
+                 "tight": [r for r in self.runs if r["parameters"]["method"] != "compliant" and r["parameters"]["tolerance"] == 1e-5],
+                 "2008": [r for r in self.runs if r["parameters"]["tolerance"] == 1e-3]}[kind]
+        return f"{sum(r['facts']['steps' if what == 'all' else 'capped_steps'] for r in found):,}"
+
+    def of_contracting(self):
+        found = [r for s in SHAPES for r in ten.base(self.runs, s)]
+        return f"{sum(r['contracting'] for r in found)} of {sum(len(r['periods']['x_j']) for r in found)}"
+
+    def of_tenfold(self, quantity, shape, kind):
+        """Speed times ν, or excursion times ν², at 10 Hz over that at 5 Hz, of the same sample."""
+        value, exponent = {"v": (lambda r: r["v_max"], 1), "dx": (lambda r: r["dx_active"], 2), "drift": (lambda r: r["dx_max"], 2)}[quantity]
+        found = {}
+        for r in self.series("frequency", shape, kind, "all"):
+            found.setdefault(r["parameters"]["seed"], {})[r["parameters"]["frequency"]] = value(r)
+        logs = Estimate([math.log(f[10.0] / f[5.0] * 2 ** exponent) for f in found.values() if 5.0 in f and 10.0 in f])
+        return f"{interval(*(math.exp(v) for v in (logs.mean, logs.mean - logs.half, logs.mean + logs.half)))} ({logs.n})"
+
+    def of_fastest(self, quantity, shape):
+        """The frequency of the largest rate over one second in each sample, rigid contacts."""
+        best = {}
+        for r in ten.every_frequency(self.runs, shape):
+            seed, value = r["parameters"]["seed"], QUANTITIES[quantity](r)
+            if seed not in best or value > best[seed][0]:
+                best[seed] = (value, r["parameters"]["frequency"])
+        return ", ".join(f"{nu:g}" for _, (_, nu) in sorted(best.items()))
+
+    def of_ageing(self, *shapes):
+        """The strain of periods 9 to 20, relative to the first four, at 5 Hz over that at 20 Hz, of the same sample."""
+        logs = Estimate([math.log(a / b) for shape in shapes or SHAPES for a, b in ten.aged(self.runs, shape)])
+        return f"{interval(*(math.exp(v) for v in (logs.mean, logs.mean - logs.half, logs.mean + logs.half)))} ({logs.n})"
+
+    def clock(self):
+        return [line.split(",") for line in (self.folder / "wall_clock.csv").read_text(encoding="utf8").splitlines()[1:]]
+
+    def of_hours(self):
+        """Core-hours of preparation and shaking."""
+        return f"{sum(float(v) for row in self.clock() for v in row[2:4] if v) / 3600:.0f}"
+
+    def of_timed(self):
+        return f"{len(self.clock()):,}"
+
+    def of_phase(self, what, nu):
+        row = next(r for r in figures.return_phases(self.runs, "polyhedron") if r.frequency == float(nu))
+        return f"{getattr(row, what):.3f}" if what in ("turn", "fastest") else f"{getattr(row, what):.2f}"
+
+    def of_states(self):
+        return ten.states(self.runs)
