@@ -17,7 +17,6 @@ sys.path.insert(0, str(STUDY / "study/report"))
 import compaction  # noqa: E402
 import excursion  # noqa: E402
 import interval  # noqa: E402
-import plots  # noqa: E402
 import runs  # noqa: E402
 import template  # noqa: E402
 import write  # noqa: E402
@@ -189,9 +188,7 @@ class Report(unittest.TestCase):
                 shutil.copy(path, copy)
             for path in results.glob("*.md.in"):
                 shutil.copy(path, copy)
-            plots.WANTED.add("none")
-            table = runs.read(results / "runs.jsonl")
-            names = write.pages(table, copy, write.draw_all(table, copy))
+            names = write.pages(runs.read(results / "runs.jsonl"), copy)
             self.assertEqual(names, ["README.md", "report.md", "supplement.md"])
             for name in names:
                 text = (copy / name).read_text(encoding="utf8")

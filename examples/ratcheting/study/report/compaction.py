@@ -10,7 +10,7 @@ run nor the runs of a sample are independent; with fewer than three samples, ove
 import math
 
 from interval import student
-from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, line, scaled_load, select,
+from runs import (ANY, CASE, COMPLIANT, SHAPES, judged, least_squares, scaled_load, select,
                   strain, unjammed_time)
 
 UNIT = 0.01  # [s]
@@ -193,13 +193,6 @@ class SetAside:
         residuals = self.law.residuals(data)
         self.rms = math.sqrt(sum(v * v for v in residuals) / len(data)) if data else math.nan
         self.mean = sum(residuals) / len(data) if data else math.nan
-
-
-def local_power(runs, shape, law, shortest):
-    """The fit of the strain, times n^b, over t_u above `shortest` [s]: a, power, its error, scatter."""
-    data = [(x, y + law.b * n) for (x,), n, y in points(loading_runs(runs, shape))
-            if x > math.log(shortest / UNIT)]
-    return line([x for x, _ in data], [y for _, y in data]) if len(data) > 3 else (math.nan,) * 4
 
 
 def laws(runs, measures=("t_u",)):

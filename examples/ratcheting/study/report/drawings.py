@@ -148,8 +148,6 @@ def contact_types(path):
             drawing.mark(point, at)
         drawing.text(name, (at[0], 0.13))
     drawing.write(path)
-    return ("Types of contacts and the points that represent them. Rigid contacts have one, two or three "
-            "points; compliant contacts keep all corners of the contact polygon.")
 
 
 def grain_shapes(grains, path):
@@ -166,15 +164,12 @@ def grain_shapes(grains, path):
         drawing.body(points, at, STONE)
         drawing.text(f"{len(points)} vertices, {2 * len(points) - 4} faces", (at[0], 0.2))
     drawing.write(path)
-    return "Six of the thirty shapes of sample 1, scaled to one circumradius."
 
 
 def snapshot(picture, path):
     """The picture of a packing with the force and the displacement of the wall."""
-    text = ("Packing of 400 polyhedra, compressed by the wall. The wall with blue edges moves along x, outward "
-            "positive; the force f pushes it inward. The runs have 1200 grains.")
     if plots.WANTED and path.stem not in plots.WANTED:
-        return text
+        return
     commands = [
         "set terminal pngcairo size 900, 750 font 'DejaVu Sans,15'", f"set output '{path}'",
         "unset tics", "unset border", "unset key", "set lmargin 0", "set rmargin 0", "set tmargin 0",
@@ -185,4 +180,3 @@ def snapshot(picture, path):
         "set label 'x' at 950, 50 tc rgb '#1f5fa8' front font ',20'",
         f"plot '{picture}' binary filetype=png with rgbimage"]
     subprocess.run(["gnuplot"], input="\n".join(commands) + "\n", text=True, check=True)
-    return text

@@ -10,8 +10,6 @@ from runs import (ANY, CASE, COMPLIANT, SHAPES, SMALLEST, TITLE, Estimate, const
                   over_samples, scaled_load, select, series, shapes_of, strain, thrust_ratio,
                   unjammed_time)
 
-RIGID_TEXT = "rigid contacts, QM/16 at 1e-4"
-COMPLIANT_TEXT = "k = 1e8 N/m, residual 1e-5"
 SPREAD = {"polyhedron": 0.94, "polygon": 0.98, "sphere": 1.02, "disk": 1.06}
 
 
@@ -26,16 +24,6 @@ def course(runs, shape):
             if "wall" in run["tables"]:
                 return run
     return None
-
-
-def contacts_of(run):
-    return COMPLIANT_TEXT if run["parameters"]["method"] == "compliant" else RIGID_TEXT
-
-
-def caption(run, what):
-    p = run["parameters"]
-    return (f"{what} N = {p['grains']}, ν = 5 Hz, fmax = {p['fmax'] / 1000:g} kN, sample 1; "
-            f"{contacts_of(run)}.")
 
 
 def by_value(runs, parameter, value, factor=1.0):
@@ -83,7 +71,7 @@ def panel_per_course(runs, x_label, y_label, commands, add):
         panel = Panel(TITLE[shape], x_label, y_label if not panels else "", commands)
         add(panel, shape, run)
         panels.append(panel)
-    return panels, found[0][1]
+    return panels
 
 
 def x_t(runs, path):
@@ -97,7 +85,6 @@ def x_t(runs, path):
         panel.curve([(t, 1e-3 * f) for t, f in columns(run, "wall", "t", "f")], GREY)
         panels.append(panel)
     draw(path, panels, 2, len(found), 1500, 620, "0.055, 0.99, 0.1, 0.93", "0.04, 0.06")
-    return caption(found[0][1], "Displacement x of the wall (above) and driving force f (below).")
 
 
 def period_of(run, number):
@@ -127,11 +114,9 @@ def one_period(runs, path):
                 panel.points([min(values, key=lambda v: abs(v[0] - at))], BLACK, 6)
             panels.append(panel)
     draw(path, panels, 2, len(found), 1500, 640, "0.055, 0.99, 0.1, 0.93", "0.04, 0.06")
-    return caption(found[0][1], "The second period after the filling: displacement of the wall (above) and driving force (below). Circles: "
-                                "the wall starts, and turns back. f is smallest at the dotted line.")
 
 
-def field(runs, path, table, names, unit, what):
+def field(runs, path, table, names, unit):
     panels, found = [], [(s, r) for s, r in every_course(runs) if table in r["tables"]]
     if not found:
         raise Missing
@@ -152,19 +137,14 @@ def field(runs, path, table, names, unit, what):
                   f'with vectors head filled size graph 0.018, 22 lc rgb "{COLOR[shape]}"')
         panels.append(panel)
     draw(path, panels, 1, len(found), 1500, 470, "0.06, 0.99, 0.14, 0.84", "0.05, 0.1")
-    return caption(found[0][1], what)
 
 
 def velocity_field(runs, path):
-    return field(runs, path, "velocity_field", ("v_x", "v_z"), lambda v: f"{1e3 * v:.0f} mm/s",
-                 "Mean velocities in the section at the largest inward speed of the wall, which is on "
-                 "the right.")
+    field(runs, path, "velocity_field", ("v_x", "v_z"), lambda v: f"{1e3 * v:.0f} mm/s")
 
 
 def displacement_field(runs, path):
-    return field(runs, path, "displacement_field", ("u_x", "u_z"), lambda v: f"{1e3 * v:.2f} mm",
-                 "Mean displacement of the grains from one maximum of f to the next: the convection. "
-                 "The wall is on the right.")
+    field(runs, path, "displacement_field", ("u_x", "u_z"), lambda v: f"{1e3 * v:.2f} mm")
 
 
 def f_g_x(runs, path):
@@ -177,12 +157,9 @@ def f_g_x(runs, path):
                         f"period {number + 1}", 1.2)
         panel.commands += ["set yrange [0:6]", "set xrange [-1.4:1.1]"]
 
-    panels, run = panel_per_course(runs, "(x − x_j) / Δx_{max}", "f_g / mg",
+    panels = panel_per_course(runs, "(x − x_j) / Δx_{max}", "f_g / mg",
                                    ["set key bottom left"], add)
     draw(path, panels, 1, len(panels), 1500, 460, "0.05, 0.99, 0.14, 0.89", "0.04, 0.1")
-    return caption(run, "Force of the grains on the wall over its displacement, four periods. "
-                        "The wall moves outward along the lower branch and in along the upper one; jammed, "
-                        "it bears up to fmax, 8 to 22 mg, above the frame.")
 
 
 def force_chains(runs, path):
@@ -206,9 +183,6 @@ def force_chains(runs, path):
                           f'with vectors nohead lw {0.7 * k} lc rgb "{COLOR[shape]}"')
             panels.append(panel)
     draw(path, panels, 2, len(found), 1500, 860, "0.01, 0.99, 0.01, 0.95", "0.01, 0.06")
-    return caption(found[0][1], "Normal forces above 0.6 of their mean, as lines between the centres "
-                   "of grains in the middle quarter of the box; widths relative to the mean of each "
-                   "panel. The wall is on the right.")
 
 
 def rho_t(runs, path):
@@ -219,9 +193,8 @@ def rho_t(runs, path):
             panel.curve([(t, rho - rows[0][1]) for t, rho in rows], color,
                         f"{title}, ρ(0) = {rows[0][1]:.3f}")
 
-    panels, run = panel_per_course(runs, "t  [s]", "ρ − ρ(0)", ["set key bottom right"], add)
+    panels = panel_per_course(runs, "t  [s]", "ρ − ρ(0)", ["set key bottom right"], add)
     draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(run, "Change of the solid fraction.")
 
 
 def rho_x(runs, path):
@@ -236,11 +209,9 @@ def rho_x(runs, path):
         for k, color, title in ((1, COLOR[shape], "inner volume"), (2, GREY, "whole box")):
             panel.curve([(r[0] / peak, 1e4 * (r[k] - rows[0][k])) for r in rows], color, title)
 
-    panels, run = panel_per_course(runs, "(x − x_j) / Δx_{max}", "ρ − ρ_j  [1e-4]",
+    panels = panel_per_course(runs, "(x − x_j) / Δx_{max}", "ρ − ρ_j  [1e-4]",
                                    ["set key bottom left", "set xtics 0.5"], add)
     draw(path, panels, 1, len(panels), 1500, 430, "0.062, 0.99, 0.15, 0.89", "0.045, 0.1")
-    return caption(run, "Solid fraction over the displacement of the wall in the second period: "
-                        "from (0, 0) to the right end in extension, then to the left in contraction.")
 
 
 def mean_loop(runs, shape, nu):
@@ -251,7 +222,7 @@ def mean_loop(runs, shape, nu):
 
 
 def phase_portrait(runs, path):
-    panels, ratios = [], []
+    panels = []
     for scaled in (False, True):
         for shape in every_shape(runs):
             first = len(panels) % len(every_shape(runs)) == 0
@@ -259,25 +230,14 @@ def phase_portrait(runs, path):
                           "(x − x_j) ν²  [mm/s²]" if scaled else "x − x_j  [mm]",
                           ("v ν  [mm/s²]" if scaled else "v  [mm/s]") if first else "",
                           ["set key bottom left", "set xtics 20" if scaled else "set xtics 1"])
-            tops = []
             for nu, color, dash in ((5.0, COLOR[shape], 1), (10.0, BLACK, 2)):
                 rows = mean_loop(runs, shape, nu)
                 if not rows:
                     continue
                 a, b = (1e3 * nu * nu, 1e3 * nu) if scaled else (1e3, 1e3)
                 panel.curve([(a * x, b * v) for x, v in rows], color, f"{nu:g} Hz", 1.8, dash)
-                tops += [(max(v for _, v in rows) * nu, -min(v for _, v in rows) * nu)]
-            if scaled and len(tops) == 2:
-                ratios.append([tops[1][k] / tops[0][k] for k in (0, 1)])
             panels.append(panel)
     draw(path, panels, 2, len(panels) // 2, 1500, 760, "0.065, 0.99, 0.1, 0.93", "0.05, 0.13")
-    text = ("Phase portraits of the wall, above as they are, below scaled by the frequency as in the paper: means over the periods "
-            f"of three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
-    if ratios:
-        text += (" Scaled speed at 10 Hz over that at 5 Hz, for each shape: outward "
-                 + ", ".join(f"{r[0]:.2f}" for r in ratios) + ", inward " + ", ".join(f"{r[1]:.2f}" for r in ratios)
-                 + "; 1 if the portraits collapse.")
-    return text
 
 
 def dx_v_frequency(runs, path):
@@ -317,8 +277,6 @@ def dx_v_frequency(runs, path):
     panels[2].function("0.05", "#b3261e", "paper, 2D")
     panels[3].function("1", GREY)
     draw(path, panels, 2, 2, 1400, 1000)
-    return ("Below: C, and the speed times ν over its value at 10 Hz. Open: in one sample or more the run is not judged. Bars: 95 % intervals over three samples (1 Hz: one sample). "
-            f"Excursion without drift. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
 
 
 def dx_loads(runs, path):
@@ -340,9 +298,6 @@ def dx_loads(runs, path):
                        COLOR[shape], POINT[shape], TITLE[shape])
         panel.function("1", GREY, "paper")
     draw(path, panels, 1, 3, 1500, 480, "0.055, 0.99, 0.14, 0.95", "0.06, 0.1")
-    return ("Excursion without drift at 5 Hz over force, gravity and mass of the wall, multiplied by the "
-            "paper's powers: a horizontal line is the paper's law. Bars: 95 % intervals over three "
-            f"samples. N = 1200; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
 def master(runs, path):
@@ -382,9 +337,6 @@ def master(runs, path):
                                ["set logscale xy", "set format '10^{%L}'", f"set xrange [{0.6 * low:.3g}:{1.7 * top:.3g}]"])
             panels.append(panel)
     draw(path, panels, 2, len(panels) // 2, 1600, 820, "0.045, 0.99, 0.09, 0.95", "0.035, 0.13")
-    return ("Excursion without drift over the scaled load, all values of ν, fmax, g and m_w: means and "
-            f"95 % intervals of three samples. Open: in one sample or more the run is not judged. N = 1200, H/L = 1; {RIGID_TEXT}. Below, the range near "
-            "the origin on linear axes (the paper's inset).")
 
 
 def compaction_rate(runs, path):
@@ -413,9 +365,6 @@ def compaction_rate(runs, path):
                       for nu in (65 ** (k / 59) for k in range(60))]
             panel.curve(points, color, title, 1.2, 2)
     draw(path, panels, 1, len(panels), 1600, 460, "0.045, 0.99, 0.14, 0.9", "0.035, 0.1")
-    return ("Compaction rate, ν × strain per period, over the first four jammed periods and over the first "
-            "second of the force. Broken lines: the law of t_u with the mean thrust. Bars: 95 % "
-            f"intervals over three samples. N = 1200, fmax = 6 kN; {RIGID_TEXT}.")
 
 
 def last_in_first_second(run):
@@ -482,10 +431,6 @@ def compaction_law(runs, path):
         panel.function(f"x**{-law.b:.4f}", GREY, f"n^{{−{law.b:.2f}}}", 1)
         panels.append(panel)
     draw(path, panels, 2, len(shapes), 1600, 860, "0.055, 0.99, 0.08, 0.95", "0.035, 0.12")
-    return ("Strain of a period. Above: over the time t_u during which f is below the thrust of the grains, "
-            "times n^b; ν = 1 to 60 Hz, all fmax, g, m_w, boxes and lid forces. Below: over the number n of the period, "
-            "over the fit at n = 1, at four frequencies; bars: 95 % intervals over three samples. "
-            f"N = 1200; {RIGID_TEXT}.")
 
 
 def one_state(runs, path):
@@ -533,9 +478,6 @@ def one_state(runs, path):
     if not panels:
         raise Missing
     draw(path, panels, 2, len(panels) // 2, 1500, 860, "0.065, 0.99, 0.08, 0.95", "0.045, 0.12")
-    return ("Mean strain of four periods over the time t_u during which f is below the thrust, and over the scaled load, 1 to 60 Hz; other boxes "
-            "and sizes at 5 N for each grain. Means over up to five samples (20 in the smallest boxes), bars: 95 % intervals (none: one sample). Open: "
-            f"a sample or more is not judged. The lines have the same prefactor in all panels of a row. N = 1200, 94 or 111; {COMPLIANT_TEXT}.")
 
 
 def set_aside(runs, path):
@@ -560,9 +502,6 @@ def set_aside(runs, path):
     if not panels:
         raise Missing
     draw(path, panels, 1, len(panels), 400 * len(panels), 460, "0.065, 0.99, 0.15, 0.9", "0.045, 0.1")
-    return ("Strain of the periods of runs that were set aside, over that predicted by the law that was fitted to the others (grey): a (100 ℓ/L)^q n^−b. "
-            "One point for each of the groups 1, 2, 3 and 4, ... of periods of a judged run. Broken: the scatter of the fit about itself. "
-            f"N = 1200; {COMPLIANT_TEXT}.")
 
 
 def thrust(runs, path):
@@ -584,9 +523,6 @@ def thrust(runs, path):
                 rows.append((dx / SMALLEST, e.mean, e.half))
             panel.bars(rows, COLOR[shape], POINT[shape], TITLE[shape])
     draw(path, panels, 1, 2, 1200, 480, "0.07, 0.99, 0.14, 0.91", "0.07, 0.1")
-    return ("Thrust and carried mass, fitted to the force on the wall in extension, f_g = F − βm a, over the "
-            "excursion: all ν, fmax and g. Bars: 95 % intervals over three samples. N = 1200, m_w = m/2, H/L = 1; "
-            f"{RIGID_TEXT}. Both fall with the excursion.")
 
 
 def predicted(runs, path):
@@ -611,10 +547,6 @@ def predicted(runs, path):
         raise Missing
     panels[1].function("1", GREY, None, 1)
     draw(path, panels, 1, 2, 1200, 480, "0.07, 0.99, 0.14, 0.91", "0.07, 0.1")
-    return ("Left: force of the grains on a wall that moves outward at 2 mm/s from the jammed state, over its displacement "
-            "from where the force has fallen to mg/2; non-increasing fits, three samples. Right: ratio of the measured excursion to that "
-            "predicted, judged runs over ν, fmax, g and m_w, from F(x) and one carried mass for each sample, from the run at 5 Hz, 6 kN "
-            f"and m_w = m/2, which is left out. Open: the excursion exceeds the test, beyond whose end F is taken as constant. N = 1200; {COMPLIANT_TEXT}.")
 
 
 def box_runs(runs, shape):
@@ -660,9 +592,6 @@ def box(runs, path):
     panels[0].function("0.05", "#b3261e", "paper, 2D")
     panels[2].function("0.50", "#1f5fa8", "paper")
     draw(path, panels, 1, 3, 1500, 480, "0.062, 0.99, 0.14, 0.89", "0.06, 0.1")
-    return ("Prefactor C (excursion without drift), mean force of the grains on the outward-moving wall, and "
-            "initial solid fraction of the whole box, over its shape. 5 Hz, fmax = 6 kN, N = 1200. Filled: "
-            f"{COMPLIANT_TEXT}; open: {RIGID_TEXT}. Bars: 95 % intervals where there are three samples.")
 
 
 def rise(run):
@@ -680,8 +609,6 @@ def force_rise(runs, path):
         panel.bars([(x * SPREAD[shape], y, e) for x, y, e in rows], COLOR[shape], POINT[shape],
                    TITLE[shape])
     draw(path, [panel], 1, 1, 760, 480, "0.1, 0.98, 0.13, 0.96")
-    return ("Rise of f_g while the wall moves out, over the mass of the wall. Bars: 95 % intervals over three "
-            f"samples. N = 1200, ν = 5 Hz, fmax = 6 kN; {RIGID_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
 class ReturnPhase:
@@ -761,8 +688,6 @@ def dimension(runs, path):
     for panel in panels:
         panel.function("1", GREY)
     draw(path, panels, 1, 2, 1300, 480, "0.06, 0.99, 0.14, 0.91", "0.06, 0.1")
-    return ("Plane over space at 5 Hz and 5 N for each grain, with 95 % intervals. Filled: boxes of one length, 94 polygons or 111 disks (20 samples) against 1200 grains in "
-            "space; open: 1200 grains in both. 3 samples of 1200 grains from the filling on, 5 from jammed states.")
 
 
 def way_back(runs, path):
@@ -785,14 +710,11 @@ def way_back(runs, path):
     if not panels[0].curves:
         raise Missing
     draw(path, panels, 1, 4, 1700, 430, "0.052, 0.99, 0.15, 0.89", "0.055, 0.1")
-    return ("The way back of the wall. First panel: when the wall turns back (open) and when it is fastest (filled). If the motion "
-            "scaled with the frequency, all points of a symbol would lie on a horizontal line in all panels. Means over periods and samples; "
-            f"frequencies at which all runs are judged. N = 1200, fmax = 6 kN, from one jammed state; {COMPLIANT_TEXT}. Symbols are shifted by 2 to 6 %.")
 
 
 def long_course(runs, path):
     """Solid fraction over the number of periods at 20 Hz, the longest run of each shape."""
-    panels, methods = [], set()
+    panels = []
     for shape in ("polyhedron", "polygon"):
         found = [r for r in runs if r["parameters"]["shape"] == shape and "long" in r["tables"]]
         if not found:
@@ -802,40 +724,37 @@ def long_course(runs, path):
         for run in found:
             rows = columns(run, "long", "periods", "rho_inner", "rho_box")
             rigid = run["parameters"]["method"] != "compliant"
-            methods.add(f"{RIGID_TEXT} (open)" if rigid else f"{COMPLIANT_TEXT} (filled)")
             for k, title in ((1, "inner volume"), (2, "whole box")):
                 panel.points([(r[0] + 0.25, r[k] - rows[0][k]) for r in rows],
                              GREY if k == 2 else COLOR[shape], 6 if rigid else 7,
                              f"{title}, {'rigid' if rigid else 'compliant'}", 0.9)
         panels.append(panel)
     draw(path, panels, 1, 2, 1200, 430, "0.085, 0.98, 0.15, 0.89", "0.075, 0.1")
-    return ("Solid fraction at the maxima of f. ν = 20 Hz, fmax = 6 kN, N = 1200, one sample; "
-            + " or ".join(sorted(methods)) + ".")
 
 
-# Name, title with the paper's number of the figure, function.
+# Name, function. The captions are in the templates of the pages.
 FIGURES = (
-    ("x_t", "Displacement of the wall (paper, fig. 4)", x_t),
-    ("one_period", "One period (paper, fig. 5)", one_period),
-    ("velocity_field", "Velocities in contraction (paper, fig. 6)", velocity_field),
-    ("displacement_field", "Convection", displacement_field),
-    ("f_g_x", "Force of the grains on the wall (paper, fig. 7)", f_g_x),
-    ("force_rise", "Force in extension and mass of the wall", force_rise),
-    ("force_chains", "Force chains (paper, fig. 8)", force_chains),
-    ("rho_t", "Solid fraction over time (paper, fig. 9)", rho_t),
-    ("rho_x", "Solid fraction over displacement (paper, fig. 10)", rho_x),
-    ("phase_portrait", "Phase portraits (paper, fig. 11)", phase_portrait),
-    ("way_back", "The way back of the wall", way_back),
-    ("dx_v_frequency", "Excursion and speed over frequency (paper, fig. 12)", dx_v_frequency),
-    ("dx_loads", "Excursion over force, gravity and wall (paper, figs. 13, 14)", dx_loads),
-    ("master", "Excursion over the scaled load (paper, fig. 15)", master),
-    ("thrust", "Thrust and carried mass over the excursion", thrust),
-    ("predicted", "Thrust of a slow test, and the excursion predicted", predicted),
-    ("box", "The prefactor and the shape of the box", box),
-    ("dimension", "Plane and space", dimension),
-    ("compaction_rate", "Compaction rate over frequency (paper, fig. 16)", compaction_rate),
-    ("compaction_law", "The law of compaction", compaction_law),
-    ("one_state", "Compaction from one jammed state", one_state),
-    ("set_aside", "Runs set aside", set_aside),
-    ("long_course", "Many periods", long_course),
+    ("x_t", x_t),
+    ("one_period", one_period),
+    ("velocity_field", velocity_field),
+    ("displacement_field", displacement_field),
+    ("f_g_x", f_g_x),
+    ("force_rise", force_rise),
+    ("force_chains", force_chains),
+    ("rho_t", rho_t),
+    ("rho_x", rho_x),
+    ("phase_portrait", phase_portrait),
+    ("way_back", way_back),
+    ("dx_v_frequency", dx_v_frequency),
+    ("dx_loads", dx_loads),
+    ("master", master),
+    ("thrust", thrust),
+    ("predicted", predicted),
+    ("box", box),
+    ("dimension", dimension),
+    ("compaction_rate", compaction_rate),
+    ("compaction_law", compaction_law),
+    ("one_state", one_state),
+    ("set_aside", set_aside),
+    ("long_course", long_course),
 )

@@ -334,17 +334,19 @@ def trends(runs):
 
 
 def box_predictions(runs):
-    """C of polyhedra in boxes of other shapes from the slow test in each."""
-    rows = []
+    """C of polyhedra in boxes of other shapes from the slow test in each, and from a power of H/L fitted to C in them."""
+    rows, heights, logs = [], [], []
     for box in (0.42, 0.7, 1.0, 1.5):
         found = excursion.static_runs(runs, "polyhedron", box)
         measured = over_samples(of_one_length(select(runs, "polyhedron", frequency=5.0, box_ratio=box, jammed=False,
                                                      **COMPLIANT)), constant)
         predicted, shares = excursion.constants_of_boxes(runs, "polyhedron", box, measured.mean)
-        rows.append([f"{over_samples(found, lambda r: r['height'] / r['length']).mean:.2f}", len(predicted),
-                     over_samples(found, excursion.static_thrust).text(), Estimate(predicted).text(), measured.text(),
-                     Estimate(shares).text()])
-    return rows
+        heights.append(over_samples(found, lambda r: r["height"] / r["length"]).mean)
+        logs.append(math.log(measured.mean))
+        rows.append([f"{heights[-1]:.2f}", len(predicted), over_samples(found, excursion.static_thrust).text(),
+                     Estimate(predicted).text(), measured.text(), Estimate(shares).text()])
+    a, b, _, _ = line([math.log(h) for h in heights], logs)
+    return [row[:4] + [f"{math.exp(a + b * math.log(h)):.4f}"] + row[4:] for row, h in zip(rows, heights)]
 
 
 def forms(runs):

@@ -2,7 +2,7 @@
 """Pages with numbers put into them.
 
 A template NAME.md.in is the page NAME.md with names in braces. {table NAME} on a line of its own stands for the rows of
-a table, {figures NAMES} for figures with their captions, and every other name for one number or a short list of numbers."""
+a table, every other name for one number or a short list of numbers."""
 import re
 
 PLACE = re.compile(r"\{([^{}\n]+)\}")

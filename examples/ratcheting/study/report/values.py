@@ -18,8 +18,8 @@ import excursion
 import figures
 import tables
 import template
-from interval import Estimate, interval, number, ratio, ratio_of_means, student
-from runs import (ANY, COMPLIANT, SHAPES, SMALLEST, constant, exponent_of_samples, finite, judged, of_one_length, over_samples,
+from interval import Estimate, interval, number, ratio, ratio_of_means
+from runs import (ANY, COMPLIANT, SHAPES, SMALLEST, constant, exponent_of_samples, judged, of_one_length, over_samples,
                   power, scaled_load, select, series, strain)
 
 JAMMED = COMPLIANT | {"jammed": True}
@@ -38,7 +38,7 @@ def strain_of(run):
 # Name, function of a run, factor. Ratios are of geometric means, but of these, which may be negative, of means.
 OBSERVABLES = {
     "C": (constant, 1), "C_drift": (lambda r: constant(r, "dx_max"), 1),
-    "dx": (lambda r: r["dx_active"], 1e3), "dx_drift": (lambda r: r["dx_max"], 1e3), "drift": (lambda r: r["drift"], 1e3),
+    "dx": (lambda r: r["dx_active"], 1e3), "drift": (lambda r: r["drift"], 1e3),
     "drift_share": (lambda r: r["drift"] / r["dx_max"], 100),
     "strain": (strain_of, 1e4), "strain_root": (compaction.strain_over_load, 1e3), "load": (compaction.load_over_length, 1),
     "length": (lambda r: r["length"] / SMALLEST, 1), "height": (lambda r: r["height"] / r["length"], 1),
@@ -50,7 +50,7 @@ OBSERVABLES = {
     "delay": (lambda r: r["delay"], 1e3), "roll": (behaviour("roll"), 1e3), "turn": (ten.turning, 1),
     "extension": (behaviour("rho_extension"), 1e4), "contraction": (behaviour("rho_contraction"), 1e4),
     "explained": (lambda r: r["explained"], 100), "steady": (lambda r: r["steady_thrust"], 1),
-    "thrust": (lambda r: r["thrust"] / r["weight"], 1), "static": (excursion.static_thrust, 1)}
+    "thrust": (lambda r: r["thrust"] / r["weight"], 1)}
 MAY_BE_NEGATIVE = {"strain", "strain_root", "rate", "rate_box"}
 # Parameter of a series, and what is fixed in it.
 PARAMETERS = {"nu": ("frequency", lambda r: r["parameters"]["frequency"]), "fmax": ("fmax", lambda r: r["parameters"]["fmax"]),
@@ -70,8 +70,8 @@ def percent(value):
 class Values:
     """Called with a name, gives its text."""
 
-    def __init__(self, runs, folder, figures=None):
-        self.runs, self.folder, self.figures, self.known = runs, folder, figures or {}, {}
+    def __init__(self, runs, folder):
+        self.runs, self.folder, self.known = runs, folder, {}
         self.predictions = {}
 
     def __call__(self, name):
@@ -90,12 +90,10 @@ class Values:
     def selection(self, words):
         """The runs of SHAPE SET and parameters."""
         shape, kind, *more = words
-        if shape not in SHAPES or kind not in ("rigid", "filling", "jammed", "static"):
+        if shape not in SHAPES or kind not in ("rigid", "filling", "jammed"):
             raise KeyError(f"no selection: {' '.join(words)}")
-        wanted = {"frequency": 5.0, "jammed": kind in ("jammed", "static")}
+        wanted = {"frequency": 5.0, "jammed": kind == "jammed"}
         wanted |= {} if kind == "rigid" else COMPLIANT
-        if kind == "static":
-            wanted["wall_speed"] = 2e-3
         for option in more:
             if option == "small":
                 return figures.five_hertz(self.runs, shape, True, **{k: v for k, v in wanted.items() if k != "frequency"})
@@ -103,8 +101,6 @@ class Values:
                 key, value = option.split("=")
                 wanted[OPTIONS[key]] = float(value)
         found = select(self.runs, shape, **wanted)
-        if kind == "static":
-            return found
         return [r for r in found if compaction.is_short(r)] if kind == "jammed" else of_one_length(found)
 
     def means(self, words, value):
@@ -224,10 +220,6 @@ class Values:
         found = [self.prediction(s, "jammed", "F") for s in SHAPES]
         return f"{sum(len(f.ratios()) for f in found)} of {sum(len(f.every_ratio()) for f in found)}"
 
-    def of_share(self, shape):
-        """β′ of the slow test."""
-        return with_samples(Estimate(self.prediction(shape, "jammed", "F").shares.values()))
-
     def of_scatter(self, model, shape, kind, by):
         """The scatter alone of of_predict()."""
         return self.of_predict(model, shape, kind, by).split(", ")[1]
@@ -290,7 +282,7 @@ class Values:
             return str(sum(bool(r.get("set_aside")) for r in self.runs))
         return str(sum(compaction.SetAside(compaction.jammed_runs(self.runs, s), ("load",)).run_count for s in SHAPES))
 
-    # Tables and figures.
+    # Tables.
 
     def of_table(self, name, *more):
         """The rows of a table of tables.py."""
@@ -304,13 +296,6 @@ class Values:
         """Rows of the runs of both plans that are not done."""
         return "\n".join(template.row([name, *cells[1:]]) for name in ("settled", "paper")
                          for cells in tables.remaining(self.folder, name) if cells[0].startswith("all"))
-
-    def of_figure(self, name):
-        """A figure with its caption."""
-        if name not in self.figures:
-            return ""
-        title, text = self.figures[name]
-        return f"![{title}](figures/{name}.png)\n\n*{title}.* {text}"
 
     # Others.
 

@@ -21,29 +21,27 @@ PICTURE = HERE.parents[1] / "ballast.png"
 
 
 def draw_all(runs, results):
-    """Draws the figures. @returns title and caption by name of each that there are runs for."""
+    """Draws the figures that there are runs for. @returns their number."""
     folder = results / "figures"
     folder.mkdir(exist_ok=True)
-    grains = results / "grains.csv"
-    found = {}
+    grains, drawn = results / "grains.csv", 0
     if grains.exists():
-        fixed = [("contact_types", "Types of contacts (paper, fig. 1)", drawings.contact_types),
-                 ("grain_shapes", "Shapes of grains (paper, fig. 2)",
-                  lambda path: drawings.grain_shapes(grains, path)),
-                 ("snapshot", "A packing (paper, fig. 3)",
-                  lambda path: drawings.snapshot(PICTURE, path))]
-        found |= {name: (title, function(folder / f"{name}.png")) for name, title, function in fixed}
-    for name, title, function in FIGURES:
+        drawings.contact_types(folder / "contact_types.png")
+        drawings.grain_shapes(grains, folder / "grain_shapes.png")
+        drawings.snapshot(PICTURE, folder / "snapshot.png")
+        drawn = 3
+    for name, function in FIGURES:
         try:
-            found[name] = (title, function(runs, folder / f"{name}.png"))
+            function(runs, folder / f"{name}.png")
+            drawn += 1
         except Missing:
             continue
-    return found
+    return drawn
 
 
-def pages(runs, results, figures):
+def pages(runs, results):
     """Fills the templates of the folder. @returns the names of the pages."""
-    values, written = Values(runs, results, figures), []
+    values, written = Values(runs, results), []
     for path in sorted(results.glob("*.md.in")):
         page = path.with_suffix("")
         page.write_text(template.fill(path.read_text(encoding="utf8"), values, path.name), encoding="utf8")
@@ -59,19 +57,19 @@ def main():
     parser.add_argument("--figure", action="append", default=[],
                         help="draw only this figure; may be given more than once")
     options = parser.parse_args()
-    names = [name for name, _, _ in FIGURES] + ["contact_types", "grain_shapes", "snapshot"]
+    names = [name for name, _ in FIGURES] + ["contact_types", "grain_shapes", "snapshot"]
     for name in options.figure:
         if name not in names:
             parser.error(f"--figure {name}: there are {', '.join(names)}")
-    plots.WANTED.update(["none"] if options.pages_only else options.figure)
+    plots.WANTED.update(options.figure)
     table_path = options.results / "runs.jsonl"
     runs = read(table_path) if table_path.exists() else []
     if not runs:
         print(f"no runs in {table_path}: no figures")
         return
-    figures = draw_all(runs, options.results)
-    written = [] if options.figures_only else pages(runs, options.results, figures)
-    print(f"{len(runs)} runs: {len(figures)} figures in {options.results / 'figures'}"
+    drawn = 0 if options.pages_only else draw_all(runs, options.results)
+    written = [] if options.figures_only else pages(runs, options.results)
+    print(f"{len(runs)} runs: {drawn} figures in {options.results / 'figures'}"
           + (f"; {', '.join(written)}" if written else ""))
 
 
