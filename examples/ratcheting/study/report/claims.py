@@ -3,7 +3,7 @@
 import math
 
 import compaction
-from runs import (ANY, COMPLIANT, SHAPES, TITLE, judged, of_one_length, select, series, strain)
+from runs import (ANY, COMPLIANT, SHAPES, TITLE, judged, select, series, strain)
 
 
 # The parameters of the load, and what is fixed in the series of each.
@@ -20,12 +20,6 @@ def base(runs, shape, **wanted):
 def jammed_ratio(run):
     """H/L at the first maximum of f that is judged. H is the height of the box, gap below the lid included."""
     return run["height"] / (run["length"] + run["periods"]["x_j"][0])
-
-
-def flat(runs):
-    """Polyhedra in boxes that are to be 0.42 as high as long, compliant contacts."""
-    return of_one_length(select(runs, "polyhedron", frequency=5.0, box_ratio=0.42, jammed=False,
-                                **COMPLIANT))
 
 
 def above_1_hz(runs, shape):
