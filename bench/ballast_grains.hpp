@@ -6,8 +6,10 @@
 #include <random>
 #include <vector>
 
+#include "moreau/law/concepts.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/size_distribution.hpp"
+#include "moreau/world/contact_detector.hpp"
 
 namespace bench {
 
@@ -19,6 +21,12 @@ constexpr double depth = S::dim == 2 ? 0.05 : 1;
 /// Density of the grains [kg/m^D].
 template <class S>
 constexpr double density = 2700 * depth<S>;
+
+/// The contact points of the figures in README.md: at most D of a contact between faces, but all
+/// with springs.
+template <class S, class Law>
+constexpr moreau::ContactPoints contact_points =
+    moreau::CompliantLaw<Law, S> ? moreau::ContactPoints::all : moreau::ContactPoints::few;
 
 /// Shapes of grains, their circumradii [m], and their volume, in the plane their area [m^D].
 template <class ShapeT>

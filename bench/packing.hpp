@@ -30,6 +30,7 @@ class Packing {
 
   Packing(std::size_t count, const Law& law, const Solver& solver = Solver{})
       : world(0.025, Materials<Law>(1, law), solver) {
+    world.set_contact_points(contact_points<S, Law>);
     std::mt19937_64 random(1);
     const BallastGrains<ShapeT> grains(count, random);
     length_ = std::pow(grains.volume / 0.6, 1.0 / S::dim);

@@ -48,6 +48,7 @@ class Tiles {
   /// One tile under its load, from a file, or prepared and stored in this file.
   Tiles(std::size_t count, const Law& law, const Solver& solver, const std::filesystem::path& file)
       : world(size, Materials<Law>(1, law), solver) {
+    world.set_contact_points(contact_points<S, Law>);
     if (std::filesystem::exists(file)) {
       read_snapshot(file, world, length_, height_);
       lid_ = world.walls()[1];
@@ -62,6 +63,7 @@ class Tiles {
   Tiles(const Tiles& tile, const std::array<int, std::size_t{S::dim}>& counts, const Repeat& repeat,
         const Law& law, const Solver& solver)
       : world(size, Materials<Law>(1, law), solver), length_(tile.length_) {
+    world.set_contact_points(contact_points<S, Law>);
     std::vector<std::pair<std::size_t, Vector>> places;  // grain of the tile, position
     std::array<int, std::size_t{S::dim}> at{};
     std::mt19937_64 random(2);

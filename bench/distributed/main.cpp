@@ -111,6 +111,7 @@ template <class World>
 World tiled(const World& tile, int side) {
   if (side == 1) return tile;
   World world(0.025, tile.materials(), ColouredGaussSeidel());
+  world.set_contact_points(tile.contact_points());
   const BodyId lid = tile.walls().back();
   const double length = tile.pose(tile.walls()[3]).position[0];
   std::vector<ShapeId> shapes;

@@ -269,10 +269,17 @@ class Experiment {
     moreau::Tolerances tolerances;
     tolerances.margin = p.margin;
     const double size = p.size_scale * moreau::SizeDistribution::azema2008().smallest();
-    if constexpr (Method::solves)
-      return Simulation(size, laws, study_solver(p), tolerances);
-    else
-      return Simulation(size, laws, tolerances);
+    Simulation simulation = [&] {
+      if constexpr (Method::solves)
+        return Simulation(size, laws, study_solver(p), tolerances);
+      else
+        return Simulation(size, laws, tolerances);
+    }();
+    // The rule of the paper: a contact between faces has three points, in the plane two. Springs
+    // in series with the contacts need all points.
+    if constexpr (!moreau::CompliantLaw<Law, S>)
+      simulation.set_contact_points(moreau::ContactPoints::few);
+    return simulation;
   }
 
   /// L = W from V = rho L^D H/L, where rho is the solid fraction after the compression: about 0.53

@@ -48,9 +48,9 @@ namespace moreau {
 
 /// Which points of a contact between two faces are used.
 enum class ContactPoints {
-  few,  ///< at most D of them: fewer unknowns per step
-  all,  ///< all vertices of the contact polygon: they carry any pressure on it, blocks stand
-        ///< exactly
+  few,  ///< at most D of them, those of reduce(): fewer unknowns, but three points do not support the
+        ///< whole face: it can start to spin when it lands, and springs gain energy
+  all,  ///< all vertices of the contact polygon: the support is the whole face
 };
 
 /// Detects the contacts of a simulation. It checks the periodic cell; Simulation checks all other
@@ -125,6 +125,7 @@ class ContactDetector {
   void set_team(const Team& team) { team_ = team; }
   /// Sets which points of a contact between faces are used, from the next detect() on.
   void keep_points(ContactPoints points) { kept_points_ = points; }
+  ContactPoints kept_points() const { return kept_points_; }  ///< all unless set
 
   /// Examines only the pairs for which keeps(a, b) of the indices of their bodies is true, from the next
   /// find_pairs() on.
@@ -241,7 +242,7 @@ class ContactDetector {
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
   detail::PairCaches<ShapeT> caches_;
-  ContactPoints kept_points_ = ContactPoints::few;
+  ContactPoints kept_points_ = ContactPoints::all;
   Team team_;
   detail::VisitOrder<S> order_;
   std::vector<Member> members_;             // of the team

@@ -231,8 +231,9 @@ class Simulation : public BodyControl<ShapeT> {
   void set_correction(const OverlapCorrectionOptions& options) requires set_valued {
     dynamics_.set_correction(options);
   }
-  /// Sets which points of a contact between faces are used; at first few, all if it is compliant.
+  /// Sets which points of a contact between faces are used, from the next step on.
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
+  ContactPoints contact_points() const { return detector_.kept_points(); }  ///< all unless set
   /// Sets the laws from the next step on; the number of materials must not change.
   /// @throws std::invalid_argument for another number of materials
   void set_materials(const Materials<Law>& materials) {
@@ -291,7 +292,6 @@ class Simulation : public BodyControl<ShapeT> {
     require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
             "must be finite and > 0");
     tolerances.check("Simulation");
-    if constexpr (CompliantLaw<Law, S>) detector_.keep_points(ContactPoints::all);
   }
 
   BodyId add_wall_of(const auto& shape, const Pose<S>& pose, MaterialId material,
