@@ -26,6 +26,7 @@
 #include "moreau/shape/detail/face_merging.hpp"
 #include "moreau/shape/detail/hull_input.hpp"
 #include "moreau/shape/detail/orientation.hpp"
+#include "moreau/shape/detail/ring_reduction.hpp"
 #include "moreau/shape/detail/triangle_hull.hpp"
 
 namespace moreau {
@@ -78,20 +79,10 @@ inline void require_width(const HullInput<2>& input, std::string_view function) 
 /// Repeats while this distance is within the tolerance: removes the vertex with the smallest
 /// distance from the line through its two neighbours.
 inline void drop_collinear(std::vector<std::uint32_t>& ring, const HullInput<2>& input) {
-  const auto bulge = [&](std::size_t i) {
-    const auto& x = input.points;
-    const std::size_t n = ring.size();
-    const Eigen::Vector2d a = x[ring[(i + n - 1) % n]], c = x[ring[(i + 1) % n]];
-    return std::abs(orientation(a, x[ring[i]], c)) / (c - a).norm();
-  };
-  while (ring.size() > 2) {
-    std::size_t flattest = 0;
-    for (std::size_t i = 1; i < ring.size(); ++i) {
-      if (bulge(i) < bulge(flattest)) flattest = i;
-    }
-    if (bulge(flattest) > input.flat) return;
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(flattest));
-  }
+  const auto& x = input.points;
+  reduce_ring(ring, 2, input.flat, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return std::abs(orientation(x[a], x[b], x[c])) / (x[c] - x[a]).norm();
+  });
 }
 
 /// Rotates a cyclic list so that it begins with its smallest element.

@@ -9,13 +9,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "moreau/core/error.hpp"
 #include "moreau/shape/check_mesh.hpp"
+#include "moreau/shape/detail/box_tree.hpp"
 #include "moreau/shape/facet_mesh.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
@@ -49,15 +52,74 @@ struct Concavity {
   std::size_t facet = 0;                            ///< a facet that has the position
 };
 
-/// The convex hull of the vertices of a mesh. The mesh need not be closed.
-/// @throws std::invalid_argument if the mesh is not a surface (require_surface()) or is flat
+namespace detail {
+
+/// The depth of points below the nearest face of a polytope. The faces are found by their dual points
+/// p = normal / offset: depth = offset (1 - p . x), where the offset lies between the inradius and the
+/// circumradius. A tree of the dual points leaves out the faces that face away.
+template <class S>
+class DepthBelowFaces {
+ public:
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  explicit DepthBelowFaces(const PolytopeOf<S>& hull) : hull_(hull) {
+    std::vector<Aabb<S>> boxes;
+    for (Eigen::Index f = 0; f < hull.face_offsets().size(); ++f) {
+      const Vector dual = hull.face_normals().row(f).transpose() / hull.face_offsets()[f];
+      boxes.emplace_back(dual, dual);
+    }
+    tree_ = BoxTree<S>(boxes);
+  }
+  /// @param x body coordinates of the polytope [m]
+  T operator()(const Vector& x) {
+    const T slack = 32 * std::numeric_limits<T>::epsilon() * hull_.circumradius();
+    T least = depth(nearest_, x);
+    const auto may_be_nearer = [&](const Aabb<S>& box) {
+      T above = T(1);
+      for (int k = 0; k < S::dim; ++k) above -= std::max(box.lower[k] * x[k], box.upper[k] * x[k]);
+      return above * (above > T(0) ? hull_.inradius() : hull_.circumradius()) - slack < least;
+    };
+    tree_.query(may_be_nearer, [&](std::uint32_t place) {
+      const auto face = static_cast<Eigen::Index>(tree_.order()[place]);
+      const T here = depth(face, x);
+      if (here < least) {
+        least = here;
+        nearest_ = face;
+      }
+    });
+    return least;
+  }
+
+ private:
+  T depth(Eigen::Index face, const Vector& x) const {
+    return hull_.face_offsets()[face] - hull_.face_normals().row(face).dot(x);
+  }
+
+  const PolytopeOf<S>& hull_;
+  BoxTree<S> tree_;
+  Eigen::Index nearest_ = 0;  // of the last point: the first guess for the next
+};
+
+}  // namespace detail
+
+/// The convex hull of the corners of a mesh's facets. The mesh may have any other fault: it may be open,
+/// not a manifold, turned inside out, in several pieces, or have facets without an area.
+/// @throws std::invalid_argument if the mesh has no facet, if a facet has a corner that is not in the
+///         list of vertices or is not finite, or if the corners lie in one plane (in the plane: on
+///         one line)
 template <class S>
 PolytopeOf<S> hull_of_mesh(const FacetMesh<S>& mesh) {
-  require_surface(mesh, "hull_of_mesh");
+  require(!mesh.facets.empty(), "hull_of_mesh", "facets", mesh.facets.size(), "must be at least 1");
   std::vector<typename S::Vector> points;
   std::vector<unsigned char> is_used(mesh.vertices.size(), 0);
-  for (const auto& facet : mesh.facets)
-    for (const std::uint32_t v : facet) is_used[v] = 1;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+    for (const std::uint32_t v : mesh.facets[f]) {
+      if (v >= is_used.size() || !all_finite(mesh.vertices[v]))
+        throw std::invalid_argument("hull_of_mesh: " + detail::named(mesh, f) +
+                                    " must have corners that exist and are finite");
+      is_used[v] = 1;
+    }
   for (std::size_t v = 0; v < is_used.size(); ++v)
     if (is_used[v] != 0) points.push_back(mesh.vertices[v]);
   return PolytopeOf<S>(std::span<const typename S::Vector>(points));
@@ -73,9 +135,9 @@ Concavity<S> worst_concavity(const FacetMesh<S>& mesh, const PolytopeOf<S>& hull
   using T = typename S::Scalar;
   Concavity<S> worst;
   worst.depth = -std::numeric_limits<T>::infinity();
+  detail::DepthBelowFaces<S> below(hull);
   const auto test = [&](const typename S::Vector& x, std::size_t facet) {
-    const typename S::Vector y = x - hull.centroid_of_input();
-    const T depth = (hull.face_offsets() - (hull.face_normals() * y).array()).minCoeff();
+    const T depth = below(x - hull.centroid_of_input());
     if (depth > worst.depth) worst = {depth, x, facet};
   };
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {

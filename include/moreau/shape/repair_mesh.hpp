@@ -127,6 +127,14 @@ std::size_t drop_repeated_facets(FacetMesh<S>& mesh) {
   });
 }
 
+/// Removes triangles without an area: those with a corner twice, and those whose corners lie on a line,
+/// which weld() leaves. The middle one of three corners on a line then divides the neighbour along the
+/// line into two triangles, so that a closed surface stays closed.
+/// @returns the number of triangles that were removed
+/// @throws std::invalid_argument if a coordinate is not finite or a corner is out of range
+template <std::floating_point T>
+std::size_t drop_flat_triangles(TriangleMesh<T>& mesh);
+
 /// Divides a mesh into its connected pieces, in the order of their first facets.
 /// @throws std::invalid_argument if a corner is out of range
 template <class S>
@@ -146,6 +154,91 @@ std::vector<FacetMesh<S>> pieces_of(const FacetMesh<S>& mesh) {
   }
   for (auto& part : pieces) drop_unused_vertices(part);
   return pieces;
+}
+
+namespace detail {
+
+/// The corner of a flat triangle that lies opposite of its longest edge.
+template <std::floating_point T>
+std::size_t middle_of_flat(const TriangleMesh<T>& mesh, std::size_t f) {
+  const Eigen::Matrix<T, 3, 3> x = corners_of(mesh, f);
+  std::size_t best = 0;
+  T longest = -1;
+  for (int k = 0; k < 3; ++k) {
+    const T length = (x.col((k + 1) % 3) - x.col((k + 2) % 3)).norm();
+    if (length <= longest) continue;
+    longest = length;
+    best = std::size_t(k);
+  }
+  return best;
+}
+
+/// Removes flat triangles that share no edge with one another.
+/// @returns their number
+template <std::floating_point T>
+std::size_t drop_some_flat(TriangleMesh<T>& mesh, T flat) {
+  using S = Space<3, T>;
+  const auto ridges = ridges_of<S>(mesh.facets);
+  std::vector<unsigned char> is_gone(mesh.facets.size(), 0), is_changed(mesh.facets.size(), 0);
+  std::size_t count = 0;
+  const std::size_t before = mesh.facets.size();
+  for (std::size_t f = 0; f < before; ++f) {
+    const auto facet = mesh.facets[f];
+    const bool is_repeated = facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0];
+    if (is_changed[f] != 0) continue;
+    if (!is_repeated && height_of<S>(corners_of(mesh, f)) > flat) continue;
+    const std::size_t at = middle_of_flat(mesh, f);
+    const std::uint32_t middle = facet[at], a = facet[(at + 1) % 3], b = facet[(at + 2) % 3];
+    const std::array<std::uint32_t, 2> edge{std::min(a, b), std::max(a, b)};
+    const auto first = std::lower_bound(
+        ridges.begin(), ridges.end(), edge,
+        [](const Ridge<S>& ridge, const auto& wanted) { return ridge.vertices < wanted; });
+    auto last = first;
+    bool is_free = true;
+    for (; last != ridges.end() && last->vertices == edge; ++last)
+      is_free = is_free && is_changed[last->facet] == 0;
+    if (!is_free) continue;
+    is_gone[f] = is_changed[f] = 1;
+    ++count;
+    if (is_repeated) continue;
+    for (auto ridge = first; ridge != last; ++ridge) {
+      if (ridge->facet == f) continue;
+      is_changed[ridge->facet] = 1;
+      auto& neighbour = mesh.facets[ridge->facet];
+      auto half = neighbour;
+      neighbour[(ridge->corner + 1) % 3] = middle;
+      half[(ridge->corner + 2) % 3] = middle;
+      mesh.facets.push_back(half);
+    }
+  }
+  is_gone.resize(mesh.facets.size(), 0);
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+    if (is_gone[f] == 0) mesh.facets[kept++] = mesh.facets[f];
+  mesh.facets.resize(kept);
+  return count;
+}
+
+}  // namespace detail
+
+template <std::floating_point T>
+std::size_t drop_flat_triangles(TriangleMesh<T>& mesh) {
+  if (const auto fault = detail::find_bad_vertex(mesh))
+    throw std::invalid_argument("drop_flat_triangles: " + fault->message);
+  for (const auto& facet : mesh.facets)
+    for (const std::uint32_t v : facet)
+      require(v < mesh.vertices.size(), "drop_flat_triangles", "corner", v,
+              "must be the index of a vertex");
+  // A division can leave a flat triangle, which is divided in its turn. Each shortens an edge, so few
+  // rounds are needed.
+  constexpr int most_rounds = 64;
+  std::size_t sum = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::size_t count = detail::drop_some_flat(mesh, detail::rounding_of(mesh));
+    sum += count;
+    if (count == 0) break;
+  }
+  return sum;
 }
 
 /// Turns facets so that neighbours have their outsides on the same side, and each piece that is

@@ -16,12 +16,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/shape/detail/box_tree.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
 #include "moreau/shape/detail/triangle_hull.hpp"
 
@@ -173,26 +177,47 @@ class FaceMerging {
   Eigen::Vector3d normal_, center_;
 };
 
-/// Whether the plane of each face is a supporting plane: all points lie on or below it, and the
-/// face's own vertices lie on it, both within the tolerance. This must hold even if the vertices
-/// are later displaced by the rounding. Such a displacement can tilt a face of width w about its
-/// long axis by the angle rounding / w.
+/// Whether the plane of a face is a supporting plane: all points lie on or below it, and the face's
+/// own vertices lie on it, both within the tolerance. This must hold even if the vertices are later
+/// displaced by the rounding. Such a displacement can tilt a face of width w about its long axis by
+/// the angle rounding / w.
+/// @param tree of the points, each as a box
+inline bool has_supporting_plane(std::span<const std::uint32_t> face,
+                                 std::span<const Eigen::Vector3d> points,
+                                 const BoxTree<Space<3>>& tree, double tolerance, double rounding) {
+  using Vector = Eigen::Vector3d;
+  const auto plane =
+      face_plane<Vector>(face.size(), [&](std::size_t k) { return points[face[k]]; });
+  const Vector across = plane.normal.cross(plane.axis);
+  const double angle = rounding / plane.width;
+  const auto height = [&](const Vector& x) { return plane.normal.dot(x - plane.center); };
+  const auto tilt = [&](const Vector& x) { return angle * std::abs(across.dot(x - plane.center)); };
+  // The largest value of height + tilt in a box, and a bound of its rounding error.
+  const auto may_exceed = [&](const Aabb<Space<3>>& box) {
+    const Vector middle = (box.lower + box.upper) / 2, half = (box.upper - box.lower) / 2;
+    const double reach = plane.normal.cwiseAbs().dot(half) + angle * across.cwiseAbs().dot(half);
+    const double slack = 32 * std::numeric_limits<double>::epsilon();
+    return !(height(middle) + tilt(middle) + reach <= tolerance - slack * (1 + angle));
+  };
+  bool is_below = true;
+  tree.query([&](const Aabb<Space<3>>& box) { return is_below && may_exceed(box); },
+             [&](std::uint32_t place) {
+               const Vector& x = points[tree.order()[place]];
+               is_below = is_below && height(x) + tilt(x) <= tolerance;
+             });
+  return is_below && std::all_of(face.begin(), face.end(),
+                                 [&](std::uint32_t v) { return height(points[v]) >= -tolerance; });
+}
+
+/// Whether the plane of each face is a supporting plane.
 inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::Vector3d> points,
                                   double tolerance, double rounding) {
+  std::vector<Aabb<Space<3>>> boxes;
+  boxes.reserve(points.size());
+  for (const Eigen::Vector3d& x : points) boxes.emplace_back(x, x);
+  const BoxTree<Space<3>> tree(boxes);
   return std::all_of(faces.begin(), faces.end(), [&](const auto& face) {
-    const auto plane =
-        face_plane<Eigen::Vector3d>(face.size(), [&](std::size_t k) { return points[face[k]]; });
-    const Eigen::Vector3d across = plane.normal.cross(plane.axis);
-    const auto height = [&](const Eigen::Vector3d& x) {
-      return plane.normal.dot(x - plane.center);
-    };
-    const auto tilt = [&](const Eigen::Vector3d& x) {
-      return rounding / plane.width * std::abs(across.dot(x - plane.center));
-    };
-    return std::all_of(points.begin(), points.end(),
-                       [&](const auto& x) { return height(x) + tilt(x) <= tolerance; }) &&
-           std::all_of(face.begin(), face.end(),
-                       [&](std::uint32_t v) { return height(points[v]) >= -tolerance; });
+    return has_supporting_plane(face, points, tree, tolerance, rounding);
   });
 }
 

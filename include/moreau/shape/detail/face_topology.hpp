@@ -91,15 +91,18 @@ struct FaceTopology {
   ///                               that is not one piece without handles (V - E + F is not 2)
   FaceTopology(std::size_t vertex_count, std::span<const std::vector<std::uint32_t>> face_list,
                std::string_view function) {
+    std::vector<std::size_t> last_face(vertex_count, 0);  // one past the last face with the vertex
     for (std::size_t f = 0; f < face_list.size(); ++f) {
       const std::string name = "faces[" + std::to_string(f) + "]";
       require(face_list[f].size() >= 3, function, name + ".size()", face_list[f].size(),
               "must be at least 3");
-      for (auto v = face_list[f].begin(); v != face_list[f].end(); ++v) {
-        require(*v < vertex_count, function, "a vertex of " + name, *v,
-                "must be below the number of vertices, " + std::to_string(vertex_count));
-        require(std::find(face_list[f].begin(), v, *v) == v, function, "a vertex of " + name, *v,
-                "must not occur twice");
+      for (const std::uint32_t v : face_list[f]) {
+        if (v >= vertex_count)
+          throw_invalid(function, "a vertex of " + name, v,
+                        "must be below the number of vertices, " + std::to_string(vertex_count));
+        if (last_face[v] == f + 1)
+          throw_invalid(function, "a vertex of " + name, v, "must not occur twice");
+        last_face[v] = f + 1;
       }
       faces.push_back(face_list[f]);
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "moreau/shape/detail/vertices.hpp"
@@ -26,6 +28,77 @@ struct HullTolerance {
 };
 
 namespace detail {
+
+/// Finds whether a list has a point within a distance of another point. The points of a list with
+/// more than a few points are hashed by cells that are much wider than the distance, so that mostly
+/// one cell has to be looked at.
+template <class Point>
+class NearPoints {
+ public:
+  /// @param points   the list, which may grow: call add_last() after each new point
+  /// @param distance in the unit of the points, > 0
+  NearPoints(const std::vector<Point>& points, double distance)
+      : points_(points), distance_(distance) {}
+
+  void add_last() {
+    const auto last = static_cast<std::uint32_t>(points_.size() - 1);
+    if (points_.size() < few) return;
+    if (points_.size() == few)
+      for (std::uint32_t i = 0; i < last; ++i) put(i);
+    put(last);
+  }
+  bool has_neighbour(const Point& x) const {
+    const auto is_near = [&](const Point& y) { return (x - y).norm() <= distance_; };
+    if (points_.size() < few) return std::any_of(points_.begin(), points_.end(), is_near);
+    Cell last{};
+    for (int corner = 0; corner < 1 << Point::RowsAtCompileTime; ++corner) {
+      Point at = x;
+      for (int k = 0; k < at.size(); ++k) at[k] += (corner >> k & 1) != 0 ? distance_ : -distance_;
+      const Cell cell = cell_of(at);
+      // Mostly all corners lie in one cell.
+      if (corner > 0 && cell == last) continue;
+      last = cell;
+      const auto found = first_.find(hash_of(cell));
+      if (found == first_.end()) continue;
+      for (std::uint32_t i = found->second; i != none; i = next_[i])
+        if (is_near(points_[i])) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t few = 32;
+  static constexpr std::uint32_t none = ~0U;
+  using Cell = std::array<std::int64_t, std::size_t(Point::RowsAtCompileTime)>;
+
+  Cell cell_of(const Point& x) const {
+    Cell cell;
+    // The offset keeps round numbers off the borders of cells.
+    for (std::size_t k = 0; k < cell.size(); ++k)
+      cell[k] = static_cast<std::int64_t>(std::floor(x[Eigen::Index(k)] / (64 * distance_) + 0.3));
+    return cell;
+  }
+  static std::uint64_t hash_of(const Cell& cell) {
+    std::uint64_t hash = 0;
+    for (const std::int64_t c : cell) {
+      hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15U;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+  void put(std::uint32_t i) {
+    next_.resize(points_.size(), none);
+    const auto [at, is_new] = first_.try_emplace(hash_of(cell_of(points_[i])), i);
+    if (is_new) return;
+    next_[i] = at->second;
+    at->second = i;
+  }
+
+  const std::vector<Point>& points_;
+  double distance_;
+  std::unordered_map<std::uint64_t, std::uint32_t> first_;  // the last point of each cell
+  std::vector<std::uint32_t> next_;                         // the point of the same cell before it
+};
 
 /// The points converted to double, divided by a power of two (which is exact) so that the largest
 /// coordinate is of order one, and sorted in lexicographic order. A point closer to an earlier
@@ -77,10 +150,12 @@ struct HullInput {
         if (x[k] != y[k]) return x[k] < y[k];
       return a < b;
     });
+    NearPoints near(points, flat);
     for (const std::uint32_t i : order) {
-      if (has_neighbour(scaled[i])) continue;
+      if (near.has_neighbour(scaled[i])) continue;
       points.push_back(scaled[i]);
       labels.push_back(i);
+      near.add_last();
     }
   }
   /// Divides by `unit`. Coordinates below 2^-200 become zero. All coordinates are then multiples of
@@ -93,12 +168,6 @@ struct HullInput {
       scaled[k] = std::abs(coordinate) < std::ldexp(1.0, -200) ? 0.0 : coordinate;
     }
     return scaled;
-  }
-  bool has_neighbour(const Point& x) const {
-    for (auto y = points.rbegin(); y != points.rend() && x[0] - (*y)[0] <= flat; ++y) {
-      if ((x - *y).norm() <= flat) return true;
-    }
-    return false;
   }
 };
 

@@ -74,20 +74,35 @@ typename S::Scalar squared_distance(const VertexMatrix<S>& rows, Eigen::Index i,
 }
 
 /// The smallest distance between two of the rows, in their unit; infinite if there is only one row.
-/// The rows are sorted along x, so that few pairs have to be compared.
+/// The rows are sorted along an oblique direction, so that few pairs have to be compared. Along an
+/// axis many rows can have the same coordinate: the normals of a prism.
 template <class S>
 typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
   using T = typename S::Scalar;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(rows.rows()));
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
+  constexpr T direction[] = {T(0.8320502943), T(0.4803844614), T(0.2773500981)};  // unit
+  struct Entry {
+    T along;
+    Eigen::Index row;
+  };
+  std::vector<Entry> order(static_cast<std::size_t>(rows.rows()));
+  T size = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = {0, static_cast<Eigen::Index>(i)};
+    for (int k = 0; k < S::dim; ++k) {
+      order[i].along += direction[k] * rows(order[i].row, k);
+      size = std::max(size, std::abs(rows(order[i].row, k)));
+    }
+  }
+  const T rounding = 16 * std::numeric_limits<T>::epsilon() * size;
+  std::sort(order.begin(), order.end(), [](const Entry& a, const Entry& b) {
+    return a.along != b.along ? a.along < b.along : a.row < b.row;
+  });
   T least = std::numeric_limits<T>::infinity();
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const typename S::Vector here = row_of<S>(rows, order[i]);
+    const typename S::Vector here = row_of<S>(rows, order[i].row);
     for (std::size_t j = i + 1; j < order.size(); ++j) {
-      if (!(rows(order[j], 0) - here[0] < least)) break;
-      least = std::min(least, std::sqrt(squared_distance<S>(rows, order[j], here)));
+      if (!(order[j].along - order[i].along - rounding < least)) break;
+      least = std::min(least, std::sqrt(squared_distance<S>(rows, order[j].row, here)));
     }
   }
   return least;
