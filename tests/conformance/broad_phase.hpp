@@ -82,6 +82,32 @@ void check_special_boxes(B& tested) {
   check_pairs(tested, list);  // with boxes of zero thickness
 }
 
+/// Boxes of which a few are far away, along an axis or all axes, alone or in a pair that overlaps, or
+/// one is far larger than the others.
+template <class S, class B>
+void check_lost_boxes(B& tested, std::mt19937_64& random) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  for (const double distance : {1e2, 1e4, 1e6, 1e9, 1e12, 1e30})
+    for (int axis = -1; axis < S::dim; ++axis)
+      for (const int lost : {1, 2, 20}) {
+        auto list = random_boxes<S>(100, 4, 3, distance < 1e3 ? 1e3 : 0, random);
+        Vector far = Vector::Zero();
+        if (axis < 0)
+          far.setConstant(static_cast<T>(-distance));
+        else
+          far[axis] = static_cast<T>(lost == 2 ? -distance : distance);
+        for (std::size_t k = 0; k < std::size_t(lost); ++k) {
+          auto& box = list[5 * k];
+          box = {box.lower + far, box.upper + far};
+        }
+        check_pairs(tested, list);
+        list[50] = {Vector::Constant(static_cast<T>(-distance)),
+                    Vector::Constant(static_cast<T>(distance))};
+        check_pairs(tested, list);
+      }
+}
+
 template <class S, class B>
 requires moreau::BroadPhase<B, S>
 void broad_phase(B tested) {
@@ -93,6 +119,7 @@ void broad_phase(B tested) {
           check_pairs(tested, random_boxes<S>(count, span, ratio, origin, random));
   check_drifting_boxes<S>(tested, random);
   check_special_boxes<S>(tested);
+  check_lost_boxes<S>(tested, random);
 }
 
 }  // namespace conformance

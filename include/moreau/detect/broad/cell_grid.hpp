@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
+#include "moreau/detect/broad/detail/bulk.hpp"
 #include "moreau/detect/broad/detail/sort_pairs.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
@@ -18,6 +20,11 @@ namespace moreau {
 /// wide as the box. So a box spans at most two cells along each axis, of its own level and of each
 /// coarser level, and boxes of mixed sizes cost no more than boxes of equal size. The cost is O(n)
 /// as long as the number of boxes that overlap one box is bounded.
+///
+/// The cells of a level are laid out for the region in which most boxes are. A box far outside of it
+/// shares a bucket with cells of this region, which costs a comparison; so a grain that was lost does
+/// not make the cells of the others wider. A box that no level can hold, because it is infinite, is
+/// compared with all others; a box that is not a number overlaps none.
 ///
 /// The boxes are copied in the order of their cells. The cells of a row along the first axis follow
 /// one another in memory, so that the search reads whole rows.
@@ -32,23 +39,31 @@ class CellGrid {
   void find_pairs(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) {
     pairs.clear();
     if (boxes.empty()) return;
-    choose_levels(boxes);
+    choose_region(boxes);
     sort_into_cells(boxes);
     std::size_t end = 0;
     for (int own = 0; own < level_count_; ++own) {
       const std::size_t begin = end;
       end += level(own).count;
+      coarser_.clear();
+      for (int coarser = own + 1; coarser < level_count_ && begin < end; ++coarser)
+        if (level(coarser).count > 0) coarser_.push_back(coarser);
       for (std::size_t e = begin; e < end; ++e) {
         look_in_own(e, level(own), pairs);
-        for (int coarser = own + 1; coarser < level_count_; ++coarser)
-          if (level(coarser).count > 0) look_in_coarser(entries_[e], level(coarser), pairs);
+        for (const int coarser : coarser_) look_in_coarser(entries_[e], level(coarser), pairs);
       }
     }
+    compare_loose(boxes, pairs);
     sorter_.sort(pairs, boxes.size());
   }
 
  private:
-  static constexpr int max_levels = 24;
+  /// The finest level is for the smallest boxes, unless they are 2^-40 as wide as the widest box.
+  static constexpr int max_levels = 48, finest = 40;
+  static constexpr std::uint8_t no_level = 255;
+  /// Largest number of a cell, so that its edges are exact to a part of its width.
+  static constexpr Scalar most_cells =
+      Scalar(1 << (std::numeric_limits<Scalar>::digits < 32 ? 20 : 30));
   static constexpr std::size_t dim = S::dim;
   using Cell = std::array<std::int32_t, dim>;
 
@@ -57,7 +72,8 @@ class CellGrid {
   struct Level {
     Scalar width = 0;                         // of the cells [m]
     std::size_t count = 0;                    // boxes
-    Cell most{};                              // the largest number of a cell along each axis
+    Cell least{}, most{};                     // bounds of the numbers of cells along each axis
+    Cell first{}, last{};                     // of those of the boxes in the region
     std::array<std::uint32_t, dim> stride{};  // odd, so that rows rarely share buckets
     std::size_t begin = 0;                    // first bucket
     std::uint32_t mask = 0;                   // number of buckets - 1
@@ -72,56 +88,90 @@ class CellGrid {
   Level& level(int k) { return levels_[static_cast<std::size_t>(k)]; }
   static Scalar widest(const Aabb<S>& box) { return (box.upper - box.lower).maxCoeff(); }
 
-  void choose_levels(std::span<const Aabb<S>> boxes) {
-    origin_ = boxes[0].lower;
-    Vector far = boxes[0].upper;
-    Scalar smallest = widest(boxes[0]), largest = smallest;
+  /// Sets the region, which contains most boxes, and the width of the finest cells.
+  void choose_region(std::span<const Aabb<S>> boxes) {
+    Scalar smallest = std::numeric_limits<Scalar>::infinity(), largest = 0;
     for (const Aabb<S>& box : boxes) {
-      origin_ = origin_.cwiseMin(box.lower);
-      far = far.cwiseMax(box.upper);
+      if (!detail::is_regular(box)) continue;
       smallest = std::min(smallest, widest(box));
       largest = std::max(largest, widest(box));
     }
-    // The finest cells are at least 1/1024 as wide as the largest box, even if some boxes are
-    // smaller, so that there are few levels. They are also at least 2^-28 as wide as the extent of
-    // all boxes, so that cell numbers fit into a 32-bit integer.
-    const Scalar extent = (far - origin_).maxCoeff();
-    slack_ = Scalar(4) * std::numeric_limits<Scalar>::epsilon() *
-             std::max(origin_.cwiseAbs().maxCoeff(), far.cwiseAbs().maxCoeff());
-    Scalar width = std::max({smallest, largest / Scalar(1024), extent / Scalar(1 << 28)});
-    if (!(width > Scalar(0))) width = Scalar(1);
+    const Aabb<S> middle = detail::middle_of(boxes);
+    const Vector reach =
+        Vector::Constant(8 * (middle.upper - middle.lower).maxCoeff() + 16 * smallest);
+    const Aabb<S> window(middle.lower - reach, middle.upper + reach);
+    region_ = Aabb<S>{};
+    for (const Aabb<S>& box : boxes) {
+      if (!window.contains(box)) continue;
+      region_.merge(box.lower);
+      region_.merge(box.upper);
+    }
+    if (!(region_.lower[0] <= region_.upper[0])) region_ = Aabb<S>(Vector::Zero(), Vector::Zero());
+    Scalar width = std::max(smallest, std::ldexp(largest, -finest));
+    if (!(width > Scalar(0)) || !std::isfinite(width)) width = Scalar(1);
     level_count_ = 0;
-    do {
-      level(level_count_) = Level{};
-      level(level_count_++).width = width;
-      width *= Scalar(2);
-    } while (level(level_count_ - 1).width < largest && level_count_ < max_levels);
+    add_level(width);
+  }
+  void add_level(Scalar width) {
+    Level& added = level(level_count_++);
+    added = Level{};
+    added.width = width;
+    added.least.fill(std::numeric_limits<std::int32_t>::max());
+    added.most.fill(std::numeric_limits<std::int32_t>::min());
+    added.first = added.least;
+    added.last = added.most;
+  }
+  /// The first level whose cells are as wide as the box and whose numbers of cells reach to it.
+  std::uint8_t choose_level(const Aabb<S>& box) {
+    if (!detail::is_regular(box)) return no_level;
+    const Scalar wanted =
+        std::max(widest(box), (box.lower - region_.lower).cwiseAbs().maxCoeff() / most_cells);
+    for (int k = 0;; ++k) {
+      if (k == level_count_) {
+        if (k == max_levels) return no_level;
+        add_level(2 * level(k - 1).width);
+      }
+      if (!(level(k).width < wanted)) return static_cast<std::uint8_t>(k);
+    }
   }
 
   /// Fills entries_, sorted by bucket: a counting sort.
   void sort_into_cells(std::span<const Aabb<S>> boxes) {
     cells_.resize(boxes.size());
     level_of_.resize(boxes.size());
+    loose_.clear();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      int k = 0;
-      while (k + 1 < level_count_ && level(k).width < widest(boxes[i])) ++k;
-      level_of_[i] = static_cast<std::uint8_t>(k);
-      cells_[i] = cell(boxes[i].lower, level(k));
-      ++level(k).count;
-      for (std::size_t axis = 0; axis < dim; ++axis)
-        level(k).most[axis] = std::max(level(k).most[axis], cells_[i][axis]);
+      level_of_[i] = choose_level(boxes[i]);
+      if (level_of_[i] == no_level) {
+        if (!detail::has_nan(boxes[i])) loose_.push_back(static_cast<std::uint32_t>(i));
+        continue;
+      }
+      Level& own = levels_[level_of_[i]];
+      cells_[i] = cell(boxes[i].lower, own);
+      ++own.count;
+      const bool is_inside = region_.contains(boxes[i]);
+      for (std::size_t axis = 0; axis < dim; ++axis) {
+        const std::int32_t c = cells_[i][axis];
+        own.least[axis] = std::min(own.least[axis], c);
+        own.most[axis] = std::max(own.most[axis], c);
+        if (!is_inside) continue;
+        own.first[axis] = std::min(own.first[axis], c);
+        own.last[axis] = std::max(own.last[axis], c);
+      }
     }
     // Memory for all extents that boxes of this number can have.
     const std::size_t most = 8 * boxes.size() + 2 * max_levels;
     begin_.reserve(most);
     next_.reserve(most);
     begin_.assign(lay_out_buckets() + 1, 0);
-    for (std::size_t i = 0; i < boxes.size(); ++i) ++begin_[bucket_of(i) + 1];
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (level_of_[i] != no_level) ++begin_[bucket_of(i) + 1];
     for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
     next_.assign(begin_.begin(), begin_.end());
-    entries_.resize(boxes.size());
+    entries_.resize(begin_.back());
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      entries_[next_[bucket_of(i)]++] = {boxes[i], cells_[i], static_cast<std::uint32_t>(i)};
+      if (level_of_[i] != no_level)
+        entries_[next_[bucket_of(i)]++] = {boxes[i], cells_[i], static_cast<std::uint32_t>(i)};
   }
   /// @returns the number of all buckets
   std::size_t lay_out_buckets() {
@@ -132,8 +182,9 @@ class CellGrid {
       double cells = 1;
       for (std::size_t axis = 0; axis < dim; ++axis) {
         one.stride[axis] = stride;
-        stride *= static_cast<std::uint32_t>(one.most[axis] + 1) | 1U;
-        cells *= double(one.most[axis]) + 1;
+        const double across = std::max(double(one.last[axis]) - double(one.first[axis]) + 1, 1.0);
+        stride *= static_cast<std::uint32_t>(std::min(across, 0x1p31)) | 1U;
+        cells *= across;
       }
       const double wanted = std::clamp(cells, 1.0 * double(one.count), 4.0 * double(one.count));
       std::size_t buckets = 1;
@@ -151,7 +202,7 @@ class CellGrid {
     for (std::size_t k = 0; k < dim; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
       constexpr Scalar most = Scalar(1 << 30);  // boxes beyond share the outermost cells
-      const Scalar place = std::floor((x[axis] - origin_[axis]) / level.width);
+      const Scalar place = std::floor((x[axis] - region_.lower[axis]) / level.width);
       c[k] = static_cast<std::int32_t>(place > -most ? (place < most ? place : most) : -most);
     }
     return c;
@@ -170,10 +221,13 @@ class CellGrid {
   };
   Range range_of(const Aabb<S>& box, const Level& level) const {
     Vector reach = box.lower;
-    reach.array() -= level.width + slack_;
+    // What the rounding of coordinates can do to the extent of the other box.
+    const Scalar slack = Scalar(4) * std::numeric_limits<Scalar>::epsilon() *
+                         (box.lower.cwiseAbs().maxCoeff() + level.width);
+    reach.array() -= level.width + slack;
     Range range{cell(reach, level), cell(box.upper, level)};
     for (std::size_t k = 0; k < dim; ++k) {
-      range.from[k] = std::max(range.from[k], 0);
+      range.from[k] = std::max(range.from[k], level.least[k]);
       range.to[k] = std::min(range.to[k], level.most[k]);
     }
     return range;
@@ -247,6 +301,13 @@ class CellGrid {
     else
       look(0, from);
   }
+  /// Pairs of the boxes that are in no level with all others.
+  void compare_loose(std::span<const Aabb<S>> boxes, std::vector<IndexPair>& pairs) const {
+    for (const std::uint32_t a : loose_)
+      for (std::uint32_t b = 0; b < boxes.size(); ++b)
+        if (b != a && (level_of_[b] != no_level || a < b) && boxes[a].overlaps(boxes[b]))
+          pairs.push_back({std::min(a, b), std::max(a, b)});
+  }
   static void compare(const Entry& a, const Entry& b, std::vector<IndexPair>& pairs) {
     if (a.box.overlaps(b.box)) report(a, b, pairs);
   }
@@ -254,12 +315,13 @@ class CellGrid {
     pairs.push_back({std::min(a.index, b.index), std::max(a.index, b.index)});
   }
 
-  Vector origin_ = Vector::Zero();
-  Scalar slack_ = 0;  // bound of the rounding errors of coordinates [m]
+  Aabb<S> region_;  // its lower corner is the origin of the cells
   int level_count_ = 0;
   std::array<Level, max_levels> levels_{};
   std::vector<std::uint8_t> level_of_;
   std::vector<Cell> cells_;
+  std::vector<std::uint32_t> loose_;         // boxes that are in no level
+  std::vector<int> coarser_;                 // levels with boxes
   std::vector<std::uint32_t> begin_, next_;  // of every bucket in entries_
   std::vector<Entry> entries_;
   detail::PairSorter sorter_;

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "moreau/detect/broad/detail/bulk.hpp"
 #include "moreau/detect/broad/detail/sort_pairs.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
 namespace moreau {
 
-/// Sorts the boxes by their lower ends along the axis along which their centres are spread most
-/// (largest variance). Compares each box with the following boxes in this order, up to the first
+/// Sorts the boxes by their lower ends along the axis along which the middle three quarters of their
+/// centres are spread most; a few lost grains do not change the choice. Compares each box with the following boxes in this order, up to the first
 /// that begins above the end of the box. Suited to at most a few thousand boxes, of any mixture of
 /// sizes.
 template <class S>
@@ -44,30 +45,19 @@ class SweepAndPrune {
   };
 
   static Eigen::Index widest_axis(std::span<const Aabb<S>> boxes) {
-    using Vector = typename S::Vector;
-    Vector mean = Vector::Zero(), square = Vector::Zero();
-    const Vector origin = boxes[0].lower;
-    for (const Aabb<S>& box : boxes) {
-      for (int k = 0; k < S::dim; ++k) {
-        const Scalar center = (box.lower[k] - origin[k] + box.upper[k] - origin[k]) / 2;
-        mean[k] += center;
-        square[k] += center * center;
-      }
-    }
-    const auto count = static_cast<Scalar>(boxes.size());
+    const Aabb<S> middle = detail::middle_of(boxes);
     Eigen::Index axis = 0;
-    Vector variance;
-    for (int k = 0; k < S::dim; ++k) {
-      variance[k] = square[k] / count - mean[k] / count * (mean[k] / count);
-      if (variance[k] > variance[axis]) axis = k;
-    }
+    for (int k = 1; k < S::dim; ++k)
+      if (middle.upper[k] - middle.lower[k] > middle.upper[axis] - middle.lower[axis]) axis = k;
     return axis;
   }
 
   void sort_along(Eigen::Index axis, std::span<const Aabb<S>> boxes) {
     order_.clear();
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      order_.push_back({boxes[i].lower[axis], boxes[i].upper[axis], static_cast<std::uint32_t>(i)});
+      if (!detail::has_nan(boxes[i]))  // which overlaps none
+        order_.push_back(
+            {boxes[i].lower[axis], boxes[i].upper[axis], static_cast<std::uint32_t>(i)});
     std::sort(order_.begin(), order_.end(), [](const Entry& a, const Entry& b) {
       return a.lower != b.lower ? a.lower < b.lower : a.index < b.index;
     });
