@@ -113,7 +113,7 @@ class ConvexPair {
       return {point, count - 1, count - 1};
     };
     Lifted axis = start;
-    Simplex<T> simplex(support(axis));
+    Simplex<T> simplex(support(axis), size_);
     const Proximity proximity = gjk<T>(support, simplex, axis, margin, size_, all_steps);
     if (proximity == Proximity::touching) return false;
     found.gap = std::numeric_limits<T>::infinity();

@@ -45,10 +45,11 @@ Proximity gjk(const Support& support, Simplex<T>& simplex, typename Space<3, T>:
     axis = simplex.direction();
     const auto next = support(axis);
     const T s = axis.dot(next.point);
-    const T length2 = axis.squaredNorm();
-    if (s > T(0) && s * s > margin * margin * length2) return Proximity::beyond;
+    const T length2 = axis.squaredNorm(), unit = simplex.unit();
+    const auto squared = [unit](T x) { return unit * x * (unit * x); };
+    if (s > T(0) && squared(s) > squared(margin) * length2) return Proximity::beyond;
     const T gain = axis.dot(simplex[0].point) - s;
-    if (gain * gain <= negligible * negligible * length2 || gain < T(0) || simplex.contains(next))
+    if (squared(gain) <= squared(negligible) * length2 || gain < T(0) || simplex.contains(next))
       return Proximity::apart;
     const Step step = simplex.add(next);
     if (step == Step::enclosed) return Proximity::touching;

@@ -30,13 +30,23 @@ class Simplex {
   using Vector = typename Space<3, T>::Vector;
   using Point = DifferencePoint<Vector>;
 
-  explicit Simplex(const Point& p) : points_{p, p, p, p}, nearest_(p.point), direction_(p.point) {}
+  /// @param p     the first point
+  /// @param size  order of magnitude of the size of the shapes [m]
+  Simplex(const Point& p, T size)
+      : points_{p, p, p, p},
+        unit_(size > T(0) ? std::ldexp(T(1), -std::ilogb(size)) : T(1)),
+        nearest_(p.point),
+        direction_(p.point) {}
 
   int size() const { return size_; }
   const Point& operator[](int i) const { return points_[static_cast<std::size_t>(i)]; }
   const Vector& nearest() const { return nearest_; }
   const Vector& direction() const { return direction_; }
   T squared_distance() const { return nearest_.squaredNorm(); }
+  /// A power of two, about 1 / size [1/m]. Products of four and more lengths are computed of lengths
+  /// multiplied by it, which is exact, so that shapes of 1e-7 m and 1e7 m do not underflow or overflow
+  /// in single precision.
+  T unit() const { return unit_; }
   /// Whether the origin lies inside the hull, at least `depth` [m] from each face, and the hull is
   /// so thick that this result does not depend on rounding.
   bool holds_origin(T depth) const {
@@ -107,7 +117,7 @@ class Simplex {
 
   Vector to(const Vector& s, std::size_t i) const { return points_[i].point - s; }
   Vector normal(const Vector& s, std::size_t i, std::size_t j) const {
-    return to(s, i).cross(to(s, j));
+    return (unit_ * to(s, i)).cross(to(s, j));
   }
 
   Feature edge(const Vector& s, std::size_t i) const {
@@ -118,15 +128,15 @@ class Simplex {
     return {x, x, x.squaredNorm(), 2, i, 0};
   }
 
-  // The plane through an edge, perpendicular to the triangle, separates the triangle from the
+  // n is the normal times unit_. The plane through an edge, perpendicular to the triangle, separates the triangle from the
   // points that are beyond the edge. If the origin is beyond neither of the two edges at s, it
   // projects onto the face.
   Feature face(const Vector& s, std::size_t i, std::size_t j, const Vector& n) const {
     const T squared = n.squaredNorm();
     // If the points lie on a line to rounding, their normal consists of rounding errors.
     constexpr T parallel = T(1024) * std::numeric_limits<T>::epsilon();
-    const bool is_flat =
-        !(squared > parallel * parallel * to(s, i).squaredNorm() * to(s, j).squaredNorm());
+    const bool is_flat = !(squared > parallel * parallel * (unit_ * to(s, i)).squaredNorm() *
+                                         to(s, j).squaredNorm());
     const bool is_beyond_i = is_flat || n.cross(to(s, i)).dot(s) > T(0);
     const bool is_beyond_j = is_flat || n.cross(to(s, j)).dot(s) < T(0);
     if (is_beyond_i && is_beyond_j) {
@@ -150,7 +160,7 @@ class Simplex {
     bool is_outside = false;
     for (std::size_t k = 0; k < 3; ++k) {
       // The normal of the last side has the opposite orientation.
-      const T height = normals[k].dot(s) * (k == 2 ? -volume : volume);
+      const T height = unit_ * normals[k].dot(s) * (k == 2 ? -volume : volume);
       if (height < T(0)) continue;
       is_outside = true;
       const Feature candidate = face(s, sides[k][0], sides[k][1], normals[k]);
@@ -161,6 +171,7 @@ class Simplex {
 
   std::array<Point, 4> points_;
   int size_ = 1;
+  T unit_;
   Vector nearest_, direction_;
 };
 

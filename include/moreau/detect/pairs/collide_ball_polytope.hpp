@@ -87,7 +87,7 @@ PointDistance<Space<3, T>> nearest_outside(const Placed<Polyhedron<T>>& shape,
     return {x - shape.vertices()[i], i, 0};
   };
   Vector axis = above_face.outward;
-  Simplex<T> simplex(support(axis));
+  Simplex<T> simplex(support(axis), size);
   const Proximity proximity =
       gjk<T>(support, simplex, axis, std::numeric_limits<T>::infinity(), size, all_steps);
   // The point projects onto the rim of a face, or rounding decides whether it touches the

@@ -52,7 +52,7 @@ Proximity quick_proximity(const PolytopePair<Polyhedron<T>>& pair) {
   if (const T s = axis.dot(first.point);
       s > T(0) && s * s > pair.rounding() * pair.rounding() * axis.squaredNorm())
     return Proximity::beyond;
-  Simplex<T> simplex(first);
+  Simplex<T> simplex(first, pair.size);
   const auto proximity = gjk<T>([&](const Vector& n) { return pair.support(n); }, simplex, axis,
                                 pair.rounding(), pair.size, all_steps);
   if (proximity == Proximity::beyond) return proximity;

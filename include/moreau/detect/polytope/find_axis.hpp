@@ -243,7 +243,7 @@ template <std::floating_point T>
 FoundAxis<Space<3, T>> find_axis(const PolytopePair<Polyhedron<T>>& pair, T margin) {
   constexpr int first_steps = 2;
   const typename Space<3, T>::Vector start = pair.start();
-  PairGjk<T> gjk{pair, margin, Simplex<T>(pair.support(start)), start};
+  PairGjk<T> gjk{pair, margin, Simplex<T>(pair.support(start), pair.size), start};
   const T separation = start.dot(gjk.simplex[0].point);
   if (separation > T(0) && separation * separation > margin * margin * start.squaredNorm())
     return gjk.separating_axis();
