@@ -14,9 +14,6 @@ endif()
 if(NOT TARGET moreau_picture)
   list(FILTER headers EXCLUDE REGEX "moreau/io/(render_packing|write_picture|detail/rendering/.*)\\.hpp")
 endif()
-if(NOT TARGET moreau_mesh)
-  list(REMOVE_ITEM headers moreau/io/read_mesh.hpp)
-endif()
 set(units "")
 set(together "int main() {}\n")
 set(again "")
@@ -39,7 +36,6 @@ add_library(moreau_headers OBJECT EXCLUDE_FROM_ALL ${units})
 set_target_properties(moreau_headers PROPERTIES CXX_COMPILER_LAUNCHER ${PROJECT_SOURCE_DIR}/.cmake/check_syntax)
 target_link_libraries(moreau_headers PRIVATE moreau_development $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                              $<TARGET_NAME_IF_EXISTS:moreau_picture>
-                                             $<TARGET_NAME_IF_EXISTS:moreau_mesh>
                                              $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
 target_compile_options(moreau_headers PRIVATE -O0 -g0 -w)
 target_precompile_headers(moreau_headers PRIVATE <Eigen/Geometry>)
@@ -55,8 +51,7 @@ add_executable(moreau_headers_together EXCLUDE_FROM_ALL ${generated}/together.cp
 target_link_libraries(moreau_headers_together PRIVATE moreau_development
                                               $<TARGET_NAME_IF_EXISTS:moreau_hdf5>
                                               $<TARGET_NAME_IF_EXISTS:moreau_picture>
-                                              $<TARGET_NAME_IF_EXISTS:moreau_mesh>
-                                              $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
+                                               $<TARGET_NAME_IF_EXISTS:moreau_distributed>)
 target_compile_options(moreau_headers_together PRIVATE -O0 -g0)
 
 add_test(NAME source.headers COMMAND ${PROJECT_SOURCE_DIR}/.ci/check_headers)

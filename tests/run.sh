@@ -20,7 +20,7 @@ elif [[ $preset == release ]]; then
 fi
 
 .ci/require cmake g++ ninja-build pkg-config libeigen3-dev doctest-dev libcli11-dev \
-  nlohmann-json3-dev libbenchmark-dev libhdf5-dev libpng-dev libassimp-dev
+  nlohmann-json3-dev libbenchmark-dev libhdf5-dev libpng-dev
 case $preset in clang | asan) .ci/require clang libclang-rt-14-dev ;; esac
 # shellcheck disable=SC2086  # options, none of which holds a space
 cmake --preset "$preset" ${CMAKE_OPTIONS:-}

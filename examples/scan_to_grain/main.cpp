@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace {
 struct CommandLine {
   std::string file, output;
   double unit = 1, weld = -1;
-  bool orient = false, first_piece = false;
+  bool drop_flat = false, orient = false, first_piece = false, hull_only = false;
   std::size_t vertices = 0;
   DecompositionLimits limits;
   bool parts = false;
@@ -49,6 +50,29 @@ void append(std::string& text, const std::string& name, const moreau::Polyhedron
   vertices += part.vertex_count();
 }
 
+/// What the user can ask for if a mesh has a fault.
+const char* advice(moreau::MeshDefect defect) {
+  using moreau::MeshDefect;
+  switch (defect) {
+    case MeshDefect::degenerate:
+      return "ask for --weld with a small length or for --drop-flat";
+    case MeshDefect::open:
+      return "ask for --weld, if rims lie close together";
+    case MeshDefect::unoriented:
+    case MeshDefect::inside_out:
+      return "ask for --orient";
+    case MeshDefect::several_pieces:
+      return "ask for --first-piece";
+    default:
+      return "mend it in the program that made it";
+  }
+}
+
+[[noreturn]] void refuse(const CommandLine& line, const moreau::MeshFault& fault) {
+  throw std::invalid_argument(line.file + ": " + fault.message + ". To keep the shape, " +
+                              advice(fault.defect) + "; --hull makes the convex hull of any mesh");
+}
+
 moreau::TriangleMesh<> mended(const CommandLine& line) {
   moreau::TriangleMesh<> mesh = moreau::read_mesh(line.file, line.unit);
   std::printf("triangles            %zu\n", mesh.facets.size());
@@ -59,24 +83,33 @@ moreau::TriangleMesh<> mended(const CommandLine& line) {
     std::printf("welded               %zu vertices, %zu triangles removed\n",
                 report.merged_vertices, report.removed_facets);
   }
+  if (line.drop_flat)
+    std::printf("without an area      %zu triangles removed\n", moreau::drop_flat_triangles(mesh));
+  if (line.hull_only) return mesh;
   if (line.first_piece) {
     auto pieces = moreau::pieces_of(mesh);
     std::printf("pieces               %zu, the first is kept\n", pieces.size());
     mesh = pieces.at(0);
   }
-  if (line.orient) std::printf("turned               %zu triangles\n", moreau::orient(mesh));
-  moreau::require_solid(mesh, "scan_to_grain");
+  if (line.orient) {
+    const auto fault = moreau::find_solid_fault(mesh);
+    if (fault && fault->defect < moreau::MeshDefect::open) refuse(line, *fault);
+    std::printf("turned               %zu triangles\n", moreau::orient(mesh));
+  }
+  if (const auto fault = moreau::find_solid_fault(mesh)) refuse(line, *fault);
   return mesh;
 }
 
 void run(const CommandLine& line) {
   const moreau::TriangleMesh<> mesh = mended(line);
-  const auto mass = moreau::mass_properties(mesh, 1.0);
   const moreau::Polyhedron<> hull = moreau::hull_of_mesh(mesh);
+  const double of_mesh =
+      line.hull_only ? hull.volume() : double(moreau::mass_properties(mesh, 1.0).mass);
+  const char* whole = line.hull_only ? "hull" : "mesh";
   const auto worst = moreau::worst_concavity(mesh, hull);
-  std::printf("volume               %.6g m^3\n", mass.mass);
-  std::printf("hull                 %zu vertices, volume %.6g m^3 (%.3f of the mesh)\n",
-              hull.vertex_count(), hull.volume(), hull.volume() / mass.mass);
+  std::printf("volume               %.6g m^3\n", of_mesh);
+  std::printf("hull                 %zu vertices, volume %.6g m^3 (%.3f of the %s)\n",
+              hull.vertex_count(), hull.volume(), hull.volume() / of_mesh, whole);
   std::printf("worst concavity      %.6g m at triangle %zu\n", worst.depth, worst.facet);
 
   std::vector<moreau::Polyhedron<>> parts{hull};
@@ -86,8 +119,8 @@ void run(const CommandLine& line) {
     if (line.vertices > 0) part = simplify_hull(part, line.vertices).shape;
     volume += part.volume();
   }
-  std::printf("parts                %zu, volumes together %.3f of the mesh\n", parts.size(),
-              volume / mass.mass);
+  std::printf("parts                %zu, volumes together %.3f of the %s\n", parts.size(),
+              volume / of_mesh, whole);
   if (line.output.empty()) return;
   std::string text;
   std::size_t vertices = 0;
@@ -104,10 +137,14 @@ int main(int argc, char** argv) {
   app.add_option("file", line.file, "mesh: .obj, .stl or .ply")->required();
   app.add_option("--unit", line.unit, "length of one unit of the file [m]")->required();
   app.add_option("--weld", line.weld, "join vertices closer together than this [m]");
+  app.add_flag("--drop-flat", line.drop_flat, "remove triangles without an area");
   app.add_flag("--orient", line.orient, "turn triangles whose outside is inside");
   app.add_flag("--first-piece", line.first_piece, "keep the first connected piece");
   app.add_option("--vertices", line.vertices, "keep at most this number of vertices of each part");
-  app.add_flag("--parts", line.parts, "divide the grain into convex parts (by HACD)");
+  CLI::Option* hull = app.add_flag("--hull", line.hull_only,
+                                   "make the convex hull only: the mesh may have any fault");
+  app.add_flag("--parts", line.parts, "divide the grain into convex parts (by HACD)")
+      ->excludes(hull);
   app.add_option("--least-parts", line.limits.parts, "least number of parts");
   app.add_option("--concavity", line.limits.concavity,
                  "divide parts that are deeper than this fraction of the size");

@@ -101,8 +101,11 @@ TEST_CASE("bad texts are refused by name") {
         self + "W(1, 1) = -1 must be finite, and >= 0 on the diagonal");
   CHECK(error_of("2 1 0 2 2 2 2 1 0 0 1 -1 0 -0.3") ==
         self + "mu[0] = -0.3 must be finite and >= 0");
-  CHECK(error_of("2 2 0 2 2 2 2 1 0 0 1 -1 0 0.3 0.3") ==
-        self + "W.rows() = 2 must be D times the contacts");
+  CHECK(
+      error_of("2 2 0 2 2 2 2 1 0 0 1 -1 0 0.3 0.3") ==
+      self +
+          "rows of W = 2 must be D times the contacts, 4; a global problem (M, H, q, b, mu) is not "
+          "read from text: save it with FCLIB");
   CHECK(error_of("2 1 0 2000000000 2000000000 2000000000 2000000000 1").find("W = ") !=
         std::string::npos);
   CHECK(error_of("2 1 1 2 2 1 1 1 2 2 2 1 0 9 0 0 1 0 0 1 -1 0 0.3").find("index1") !=
@@ -144,4 +147,47 @@ TEST_CASE("a file cut before its last coefficient of friction is refused, never 
                        doctest::Contains("missing': No such file or directory"), std::system_error);
   CHECK_THROWS_WITH_AS(read_siconos_text(temporary / ""), doctest::Contains("Is a directory"),
                        std::system_error);
+}
+
+TEST_CASE("a global problem is refused, whatever its size and storage") {
+  const auto matrix = [](int storage, int rows, int columns) {
+    const std::string r = std::to_string(rows), c = std::to_string(columns);
+    std::string text = std::to_string(storage) + "\n" + r + "\n" + c + "\n";
+    if (storage == 0) {
+      text += r + " " + c + "\n";
+      for (int k = 0; k < rows * columns; ++k) text += k % (rows + 1) == 0 ? "1 " : "0 ";
+    } else {
+      const std::string entries = std::to_string(std::min(rows, columns));
+      text += "1\nCSparse\ntriplet: " + r + "-by-" + c + ", nzmax: " + entries +
+              " nnz: " + entries + "\n";
+      for (int k = 0; k < std::min(rows, columns); ++k)
+        text += std::to_string(k) + " " + std::to_string(k) + " : 1\n";
+    }
+    return text + "\n";
+  };
+  const auto numbers = [](int count) {
+    std::string text;
+    for (int k = 0; k < count; ++k) text += "0.25 ";
+    return text + "\n";
+  };
+  for (const int dimension : {2, 3})
+    for (const int contacts : {1, 2, 5})
+      for (const int freedoms : {2, 3, 4, 6, 10, 12, 15})
+        for (const int storage : {0, 2}) {
+          const int rows = dimension * contacts;
+          const std::string head =
+              std::to_string(dimension) + "\n" + std::to_string(contacts) + "\n";
+          const std::string global = head + matrix(storage, freedoms, freedoms) +
+                                     matrix(storage, freedoms, rows) + numbers(freedoms) +
+                                     numbers(rows) + numbers(contacts);
+          CAPTURE(global);
+          CHECK(error_of(global).find("a global problem (M, H, q, b, mu) is not read") !=
+                std::string::npos);
+          const std::string local = head + matrix(storage, rows, rows) + numbers(rows);
+          CHECK(error_of(local + numbers(contacts)).empty());
+          CHECK(error_of(local + numbers(contacts) + "1\n").empty());
+        }
+  // A velocity that looks like the head of a matrix is none.
+  CHECK(error_of("2 1 0 2 2 2 2 1 0 0 1  2 2 0.5  1").empty());
+  CHECK(error_of("2 2 0 4 4 4 4 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1  0 4 4 4 0.5 0.5 1").empty());
 }

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Meshes from OBJ, STL and PLY files, by the library assimp.
+// Meshes from OBJ, STL and PLY files. No library is needed.
 //
-// It needs assimp (CMake: moreau::mesh; else -lassimp). Polygons of a file are divided into
-// triangles. Vertices at the same position become one vertex, because an STL file repeats the
-// corners of each triangle; nothing else is changed. Assimp holds coordinates in single precision.
+// Polygons of a file are divided into triangles. Corners at the same position become one corner,
+// because an STL file repeats the corners of each triangle; nothing else is changed. The vertices of an
+// OBJ or PLY file keep their numbers, counted from 0: of vertices at the same position, triangles have
+// the first. The vertices of an STL file are numbered as they come.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +20,13 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/io/detail/input_file.hpp"
+#include "moreau/io/detail/mesh_file.hpp"
+#include "moreau/io/detail/read_obj.hpp"
+#include "moreau/io/detail/read_ply.hpp"
+#include "moreau/io/detail/read_stl.hpp"
 #include "moreau/shape/facet_mesh.hpp"
+#include "moreau/shape/repair_mesh.hpp"
 
 namespace moreau {
 
@@ -37,72 +39,75 @@ struct MeshGroup {
 
 namespace detail {
 
-/// Appends what assimp has read to a mesh; vertices at the same position become one.
-template <std::floating_point T>
-class MeshCollector {
- public:
-  explicit MeshCollector(T unit) : unit_(unit) {}
-
-  /// @throws std::runtime_error for a face that is a point or a line, or that has a corner that does
-  ///                            not exist
-  void add(const aiMesh& from, const std::string& path) {
-    std::vector<std::uint32_t> number(from.mNumVertices);
-    for (unsigned v = 0; v < from.mNumVertices; ++v) number[v] = vertex(from.mVertices[v]);
-    for (unsigned f = 0; f < from.mNumFaces; ++f) {
-      const aiFace& face = from.mFaces[f];
-      if (face.mNumIndices != 3)
-        throw std::runtime_error(path + ": face " + std::to_string(f) + " has " +
-                                 std::to_string(face.mNumIndices) +
-                                 " corners: points and lines bound no solid");
-      auto& corners = mesh.facets.emplace_back();
-      for (unsigned k = 0; k < 3; ++k) {
-        if (face.mIndices[k] >= number.size())
-          throw std::runtime_error(path + ": face " + std::to_string(f) + " has the corner " +
-                                   std::to_string(face.mIndices[k]) + " of " +
-                                   std::to_string(number.size()) + " vertices");
-        corners[k] = number[face.mIndices[k]];
-      }
-    }
-  }
-
-  /// @throws std::runtime_error if single precision does not hold the shape
-  void require_near_origin(const std::string& path) const {
-    const T size = size_of(mesh), far = largest_coordinate(mesh);
-    if (far <= T(1e4) * size || !(size > 0)) return;
-    std::ostringstream message;
-    message << path << ": the mesh has a size of " << size << " m and coordinates up to " << far
-            << " m, of which the reader keeps seven digits: move it to the origin";
-    throw std::runtime_error(message.str());
-  }
-
-  TriangleMesh<T> mesh;
-
- private:
-  std::uint32_t vertex(const aiVector3D& x) {
-    const std::array<float, 3> key{x.x + 0.f, x.y + 0.f, x.z + 0.f};  // -0 is 0
-    const bool is_number = std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
-    const auto next = std::uint32_t(mesh.vertices.size());
-    const auto found = is_number ? numbers_.try_emplace(key, next).first->second : next;
-    if (found == next) mesh.vertices.push_back({unit_ * T(x.x), unit_ * T(x.y), unit_ * T(x.z)});
-    return found;
-  }
-
-  T unit_;
-  std::map<std::array<float, 3>, std::uint32_t> numbers_;
-};
-
-/// Reads a file and calls use(aiMesh) for each of its groups.
-template <class Use>
-void for_each_group(const std::filesystem::path& path, const char* function, const Use& use) {
-  std::string kind = path.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+/// Reads a file, in its own unit.
+/// @throws std::runtime_error naming the file
+inline MeshFile read_mesh_file(const std::filesystem::path& path, const char* function) {
+  const std::string kind = lower_case(path.extension().string());
   require(kind == ".obj" || kind == ".stl" || kind == ".ply", function, "path", path.string(),
           "must end in .obj, .stl or .ply");
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
-  if (scene == nullptr) throw std::runtime_error(path.string() + ": " + importer.GetErrorString());
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) use(*scene->mMeshes[m]);
+  const std::string bytes = read_file(path, function);
+  try {
+    if (bytes.empty()) throw std::runtime_error("the file is empty");
+    MeshFile file = kind == ".obj"   ? read_obj(bytes)
+                    : kind == ".stl" ? read_stl(bytes)
+                                     : PlyReader::read(bytes);
+    if (file.triangles.empty())
+      throw std::runtime_error("the file has " + std::to_string(file.vertices.size()) +
+                               " vertices, but no triangle");
+    return file;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
+/// Lets corners at the same position have the same number: the first. The vertices of a file that
+/// does not number them are renumbered without gaps.
+inline void merge_corners(MeshFile& file) {
+  std::map<std::array<double, 3>, std::uint32_t> numbers;
+  std::vector<std::uint32_t> number(file.vertices.size());
+  std::vector<Eigen::Vector3d> kept;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    const Eigen::Vector3d& x = file.vertices[v];
+    const auto next = std::uint32_t(file.has_numbered_vertices ? v : kept.size());
+    // The sum turns -0 into 0.
+    const auto [at, is_new] = numbers.try_emplace({x[0] + 0.0, x[1] + 0.0, x[2] + 0.0}, next);
+    number[v] = at->second;
+    if (is_new || file.has_numbered_vertices) kept.push_back(x);
+  }
+  file.vertices = std::move(kept);
+  for (auto& triangle : file.triangles)
+    for (std::uint32_t& v : triangle) v = number[v];
+}
+
+/// @throws std::runtime_error if the digits of the file do not hold the shape
+template <std::floating_point T>
+void require_near_origin(const TriangleMesh<T>& mesh, int digits, const std::string& path) {
+  const int kept = std::min(digits, std::numeric_limits<T>::digits10);
+  const T size = size_of(mesh), far = largest_coordinate(mesh);
+  if (far <= T(std::pow(10., std::max(kept, 7) - 3)) * size || !(size > 0)) return;
+  std::ostringstream message;
+  message << path << ": the mesh has a size of " << size << " m and coordinates up to " << far
+          << " m, of which " << kept << " digits are known: move it to the origin";
+  throw std::runtime_error(message.str());
+}
+
+/// The triangles of a group of a file, or of all groups.
+/// @param group its number; none: all
+template <std::floating_point T>
+TriangleMesh<T> mesh_of_file(const MeshFile& file, T unit, const std::string& path,
+                             std::uint32_t group = ~0U) {
+  TriangleMesh<T> mesh;
+  for (const Eigen::Vector3d& x : file.vertices) {
+    mesh.vertices.push_back((double(unit) * x).template cast<T>());
+    if (!mesh.vertices.back().allFinite())
+      throw std::runtime_error(path + ": vertex " + std::to_string(mesh.vertices.size() - 1) +
+                               " is too large for the scalar type");
+  }
+  for (std::size_t t = 0; t < file.triangles.size(); ++t)
+    if (group == ~0U || file.group_of[t] == group) mesh.facets.push_back(file.triangles[t]);
+  if (group != ~0U) drop_unused_vertices(mesh);
+  require_near_origin(mesh, file.digits, path);
+  return mesh;
 }
 
 template <std::floating_point T>
@@ -114,40 +119,39 @@ void require_unit(T unit, const char* function) {
 
 /// Reads all groups of a file into one mesh. The mesh is not checked: call require_solid() or
 /// require_surface() (shape/check_mesh.hpp), and the repairs of shape/repair_mesh.hpp before, if
-/// they are wanted.
+/// they are wanted. Given the path as the name of the function, their messages name the file.
 /// @param path of an .obj, .stl or .ply file
 /// @param unit length of one unit of the file [m]: 1e-3 for a file in millimetres
-/// @returns the mesh in the frame of the file [m], triangles in the order of the file
+/// @returns the mesh in the frame of the file [m], vertices and triangles in the order of the file
 /// @throws std::invalid_argument for another kind of file, or a unit that is not finite and positive
-/// @throws std::runtime_error naming the file if it cannot be read, or if the mesh is farther from the
-///         origin than ten thousand times its size: the reader keeps single precision
+/// @throws std::runtime_error naming the file, and the line, triangle or vertex, if it cannot be read,
+///         is damaged, has no triangle or a coordinate that is not finite, or if the mesh is farther
+///         from its origin than its digits allow: ten thousand times its size with seven digits
 template <std::floating_point T>
 TriangleMesh<T> read_mesh(const std::filesystem::path& path, T unit) {
   detail::require_unit(unit, "read_mesh");
-  detail::MeshCollector<T> all(unit);
-  detail::for_each_group(path, "read_mesh",
-                         [&](const aiMesh& group) { all.add(group, path.string()); });
-  all.require_near_origin(path.string());
-  return std::move(all.mesh);
+  detail::MeshFile file = detail::read_mesh_file(path, "read_mesh");
+  detail::merge_corners(file);
+  return detail::mesh_of_file<T>(file, unit, path.string());
 }
 
 /// Reads each group or object of a file into a mesh of its own: the convex parts of a concave grain
 /// that another program has made.
-/// @param path of an .obj, .stl or .ply file; only .obj files have several groups. Their names must
-///             differ: assimp gives the triangles of a name that comes again to another group. A group
-///             with several materials is several groups, named after these
+/// @param path of an .obj, .stl or .ply file; a PLY file has one group. Groups of the same name are
+///             one group
 /// @param unit length of one unit of the file [m]
+/// @returns the groups with triangles, in the order of the file; each has the vertices of its own
 /// @throws std::invalid_argument, std::runtime_error as read_mesh()
 template <std::floating_point T>
 std::vector<MeshGroup<T>> read_mesh_groups(const std::filesystem::path& path, T unit) {
   detail::require_unit(unit, "read_mesh_groups");
+  detail::MeshFile file = detail::read_mesh_file(path, "read_mesh_groups");
+  detail::merge_corners(file);
   std::vector<MeshGroup<T>> groups;
-  detail::for_each_group(path, "read_mesh_groups", [&](const aiMesh& group) {
-    detail::MeshCollector<T> part(unit);
-    part.add(group, path.string());
-    part.require_near_origin(path.string());
-    groups.push_back({group.mName.C_Str(), std::move(part.mesh)});
-  });
+  for (std::uint32_t g = 0; g < file.groups.size(); ++g) {
+    TriangleMesh<T> mesh = detail::mesh_of_file<T>(file, unit, path.string(), g);
+    if (!mesh.facets.empty()) groups.push_back({file.groups[g], std::move(mesh)});
+  }
   return groups;
 }
 

@@ -5,10 +5,9 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -18,6 +17,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/io/detail/input_file.hpp"
+#include "moreau/io/detail/parse_number.hpp"
 #include "moreau/io/friction_file.hpp"
 
 namespace moreau {
@@ -39,7 +39,7 @@ class TextScanner {
   double number(std::string_view name) {
     const std::string_view next = word();
     double value = 0;
-    if (!parse(next, value) || !std::isfinite(value))
+    if (!parse_number(next, value) || !std::isfinite(value))
       throw_invalid(function_, name, shown(next), "must be a finite number");
     return value;
   }
@@ -47,7 +47,7 @@ class TextScanner {
     std::string_view next = word();
     if (next.ends_with(',')) next.remove_suffix(1);
     double value = 0;  // large indices may be printed as 1e+06
-    if (!parse(next, value) || value != std::floor(value) ||
+    if (!parse_number(next, value) || value != std::floor(value) ||
         !(value >= least && value < 2147483647.))
       throw_invalid(function_, name, shown(next), "must be an integer >= " + std::to_string(least));
     return static_cast<int>(value);
@@ -67,33 +67,6 @@ class TextScanner {
   std::string_view function() const { return function_; }
 
  private:
-  /// The word in a form that can be printed: at most 32 characters, with ? in place of characters
-  /// that are not printable. This is needed because the file may be binary.
-  static std::string shown(std::string_view word) {
-    constexpr std::size_t most = 32;
-    std::string text(word.substr(0, most));
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return word.size() > most ? text + "..." : text;
-  }
-  static bool parse(std::string_view word, double& value) {
-    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-#if defined(__cpp_lib_to_chars)
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size()) return false;
-    if (error == std::errc::result_out_of_range)  // 1e-400 is 0, 1e400 is inf
-      value = std::strtod(std::string(word).c_str(), nullptr);
-    return error == std::errc() || error == std::errc::result_out_of_range;
-#else  // libc++ before version 20. strtod also reads a second '+' and hexadecimal numbers.
-    const std::string text(word);
-    if (text.empty() || text.front() == '+' || text.find_first_of("xX") != std::string::npos)
-      return false;
-    char* end = nullptr;
-    value = std::strtod(text.c_str(), &end);
-    return end == text.c_str() + text.size();
-#endif
-  }
-
   std::string_view text_, function_;
   std::size_t at_ = 0;
 };
@@ -220,9 +193,36 @@ inline void scan_sparse(TextScanner& scan, TextMatrix& raw) {
   }
 }
 
+/// A global problem begins with M, which has a row per degree of freedom of the bodies.
+inline void require_local_size(std::string_view function, std::int64_t wanted, int rows) {
+  if (rows != wanted)
+    throw_invalid(
+        function, "rows of W", rows,
+        "must be D times the contacts, " + std::to_string(wanted) +
+            "; a global problem (M, H, q, b, mu) is not read from text: save it with FCLIB");
+}
+/// In a global problem whose M happens to have the size of W, the matrix H follows: its storage, rows
+/// and columns, and many more numbers than q and mu have.
+inline void require_no_second_matrix(TextScanner scan, int rows, int contacts) {
+  const std::string_view storage = scan.word();
+  const std::string size = std::to_string(rows);
+  const bool is_head = (storage == "0" || storage == "1" || storage == "2") &&
+                       scan.word() == size && scan.word() == size;
+  if (!is_head) return;
+  const std::int64_t of_local = std::int64_t(rows) + contacts + 1;  // q, mu and a flag
+  std::int64_t words = 3;
+  while (words <= of_local && !scan.word().empty()) ++words;
+  if (words > of_local)
+    throw_invalid(
+        scan.function(), "matrix after W", size + " x " + size,
+        "must not exist: a global problem (M, H, q, b, mu) is not read from text; save it "
+        "with FCLIB");
+}
+
 }  // namespace detail
 
-/// Reads a contact problem from a text, in the units of the text. Text after mu is ignored, because
+/// Reads a local contact problem from a text, in the units of the text; a global problem, of the
+/// matrices M and H, is refused. Text after mu is ignored, because
 /// many files have a flag there. A text that is truncated inside its last number is accepted,
 /// because some files have no line break at the end.
 /// @throws std::invalid_argument naming the first error if the text is not a valid problem
@@ -237,6 +237,7 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
   detail::TextMatrix w;
   w.rows = scan.integer("rows of W");
   w.columns = scan.integer("columns of W");
+  detail::require_local_size(self, std::int64_t(raw.rows_per_contact) * contacts, w.rows);
   require(w.columns == w.rows, self, "columns of W", w.columns, "must be as many as its rows");
   switch (storage) {
     case dense:
@@ -251,6 +252,7 @@ inline AnyFrictionProblem parse_siconos_text(std::string_view text) {
     default:
       throw_invalid(self, "storage of W", storage, "must be 0, 1 or 2");
   }
+  detail::require_no_second_matrix(scan, w.rows, contacts);
   raw.free_velocity = detail::scan_numbers(scan, std::size_t(w.rows), "q");
   raw.friction = detail::scan_numbers(scan, std::size_t(contacts), "mu");
   raw.delassus = detail::checked_matrix(w.rows, w.columns, w.entries, self, "W");

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// What the readers of mesh files share: the words of a text, and the triangles that a file holds.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "moreau/io/detail/parse_number.hpp"
+
+namespace moreau::detail {
+
+/// The content of a mesh file, in its own unit.
+struct MeshFile {
+  using Triangle = std::array<std::uint32_t, 3>;  ///< indices of the corners
+  std::vector<Eigen::Vector3d> vertices;          ///< in the order of the file
+  std::vector<Triangle> triangles;                ///< in the order of the file
+  std::vector<std::uint32_t> group_of;            ///< of each triangle
+  std::vector<std::string> groups;                ///< their names, in the order of the file
+  /// Significant digits of the coordinates: 7 of a binary file of floats, of a text the most that it
+  /// has written.
+  int digits = 0;
+  bool has_numbered_vertices = true;  ///< false for STL, which repeats the corners
+
+  void add_triangle(const Triangle& corners) {
+    if (groups.empty()) groups.emplace_back();
+    triangles.push_back(corners);
+    group_of.push_back(current_group);
+  }
+  /// Later triangles belong to this group; a name that comes again is the same group.
+  void begin_group(std::string_view name) {
+    const auto at = std::find(groups.begin(), groups.end(), name);
+    current_group = static_cast<std::uint32_t>(at - groups.begin());
+    if (at == groups.end()) groups.emplace_back(name);
+  }
+  void add_polygon(std::span<const std::uint32_t> corners);
+
+  std::uint32_t current_group = 0;
+};
+
+/// Divides a plane polygon into triangles: cuts off corners that turn to the left and contain no
+/// other corner. Corners on a straight line are not cut off by themselves.
+inline void MeshFile::add_polygon(std::span<const std::uint32_t> corners) {
+  if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
+  std::vector<std::uint32_t> ring(corners.begin(), corners.end());
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t k = 2; k < ring.size(); ++k)
+    normal +=
+        (vertices[ring[k - 1]] - vertices[ring[0]]).cross(vertices[ring[k]] - vertices[ring[0]]);
+  const double flat = 1e-12 * normal.norm();
+  const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return normal.normalized().dot((vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]));
+  };
+  while (ring.size() > 3) {
+    const std::size_t n = ring.size();
+    std::size_t ear = n;
+    for (std::size_t k = 0; k < n && ear == n; ++k) {
+      const std::uint32_t a = ring[(k + n - 1) % n], b = ring[k], c = ring[(k + 1) % n];
+      if (!(turn(a, b, c) > flat)) continue;
+      const bool is_empty = std::none_of(ring.begin(), ring.end(), [&](std::uint32_t x) {
+        return x != a && x != b && x != c && turn(a, b, x) >= 0 && turn(b, c, x) >= 0 &&
+               turn(c, a, x) >= 0;
+      });
+      if (is_empty) ear = k;
+    }
+    if (ear == n) ear = 1;  // not plane, or it crosses itself: the checks of meshes judge it
+    add_triangle({ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]});
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  add_triangle({ring[0], ring[1], ring[2]});
+}
+
+/// The words of a text, with the numbers of their lines.
+class MeshWords {
+ public:
+  /// @throws std::runtime_error for a text in UTF-16 and for binary data
+  explicit MeshWords(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
+      throw std::runtime_error("the text is in UTF-16: save it in UTF-8");
+    const auto zero = text_.find('\0');
+    if (zero == std::string_view::npos) return;
+    throw std::runtime_error("byte " + std::to_string(zero) +
+                             " is 0: the file is no text, or a text in UTF-16 (save it in UTF-8)");
+  }
+
+  /// The next word, empty at the end of the text.
+  std::string_view next() {
+    skip_blanks(" \t\r\f\v\n");
+    return take();
+  }
+  /// The next word of the line, empty at its end. A backslash at the end continues the line.
+  std::string_view next_of_line() {
+    skip_blanks(" \t\r\f\v");
+    while (at_ < text_.size() && text_[at_] == '\\' && is_line_end(at_ + 1)) {
+      ++at_;
+      skip_blanks(" \t\r\f\v\n");
+    }
+    if (at_ < text_.size() && text_[at_] == '\n') return {};
+    return take();
+  }
+  /// The rest of the line, without blanks around it; goes to the next line.
+  std::string_view rest_of_line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view rest = text_.substr(at_, end - at_);
+    at_ = end;
+    while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+    while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+    return rest;
+  }
+  bool is_at_end() {
+    skip_blanks(" \t\r\f\v\n");
+    return at_ == text_.size();
+  }
+  std::string_view rest() const { return text_.substr(at_); }
+
+  /// @throws std::runtime_error always, naming the line
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error("line " + std::to_string(line_) + ": " + what);
+  }
+  /// A finite number; counts its digits.
+  double number(std::string_view word, int& digits) const {
+    double value = 0;
+    if (word.empty()) fail("a number is missing");
+    if (!parse_number(word, value)) fail("'" + shown(word) + "' must be a number");
+    if (!std::isfinite(value)) fail("the coordinate " + shown(word) + " must be finite");
+    int count = 0;
+    for (const char c : word.substr(0, word.find_first_of("eE")))
+      if (std::isdigit(static_cast<unsigned char>(c)) != 0 && (count > 0 || c != '0')) ++count;
+    digits = std::max(digits, count);
+    return value;
+  }
+
+ private:
+  static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+  }
+  bool is_line_end(std::size_t at) const {
+    while (at < text_.size() && is_blank(text_[at])) ++at;
+    return at == text_.size() || text_[at] == '\n';
+  }
+  void skip_blanks(std::string_view blanks) {
+    for (; at_ < text_.size() && blanks.find(text_[at_]) != std::string_view::npos; ++at_)
+      line_ += std::size_t(text_[at_] == '\n');
+  }
+  std::string_view take() {
+    const std::size_t end = std::min(text_.find_first_of(" \t\r\f\v\n", at_), text_.size());
+    const std::string_view word = text_.substr(at_, end - at_);
+    at_ = end;
+    return word;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0, line_ = 1;
+};
+
+/// A word in lower case.
+inline std::string lower_case(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace moreau::detail
