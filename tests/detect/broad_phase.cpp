@@ -108,7 +108,6 @@ TEST_CASE_TEMPLATE("a lost box costs nothing", S, Space<2>, Space<3>, Space<3, f
 
 TEST_CASE_TEMPLATE("boxes that are infinite or not numbers", S, Space<2>, Space<3, float>) {
   using T = typename S::Scalar;
-  using Vector = typename S::Vector;
   const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
   CellGrid<S> grid;
   SweepAndPrune<S> sweep;
