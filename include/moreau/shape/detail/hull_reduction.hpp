@@ -73,9 +73,9 @@ class HullReduction {
  private:
   static constexpr std::uint32_t none = ~0U;
   /// A vertex with no more neighbours is weighed after each change of its neighbours, another one
-  /// after `patience`th of its neighbours have changed, and before it is removed: so the tip of a
+  /// after a sixteenth of its neighbours have changed, and before it is removed: so the tip of a
   /// pyramid of n sides is not weighed n times.
-  static constexpr std::uint32_t few = 32, patience = 16;
+  static constexpr std::uint32_t few = 32, part = 16;
 
   struct Vertex {
     std::uint32_t triangle = none;  ///< one of its triangles; none if it is not on the hull
@@ -98,7 +98,7 @@ class HullReduction {
   void note_change(std::uint32_t v) {
     Vertex& vertex = vertices_[v];
     ++vertex.changes;
-    if (vertex.degree <= few || vertex.changes * patience >= vertex.degree) weigh(v);
+    if (vertex.degree <= few || vertex.changes * part >= vertex.degree) weigh(v);
   }
   void weigh(std::uint32_t v) {
     find_star(v);
