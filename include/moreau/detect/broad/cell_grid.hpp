@@ -41,6 +41,7 @@ class CellGrid {
     if (boxes.empty()) return;
     choose_region(boxes);
     sort_into_cells(boxes);
+    coarser_.reserve(max_levels);
     std::size_t end = 0;
     for (int own = 0; own < level_count_; ++own) {
       const std::size_t begin = end;
