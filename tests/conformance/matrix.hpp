@@ -83,6 +83,11 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
     const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
     world(shapes, moreau::Cohesive<moreau::RollingResistance<T>>(rolling, T(1e-3)), size);
   }
+  SUBCASE("Cohesive holds grains together") {
+    using Law = moreau::Cohesive<moreau::SignoriniCoulomb<T>>;
+    hang(
+        shapes, [&](T attraction) { return Law(coulomb, attraction); }, size);
+  }
   SUBCASE("LinearSpringDashpot") {
     world(shapes, conformance::stiff_springs<T>(mass), size);
   }

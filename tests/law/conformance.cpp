@@ -124,7 +124,7 @@ TEST_CASE("what is out of range is named") {
                        std::invalid_argument);
   CHECK_THROWS_WITH(SignoriniCoulomb<>(0.4, 0, 0.3), Contains("static_friction = 0.3"));
   CHECK_THROWS_WITH(Cohesive<>(SignoriniCoulomb<>(), -1), Contains("Cohesive: adhesion = -1"));
-  CHECK_THROWS_WITH(Cohesive<>(SignoriniCoulomb<>(), 1, -1), Contains("Cohesive: range = -1"));
+  CHECK_THROWS_WITH(Cohesive<>(SignoriniCoulomb<>(), 1, 0), Contains("Cohesive: range = 0"));
   CHECK_THROWS_WITH(RollingResistance<>(0.1, -1), Contains("RollingResistance: rolling = -1"));
   CHECK_THROWS_WITH(LinearSpringDashpot<>(0), Contains("LinearSpringDashpot: stiffness = 0"));
   CHECK_THROWS_WITH(LinearSpringDashpot<>(1, -1), Contains("tangential_stiffness = -1"));

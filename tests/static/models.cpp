@@ -35,6 +35,8 @@ static_assert(std::convertible_to<Space<3>::Vector, VectorArgument<Space<3>>>);
 static_assert(!std::convertible_to<Space<2>::Vector, VectorArgument<Space<3>>>);
 static_assert(std::convertible_to<double, AngularArgument<Space<2>>>);
 static_assert(std::same_as<VectorArgument<Space<2>>, Components<2, double>>);
+// What a function returns can be stored with auto: its operators compute at once.
+static_assert(std::same_as<decltype(Value<Space<3>::Vector>() / 2), Value<Space<3>::Vector>>);
 // An id of one kind of objects is not an id of another kind.
 static_assert(!std::convertible_to<BodyId, ShapeId> && !std::convertible_to<ShapeId, MaterialId>);
 }  // namespace core

@@ -83,6 +83,39 @@ TEST_CASE("static friction ends with the first slip, also where the normal turns
                  0.2);
 }
 
+TEST_CASE("cohesive: a disk is held by another at the default range, up to its adhesion") {
+  using Law = Cohesive<Coulomb>;
+  const Disk<double> shape(0.01);
+  const double weight = shape.mass_properties(2500).mass * 9.81;
+  // The largest distance from the place at which the disk hung [m].
+  const auto lowered = [&](double adhesion, double angle, double step, bool correct) {
+    OverlapCorrectionOptions correction;
+    correction.enabled = correct;
+    Simulation<Disk<double>, Law> world(0.02, Materials<Law>(1, Law(Coulomb(0.5), adhesion)), {},
+                                        {}, correction);
+    const Vector down(std::sin(angle), -std::cos(angle));
+    const ShapeId disk = world.add_shape(shape);
+    world.prescribe_motion(world.add_grain(disk, {}, 2500));
+    const BodyId hanging = world.add_grain(disk, Pose<S>(Vector(0.02 * down)), 2500);
+    world.set_gravity(9.81 * down);
+    double most = 0;
+    for (double time = 0; time < 0.2; time += step) {
+      world.step(step);
+      most = std::max(most, (world.pose(hanging).position - 0.02 * down).norm());
+    }
+    return most;
+  };
+  for (const double angle : {0.0, 0.3, 1.1, 2.0, 3.1, 4.4})
+    for (const double step : {1e-4, 1e-3, 1.0 / 60})
+      for (const bool correct : {false, true}) {
+        CAPTURE(angle);
+        CAPTURE(step);
+        CAPTURE(correct);
+        CHECK(lowered(1.05 * weight, angle, step, correct) < 1e-6);
+        CHECK(lowered(0.95 * weight, angle, step, correct) > 1e-4);
+      }
+}
+
 TEST_CASE("a snapshot between two steps keeps the state of friction") {
   Slide<Coulomb> slide(Coulomb(0.2, 0, 0.4), false), copy(Coulomb(0.2, 0, 0.4), false);
   slide.friction({2e-4});

@@ -15,6 +15,7 @@
 #include "moreau/body/mobility.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/value.hpp"
 
 namespace moreau {
 
@@ -129,10 +130,12 @@ struct Bodies {
   bool exists(std::size_t i) const { return id[i].generation % 2 == 0; }
 
   /// The axes of body i as the columns of a D x D matrix: unit vectors in world axes.
-  typename S::Matrix axes(std::size_t i) const { return pose[i].rotation.toRotationMatrix(); }
+  Value<typename S::Matrix> axes(std::size_t i) const {
+    return pose[i].rotation.toRotationMatrix();
+  }
   /// The inertia of body i about its centre of mass, in world axes, A x A [kg m^2], if its rotation
   /// from body to world axes is q.
-  Inertia inertia(std::size_t i, const typename S::Rotation& q) const {
+  Value<Inertia> inertia(std::size_t i, const typename S::Rotation& q) const {
     const Inertia a = S::adjoint(q), turned = a * inertia_body[i];
     return turned * a.transpose();
   }

@@ -14,6 +14,7 @@
 
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/value.hpp"
 #include "moreau/detect/manifold.hpp"
 
 namespace moreau {
@@ -80,7 +81,7 @@ struct Contacts {
     });
   }
   /// Sum of the impulses that a body received, world axes [N s].
-  typename S::Vector impulse_on(std::uint32_t body) const {
+  Value<typename S::Vector> impulse_on(std::uint32_t body) const {
     typename S::Vector sum = S::Vector::Zero();
     for (std::size_t c = 0; c < size(); ++c) {
       const Contact<S>& point = points[c];

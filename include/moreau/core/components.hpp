@@ -10,13 +10,15 @@
 // does not compile. The compiler reports: use of deleted function Components(WrongNumber ...) [with
 // WrongNumber = {int, int}; int N = 3; T = double].
 //
-// A Components is an Eigen vector and can be used as one inside a function. Kernels take plain
-// Eigen vectors.
+// A Components is an Eigen vector and can be used as one inside a function; its operators return plain
+// values (value.hpp). Kernels take plain Eigen vectors.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <concepts>
+
+#include "moreau/core/value.hpp"
 
 namespace moreau {
 
@@ -37,8 +39,8 @@ concept ColumnVector =
 
 /// Type of an argument: a vector with N components of type T.
 template <int N, class T>
-class Components : public Eigen::Matrix<T, N, 1> {
-  using Base = Eigen::Matrix<T, N, 1>;
+class Components : public Value<Eigen::Matrix<T, N, 1>> {
+  using Base = Value<Eigen::Matrix<T, N, 1>>;
 
  public:
   /// Constructs the vector from N numbers: {0, 0, -9.81}. For N = 1 no braces are needed.

@@ -11,6 +11,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/value.hpp"
 
 namespace moreau {
 
@@ -49,10 +50,12 @@ class PeriodicCell {
   const Vector& lower() const { return lower_; }
 
   /// The image of x that lies in the cell, world axes [m].
-  [[nodiscard]] Vector wrap(const VectorArgument<S>& x) const { return image_from(lower_, x); }
+  [[nodiscard]] Value<Vector> wrap(const VectorArgument<S>& x) const {
+    return image_from(lower_, x);
+  }
   /// The image y of x with from <= y < from + length() along the periodic axes. Along open axes, y
   /// = x. World axes [m].
-  Vector image_from(const VectorArgument<S>& from, const VectorArgument<S>& x) const {
+  Value<Vector> image_from(const VectorArgument<S>& from, const VectorArgument<S>& x) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
       if (is_periodic(axis)) {
@@ -64,7 +67,7 @@ class PeriodicCell {
   }
   /// The image of x nearest to the point `to`, world axes [m]. Along every periodic axis it is at
   /// most half a cell away.
-  Vector nearest(const VectorArgument<S>& x, const VectorArgument<S>& to) const {
+  Value<Vector> nearest(const VectorArgument<S>& x, const VectorArgument<S>& to) const {
     Vector y = x;
     for (int axis = 0; axis < S::dim; ++axis)
       if (is_periodic(axis))

@@ -7,6 +7,7 @@
 #include "moreau/core/components.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/value.hpp"
 
 namespace moreau {
 
@@ -28,9 +29,13 @@ struct Pose {
       : position(origin), rotation(to_world) {}
 
   /// World coordinates [m] of a point given in body coordinates [m].
-  Vector operator()(const VectorArgument<S>& x_body) const { return position + rotation * x_body; }
+  Value<Vector> operator()(const VectorArgument<S>& x_body) const {
+    return position + rotation * x_body;
+  }
   /// Body coordinates [m] of a point given in world coordinates [m].
-  Vector to_body(const VectorArgument<S>& x) const { return rotation.inverse() * (x - position); }
+  Value<Vector> to_body(const VectorArgument<S>& x) const {
+    return rotation.inverse() * (x - position);
+  }
   /// The pose in the world of a frame whose pose in the frame of the body is `part`.
   Pose operator*(const Pose& part) const {
     return {(*this)(part.position), Rotation(rotation * part.rotation)};

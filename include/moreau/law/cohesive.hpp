@@ -4,7 +4,9 @@
 //
 //     0 <= u_n + offset  _|_  r_n + gamma h >= 0,     |r_t| <= mu (r_n + gamma h),
 //
-// so that a contact holds up to a tension gamma and slides at mu gamma without load (the law of
+// so that a contact holds up to a tension gamma and slides at mu gamma without load. The gap of a
+// contact that holds is not exactly 0: rounding and the residual of the solver leave some 1e-9 to
+// 1e-6 of the grain size. A range below these gaps holds nothing together (the law of
 // LMGC90's cohesive Signorini-Coulomb contacts; F. Radjai and F. Dubois, eds., Discrete-element
 // Modeling of Granular Materials, Wiley 2011, ch. 1).
 #pragma once
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -32,15 +35,17 @@ class Cohesive : public Law {
  public:
   /// @param law      the law without adhesion
   /// @param adhesion gamma >= 0, per contact point [N]
-  /// @param range    largest gap with adhesion, >= 0 [m]; at a gap above the margin
-  ///                 (Tolerances::margin) there is no contact and so no adhesion
+  /// @param range    largest gap with adhesion, > 0 [m]. At a gap above the margin (Tolerances::margin)
+  ///                 there is no contact and so no adhesion. The default is infinite: every contact
+  ///                 attracts
   /// @throws std::invalid_argument outside these ranges
-  explicit Cohesive(const Law& law = Law{}, Scalar adhesion = 0, Scalar range = 0)
+  explicit Cohesive(const Law& law = Law{}, Scalar adhesion = 0,
+                    Scalar range = std::numeric_limits<Scalar>::infinity())
       : Law(law), adhesion_(adhesion), range_(range) {
     require(std::isfinite(adhesion) && adhesion >= 0, "Cohesive", "adhesion", adhesion,
             "must be finite and >= 0");
-    require(std::isfinite(range) && range >= 0, "Cohesive", "range", range,
-            "must be finite and >= 0");
+    require(range > 0, "Cohesive", "range", range,
+            "must be > 0, above the gaps that rounding leaves");
   }
 
   Scalar adhesion() const { return adhesion_; }  ///< gamma [N]

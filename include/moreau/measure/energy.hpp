@@ -8,6 +8,7 @@
 #include "moreau/core/components.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/core/value.hpp"
 
 namespace moreau {
 
@@ -42,8 +43,8 @@ struct KineticEnergy {
 /// Linear and angular momentum of one body or the sum over many bodies, world axes.
 template <class S>
 struct Momentum {
-  typename S::Vector linear = S::Vector::Zero();     ///< m v [kg m/s]
-  typename S::Angular angular = S::Angular::Zero();  ///< about the given origin [kg m^2/s]
+  Value<typename S::Vector> linear = S::Vector::Zero();     ///< m v [kg m/s]
+  Value<typename S::Angular> angular = S::Angular::Zero();  ///< about the given origin [kg m^2/s]
 };
 
 /// Kinetic energy of one body: m v^2/2 of the translation and w.I w/2 of the rotation [J].

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/value.hpp"
 #include "moreau/measure/control_volume.hpp"
 #include "moreau/measure/detail/of_simulation.hpp"
 #include "moreau/measure/pair_forces.hpp"
@@ -17,7 +18,7 @@ template <class S>
 struct Fabric {
   /// Mean of n n^T over the pairs, where n is the contact normal of a pair: D x D, world axes,
   /// symmetric, trace 1 [-]. For isotropic normals it is identity / D. Zero if there are no pairs.
-  typename S::Matrix tensor = S::Matrix::Zero();
+  Value<typename S::Matrix> tensor = S::Matrix::Zero();
   std::size_t pairs = 0;  ///< number of pairs counted
 
   /// The anisotropy tensor a: D x D, world axes, symmetric, trace 0 [-]. E(n) = (1 + n . a n) /
@@ -25,7 +26,7 @@ struct Fabric {
   /// It follows a = D (D + 2)/2 (tensor - identity / D). In the plane its eigenvalues are +-a of
   /// the usual form E = (1 + a cos 2(theta - theta_c)) / 2 pi, with theta the angle of the normal.
   /// Source: K. Kanatani, Int. J. Eng. Sci. 22 (1984) 149, fabric tensors of the third kind.
-  typename S::Matrix anisotropy() const {
+  Value<typename S::Matrix> anisotropy() const {
     using Scalar = typename S::Scalar;
     if (pairs == 0) return S::Matrix::Zero();
     constexpr Scalar dim = S::dim;

@@ -7,6 +7,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/value.hpp"
 #include "moreau/measure/control_volume.hpp"
 #include "moreau/measure/detail/of_simulation.hpp"
 
@@ -39,9 +40,9 @@ namespace moreau {
 /// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.
 /// (1998).
 template <class S>
-typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scalar step,
-                                  const Aabb<S>& control_volume, const auto& position_of,
-                                  const auto& is_grain, const PeriodicCell<S>& cell = {}) {
+Value<typename S::Matrix> contact_stress(const Contacts<S>& contacts, typename S::Scalar step,
+                                         const Aabb<S>& control_volume, const auto& position_of,
+                                         const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   using Vector = typename S::Vector;
   require(std::isfinite(step) && step > 0, "contact_stress", "step", step,
           "must be finite and > 0");
@@ -67,9 +68,9 @@ typename S::Matrix contact_stress(const Contacts<S>& contacts, typename S::Scala
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
 template <class Simulation>
-typename Simulation::S::Matrix contact_stress(const Simulation& simulation,
-                                              typename Simulation::Scalar step,
-                                              const Aabb<typename Simulation::S>& control_volume) {
+Value<typename Simulation::S::Matrix> contact_stress(
+    const Simulation& simulation, typename Simulation::Scalar step,
+    const Aabb<typename Simulation::S>& control_volume) {
   return contact_stress(simulation.contacts(), step, control_volume,
                         detail::position_in(simulation), detail::grain_in(simulation),
                         simulation.cell());

@@ -22,6 +22,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
+#include "moreau/core/value.hpp"
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
@@ -259,12 +260,12 @@ class Simulation : public BodyControl<ShapeT> {
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
-  const Vector& gravity() const { return gravity_; }  ///< world axes [m/s^2]
+  Value<Vector> gravity() const { return gravity_; }  ///< world axes [m/s^2]
 
   /// Sum of the impulses that a body received from its contacts in the last step, attraction
   /// included, world axes [N s].
   /// @throws std::invalid_argument for a body that is not of this simulation
-  Vector contact_impulse(BodyId body) const {
+  Value<Vector> contact_impulse(BodyId body) const {
     assembly_.require_body(body, "Simulation::contact_impulse");
     return contacts_.impulse_on(body.value);
   }

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The type of vectors and matrices that functions return by value.
+//
+// The result of an Eigen operator refers to its operands. With a function that returns an Eigen
+// matrix, `auto f = impulse() / h` therefore refers to a temporary that no longer exists on the next
+// line, and `auto d = pose(a).position - pose(b).position` changes when a body moves. The operators of
+// a Value compute at once: f and d are plain vectors.
+//
+// Other functions of Eigen (head(), transpose(), cwiseAbs(), ...) still return expressions. Do not
+// store these with auto: give the type of the result, or call eval().
+#pragma once
+
+#include <Eigen/Core>
+
+#include <concepts>
+
+namespace moreau {
+
+/// A matrix or vector whose sums, differences, products and multiples are plain values.
+/// @tparam Matrix an Eigen::Matrix, from which it derives
+template <class Matrix>
+class Value : public Matrix {
+ public:
+  using Matrix::Matrix;
+  Value() = default;  ///< entries of a fixed size are not initialized, as Eigen's
+  /// @param matrix a matrix or an expression, which is evaluated
+  template <class Other>  // NOLINTNEXTLINE(google-explicit-constructor): as Eigen's own
+  Value(const Eigen::DenseBase<Other>& matrix) : Matrix(matrix.derived()) {}
+  using Matrix::operator=;
+};
+
+namespace detail {
+
+/// A number that an operator of Eigen takes beside a matrix of T.
+template <class Number, class T>
+concept FactorOf = std::integral<Number> || std::same_as<Number, T>;
+
+template <class Matrix>
+const Matrix& plain(const Value<Matrix>& value) {
+  return value;
+}
+
+/// The product of two matrices or expressions of fixed size.
+template <class Left, class Right>
+requires(Left::ColsAtCompileTime == Right::RowsAtCompileTime) auto times(const Left& left,
+                                                                         const Right& right) {
+  using Product =
+      Eigen::Matrix<typename Left::Scalar, Left::RowsAtCompileTime, Right::ColsAtCompileTime>;
+  return Value<Product>(Product(left * right));
+}
+
+}  // namespace detail
+
+/// @name Operators of a Value: they return a Value.
+/// @{
+template <class M>
+Value<M> operator-(const Value<M>& a) {
+  return Value<M>(-detail::plain(a));
+}
+template <class M>
+Value<M> operator+(const Value<M>& a, const Value<M>& b) {
+  return Value<M>(detail::plain(a) + detail::plain(b));
+}
+template <class M, class Other>
+Value<M> operator+(const Value<M>& a, const Eigen::MatrixBase<Other>& b) {
+  return Value<M>(detail::plain(a) + b.derived());
+}
+template <class M, class Other>
+Value<M> operator+(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
+  return Value<M>(a.derived() + detail::plain(b));
+}
+template <class M>
+Value<M> operator-(const Value<M>& a, const Value<M>& b) {
+  return Value<M>(detail::plain(a) - detail::plain(b));
+}
+template <class M, class Other>
+Value<M> operator-(const Value<M>& a, const Eigen::MatrixBase<Other>& b) {
+  return Value<M>(detail::plain(a) - b.derived());
+}
+template <class M, class Other>
+Value<M> operator-(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
+  return Value<M>(a.derived() - detail::plain(b));
+}
+template <class M, detail::FactorOf<typename M::Scalar> Number>
+Value<M> operator*(const Value<M>& a, Number factor) {
+  return Value<M>(detail::plain(a) * static_cast<typename M::Scalar>(factor));
+}
+template <class M, detail::FactorOf<typename M::Scalar> Number>
+Value<M> operator*(Number factor, const Value<M>& a) {
+  return Value<M>(static_cast<typename M::Scalar>(factor) * detail::plain(a));
+}
+template <class M, detail::FactorOf<typename M::Scalar> Number>
+Value<M> operator/(const Value<M>& a, Number divisor) {
+  return Value<M>(detail::plain(a) / static_cast<typename M::Scalar>(divisor));
+}
+template <class M, class N>
+auto operator*(const Value<M>& a, const Value<N>& b) {
+  return detail::times(detail::plain(a), detail::plain(b));
+}
+template <class M, class Other>
+auto operator*(const Value<M>& a, const Eigen::MatrixBase<Other>& b) {
+  return detail::times(detail::plain(a), b.derived());
+}
+template <class M, class Other>
+auto operator*(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
+  return detail::times(a.derived(), detail::plain(b));
+}
+/// @}
+
+}  // namespace moreau
