@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ten grains fall on a floor and come to rest.
 #include <iostream>
+#include <moreau/measure/check.hpp>
 #include <moreau/moreau.hpp>
 
 int main() {
@@ -22,8 +23,10 @@ int main() {
 
   for (int step = 0; step < 10000; ++step) {
     const moreau::StepReport report = simulation.step(1e-4);  // s
-    if (step % 250 == 249)
-      std::cout << report.points << " points, " << report.solve.sweeps << " sweeps, residual "
-                << report.solve.residual << '\n';
+    if (step % 250 != 249) continue;
+    std::cout << report.points << " points, " << report.solve.sweeps << " sweeps, residual "
+              << report.solve.residual << '\n';
+    for (const std::string& warning : moreau::check(simulation, report))
+      std::cerr << warning << '\n';
   }
 }

@@ -2,69 +2,48 @@
 // What would go unseen: settings of a simulation that give results which look right and are wrong.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <limits>
-#include <sstream>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "moreau/shape/concepts.hpp"
+#include "moreau/measure/detail/check_report.hpp"
+#include "moreau/measure/detail/check_units.hpp"
+#include "moreau/measure/detail/lost_grain.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {
 
 /// Judges the last step of a simulation.
+///
+///     for (const std::string& sentence : moreau::check(simulation, report))
+///       std::cerr << sentence << '\n';
+///
 /// @param simulation after step()
 /// @param report     what step() returned
 /// @returns one sentence with numbers for each of the following faults; empty if there are none:
 ///          - the surfaces of a contact that was found approached by more than the margin
 ///            in the step: others may have been missed
 ///          - the smallest grain is five times smaller or larger than the grain size, to which all
-///            tolerances are relative (for shapes that have a circumradius())
+///            tolerances are relative
 ///          - an overlap beyond 1 % of the grain size: grains were added inside one another, the
-///            step is too long, or compliant contacts are too soft
+///            step is too long, or compliant contacts are too soft; two bodies are named
+///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - compliant contacts: the residual is not small against relative_compliance, so that the
 ///            forces are not accurate to 10 %
+///          - numbers that look like other units. With a gravity between 9 and 11 m/s^2: a density below
+///            12 (2.7 g/cm^3 are 2700 kg/m^3), grains all wider than 4 m (mm). A density above 25,000, a
+///            gravity of 981 or 9810 (cm/s^2, mm/s^2), a friction from 5 to 90 (degrees)
+///          - gravity points along the last axis, and no wall and no obstacle lies there
+///          - a grain is lost: far from all others, or so far from the origin that the scalar holds its
+///            position only to more than a thousandth of the grain size
 template <class Simulation>
 [[nodiscard]] std::vector<std::string> check(const Simulation& simulation,
                                              const StepReport& report) {
-  std::vector<std::string> found;
-  const auto say = [&](const auto&... parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    found.push_back(text.str());
-  };
-  const double size = double(simulation.grain_size());
-  if (report.approach > 1)
-    say("step too long: in one step the surfaces of a contact approach by ", report.approach,
-        " times the margin; contacts can be missed. Use a step ", report.approach,
-        " times shorter, or a larger margin");
-  using Shape = std::decay_t<decltype(simulation.shape_of_grain(0))>;
-  if constexpr (HasCircumradius<Shape>) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < simulation.grain_count(); ++k)
-      smallest = std::min(smallest, 2 * double(simulation.shape_of_grain(k).circumradius()));
-    if (simulation.grain_count() > 0 && !(smallest > 0.2 * size && smallest < 5 * size))
-      say("grain size ", size, " m, but the smallest grain has a diameter of ", smallest,
-          " m; all tolerances are relative to the grain size");
-  }
-  if (report.max_overlap > 0.01 * size)
-    say("overlap of ", report.max_overlap, " m, ", report.max_overlap / size,
-        " of the grain size. Use a shorter step or stiffer contacts, or add grains that do not "
-        "overlap");
-  if (report.solve.capped)
-    say("the solver stopped after ", report.solve.sweeps, " sweeps at a residual of ",
-        report.solve.residual, ", above its tolerance");
-  if (report.solve.residual > 0.1 * report.relative_compliance && report.relative_compliance > 0)
-    say("the residual ", report.solve.residual, " is ",
-        report.solve.residual / report.relative_compliance,
-        " of the relative compliance 1 / (k h^2 W_nn) = ", report.relative_compliance,
-        " of the stiffest contact: its force is known only to about this part. Use a smaller "
-        "tolerance, a shorter step or softer contacts");
-  return found;
+  detail::Findings found;
+  detail::check_report(found, report, double(simulation.grain_size()));
+  detail::check_units(found, simulation);
+  detail::check_lost(found, simulation);
+  return found.sentences;
 }
 
 }  // namespace moreau

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The part of check() that reads the report of a step.
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "moreau/world/step_report.hpp"
+
+namespace moreau::detail {
+
+/// The sentences of check().
+struct Findings {
+  std::vector<std::string> sentences;
+
+  /// Adds a sentence.
+  /// @param text    each % stands for the next of the numbers
+  [[gnu::cold]] void say(std::string_view text, std::initializer_list<double> numbers) {
+    std::ostringstream sentence;
+    const double* next = numbers.begin();
+    for (const char letter : text)
+      if (letter == '%' && next != numbers.end())
+        sentence << *next++;
+      else
+        sentence << letter;
+    sentences.push_back(sentence.str());
+  }
+};
+
+/// The number 1, 2 or 5 times a power of ten that is at most x, to be typed.
+inline double round_down(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
+}
+
+[[gnu::cold]] inline void check_report(Findings& found, const StepReport& report, double size) {
+  if (report.approach > 1)
+    found.say(
+        "step too long: in one step the surfaces of a contact approach by % times the margin; "
+        "contacts "
+        "can be missed. Use a step % times shorter, or a larger margin (Tolerances::margin)",
+        {report.approach, report.approach});
+  if (report.max_overlap > 0.01 * size)
+    found.say(
+        "overlap of % m of the bodies % and %, % of the grain size. Use a shorter step or stiffer "
+        "contacts, or add grains that do not overlap",
+        {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
+         report.max_overlap / size});
+  if (report.correction.limited > 0)
+    found.say(
+        "overlaps so deep that the correction of % contacts was limited to "
+        "OverlapCorrectionOptions::max_shift; the bodies stay inside one another for many steps",
+        {double(report.correction.limited)});
+  if (report.solve.capped)
+    found.say(
+        "the solver stopped after % sweeps at a residual of %, above its tolerance. Use a shorter "
+        "step, "
+        "or give it more sweeps: simulation.set_solver(Solver({.max_sweeps = %})) with your "
+        "solver's "
+        "name, ColouredGaussSeidel by default",
+        {double(report.solve.sweeps), report.solve.residual, 5.0 * report.solve.sweeps});
+  const double compliance = report.relative_compliance, residual = report.solve.residual;
+  if (residual > 0.1 * compliance && compliance > 0)
+    found.say(
+        "the residual % is % of the relative compliance 1 / (k h^2 W_nn) = % of the stiffest "
+        "contact: its "
+        "force is known only to about this part. Use a smaller tolerance: "
+        "simulation.set_solver(moreau::ColouredGaussSeidel({.tolerance = %})); or a step % times "
+        "shorter; "
+        "or a stiffness % times smaller in Compliant(law, stiffness)",
+        {residual, residual / compliance, compliance, round_down(0.1 * compliance),
+         std::sqrt(10 * residual / compliance), 10 * residual / compliance});
+}
+
+}  // namespace moreau::detail

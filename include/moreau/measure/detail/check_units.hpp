@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The part of check() that looks for numbers in other units than SI, and for gravity of the wrong sign.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "moreau/core/ids.hpp"
+#include "moreau/measure/detail/check_report.hpp"
+#include "moreau/shape/circumradius.hpp"
+
+namespace moreau::detail {
+
+/// What is judged: extremes over the grains and over the laws.
+struct Extremes {
+  double width = std::numeric_limits<double>::infinity();    ///< smallest circumdiameter [m]
+  double density = std::numeric_limits<double>::infinity();  ///< smallest [kg/m^3]
+  double heaviest = 0;                                       ///< largest density [kg/m^3]
+  double friction = 0;  ///< largest of the laws from 5 to 90, else 0
+  double gravity = 0;   ///< its length [m/s^2]
+};
+
+[[gnu::cold]] inline void judge(Findings& found, const Extremes& of, double size) {
+  const bool earth = of.gravity > 9 && of.gravity<11, grains = of.heaviest> 0;
+  const bool fits = of.width > 0.2 * size && of.width < 5 * size;
+  if (grains && !fits)
+    found.say(
+        "grain size % m, but the smallest grain has a diameter of % m; all tolerances are relative "
+        "to the "
+        "grain size",
+        {size, of.width});
+  if (grains && fits && earth && of.width > 4)
+    found.say("all grains are wider than % m. If lengths are in mm, divide them by 1000: % m",
+              {of.width, of.width / 1000});
+  if (grains && earth && of.density < 12)
+    found.say(
+        "a density of % kg/m^3 (in the plane kg/m^2) is that of no grain. If it is in g/cm^3, type "
+        "%",
+        {of.density, 1000 * of.density});
+  if (of.heaviest > 25000)
+    found.say(
+        "a density of % kg/m^3 (in the plane kg/m^2) is above that of every solid. If it is in "
+        "g/m^3, "
+        "type %",
+        {of.heaviest, of.heaviest / 1000});
+  for (const double factor : {100.0, 1000.0})
+    if (std::abs(of.gravity / (9.81 * factor) - 1) < 0.02)
+      found.say("a gravity of % m/s^2 is % times that of the earth. If it is in % m/s^2, type %",
+                {of.gravity, factor, 1 / factor, of.gravity / factor});
+  if (of.friction > 0)
+    found.say("a friction of % looks like an angle in degrees: its tangent is %",
+              {of.friction, std::tan(of.friction * std::numbers::pi / 180)});
+}
+
+/// Whether a wall or an obstacle can hold a grain that gravity pulls: a half-space that faces it, a
+/// cylinder, or a corner of a mesh or an obstacle that lies farther along gravity than the first grain.
+template <class Simulation>
+[[gnu::cold]] bool is_held(const Simulation& simulation) {
+  using Vector = typename Simulation::Vector;
+  using Scalar = typename Simulation::Scalar;
+  const Vector gravity = simulation.gravity();
+  const auto& bodies = simulation.bodies();
+  if (!simulation.cylinders().empty()) return true;
+  for (const BodyId wall : simulation.walls())
+    if (bodies.axes(wall.index()).col(0).dot(gravity) < Scalar(-0.1) * gravity.norm()) return true;
+  Scalar first = std::numeric_limits<Scalar>::infinity(), last = -first;
+  for (const BodyId grain : simulation.grains()) {
+    const Scalar depth = gravity.dot(bodies.pose[grain.index()].position);
+    if (bodies.is_prescribed(grain.index()))
+      last = std::max(last, depth);
+    else
+      first = std::min(first, depth);
+  }
+  for (const auto& mesh : simulation.mesh_walls())
+    for (const Vector& vertex : mesh.shape.mesh().vertices)
+      last = std::max(last, gravity.dot(bodies.pose[mesh.body.index()](vertex)));
+  return last > first || !(first < std::numeric_limits<Scalar>::infinity());
+}
+
+template <class Simulation>
+[[gnu::cold]] void check_units(Findings& found, const Simulation& simulation) {
+  Extremes of;
+  const auto& bodies = simulation.bodies();
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const auto& shape = simulation.shape_of_grain(k);
+    const double density = double(bodies.grain_mass[simulation.grain(k).index()]) /
+                           double(shape.mass_properties(1).mass);
+    of.width = std::min(of.width, 2 * double(circumradius(shape)));
+    of.density = std::min(of.density, density);
+    of.heaviest = std::max(of.heaviest, density);
+  }
+  for (const auto& law : simulation.materials().laws())
+    if constexpr (requires {
+                    { law.friction() } -> std::floating_point;
+                  })
+      if (law.friction() >= 5 && law.friction() <= 90)
+        of.friction = std::max(of.friction, double(law.friction()));
+  of.gravity = double(simulation.gravity().norm());
+  judge(found, of, double(simulation.grain_size()));
+  constexpr int last = Simulation::S::dim - 1;
+  if (simulation.gravity()[last] > simulation.gravity().norm() / 2 && !is_held(simulation))
+    found.say(
+        "gravity points along the last axis (% m/s^2), and no wall and no obstacle lies there. If "
+        "the "
+        "last axis points up, type %",
+        {double(simulation.gravity()[last]), -double(simulation.gravity()[last])});
+}
+
+}  // namespace moreau::detail
