@@ -16,6 +16,7 @@ World random_balls(std::uint64_t seed, std::size_t count) {
   using S = typename World::S;
   using ShapeT = ShapeIn<World>;
   World world = empty_world<World>();
+  world.allow_overlaps();
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> part(0, 1);
   const double length = 0.04 * std::pow(double(count), 1.0 / S::dim);

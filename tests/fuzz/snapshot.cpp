@@ -25,6 +25,7 @@ using World = Simulation<Shapes, Law>;
 World small_world() {
   World world(1, Materials<Law>(2, Law(0.5)));
   const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}};
+  world.allow_overlaps();
   for (const Shapes& shape : {Shapes(Ball<>(0.5)), Shapes(hull_of<Polyhedron<>>(corners)),
                               Shapes(moreau::Capsule<>(0.5, 0.1))})
     world.add_grain(world.add_shape(shape), {}, 1000, MaterialId(1));

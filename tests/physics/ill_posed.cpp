@@ -163,21 +163,56 @@ TEST_CASE_TEMPLATE("what no body can be is refused where it is said", ShapeT, Po
   const BodyId wall = simulation.add_wall(Vector::UnitX(), -Vector::UnitX());
   for (const double mass : {0.0, -1.0, not_a_number})
     refuses("mass", [&] { simulation.set_wall_mass(wall, mass); });
-  for (const double bad : {not_a_number, infinity}) {
-    const Vector vector = Vector::Constant(bad);
-    refuses("velocity", [&] { simulation.set_velocity(grain, vector); });
-    refuses("spin", [&] { simulation.set_spin(grain, S::Angular::Constant(bad)); });
-    refuses("force", [&] { simulation.set_force(grain, vector); });
-    refuses("gravity", [&] { simulation.set_gravity(vector); });
-    refuses("normal", [&] { simulation.add_wall(vector, Vector::Zero()); });
-    refuses("point", [&] { simulation.add_wall(Vector::UnitX(), vector); });
-    refuses("step", [&] { simulation.step(bad); });
-    refuses("position", [&] { simulation.set_pose(grain, {vector}); });
-    moreau::Pose<S> turned;
-    turned.rotation = S::exp(S::Angular::Constant(bad));
-    refuses("rotation", [&] { simulation.set_pose(grain, turned); });
-    refuses("rotation", [&] { simulation.add_grain(id, turned, 1000); });
-  }
+  // Before the first step and between steps, in each component.
+  for (const bool stepped : {false, true})
+    for (const double bad : {not_a_number, infinity, -infinity})
+      for (int axis = 0; axis < S::dim; ++axis) {
+        if (stepped) CHECK(is_sane(simulation.step(1e-3)));
+        Vector vector = Vector::Ones();
+        vector[axis] = bad;
+        const typename S::Angular angular = S::Angular::Constant(bad);
+        refuses("velocity", [&] { simulation.set_velocity(grain, vector); });
+        refuses("spin", [&] { simulation.set_spin(grain, angular); });
+        refuses("force", [&] { simulation.set_force(grain, vector); });
+        refuses("force", [&] { simulation.set_force(wall, vector); });
+        refuses("torque", [&] { simulation.set_torque(grain, angular); });
+        refuses("gravity", [&] { simulation.set_gravity(vector); });
+        refuses("normal", [&] { simulation.add_wall(vector, Vector::Zero()); });
+        refuses("point", [&] { simulation.add_wall(Vector::UnitX(), vector); });
+        refuses("point", [&] { simulation.add_cylinder(vector, S::Angular::Unit(0), 1); });
+        refuses("axis", [&] { simulation.add_cylinder(Vector::Zero(), angular, 1); });
+        refuses("radius",
+                [&] { simulation.add_cylinder(Vector::Zero(), S::Angular::Unit(0), bad); });
+        refuses("lower", [&] { simulation.set_periodic(S::dim - 1, bad, 1); });
+        refuses("upper", [&] { simulation.set_periodic(S::dim - 1, 0, bad); });
+        refuses("step", [&] { simulation.step(bad); });
+        refuses("position", [&] { simulation.set_pose(grain, {vector}); });
+        refuses("position", [&] { simulation.add_grain(id, {vector}, 1000); });
+        moreau::Pose<S> turned;
+        turned.rotation = S::exp(angular);
+        refuses("rotation", [&] { simulation.set_pose(grain, turned); });
+        refuses("rotation", [&] { simulation.add_grain(id, turned, 1000); });
+        refuses("friction", [&] { Law(bad, 0); });
+        refuses("restitution", [&] { Law(0, bad); });
+        refuses("theta", [&] { moreau::MoreauJean(bad).theta(); });
+        refuses("tolerance", [&] { moreau::ColouredGaussSeidel({.tolerance = bad}).options(); });
+        refuses("grain_size", [&] { Box(0.5, bad); });
+        const moreau::Materials<Law> laws(1);
+        for (double moreau::Tolerances::*member :
+             {&moreau::Tolerances::margin, &moreau::Tolerances::skin,
+              &moreau::Tolerances::resolution}) {
+          moreau::Tolerances tolerances;
+          tolerances.*member = bad;
+          refuses("must be finite", [&] { scenes::World<ShapeT>(0.1, laws, {}, tolerances); });
+        }
+        for (double moreau::OverlapCorrectionOptions::*member :
+             {&moreau::OverlapCorrectionOptions::slop, &moreau::OverlapCorrectionOptions::rate,
+              &moreau::OverlapCorrectionOptions::max_shift}) {
+          moreau::OverlapCorrectionOptions options;
+          options.*member = bad;
+          refuses("OverlapCorrection", [&] { simulation.set_correction(options); });
+        }
+      }
   refuses("step", [&] { simulation.step(0); });
   if constexpr (S::dim == 3) {
     moreau::Pose<S> stretched;

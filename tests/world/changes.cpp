@@ -239,3 +239,37 @@ TEST_CASE("dashpots push anew after a velocity has been set") {
   world.step(h);
   CHECK(world.velocity(ball).y() * mass / h == doctest::Approx(stiffness * overlap).epsilon(0.03));
 }
+
+TEST_CASE(
+    "springs: a disk deep inside a floor is refused and nothing has moved, unless it is allowed") {
+  using Law = LinearSpringDashpot<double>;
+  for (const double depth : {1e-4, 0.02, 0.045, 0.055, 0.1, 1.0})
+    for (const bool later : {false, true}) {
+      CAPTURE(depth);
+      CAPTURE(later);
+      Simulation<Disk<double>, Law> world(0.1, Materials<Law>(1, Law(1e5)));
+      const ShapeId shape = world.add_shape(Disk<double>(0.05));
+      world.add_wall({0, 1}, {0, 0});
+      const Pose<S> place(Vector(0, 0.05 - depth));
+      const BodyId disk = world.add_grain(shape, later ? Pose<S>(Vector(0, 0.06)) : place, 1000);
+      world.set_gravity({0, -9.81});
+      if (later) {
+        world.step(1e-5);
+        world.set_pose(disk, place);
+      }
+      const Vector velocity = world.velocity(disk);
+      const double time = world.time();
+      if (depth < 0.05) {
+        CHECK_NOTHROW(world.step(1e-5));
+        continue;
+      }
+      CHECK_THROWS_WITH_AS(world.step(1e-5),
+                           doctest::Contains("Simulation::step: overlap of grain 1 and wall 0 = "),
+                           std::invalid_argument);
+      CHECK(world.pose(disk).position == place.position);
+      CHECK(world.velocity(disk) == velocity);
+      CHECK(world.time() == time);
+      world.allow_overlaps();
+      CHECK_NOTHROW(world.step(1e-5));
+    }
+}

@@ -55,7 +55,7 @@ class BodyControl : public BodyAccess<ShapeT> {
     Bodies<S>& bodies = assembly_.bodies();
     const std::size_t i = grain.index();
     if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.grain_mass[i], bodies.inertia_body[i]);
-    assembly_.set_changed();
+    assembly_.note_placed(i);
   }
   /// Makes a wall move along one axis as a body of this mass, under set_force() and its contacts: a
   /// half-space along its normal, a mesh wall along the first axis of its frame, which its pose turns.
@@ -69,7 +69,7 @@ class BodyControl : public BodyAccess<ShapeT> {
     require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
             "must be > 0, with a finite inverse");
     assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
-    assembly_.set_changed();
+    assembly_.note_placed(wall.index());
   }
   /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
   /// and acts until it is set again. It does not move a body whose motion is prescribed, such
@@ -105,6 +105,13 @@ class BodyControl : public BodyAccess<ShapeT> {
     angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
     note_speed_of(body);
   }
+
+  /// Allows deep overlaps of bodies that are added or placed, or refuses them again. Unless they are
+  /// allowed, the next step() throws where such a body overlaps another by more than half of the
+  /// smallest width of the grain: the centre of a ball then lies inside the other body, and the nearest
+  /// exit may lie on its far side. Allowed overlaps are corrected by at most
+  /// OverlapCorrectionOptions::max_shift per step. Snapshots do not contain this setting.
+  void allow_overlaps(bool allow = true) { assembly_.allow_overlaps(allow); }
 
  protected:
   BodyControl() = default;

@@ -6,8 +6,9 @@
 //     change of the gap by d >= rate (-gap - slop)   where gap < -slop
 //     change of the gap by d >= -(gap + slop)        elsewhere (no new overlap)
 //
-// by a few projected Gauss-Seidel sweeps over the normals. The report has the work of the external
-// forces along the shift.
+// by a few projected Gauss-Seidel sweeps over the normals. No body is moved by more than max_shift in a
+// step: the gaps are linear in d, and contacts beyond the margin are not known, only for small d. The
+// report has the work of the external forces along the shift.
 #pragma once
 
 #include <algorithm>
@@ -34,6 +35,9 @@ struct OverlapCorrectionOptions {
   double slop = 2e-4;   ///< overlap that is not corrected, relative to the grain size, >= 0 [-]
   double rate = 0.2;    ///< share of the excess that is corrected per step, in (0, 1] [-]
   int sweeps = 10;      ///< over all contacts, >= 1
+  /// Largest displacement of a body in one step, of its centre and by its rotation at half a grain size
+  /// from there, relative to the grain size, > 0 [-]. The default is the default margin of detection.
+  double max_shift = 0.02;
 };
 
 /// Results of the correction in one step.
@@ -41,6 +45,7 @@ struct OverlapCorrectionReport {
   std::size_t corrected = 0;  ///< contacts deeper than the slop
   double work = 0;           ///< of the external forces along the shift [J]; < 0 if it lifts bodies
   double largest_shift = 0;  ///< largest displacement of a centre of mass [m]
+  std::size_t limited = 0;   ///< contacts so deep that max_shift limited their correction
 };
 
 /// Computes the shifts that correct overlaps; the head of this file has the problem it solves.
@@ -51,7 +56,7 @@ class OverlapCorrection {
   using Options = OverlapCorrectionOptions;
 
   /// @throws std::invalid_argument for a slop that is negative or not finite, a rate outside (0,
-  ///         1], fewer than one sweep
+  ///         1], fewer than one sweep, a largest shift that is not finite or not positive
   explicit OverlapCorrection(const Options& options = {}) : options_(options) {
     constexpr const char* self = "OverlapCorrection";
     require(options.slop >= 0 && std::isfinite(options.slop), self, "slop", options.slop,
@@ -59,6 +64,8 @@ class OverlapCorrection {
     require(options.rate > 0 && options.rate <= 1, self, "rate", options.rate,
             "must lie in (0, 1]");
     require(options.sweeps >= 1, self, "sweeps", options.sweeps, "must be at least 1");
+    require(options.max_shift > 0 && std::isfinite(options.max_shift), self, "max_shift",
+            options.max_shift, "must be finite and > 0");
   }
 
   /// Computes the shift of every body, (displacement [m], rotation vector [rad]) in world axes.
@@ -81,9 +88,15 @@ class OverlapCorrection {
       const Contact<S>& contact = contacts[c];
       rows_[c] = {-(contact.gap + slop), 0, contact.a, contact.b};
     });
-    for (const Row& row : rows_) report.corrected += row.depth > 0;
+    const Scalar rate = static_cast<Scalar>(options_.rate);
+    const Scalar largest = static_cast<Scalar>(options_.max_shift) * grain_size;
+    for (const Row& row : rows_) {
+      report.corrected += row.depth > 0;
+      report.limited += rate * row.depth > largest;
+    }
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
-    sweep(op, contacts, shared);
+    sweep(op, contacts, largest, shared);
+    limit(largest, grain_size / 2);
     team.share_each(contacts.size(), 512, [&](std::size_t c) {
       const Row& row = rows_[c];
       if (moved_[row.a] || moved_[row.b]) contacts[c].gap += closing(contacts[c]);
@@ -122,7 +135,8 @@ class OverlapCorrection {
     moved_[body] = !shifts_[body].isZero(0);
   }
 
-  void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
+  /// @param largest displacement that one contact asks for at most [m]
+  void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts, Scalar largest,
              SharedBodies* shared) {
     moved_.assign(op.body_count(), 0);
     for (int k = 0; k < options_.sweeps; ++k) {
@@ -132,7 +146,8 @@ class OverlapCorrection {
         if (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b]) continue;
         const Contact<S>& contact = contacts[c];
         const Scalar target =
-            row.depth > 0 ? static_cast<Scalar>(options_.rate) * row.depth : row.depth;
+            row.depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * row.depth)
+                          : row.depth;
         const Scalar missing = target - closing(contact);
         const Scalar push = std::max(Scalar(0), row.push + missing / op.block(c).normal);
         const Scalar change = push - row.push;
@@ -143,6 +158,15 @@ class OverlapCorrection {
         shift(op, row.a, -along_normal, contact.lever_a);
       }
       if (shared) average(*shared);
+    }
+  }
+
+  /// Shortens shifts by which a body would move farther than `largest` [m].
+  /// @param radius distance from the centre at which rotations are measured [m]
+  void limit(Scalar largest, Scalar radius) {
+    for (typename S::Twist& shift : shifts_) {
+      const Scalar length = std::max(linear<S>(shift).norm(), radius * angular<S>(shift).norm());
+      if (length > largest) shift *= largest / length;
     }
   }
 

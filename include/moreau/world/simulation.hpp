@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <tuple>
 #include <type_traits>
@@ -81,16 +80,14 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param tolerances of detection, relative to the grain size [-]
   /// @param correction how overlaps are corrected; not enabled under a compliant law
   /// @param integrator with its options
-  /// @throws std::invalid_argument for a size that is not finite or not positive, or for
-  ///         tolerances or options of the correction out of range
+  /// @throws std::invalid_argument for a size, tolerances or options of the correction out of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Solver& solver = Solver{},
              const Tolerances& tolerances = {},
              const OverlapCorrectionOptions& correction = Dynamics::default_correction(),
              const Integrator& integrator = Integrator{}) requires set_valued
       : Simulation(grain_size, materials, tolerances, Dynamics(solver, correction, integrator)) {}
   /// The same for a regularized law, without a contact problem and without overlap correction.
-  /// @throws std::invalid_argument for a size that is not finite or not positive, or tolerances out
-  ///         of range
+  /// @throws std::invalid_argument for a size or tolerances out of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
              const Integrator& integrator = Integrator{}) requires(!set_valued)
       : Simulation(grain_size, materials, tolerances, Dynamics(integrator)) {}
@@ -196,10 +193,11 @@ class Simulation : public BodyControl<ShapeT> {
     cell.set(axis, lower, upper, self);
     detector_.place_walls(assembly_.bodies().pose);
     detector_.set_cell(cell, lengths(), self);
+    assembly_.note_all_placed();
   }
   const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
 
-  /// Sets the pose of a body, world axes [m]; its velocity does not change.
+  /// Sets the pose of a body, world axes [m]; its velocity does not change. See allow_overlaps().
   /// @throws std::invalid_argument for a body that is not of this simulation, a pose that is not finite
   ///         or whose rotation is not of unit length, a wall across a periodic axis
   void set_pose(BodyId body, const Pose<S>& pose) {
@@ -208,10 +206,9 @@ class Simulation : public BodyControl<ShapeT> {
     assembly_.require_pose(pose, self);
     assembly_.require_walls_fit(cell(), body, pose, self);
     assembly_.bodies().pose[body.index()] = pose;
-    assembly_.set_changed();
+    assembly_.note_placed(body.index());
   }
-  /// Sets the acceleration of gravity on grains, world axes [m/s^2]; zero at first.
-  /// @throws std::invalid_argument for a vector that is not finite
+  /// Sets the acceleration of gravity on grains, world axes [m/s^2]; zero at first. It must be finite.
   void set_gravity(const VectorArgument<S>& gravity) {
     require(all_finite(gravity), "Simulation::set_gravity", "gravity", gravity, "must be finite");
     gravity_ = gravity;
@@ -235,8 +232,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// Sets which points of a contact between faces are used, from the next step on.
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
   ContactPoints contact_points() const { return detector_.kept_points(); }  ///< all unless set
-  /// Sets the laws from the next step on; the number of materials must not change.
-  /// @throws std::invalid_argument for another number of materials
+  /// Sets the laws from the next step on; another number of materials throws.
   void set_materials(const Materials<Law>& materials) {
     require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
             materials.count(), "must stay as it was");
@@ -246,7 +242,8 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Advances the time by `step` [s], > 0.
   /// @returns results of the step, and how well the contact problem was solved
-  /// @throws std::invalid_argument for a step that is not positive or not finite
+  /// @throws std::invalid_argument for a step that is not positive or not finite, or a deep overlap of
+  ///         a body that was placed since the last step, see allow_overlaps(); nothing has moved then
   /// @throws std::runtime_error naming a body with a velocity or position that is not finite. The step
   ///         is then half made: continue from a snapshot
   StepReport step(Scalar step);
@@ -269,9 +266,8 @@ class Simulation : public BodyControl<ShapeT> {
     assembly_.require_body(body, "Simulation::contact_impulse");
     return contacts_.impulse_on(body.value);
   }
-  /// The contact problem that the last step solved, one row per contact of contacts(), for
-  /// gather_problem() and for solvers of one's own. It still has the contacts of grains that were
-  /// removed since.
+  /// The contact problem that the last step solved, one row per contact of contacts(), for gather_problem()
+  /// and for solvers of one's own. It still has the contacts of grains that were removed since.
   const ContactProblem<OperatorOf<Law, S>, Law>& contact_problem() const requires set_valued {
     return dynamics_.problem();
   }
@@ -340,6 +336,7 @@ class Simulation : public BodyControl<ShapeT> {
     report.ms_pairs = clock.lap();
     detector_.detect(lengths(), bodies(), contacts_, previous_);
     assign_laws(assembly_.bodies(), materials_, previous_, team_);
+    assembly_.require_no_deep_overlap(previous_, "Simulation::step");
     std::swap(contacts_, previous_);  // last: what throws above changes no contacts
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
@@ -373,6 +370,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
       contacts_,          grain_size_, step,       lengths().margin};
   const auto start = Clock::now();
   StepReport::StageClock clock;
+  assembly_.keep_poses(step);
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
   } else {

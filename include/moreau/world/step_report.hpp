@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "moreau/contact/contact.hpp"
@@ -28,6 +29,9 @@ struct StepReport {
   std::size_t overlapping = 0;  ///< points with gap < 0 as detected
   double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]
   double mean_overlap = 0;      ///< mean depth of the points with gap < 0, >= 0 [m]
+  std::uint32_t deepest_a =
+      0;  ///< first body of the deepest point, BodyId::index(), if max_overlap > 0
+  std::uint32_t deepest_b = 0;  ///< its second body
   /// Energy that the contact impulses and couples took from the bodies [J], without elastic_work;
   /// < 0 if they gave energy, as the springs of a regularized law do. With compliant contacts the
   /// value of a single step can be negative by h/2 F . (change of velocity) for each force F; these
@@ -83,7 +87,10 @@ struct StepReport {
     overlapping = 0;
     for (const Contact<S>& contact : contacts.points) {
       if (!(contact.gap < 0)) continue;
-      max_overlap = std::max(max_overlap, -double(contact.gap));
+      if (-double(contact.gap) > max_overlap) {
+        max_overlap = -double(contact.gap);
+        deepest_a = contact.a, deepest_b = contact.b;
+      }
       mean_overlap -= double(contact.gap);
       ++overlapping;
     }

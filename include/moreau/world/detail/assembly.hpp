@@ -10,10 +10,14 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <sstream>
 #include <tuple>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
+#include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/aabb.hpp"
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
@@ -67,14 +71,15 @@ class Assembly {
                   const char* function) {
     require(material.index() < materials, function, "material", material,
             "must be the id of a material");
-    set_changed();
     if (free_.empty()) {
       bodies_.push_back(pose, material);
+      note_placed(bodies_.size() - 1);
       return bodies_.id.back();
     }
     const std::uint32_t index = free_.back();
     free_.pop_back();
     bodies_.reuse(index, pose, material);
+    note_placed(index);
     return bodies_.id[index];
   }
   /// Makes a body a grain.
@@ -138,6 +143,45 @@ class Assembly {
   /// moves a body, or a law has changed.
   void set_changed(bool changed = true) { changed_ = changed; }
   bool has_changed() const { return changed_; }
+
+  /// Notes that a body was placed since the last step: that step looks for deep overlaps of it.
+  void note_placed(std::size_t body) {
+    set_changed();
+    placed_.resize(bodies_.size());
+    placed_[body] = 1;
+    any_placed_ = true;
+  }
+  /// The same for all bodies, where the cell has changed.
+  void note_all_placed() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) note_placed(i);
+  }
+  void allow_overlaps(bool allow) { overlaps_allowed_ = allow; }
+  /// Keeps the poses before a step moves bodies, if bodies were placed.
+  /// @param step length of the step [s]
+  void keep_poses(Scalar step) {
+    step_ = step;
+    if (any_placed_) kept_poses_ = bodies_.pose;
+  }
+  /// Checks the contacts of bodies that were placed since the last step.
+  /// @throws std::invalid_argument for an overlap deeper than half of the smallest width of a grain
+  ///         of the contact, unless overlaps are allowed; the poses are then those before the step
+  void require_no_deep_overlap(const Contacts<S>& contacts, const char* function) {
+    if (!any_placed_) return;
+    placed_.resize(bodies_.size());
+    for (const Contact<S>& contact : contacts.points) {
+      if (overlaps_allowed_ || !(contact.gap < 0)) continue;
+      if (placed_[contact.a] == 0 && placed_[contact.b] == 0) continue;
+      const Scalar most = std::min(width_of(contact.a), width_of(contact.b)) / 2;
+      const Scalar speed = BodyDelassus<S>::relative_velocity(contact, bodies_.velocity[contact.a],
+                                                              bodies_.velocity[contact.b])[0];
+      // The prediction has moved the bodies by less than this.
+      if (-contact.gap <= most + std::max(Scalar(0), -speed * step_)) continue;
+      bodies_.pose = kept_poses_;
+      throw_deep_overlap(contact, most, function);
+    }
+    placed_.assign(bodies_.size(), 0);
+    any_placed_ = false;
+  }
 
   const ShapeT& shape(ShapeId id) const { return shapes_[id.index()]; }  ///< not checked
   Bodies<S>& bodies() { return bodies_; }
@@ -243,11 +287,32 @@ class Assembly {
     return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_, changed_);
   }
   void deserialized() {
+    placed_.clear();  // what was read is the state after a step
+    any_placed_ = false;
     grain_ids_.clear();
     for (const Grain& grain : grains_) grain_ids_.push_back(grain.body);
     free_.clear();
     for (std::size_t i = bodies_.id.size(); i-- > 0;)
       if (!bodies_.exists(i)) add_free(bodies_.id[i]);
+  }
+  /// The smallest extent of the bounding box of a grain in its own frame [m]; infinite for a wall.
+  Scalar width_of(std::uint32_t body) const {
+    if (!(bodies_.grain_mass[body] > 0)) return std::numeric_limits<Scalar>::infinity();
+    const std::size_t k = number_of_grain(bodies_.id[body], "Simulation::step");
+    const Aabb<S> box = shape_of_grain(k).bounding_box(Pose<S>());
+    return (box.upper - box.lower).minCoeff();
+  }
+  [[noreturn]] void throw_deep_overlap(const Contact<S>& contact, Scalar most,
+                                       const char* function) const {
+    std::ostringstream which, limit;
+    const auto kind = [&](std::uint32_t i) {
+      return bodies_.grain_mass[i] > 0 ? "grain " : "wall ";
+    };
+    which << "overlap of " << kind(contact.a) << contact.a << " and " << kind(contact.b)
+          << contact.b;
+    limit << "m must be at most " << most << " m, half of the smallest width of the grain. "
+          << "Place it elsewhere, or call allow_overlaps()";
+    throw_invalid(function, which.str(), -contact.gap, limit.str());
   }
   /// Makes the index of a removed body free, unless its generations are used up.
   void add_free(BodyId removed) {
@@ -264,7 +329,10 @@ class Assembly {
   std::vector<CylinderBody<S>> cylinders_;
   std::vector<MeshBody<S>> meshes_;
   Bodies<S> bodies_;
-  bool changed_ = false;
+  bool changed_ = false, any_placed_ = false, overlaps_allowed_ = false;
+  std::vector<unsigned char> placed_;  // one per body: whether it was placed since the last step
+  std::vector<Pose<S>> kept_poses_;
+  Scalar step_ = 0;
 };
 
 }  // namespace detail

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Bodies that are put where no body can be: the next step names them, and nothing is thrown through the
+// scene by the correction of overlaps.
+#include <cmath>
+#include <doctest/doctest.h>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "moreau/io/snapshot.hpp"
+#include "moreau/sample/ballast.hpp"
+#include "moreau/shape/regular_shape.hpp"
+
+#include "types.hpp"
+#include "world/assemblies.hpp"
+
+using namespace moreau;
+
+namespace {
+
+constexpr double size = 0.02, h = 1e-3;
+
+/// A grain of 2 cm at a depth below a floor that faces `up`.
+template <class ShapeT>
+struct Sunk {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  using Law = SignoriniCoulomb<double>;
+
+  scenes::World<ShapeT> world{size, Materials<Law>(1, Law(0.5))};
+  Vector up = Vector::Zero();
+  ShapeT shape = regular_shape<ShapeT>(size);
+  double width = 0;  // smallest, of the bounding box [m]
+  ShapeId id;
+  BodyId floor;
+
+  explicit Sunk(double angle) {
+    up[0] = std::sin(angle), up[S::dim - 1] = std::cos(angle);
+    const auto box = shape.bounding_box(Pose<S>());
+    width = (box.upper - box.lower).minCoeff();
+    id = world.add_shape(shape);
+    floor = world.add_wall(up, Vector::Zero());
+    world.set_gravity(-9.81 * up);
+  }
+  /// A pose whose lowest point lies `depth` below the floor [m].
+  Pose<S> at(double depth) const {
+    const typename S::Rotation turn(S::contact_frame(up));  // its first axis is `up`
+    const auto box = shape.bounding_box(Pose<S>(Vector::Zero(), turn.inverse()));
+    return Pose<S>(Vector((-box.lower[0] - depth) * up));
+  }
+};
+
+/// What a call says.
+std::string message_of(const auto& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+bool has(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a grain inside a floor is named, and moves by at most the largest shift",
+                   ShapeT, Polyhedron<>, Polygon<>, Disk<>, Ball<>) {
+  for (const double angle : {0.0, 0.4, 2.0})
+    for (const double depth : {0.6 * size, size, 0.5, 1e7})
+      for (const bool later : {false, true}) {
+        CAPTURE(angle);
+        CAPTURE(depth);
+        CAPTURE(later);
+        Sunk<ShapeT> scene(angle);
+        auto& world = scene.world;
+        const BodyId grain = world.add_grain(scene.id, scene.at(later ? -1e-3 : depth), 2700);
+        if (later) {
+          for (int k = 0; k < 3; ++k) world.step(h);
+          world.set_velocity(grain, Sunk<ShapeT>::Vector::Zero());
+          world.set_pose(grain, scene.at(depth));
+        }
+        const double time = world.time();
+        const auto start = world.pose(grain).position;
+        for (int trial = 0; trial < 2; ++trial) {  // it is refused until it is mended
+          const std::string message = message_of([&] { world.step(h); });
+          CAPTURE(message);
+          CHECK(has(message, "Simulation::step: overlap of grain 1 and wall 0 = "));
+          CHECK(has(message, "allow_overlaps()"));
+          CHECK(world.time() == time);
+          CHECK(world.pose(grain).position == start);
+        }
+        world.allow_overlaps();
+        for (int k = 0; k < 5; ++k) {
+          const auto before = world.pose(grain).position;
+          const double speed = world.velocity(grain).norm() + 9.81 * h;
+          const StepReport report = world.step(h);
+          CHECK((world.pose(grain).position - before).norm() <
+                1.001 * 0.02 * size + h * speed + 1e-15 * depth);
+          CHECK(report.correction.largest_shift <= 1.0001 * 0.02 * size);
+          CHECK(report.max_overlap > 0.5 * depth);
+          CHECK(report.correction.limited >= 1);
+        }
+        // Its state does not raise the alarm again.
+        scenes::World<ShapeT> copy(size, world.materials());
+        restore_snapshot(snapshot(world), copy);
+        CHECK(message_of([&] { copy.step(h); }) == "");
+      }
+}
+
+TEST_CASE_TEMPLATE("slight overlaps at the start are corrected without a word", ShapeT,
+                   Polyhedron<>, Polygon<>, Disk<>, Ball<>) {
+  for (const double share : {1e-3, 0.01, 0.1, 0.3, 0.45}) {
+    Sunk<ShapeT> scene(0);
+    CAPTURE(share);
+    scene.world.add_grain(scene.id, scene.at(share * scene.width), 2700);
+    CHECK(message_of([&] { scene.world.step(h); }) == "");
+  }
+}
+
+TEST_CASE_TEMPLATE("a grain inside another, an obstacle that is released, a cell that closes",
+                   ShapeT, Polyhedron<>, Polygon<>, Disk<>, Ball<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  for (const double share : {0.05, 0.4, 0.6, 1.0})
+    for (int axis = 0; axis < S::dim; ++axis) {
+      CAPTURE(share);
+      CAPTURE(axis);
+      const Vector aside =
+          (1 - share) * Sunk<ShapeT>(0).width * Vector::Unit(axis) + 1e-4 * Vector::Ones();
+      const bool deep = share > 0.5;
+      {
+        Sunk<ShapeT> scene(0);
+        scene.world.add_grain(scene.id, {}, 2700);
+        scene.world.add_grain(scene.id, Pose<S>(aside), 2700);
+        scene.world.set_pose(scene.floor, Pose<S>(Vector(-Vector::Unit(S::dim - 1)),
+                                                  scene.world.pose(scene.floor).rotation));
+        const std::string message = message_of([&] { scene.world.step(h); });
+        CAPTURE(message);
+        CHECK(has(message, "overlap of grain 1 and grain 2") == deep);
+      }
+      {
+        Sunk<ShapeT> scene(0);
+        auto& world = scene.world;
+        const BodyId grain = world.add_grain(scene.id, scene.at(share * scene.width), 2700);
+        world.prescribe_motion(grain);
+        CHECK(message_of([&] { world.step(h); }) == "");
+        world.release(grain);
+        CHECK(has(message_of([&] { world.step(h); }), "grain 1 and wall 0") == deep);
+      }
+    }
+  Sunk<ShapeT> scene(0);
+  scene.world.add_grain(scene.id, scene.at(-0.5), 2700);
+  const Vector aside = scene.at(-0.5).position + 5 * size * Vector::UnitX();
+  scene.world.add_grain(scene.id, Pose<S>(aside), 2700);
+  scene.world.step(h);
+  scene.world.set_periodic(0, 0, 4.8 * size);
+  CHECK(has(message_of([&] { scene.world.step(h); }), "overlap of grain 1 and grain 2"));
+}
+
+TEST_CASE_TEMPLATE("grains that start inside one another are not thrown", ShapeT, Polyhedron<>,
+                   Polygon<>, Disk<>, Ball<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  Sunk<ShapeT> scene(0);
+  auto& world = scene.world;
+  for (int k = 0; k < 12; ++k) {
+    Vector x = scene.at(-0.2 * size).position;
+    x[0] += 0.5 * size * (k % 4), x[S::dim - 1] += 0.45 * size * (k / 4);
+    world.add_grain(scene.id, Pose<S>(x, S::exp(S::Angular::Constant(0.3 * k))), 2700);
+  }
+  CHECK(has(message_of([&] { world.step(h); }), "overlap of grain"));
+  world.allow_overlaps();
+  double fastest = 0, farthest = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<Vector> before;
+    for (const BodyId grain : world.grains()) before.push_back(world.pose(grain).position);
+    world.step(h);
+    for (std::size_t g = 0; g < before.size(); ++g) {
+      const double speed = world.velocity(world.grain(g)).norm();
+      fastest = std::max(fastest, speed);
+      farthest = std::max(farthest, (world.pose(world.grain(g)).position - before[g]).norm() -
+                                        h * (speed + 9.81 * h));
+    }
+  }
+  CHECK(fastest < 1);
+  CHECK(farthest < 0.03 * size);
+}
