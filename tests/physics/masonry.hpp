@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
 namespace masonry {
@@ -122,6 +124,28 @@ Structure<ShapeT, Solver> column(int count) {
   structure.joint = 0.1;
   structure.joints = std::size_t(count);
   structure.diameter = 0.1 * count;
+  return structure;
+}
+
+/// Cubes of 1 cm on each other on a level floor.
+/// @param jitter sideways displacements in units of the size, uniform in [-jitter, jitter]
+/// @param ratio  density of every second cube from the second on, relative to that of the others
+template <class ShapeT>
+Structure<ShapeT> stack(int count, double friction, double jitter = 0, double ratio = 1) {
+  constexpr double size = 0.01;
+  using Vector = typename Structure<ShapeT>::Vector;
+  Structure<ShapeT> structure(size, friction, size);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> aside(-jitter, jitter);
+  const auto cube = structure.simulation.add_shape(moreau::regular_shape<ShapeT>(size));
+  for (int k = 0; k < count; ++k) {
+    moreau::Pose<typename Structure<ShapeT>::S> pose;
+    pose.position = size * Vector::NullaryExpr([&] { return aside(random); });
+    pose.position[structure.up] = size * (k + 0.5);
+    structure.simulation.add_grain(cube, pose, k % 2 == 1 ? ratio * density : density);
+  }
+  structure.joint = size;
+  structure.diameter = size * count;
   return structure;
 }
 

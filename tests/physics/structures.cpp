@@ -34,3 +34,17 @@ TEST_CASE_TEMPLATE("a semicircular arch of 17 voussoirs stands", ShapeT, Polyhed
   auto structure = masonry::arch<ShapeT>(17, 0.2);
   masonry::check_stands(structure, step, settle, second);
 }
+
+TEST_CASE_TEMPLATE("structures stand if islands are solved by the direct method", ShapeT,
+                   Polyhedron<>, Polygon<>) {
+  constexpr int count = rounds(40);
+  for (const double h : {1e-3, 1.0 / 60}) {
+    for (const int cubes : {2, 10, 20, 30})
+      for (const double jitter : {0.0, 0.005})
+        masonry::check_stands_with_islands(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, count);
+    for (const double ratio : {1e3, 1e-3})
+      for (const double friction : {0.0, 0.5})
+        masonry::check_stands_with_islands(masonry::stack<ShapeT>(2, friction, 0, ratio), h, count);
+    masonry::check_stands_with_islands(masonry::arch<ShapeT>(11, 0.2), h, count);
+  }
+}

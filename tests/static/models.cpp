@@ -80,6 +80,7 @@ static_assert(SetValuedLaw<SignoriniCoulomb<>, S> && SetValuedLaw<Frictionless<>
 static_assert(PointLaw<Cohesive<>, S> && AttractiveLaw<Cohesive<>, S>);
 static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
+static_assert(CoulombLaw<SignoriniCoulomb<>, S> && !CoulombLaw<Frictionless<>, S>);
 static_assert(StatefulLaw<SignoriniCoulomb<>, S> && LaneLaw<SignoriniCoulomb<>, S>);
 static_assert(RegularizedLaw<LinearSpringDashpot<>, S> && RegularizedLaw<HertzMindlin<>, S>);
 static_assert(ContactLaw<SignoriniCoulomb<>, S> && ContactLaw<HertzMindlin<>, S>);
@@ -100,7 +101,6 @@ using S = Space<3>;
 
 static_assert(ContactSolver<ColouredGaussSeidel, SignoriniCoulomb<>, S>);
 static_assert(ContactSolver<NonlinearGaussSeidel, RollingResistance<>, S>);
-static_assert(CoulombLaw<SignoriniCoulomb<>, S> && !CoulombLaw<Frictionless<>, S>);
 static_assert(std::same_as<OperatorOf<SignoriniCoulomb<>, S>, BodyDelassus<S>>);
 static_assert(std::same_as<OperatorOf<RollingResistance<>, S>, RollingDelassus<S>>);
 static_assert(std::same_as<OperatorOf<Compliant<SignoriniCoulomb<>>, S>,

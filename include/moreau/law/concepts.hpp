@@ -71,6 +71,13 @@ concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;
 template <class L, class S>
 concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
+/// A law whose local problem is Coulomb's law with the coefficient friction(), so that matrices and
+/// coefficients of friction define the contact problem.
+template <class L, class S>
+concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
+  { law.friction() } -> std::convertible_to<double>;
+};
+
 /// A law whose bodies attract each other with the force attraction(gap) [N]. Its local problem is
 /// that of the push against the attraction, see cohesive.hpp.
 template <class L, class S>

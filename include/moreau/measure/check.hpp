@@ -28,6 +28,7 @@ namespace moreau {
 ///            step is too long, or compliant contacts are too soft; two bodies are named
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
+///          - small structures (islands) whose velocities have an error above the tolerance
 ///          - compliant contacts: the residual is not small against relative_compliance, so that the
 ///            forces are not accurate to 10 %
 ///          - numbers that look like other units. With a gravity between 9 and 11 m/s^2: a density below

@@ -12,6 +12,10 @@
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
 //    stopping test visits all contacts and updates the set.
 //
+// With ColouredOptions::islands, small islands, sets of up to 200 bodies that contacts connect, are solved by a direct method to a
+// tolerance on the velocities of their bodies (detail/island_newton.hpp). Sweeps do not get there along chains: the
+// residual is relative to the largest impulses, and small errors of many contacts add up.
+//
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
 // solution of the law, for Coulomb's law that of law/detail/coulomb_lanes.hpp.
 //
@@ -22,6 +26,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
@@ -35,6 +40,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured/coloured_sweeps.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/detail/island_solver.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -58,6 +64,10 @@ struct ColouredOptions {
   /// quarter of them, which ends the sweeps at a tenth of the tolerance.
   int check_interval = 20;
   bool accelerate = true;  ///< false: plain sweeps
+  /// Whether small islands are solved to velocity_tolerance, see SolveReport::velocity_error; false: by
+  /// sweeps, like all others.
+  bool islands = false;
+  double velocity_tolerance = 1e-5;  ///< on SolveReport::velocity_error, > 0 [-]
 };
 
 /// The default solver of contact problems, for laws of points.
@@ -70,6 +80,7 @@ class ColouredGaussSeidel {
   struct Workspace {
     detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
     std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
+    detail::IslandSolver<Operator, Law> islands;   ///< small islands
   };
 
   ColouredGaussSeidel() = default;  ///< with the default options
@@ -77,6 +88,9 @@ class ColouredGaussSeidel {
   ///         interval below 1
   explicit ColouredGaussSeidel(const Options& options) : options_(options) {
     detail::require_stopping(options, "ColouredGaussSeidel");
+    require(options.velocity_tolerance > 0 && std::isfinite(options.velocity_tolerance),
+            "ColouredGaussSeidel", "velocity_tolerance", options.velocity_tolerance,
+            "must be finite and > 0");
     require(options.cold_sweeps >= 0, "ColouredGaussSeidel", "cold_sweeps", options.cold_sweeps,
             "must be >= 0");
   }
@@ -94,8 +108,52 @@ class ColouredGaussSeidel {
   SolveReport solve(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
-    using Vector = typename Operator::Vector;
     detail::drop_if_not_finite(impulses, shared_.get());
+    if (!options_.islands || shared_) return sweep(problem, impulses, workspace);
+    auto& islands = workspace.islands;
+    islands.start(problem, impulses,
+                  std::min(options_.velocity_tolerance, island_share * options_.tolerance));
+    if (islands.empty()) return sweep(problem, impulses, workspace);
+    SolveReport report;
+    bool swept = true;
+    if (islands.all_solved()) judge(problem, impulses, swept, islands, report);
+    if (islands.all_solved() && report.converged) return report;
+    islands.save(impulses);
+    report = sweep(problem, impulses, workspace);
+    swept = report.converged;
+    islands.finish(problem, impulses);
+    judge(problem, impulses, swept, islands, report);
+    return report;
+  }
+
+ private:
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_); }
+
+  /// Tolerance of islands, relative to that on the residual: a user's tighter tolerance holds for both.
+  static constexpr double island_share = 0.1;
+
+  /// Measures impulses of which some are those of islands.
+  /// @param swept whether sweeps, if there were any, met their stopping test
+  template <class Operator, class Law>
+  void judge(ContactProblem<Operator, Law>& problem, std::span<typename Operator::Vector> impulses,
+             bool swept, const detail::IslandSolver<Operator, Law>& islands,
+             SolveReport& report) const {
+    detail::set_impulses<Operator>(problem.delassus, impulses);
+    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_);
+    islands.write(report);
+    const bool by_changes = options_.stop_test == StopTest::qm16 && swept;
+    report.converged = (by_changes ? detail::is_closed(report) : is_solved(report)) &&
+                       report.unsolved_islands == 0;
+    report.capped = !report.converged;
+  }
+
+  /// Sweeps over all contacts, in at most two attempts.
+  template <class Operator, class Law>
+  SolveReport sweep(ContactProblem<Operator, Law>& problem,
+                    std::span<typename Operator::Vector> impulses,
+                    Workspace<Operator, Law>& workspace) const {
+    using Vector = typename Operator::Vector;
     const SolveReport first =
         attempt(problem, impulses, workspace.sweeps, options_.max_sweeps, options_.accelerate);
     // Worse than no impulses: the warm start or the acceleration made the sweeps diverge.
@@ -113,10 +171,6 @@ class ColouredGaussSeidel {
     report.sweeps = second.sweeps;
     return report;
   }
-
- private:
-  friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(options_); }
 
   template <class Operator, class Law>
   SolveReport attempt(ContactProblem<Operator, Law>& problem,

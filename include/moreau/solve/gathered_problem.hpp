@@ -6,29 +6,21 @@
 #include <Eigen/SparseCore>
 
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "moreau/body/mobility.hpp"
-#include "moreau/core/detail/lane_algebra.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/detail/dense_mass.hpp"
 #include "moreau/solve/friction_problem.hpp"
 
 namespace moreau {
-
-/// A law whose local problem is Coulomb's law with the coefficient friction(), so that matrices and
-/// coefficients of friction define the contact problem.
-template <class L, class S>
-concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
-  { law.friction() } -> std::convertible_to<double>;
-};
 
 /// The contact problem of a step as matrices.
 template <class S>
@@ -38,23 +30,6 @@ struct GatheredProblem {
 };
 
 namespace detail {
-
-/// M^-1 of a body as a matrix, D + A rows.
-template <class Exact, class S>
-Eigen::Matrix<double, Exact::dofs, Exact::dofs> dense(const InverseMass<S>& mass) {
-  using Algebra = LaneAlgebra<S, typename S::Scalar>;
-  Eigen::Matrix<double, Exact::dofs, Exact::dofs> m;
-  m.setZero();
-  for (int i = 0; i < S::dofs; ++i)
-    for (int k = 0; k < S::dofs; ++k) {
-      const bool turns = i >= S::dim;
-      if (turns != (k >= S::dim)) continue;
-      const int first = turns ? S::dim : 0;
-      const std::size_t entry = Algebra::entry(std::size_t(i - first), std::size_t(k - first));
-      m(i, k) = double(turns ? mass.angular()[entry] : mass.linear()[entry]);
-    }
-  return m;
-}
 
 /// Adds the entries of one block of W.
 template <int rows, class Block>

@@ -6,9 +6,12 @@
 //     change of the gap by d >= rate (-gap - slop)   where gap < -slop
 //     change of the gap by d >= -(gap + slop)        elsewhere (no new overlap)
 //
-// by a few projected Gauss-Seidel sweeps over the normals. No body is moved by more than max_shift in a
-// step: the gaps are linear in d, and contacts beyond the margin are not known, only for small d. The
-// report has the work of the external forces along the shift.
+// by a few projected Gauss-Seidel sweeps over the normals. The sweeps carry a shift over few contacts. With the
+// option `islands` the shifts of small islands, such as tall stacks, are those of a direct method: d is a motion
+// under frictionless impulses with the free normal velocity -rate depth (solve/detail/island_newton.hpp).
+//
+// No body is moved by more than max_shift in a step: the gaps are linear in d, and contacts beyond the margin
+// are not known, only for small d. The report has the work of the external forces along the shift.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +28,9 @@
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/solve/detail/contact_islands.hpp"
+#include "moreau/solve/detail/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau {
@@ -38,6 +44,8 @@ struct OverlapCorrectionOptions {
   /// Largest displacement of a body in one step, of its centre and by its rotation at half a grain size
   /// from there, relative to the grain size, > 0 [-]. The default is the default margin of detection.
   double max_shift = 0.02;
+  /// Whether a direct method corrects islands of up to 200 bodies, if their matrix is sparse
+  bool islands = false;
 };
 
 /// Results of the correction in one step.
@@ -86,7 +94,7 @@ class OverlapCorrection {
     rows_.resize(contacts.size());
     team.share_each(contacts.size(), 512, [&](std::size_t c) {
       const Contact<S>& contact = contacts[c];
-      rows_[c] = {-(contact.gap + slop), 0, contact.a, contact.b};
+      rows_[c] = {-(contact.gap + slop), 0, contact.a, contact.b, false};
     });
     const Scalar rate = static_cast<Scalar>(options_.rate);
     const Scalar largest = static_cast<Scalar>(options_.max_shift) * grain_size;
@@ -118,6 +126,7 @@ class OverlapCorrection {
     Scalar depth;        // overlap beyond the slop, < 0 if there is none [m]
     Scalar push;         // multiplier, >= 0
     std::uint32_t a, b;  // its bodies
+    bool done = false;   // by the direct method
   };
 
   /// First-order change of the gap of a contact by the present shifts [m].
@@ -135,20 +144,60 @@ class OverlapCorrection {
     moved_[body] = !shifts_[body].isZero(0);
   }
 
+  /// What the change of a gap must not be below [m].
+  /// @param largest displacement that one contact asks for at most [m]
+  Scalar target(const Row& row, Scalar largest) const {
+    return row.depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * row.depth)
+                         : row.depth;
+  }
+
+  /// Corrects the small islands by the direct method, as far as it succeeds.
+  void correct_islands(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
+                       Scalar largest) {
+    constexpr std::size_t most_bodies = 200;
+    constexpr typename Newton::Precision precision{1e-3, 1e-4, 1e-4, 30};
+    islands_.find(op);
+    pushes_.assign(contacts.size(), S::Vector::Zero());
+    const auto is_deep = [&](std::uint32_t c) { return rows_[c].depth > 0; };
+    const auto free = [&](std::size_t c) {
+      return typename S::Vector(-target(rows_[c], largest) * S::Vector::Unit(0));
+    };
+    const auto law = [&](std::size_t) -> const auto& {
+      return frictionless_;
+    };
+    for (std::size_t k = 0; k < islands_.size(); ++k) {
+      const auto own = islands_.contacts(k);
+      if (own.size() < 2 || islands_.bodies(k) > most_bodies ||
+          std::none_of(own.begin(), own.end(), is_deep))
+        continue;
+      newton_.assign(
+          op, own, [&](std::size_t body) { return islands_.moves(body); }, free, law);
+      if (!newton_.is_cheap(own.size()) ||
+          !(newton_.solve(pushes_, precision) <= precision.tolerance))
+        continue;
+      newton_.finish(pushes_);
+      for (const std::uint32_t c : own) {
+        rows_[c].done = true;
+        if (pushes_[c][0] == 0) continue;
+        const typename S::Vector along_normal = pushes_[c][0] * contacts[c].frame.col(0);
+        shift(op, contacts[c].b, along_normal, contacts[c].lever_b);
+        shift(op, contacts[c].a, -along_normal, contacts[c].lever_a);
+      }
+    }
+  }
+
   /// @param largest displacement that one contact asks for at most [m]
   void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts, Scalar largest,
              SharedBodies* shared) {
     moved_.assign(op.body_count(), 0);
+    if (options_.islands && !shared) correct_islands(op, contacts, largest);
     for (int k = 0; k < options_.sweeps; ++k) {
       for (std::size_t c = 0; c < rows_.size(); ++c) {
         Row& row = rows_[c];
         // Most contacts are not too deep and between bodies that do not move: nothing to do.
-        if (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b]) continue;
+        if (row.done || (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b])) continue;
         const Contact<S>& contact = contacts[c];
-        const Scalar target =
-            row.depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * row.depth)
-                          : row.depth;
-        const Scalar missing = target - closing(contact);
+        const Scalar missing = target(row, largest) - closing(contact);
         const Scalar push = std::max(Scalar(0), row.push + missing / op.block(c).normal);
         const Scalar change = push - row.push;
         if (change == Scalar(0)) continue;
@@ -177,8 +226,15 @@ class OverlapCorrection {
     for (std::size_t i = 0; i < shifts_.size(); ++i) moved_[i] = !shifts_[i].isZero(0);
   }
 
+  using Law = SignoriniCoulomb<Scalar>;
+  using Newton = detail::IslandNewton<BodyDelassus<S>, Law>;
+
   Options options_;
-  std::vector<unsigned char> moved_;  // bodies with a contact that pushed
+  detail::ContactIslands islands_;
+  Newton newton_;
+  Law frictionless_{Scalar(0)};
+  std::vector<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
+  std::vector<unsigned char> moved_;        // bodies with a contact that pushed
   std::vector<Row> rows_;
   std::vector<typename S::Twist> shifts_;
 };

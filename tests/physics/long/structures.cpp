@@ -38,3 +38,12 @@ TEST_CASE_TEMPLATE("an arch of 41 voussoirs stands for ten seconds", ShapeT, Pol
   auto structure = masonry::arch<ShapeT>(41, 0.2);
   masonry::check_stands(structure, step, settle, ten_seconds);
 }
+
+TEST_CASE_TEMPLATE("stacks stand for a minute if islands are solved by the direct method", ShapeT,
+                   Polyhedron<>, Polygon<>) {
+  for (const double h : {1e-3, 1.0 / 60})
+    for (const int cubes : {10, 20, 30})
+      for (const double jitter : {0.0, 0.005})
+        masonry::check_stands_with_islands(masonry::stack<ShapeT>(cubes, 0.5, jitter), h,
+                                           static_cast<int>(60 / h));
+}

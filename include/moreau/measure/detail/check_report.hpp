@@ -55,7 +55,16 @@ inline double round_down(double x) {
         "overlaps so deep that the correction of % contacts was limited to "
         "OverlapCorrectionOptions::max_shift; the bodies stay inside one another for many steps",
         {double(report.correction.limited)});
-  if (report.solve.capped)
+  if (report.solve.unsolved_islands > 0)
+    found.say(
+        "% of % small structures not solved: velocities of their bodies have an estimated error of "
+        "% of the "
+        "largest velocity that the contacts gave in the step (g h at rest). If this lasts, a "
+        "structure that "
+        "should stand can move. Use a shorter step",
+        {double(report.solve.unsolved_islands), double(report.solve.islands),
+         report.solve.velocity_error});
+  if (report.solve.capped && report.solve.unsolved_islands == 0)
     found.say(
         "the solver stopped after % sweeps at a residual of %, above its tolerance. Use a shorter "
         "step, "

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace moreau::detail {
+
+/// The islands of a contact problem: sets of bodies that contacts connect. A body that cannot move
+/// connects nothing. No impulse of one island changes a velocity of another.
+///
+/// Islands are in the order of their first contact, and contacts within an island in that of the
+/// problem.
+class ContactIslands {
+ public:
+  /// @param op the operator of the problem
+  template <class Operator>
+  void find(const Operator& op) {
+    const std::size_t bodies = op.body_count(), contacts = op.size();
+    parent_.resize(bodies);
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    moves_.resize(bodies);
+    for (std::size_t i = 0; i < bodies; ++i) moves_[i] = op.inverse_mass(i).moves();
+    std::array<std::uint32_t, 2> before{none, none};
+    for (std::size_t c = 0; c < contacts; ++c) {
+      const auto pair = op.bodies(c);
+      if (pair == before || !moves_[pair[0]] || !moves_[pair[1]]) continue;
+      before = pair;
+      unite(pair[0], pair[1]);
+    }
+    number(op, contacts);
+  }
+
+  std::size_t size() const { return bodies_.size(); }  ///< number of islands
+  /// Number of bodies of an island that can move and have a contact.
+  std::size_t bodies(std::size_t island) const { return bodies_[island]; }
+  /// The contacts of an island, ascending.
+  std::span<const std::uint32_t> contacts(std::size_t island) const {
+    return std::span(contacts_).subspan(first_[island], first_[island + 1] - first_[island]);
+  }
+  bool moves(std::size_t body) const { return moves_[body]; }  ///< whether impulses move it
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::uint32_t i, std::uint32_t j) {
+    const std::uint32_t a = root(i), b = root(j);
+    parent_[a < b ? b : a] = a < b ? a : b;
+  }
+  template <class Operator>
+  void number(const Operator& op, std::size_t contacts) {
+    island_of_.assign(parent_.size(), none);
+    seen_.assign(parent_.size(), 0);
+    of_contact_.resize(contacts);
+    bodies_.clear();
+    first_.assign(2, 0);
+    for (std::size_t c = 0; c < contacts; ++c) {
+      const auto [a, b] = op.bodies(c);
+      if (!moves_[a] && !moves_[b]) {
+        of_contact_[c] = none;
+        continue;
+      }
+      std::uint32_t& island = island_of_[root(moves_[a] ? a : b)];
+      if (island == none) {
+        island = static_cast<std::uint32_t>(bodies_.size());
+        bodies_.push_back(0);
+        first_.push_back(0);
+      }
+      of_contact_[c] = island;
+      ++first_[island + 2];
+      for (const std::uint32_t body : {a, b})
+        if (moves_[body] && !seen_[body]) seen_[body] = 1, ++bodies_[island];
+    }
+    for (std::size_t k = 2; k < first_.size(); ++k) first_[k] += first_[k - 1];
+    contacts_.resize(first_.back());
+    // first_[k + 1] is the next free entry of island k, and at the end the first of island k + 1.
+    for (std::uint32_t c = 0; c < contacts; ++c)
+      if (of_contact_[c] != none) contacts_[first_[of_contact_[c] + 1]++] = c;
+  }
+
+  std::vector<std::uint32_t> parent_, island_of_, of_contact_, contacts_;
+  std::vector<unsigned char> moves_, seen_;
+  std::vector<std::size_t> bodies_, first_;
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// The contacts of one island in double precision, in the coordinates y of its bodies that make the
+// mass matrix the identity: with M^-1 = L L^T of a body, a change of its velocity is L y, and
+//
+//     u = b + J y + C r,        y = J^T r  for a solution,
+//
+// where J stands for J L, and C is the compliance of the contacts, which is zero for rigid ones. |y|^2 / 2 is a
+// kinetic energy. Axes along which a body cannot move have a zero column in L.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "moreau/contact/local_block.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/solve/detail/dense_mass.hpp"
+
+namespace moreau::detail {
+
+/// The impulse of one contact as a function of u, and its derivative.
+template <class S>
+struct ContactResponse {
+  Eigen::Matrix<double, S::dim, 1> impulse;         ///< [N s]
+  Eigen::Matrix<double, S::dim, S::dim> stiffness;  ///< - d impulse / d u [kg]
+};
+
+/// The law of one contact with a compliance s in series: the impulse r with u = s r + b and the law.
+/// @param s diagonal of the compliance, equal for all tangents, > 0 [1/kg]
+template <class S, class Law>
+ContactResponse<S> response(const Law& law, const Eigen::Matrix<double, S::dim, 1>& s,
+                            const Eigen::Matrix<double, S::dim, 1>& b) {
+  constexpr int tangents = S::dim - 1;
+  ContactResponse<S> answer;
+  answer.impulse.setZero();
+  answer.stiffness.setZero();
+  if constexpr (CoulombLaw<Law, S>) {
+    if (!(b[0] < 0)) return answer;
+    const double mu = double(law.friction()), normal = -b[0] / s[0];
+    answer.impulse[0] = normal;
+    answer.stiffness(0, 0) = 1 / s[0];
+    if (mu == 0) return answer;
+    using Tangent = Eigen::Matrix<double, tangents, 1>;
+    using Square = Eigen::Matrix<double, tangents, tangents>;
+    const Tangent slip = b.template tail<tangents>();
+    const double length = slip.norm(), limit = mu * normal;
+    if (length <= s[1] * limit) {
+      answer.impulse.template tail<tangents>() = slip / -s[1];
+      answer.stiffness.diagonal().template tail<tangents>().setConstant(1 / s[1]);
+      return answer;
+    }
+    const Tangent direction = slip / -length;
+    answer.impulse.template tail<tangents>() = limit * direction;
+    answer.stiffness.template bottomLeftCorner<tangents, 1>() = mu / s[0] * direction;
+    answer.stiffness.template bottomRightCorner<tangents, tangents>() =
+        (Square::Identity() - direction * direction.transpose()) * (limit / length);
+    return answer;
+  } else {
+    using T = typename S::Scalar;
+    using Vector = typename S::Vector;
+    LocalBlock<S> block;
+    block.normal = T(s[0]);
+    block.coupling.setZero();
+    block.slip.setConstant(T(s[1]));
+    const auto solve = [&](const Eigen::Matrix<double, S::dim, 1>& at) {
+      return Vector(law.solve(block, Vector(at.template cast<T>()), Vector(Vector::Zero())))
+          .template cast<double>()
+          .eval();
+    };
+    answer.impulse = solve(b);
+    // Differences: Newton's method needs the derivative only to a few digits.
+    const double step = std::sqrt(double(std::numeric_limits<T>::epsilon())) *
+                        std::max(b.norm(), double(std::numeric_limits<T>::min()));
+    for (int k = 0; k < S::dim; ++k) {
+      Eigen::Matrix<double, S::dim, 1> moved = b;
+      moved[k] += step;
+      answer.stiffness.col(k) = (answer.impulse - solve(moved)) / step;
+    }
+    return answer;
+  }
+}
+
+/// The contacts of one island; the head of this file has the coordinates.
+template <class Operator, class Law>
+class IslandPoints {
+ public:
+  using S = typename Operator::Space;
+  static constexpr int dim = S::dim, dofs = S::dofs;
+  using Vector = Eigen::Matrix<double, dim, 1>;
+  using Rows = Eigen::Matrix<double, dim, dofs>;
+  using Coordinates = Eigen::Matrix<double, dofs, 1>;
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// A contact.
+  struct Point {
+    Rows a, b;                     ///< J of its bodies
+    Vector free;                   ///< b [m/s]
+    Vector compliance;             ///< C [1/kg]
+    double diagonal;               ///< mean of the diagonal of W_cc [1/kg]
+    std::uint32_t body_a, body_b;  ///< in the island; none: cannot move
+    std::uint32_t contact;         ///< in the problem
+    const Law* law;
+  };
+
+  /// @param contacts of the island
+  /// @param moves    function: body -> whether impulses move it
+  /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
+  /// @param law_of   function: contact -> its law, a reference that stays valid
+  void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
+              const auto& free_of, const auto& law_of) {
+    number_.resize(op.body_count(), none);
+    points_.clear();
+    roots_.clear();
+    speeds_.clear();
+    bodies_.clear();
+    edges_.clear();
+    for (const std::uint32_t c : contacts) {
+      const auto free = free_of(c);
+      if (!free.allFinite()) continue;
+      const auto [a, b] = op.bodies(c);
+      Point point;
+      point.free = free.template cast<double>();
+      point.compliance.setZero();
+      if constexpr (requires { op.compliance(c); })
+        point.compliance = op.compliance(c).template cast<double>();
+      point.contact = c;
+      point.law = &law_of(c);
+      point.body_a = moves(a) ? local(op, a) : none;
+      point.body_b = moves(b) ? local(op, b) : none;
+      point.a = rows(op, c, point.body_a, op.lever_a(c), -1);
+      point.b = rows(op, c, point.body_b, op.lever_b(c), 1);
+      point.diagonal = (point.a.squaredNorm() + point.b.squaredNorm()) / dim;
+      if (!(point.diagonal > 0)) continue;
+      if (point.body_a != none && point.body_b != none &&
+          (edges_.empty() || edges_.back() != std::array{point.body_a, point.body_b}))
+        edges_.push_back({point.body_a, point.body_b});
+      points_.push_back(point);
+    }
+    for (const std::uint32_t body : bodies_) number_[body] = none;
+  }
+
+  std::span<const Point> points() const { return points_; }
+  std::size_t bodies() const { return roots_.size(); }
+  /// The pairs of bodies that both move.
+  std::span<const std::array<std::uint32_t, 2>> edges() const { return edges_; }
+  /// The speed of a body for |y| = 1 of the body [kg^-1/2]: the root mean square over its mass.
+  double speed(std::size_t body) const { return speeds_[body]; }
+
+  /// Change of the relative velocity of a contact by the motion y of the bodies [m/s].
+  Vector velocity(const Point& point, std::span<const Coordinates> y) const {
+    Vector u = Vector::Zero();
+    if (point.body_a != none) u.noalias() += point.a * y[point.body_a];
+    if (point.body_b != none) u.noalias() += point.b * y[point.body_b];
+    return u;
+  }
+  /// Adds J^T r of one contact.
+  void push(const Point& point, const Vector& r, std::span<Coordinates> y) const {
+    if (point.body_a != none) y[point.body_a].noalias() += point.a.transpose() * r;
+    if (point.body_b != none) y[point.body_b].noalias() += point.b.transpose() * r;
+  }
+
+ private:
+  using Root = Eigen::Matrix<double, dofs, dofs>;
+
+  /// The number of a body in the island.
+  std::uint32_t local(const Operator& op, std::uint32_t body) {
+    std::uint32_t& number = number_[body];
+    if (number != none) return number;
+    number = static_cast<std::uint32_t>(bodies_.size());
+    bodies_.push_back(body);
+    const Root inverse = dense<Space<dim, double>>(op.inverse_mass(body));
+    roots_.push_back(root(inverse));
+    const double linear_trace = inverse.diagonal().template head<dim>().sum();
+    const double speed = linear_trace > 0 ? linear_trace / dim : inverse.trace();
+    speeds_.push_back(std::sqrt(speed));
+    return number;
+  }
+  /// L of a positive semidefinite matrix L L^T, lower triangle; a zero pivot gives a zero column.
+  static Root root(const Root& m) {
+    Root l = Root::Zero();
+    for (int k = 0; k < dofs; ++k) {
+      const double pivot = m(k, k) - l.row(k).head(k).squaredNorm();
+      if (!(pivot > 1e-14 * m(k, k))) continue;
+      l(k, k) = std::sqrt(pivot);
+      for (int i = k + 1; i < dofs; ++i)
+        l(i, k) = (m(i, k) - l.row(i).head(k).dot(l.row(k).head(k))) / l(k, k);
+    }
+    return l;
+  }
+  Rows rows(const Operator& op, std::size_t c, std::uint32_t body, const typename S::Vector& lever,
+            double sign) const {
+    Rows rows = Rows::Zero();
+    if (body == none) return rows;
+    using Exact = Space<dim, double>;
+    const typename Exact::Vector arm = lever.template cast<double>();
+    for (int k = 0; k < dim; ++k) {
+      const typename Exact::Vector axis = sign * op.frame(c).col(k).template cast<double>();
+      rows.template block<1, dim>(k, 0) = axis.transpose();
+      rows.template block<1, S::angular_dim>(k, dim) = Exact::moment(arm, axis).transpose();
+    }
+    return rows * roots_[body];
+  }
+
+  std::vector<Point> points_;
+  std::vector<Root> roots_;
+  std::vector<double> speeds_;
+  std::vector<std::uint32_t> bodies_, number_;
+  std::vector<std::array<std::uint32_t, 2>> edges_;
+};
+
+}  // namespace moreau::detail
