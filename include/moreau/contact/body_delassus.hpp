@@ -24,6 +24,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/contact_lanes.hpp"
 #include "moreau/contact/local_block.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
@@ -142,20 +143,16 @@ class BodyDelassus {
 
   /// Removes all impulses: every body has its free velocity.
   void clear() { changes_.assign(changes_.size(), PaddedTwist::Zero()); }
-  /// Gives body a the momentum of an impulse at contact c, in its frame [N s].
-  void push_a(std::size_t c, const Vector& impulse) {
-    const Point& point = points_[c];
-    const Vector push = product(point.frame, impulse);
-    linear<S>(changes_[point.a]) -= push;
-    angular<S>(changes_[point.a]) -= S::moment(point.lever_a, push);
+  /// Gives both bodies the momentum of an impulse at contact c, in its frame [N s].
+  void push(std::size_t c, const Vector& impulse) {
+    const Momentum momentum = momentum_of(c, impulse);
+    take(points_[c].b, momentum);
+    give(points_[c].a, momentum);
   }
-  /// Gives body b the momentum of an impulse.
-  void push_b(std::size_t c, const Vector& impulse) {
-    const Point& point = points_[c];
-    const Vector push = product(point.frame, impulse);
-    linear<S>(changes_[point.b]) += push;
-    angular<S>(changes_[point.b]) += S::moment(point.lever_b, push);
-  }
+  /// Gives body a the momentum of an impulse, with the bits of push().
+  void push_a(std::size_t c, const Vector& impulse) { give(points_[c].a, momentum_of(c, impulse)); }
+  /// Gives body b the momentum of an impulse, with the bits of push().
+  void push_b(std::size_t c, const Vector& impulse) { take(points_[c].b, momentum_of(c, impulse)); }
   /// Gives a body an angular momentum, world axes [N m s].
   void push_spin(std::size_t body, const typename S::Angular& impulse) {
     angular<S>(changes_[body]) += impulse;
@@ -207,10 +204,32 @@ class BodyDelassus {
     Scalar trace;
   };
 
+  /// What an impulse at a contact gives body b, and takes from body a, world axes.
+  struct Momentum {
+    Vector push;                             // [N s]
+    typename S::Angular moment_a, moment_b;  // about their centres [N m s]
+  };
+  /// One thread adds the momenta up contact by contact, several body by body.
+  MOREAU_COMPILED_ONCE Momentum momentum_of(std::size_t c, const Vector& impulse) const {
+    const Point& point = points_[c];
+    const Vector push = product(point.frame, impulse);
+    return {push, S::moment(point.lever_a, push), S::moment(point.lever_b, push)};
+  }
+  void give(std::uint32_t a, const Momentum& momentum) {
+    linear<S>(changes_[a]) -= momentum.push;
+    angular<S>(changes_[a]) -= momentum.moment_a;
+  }
+  void take(std::uint32_t b, const Momentum& momentum) {
+    linear<S>(changes_[b]) += momentum.push;
+    angular<S>(changes_[b]) += momentum.moment_b;
+  }
+
   /// @param end at most as many contacts as there are lanes
   template <class Compliance>
-  void assemble_some(std::size_t begin, std::size_t end, std::span<Contact<S>> contacts,
-                     std::span<const typename S::Twist> free, const Compliance& compliance) {
+  MOREAU_COMPILED_ONCE void assemble_some(std::size_t begin, std::size_t end,
+                                          std::span<Contact<S>> contacts,
+                                          std::span<const typename S::Twist> free,
+                                          const Compliance& compliance) {
     Lanes some;
     for (std::size_t lane = 0; lane < Lanes::lanes; ++lane) {
       const std::size_t c = std::min(begin + lane, end - 1);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 
 namespace moreau {
 
@@ -47,6 +48,11 @@ class CompliantDelassus : public Rigid {
     Rigid::apply(c, impulse);
     stretch(c, impulse);
   }
+  /// As BodyDelassus::push, and stretches the spring.
+  void push(std::size_t c, const Vector& impulse) {
+    Rigid::push(c, impulse);
+    stretch(c, impulse);
+  }
   /// As BodyDelassus::push_b, and stretches the spring.
   void push_b(std::size_t c, const Vector& impulse) {
     Rigid::push_b(c, impulse);
@@ -59,7 +65,7 @@ class CompliantDelassus : public Rigid {
   }
 
  private:
-  void stretch(std::size_t c, const Vector& impulse) {
+  MOREAU_COMPILED_ONCE void stretch(std::size_t c, const Vector& impulse) {
     stretch_[c] += compliance_[c].cwiseProduct(impulse);
   }
 

@@ -13,6 +13,7 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/detail/effective_radius.hpp"
 #include "moreau/contact/rolling_block.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/twist.hpp"
 
 namespace moreau {
@@ -104,6 +105,14 @@ class RollingDelassus {
   }
   /// Removes all impulses.
   void clear() { points_.clear(); }
+  /// As BodyDelassus::push.
+  void push(std::size_t c, const Vector& impulse) {
+    points_.push(c, linear<S>(impulse));
+    const auto [a, b] = points_.bodies(c);
+    const typename S::Angular couple = couple_of(c, impulse);
+    points_.push_spin(b, couple);
+    points_.push_spin(a, -couple);
+  }
   /// As BodyDelassus::push_a.
   void push_a(std::size_t c, const Vector& impulse) {
     points_.push_a(c, linear<S>(impulse));
@@ -142,7 +151,7 @@ class RollingDelassus {
     return angular<S>(points_.velocity_change(body));
   }
   /// The couple of an impulse on b, world axes [N m s].
-  typename S::Angular couple_of(std::size_t c, const Vector& impulse) const {
+  MOREAU_COMPILED_ONCE typename S::Angular couple_of(std::size_t c, const Vector& impulse) const {
     return rows_[c].axes * angular<S>(impulse);
   }
 

@@ -6,7 +6,9 @@
 //
 // rank is 0 .. size - 1. wait() is a barrier: it returns once all members have called it. run()
 // returns when all members are done. No result may depend on the size of the team: members write to
-// different places, and what they add up is added in an order that does not depend on them.
+// different places, and what they add up is added in an order that does not depend on them. The calling
+// thread alone runs the same machine code as the members, and share_each() the same for every element,
+// wherever the part of a member begins (detail/compiled_once.hpp).
 //
 // This header needs no thread library; core/thread_team.hpp has the team with threads.
 #pragma once
@@ -18,10 +20,12 @@
 #include <memory>
 #include <utility>
 
+#include "moreau/core/detail/compiled_once.hpp"
+
 namespace moreau {
 
 /// Refers to a function object without keeping it. As a parameter it takes any function of the
-/// signature; it must not outlive the call.
+/// signature; it must not outlive the call. All calls run the same machine code.
 template <class Signature>
 class FunctionRef;
 /// For functions without a result.
@@ -34,7 +38,8 @@ class FunctionRef<void(Arguments...)> {
       : function_(&function), call_([](const void* f, Arguments... arguments) {
           (*static_cast<const Function*>(f))(arguments...);
         }) {}
-  void operator()(Arguments... arguments) const { call_(function_, arguments...); }  ///< calls it
+  /// Calls it.
+  void operator()(Arguments... arguments) const { detail::unknown(call_)(function_, arguments...); }
 
  private:
   const void* function_;
@@ -117,7 +122,8 @@ class Team {
     else
       work(0, 1, TeamBarrier());
   }
-  /// Runs work(begin, end) on all members, each with a part of 0 .. count - 1.
+  /// Runs work(begin, end) on all members, each with a part of 0 .. count - 1. A loop over a part need not be
+  /// the same code for all elements: where it multiplies, call share_each().
   /// @param least with fewer than 2 least the calling thread works alone
   void share(std::size_t count, std::size_t least,
              const FunctionRef<void(std::size_t, std::size_t)>& work) const {
@@ -130,11 +136,12 @@ class Team {
       if (part.begin < part.end) work(part.begin, part.end);
     });
   }
-  /// Calls work(i) for i = 0 .. count - 1, shared by all members; `least` as for share().
+  /// Calls work(i) for i = 0 .. count - 1, shared by all members; `least` as for share(). All elements run
+  /// the same machine code.
   template <class Work>
   void share_each(std::size_t count, std::size_t least, const Work& work) const {
     share(count, least, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(i);
+      for (std::size_t i = begin; i < end; ++i) detail::call(work, i);
     });
   }
 
@@ -189,7 +196,7 @@ template <class Sum, class Add>
 Sum sum_of(const Team& team, std::size_t count, const Add& add) {
   return sum_of_parts<Sum>(team, count, [&](std::size_t begin, std::size_t end) {
     Sum sum{};
-    for (std::size_t i = begin; i < end; ++i) add(sum, i);
+    for (std::size_t i = begin; i < end; ++i) detail::call(add, sum, i);
     return sum;
   });
 }

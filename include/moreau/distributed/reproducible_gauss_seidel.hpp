@@ -14,6 +14,8 @@
 //        W' = (1 + (n - 1) tr(W^-1 W_wall)) W,       n points of the colour at the wall.
 //
 //  - Sums over contacts are exact until they are rounded once (detail/exact_sum.hpp).
+//  - What belongs to a contact or a body is computed by functions that are compiled once
+//    (core/detail/compiled_once.hpp): the place in a loop depends on the process.
 //
 // The sweeps have Nesterov's momentum.
 #pragma once
@@ -31,6 +33,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/distributed/detail/exact_sum.hpp"
 #include "moreau/distributed/detail/ordered_sharing.hpp"
@@ -72,7 +75,7 @@ class OrderedSweeps {
   /// Computes the velocities of the bodies from the impulses alone, in the order of the colours.
   void load_velocities() {
     base_.clear();
-    in_order([&](std::size_t c, T) { apply(c, impulses_[c]); });
+    in_order([&](std::size_t c, T) { apply_impulse(c, impulses_[c]); });
     settle();
   }
   /// The velocities are those before the next extrapolation.
@@ -81,21 +84,10 @@ class OrderedSweeps {
   /// @returns the squared change of the impulses of all processes
   double sweep(T beta) {
     const std::span<T> now = velocities();
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      const T old = now[i];
-      now[i] = old + beta * (old - velocities_before_[i]);
-      velocities_before_[i] = old;
-    }
+    for (std::size_t i = 0; i < now.size(); i += width)
+      extrapolate(&now[i], &velocities_before_[i], beta);
     ExactSum change2;
-    in_order([&](std::size_t c, T heavier) {
-      const Vector guess = impulses_[c] + beta * (impulses_[c] - before_[c]);
-      before_[c] = impulses_[c];
-      impulses_[c] = solved(c, guess, heavier);
-      const Vector change = impulses_[c] - guess;
-      if (change.isZero(0)) return;
-      change2.add(double(change.squaredNorm()));
-      apply(c, change);
-    });
+    in_order([&](std::size_t c, T heavier) { improve(c, beta, heavier, change2); });
     return total(change2);
   }
   /// Leaves the operator with the velocities of the impulses, and measures the residual.
@@ -105,15 +97,20 @@ class OrderedSweeps {
     set_impulses<Operator>(problem_.delassus, impulses_);
     std::copy(ordered.begin(), ordered.end(), velocities().begin());
     ExactSum traces;
-    for (std::size_t c = 0; c < problem_.size(); ++c)
-      traces.add(double(problem_.delassus.block(c).trace()));
+    const auto add_trace = [&](ExactSum& sum, std::size_t c) {
+      sum.add(double(problem_.delassus.block(c).trace()));
+    };
+    for (std::size_t c = 0; c < problem_.size(); ++c) call(add_trace, traces, c);
     const double trace = total(traces), rows = count() * double(Vector::RowsAtCompileTime);
     const double scale = trace > 0 ? trace / rows : 1;
     ResidualSums<Operator, Law> all;
+    const auto add = [&](ResidualSums<Operator, Law>& one, std::size_t c) {
+      one.add(problem_, c, impulses_[c], scale);
+    };
     ExactSum sums[5];
     for (std::size_t c = 0; c < problem_.size(); ++c) {
       ResidualSums<Operator, Law> one;
-      one.add(problem_, c, impulses_[c], scale);
+      call(add, one, c);
       const double terms[] = {one.map, one.norm, one.approach, one.closing, one.dissipation};
       for (std::size_t k = 0; k < std::size(terms); ++k) sums[k].add(terms[k]);
       all.add(one);
@@ -128,7 +125,25 @@ class OrderedSweeps {
   double count() const { return sum_over(sharing_, double(problem_.size())); }
 
  private:
+  static constexpr std::size_t width = BodyDelassus<S>::width;
   std::span<T> velocities() { return base_.velocity_changes(); }
+  MOREAU_COMPILED_ONCE static void extrapolate(T* now, T* before, T beta) {
+    for (std::size_t k = 0; k < width; ++k) {
+      const T old = now[k];
+      now[k] = old + beta * (old - before[k]);
+      before[k] = old;
+    }
+  }
+  /// Finds the impulse of a contact anew, from r + beta (r - r of the sweep before).
+  MOREAU_COMPILED_ONCE void improve(std::size_t c, T beta, T heavier, ExactSum& change2) {
+    const Vector guess = impulses_[c] + beta * (impulses_[c] - before_[c]);
+    before_[c] = impulses_[c];
+    impulses_[c] = solved(c, guess, heavier);
+    const Vector change = impulses_[c] - guess;
+    if (change.isZero(0)) return;
+    change2.add(double(change.squaredNorm()));
+    apply_impulse(c, change);
+  }
   double total(ExactSum& sum) const {
     if (sharing_) sharing_->add(sum.parts());
     return sum.value();
@@ -149,7 +164,7 @@ class OrderedSweeps {
     }
   }
   /// Applies an impulse. What it does to a moving wall is kept until the end of the colour.
-  void apply(std::size_t c, const Vector& impulse) {
+  MOREAU_COMPILED_ONCE void apply_impulse(std::size_t c, const Vector& impulse) {
     const std::uint32_t wall = colours_.wall_of(c);
     if (wall == ColouredPair::none) return base_.apply(c, impulse);
     const std::uint32_t body = colours_.walls()[wall];
@@ -185,7 +200,8 @@ class OrderedSweeps {
     if (sharing_) sharing_->add(points_at_walls_);
   }
   /// The factor of W' for a contact with a moving wall.
-  T heavier(std::uint32_t c, const ColouredPair& pair, std::size_t colour) const {
+  MOREAU_COMPILED_ONCE T heavier(std::uint32_t c, const ColouredPair& pair,
+                                 std::size_t colour) const {
     const auto [a, b] = base_.bodies(c);
     const typename S::Matrix of_wall =
         a == colours_.walls()[pair.wall] ? base_.block_of_a(c) : base_.block_of_b(c);

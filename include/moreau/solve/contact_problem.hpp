@@ -48,8 +48,7 @@ void set_impulses(Operator& delassus, std::span<const typename Operator::Vector>
   delassus.clear();
   for (std::size_t c = 0; c < delassus.size(); ++c) {
     if (impulses[c].isZero(0)) continue;
-    delassus.push_b(c, impulses[c]);
-    delassus.push_a(c, impulses[c]);
+    delassus.push(c, impulses[c]);
   }
   delassus.move();
   if (shared) shared->average(delassus.velocity_changes(), Operator::width);

@@ -25,6 +25,7 @@
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
@@ -106,10 +107,7 @@ class ContactDetector {
     team_.share(grains_.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         if constexpr (prefetches) detail::prefetch_update(std::span(grains_), k, end);
-        const Pose<S>& pose = poses[grains_[k].body.index()];
-        grains_[k].shape = &shape_of(k);
-        grains_[k].placed.update(*grains_[k].shape, pose);
-        boxes_[k] = grains_[k].placed.bounding_box();
+        place_one(grains_[k], boxes_[k], shape_of(k), poses);
       }
     });
     place_walls(poses);
@@ -150,10 +148,7 @@ class ContactDetector {
   /// @throws std::invalid_argument if a pair is not of these grains
   void rebuild(auto&& add_all) {
     const bool stale = stale_;
-    grains_.clear();
-    walls_.clear();
-    cylinders_.clear();
-    meshes_.clear();
+    grains_.clear(), walls_.clear(), cylinders_.clear(), meshes_.clear();
     widest_ = 0;
     add_all();
     stale_ = stale;
@@ -224,9 +219,15 @@ class ContactDetector {
     return *image;
   }
 
+  MOREAU_COMPILED_ONCE static void place_one(Grain& grain, Aabb<S>& box, const ShapeT& shape,
+                                             std::span<const Pose<S>> poses) {
+    grain.shape = &shape;
+    grain.placed.update(shape, poses[grain.body.index()]);
+    box = grain.placed.bounding_box();
+  }
   /// Finds the contacts of grain k with later grains and with walls.
-  void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies, const Contacts<S>& previous,
-                 Member& found);
+  MOREAU_COMPILED_ONCE void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies,
+                                      const Contacts<S>& previous, Member& found);
 
   std::vector<Grain> grains_;  // ascending by body
   std::vector<Grain> spare_;   // of removed grains; what they have allocated is used again

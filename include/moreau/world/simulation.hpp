@@ -246,7 +246,7 @@ class Simulation : public BodyControl<ShapeT> {
   ///         a body that was placed since the last step, see allow_overlaps(); nothing has moved then
   /// @throws std::runtime_error naming a body with a velocity or position that is not finite. The step
   ///         is then half made: continue from a snapshot
-  StepReport step(Scalar step);
+  MOREAU_COMPILED_ONCE StepReport step(Scalar step);
 
   double time() const { return time_; }              ///< sum of the steps [s]
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/detail/merge_join.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
@@ -18,8 +19,8 @@ namespace moreau {
 /// A vector in the frame of a contact of the step before, in the frame of the contact in this step:
 /// through world axes.
 template <class S>
-typename S::Vector turned(const Contact<S>& before, const Contact<S>& now,
-                          const typename S::Vector& vector) {
+MOREAU_COMPILED_ONCE typename S::Vector turned(const Contact<S>& before, const Contact<S>& now,
+                                               const typename S::Vector& vector) {
   return transposed_product(now.frame, product(before.frame, vector));
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
@@ -183,7 +184,7 @@ class GroupKernel {
     }
   }
   /// Whether u_n < 0 at a point of the group.
-  bool approaches(const Pairs& group) const {
+  MOREAU_COMPILED_ONCE bool approaches(const Pairs& group) const {
     const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     typename W::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
@@ -198,7 +199,7 @@ class GroupKernel {
 
   /// Solves the first `count` contacts of each pair in the group, one after the other.
   template <bool Measure>
-  void visit(std::uint32_t number, std::uint32_t count, T extrapolation) {
+  MOREAU_COMPILED_ONCE void visit(std::uint32_t number, std::uint32_t count, T extrapolation) {
     prefetch_from(number + ahead);
     const Pairs& group = groups_.pairs[number];
     Values change2{};

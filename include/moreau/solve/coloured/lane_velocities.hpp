@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "moreau/core/detail/cache_lines.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 
@@ -39,7 +40,7 @@ class LaneVelocities {
   /// Makes the present velocities the velocities before the next extrapolation.
   void settle() { before_ = now_; }
   /// Adds beta times the change since the last extrapolation; the work of one member of a team.
-  void extrapolate(T beta, int rank, int size) {
+  MOREAU_COMPILED_ONCE void extrapolate(T beta, int rank, int size) {
     const Values factor = W::broadcast(beta);
     const Share share(now_.size(), rank, size);
     for (std::size_t i = share.begin; i < share.end; ++i) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
@@ -78,7 +79,7 @@ class ContactSprings {
   void relax(const StepContext<S, Law>& context, std::span<const Row> impulses, Operator& op) {
     relaxation_.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
-      relaxation_[c] = -compliance_[c].cwiseProduct(impulses[c]);
+      relaxation_[c] = relaxation_of(compliance_[c], impulses[c]);
       const Contact<S>& point = context.contacts.points[c];
       if (!context.materials.laws()[point.law].keeps_normal_impulse()) relaxation_[c][0] = 0;
       op.offset(c, relaxation_[c]);
@@ -145,7 +146,7 @@ class ContactSprings {
 
     double total() const { return normal + tangential + rolling; }
     /// @param work impulse x stretch of one contact, by its rows
-    static Energy of(const Row& work) {
+    MOREAU_COMPILED_ONCE static Energy of(const Row& work) {
       Energy energy;
       energy.normal = double(work[0]) / 2;
       energy.tangential = double(work.template segment<S::dim - 1>(1).sum()) / 2;
@@ -160,6 +161,9 @@ class ContactSprings {
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };
 
+  MOREAU_COMPILED_ONCE static Row relaxation_of(const Row& compliance, const Row& impulse) {
+    return -compliance.cwiseProduct(impulse);
+  }
   /// w_nn of a contact [1/kg].
   static Scalar normal_of(const auto& block) {
     if constexpr (RollingLaw<Law, S>)
