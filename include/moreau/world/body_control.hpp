@@ -38,7 +38,9 @@ class BodyControl : public BodyAccess<ShapeT> {
   /// grains that are free and with walls that have a mass. It has none with other bodies of
   /// prescribed motion, and can pass through them.
   ///
-  /// contact_impulse() gives the impulse that it received. Its mass still counts in the measures. No
+  /// contact_impulse() gives the impulse that it received from bodies that move. A contact with another
+  /// body of prescribed motion, such as the floor on which it stands, does not exist: no measure and no
+  /// list of contacts has it, its force is not determined. Its mass still counts in the measures. No
   /// effect on a grain whose motion is prescribed already.
   /// @throws std::invalid_argument for a body that is not a grain of this simulation
   void prescribe_motion(BodyId grain) {

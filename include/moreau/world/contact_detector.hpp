@@ -6,11 +6,9 @@
 //   3. collide each pair
 //   4. write its contact points to the list of the step
 //
-// All buffers are kept: there is no allocation once they are large enough.
-//
-// In a periodic cell poses are not wrapped. Each pair has a shift by whole cells that moves its
-// second grain next to its first. Grains do not jump, so the shift is valid for as long as the list
-// of pairs.
+// All buffers are kept: there is no allocation once they are large enough. In a periodic cell poses
+// are not wrapped: each pair has a shift by whole cells that moves its second grain next to its first.
+// Grains do not jump, so the shift is valid for as long as the list of pairs.
 #pragma once
 
 #include <algorithm>
@@ -39,6 +37,7 @@
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
+#include "moreau/world/detail/internal_edges.hpp"
 #include "moreau/world/detail/mesh_walls.hpp"
 #include "moreau/world/detail/pair_caches.hpp"
 #include "moreau/world/detail/pair_filter.hpp"
@@ -246,6 +245,7 @@ class ContactDetector {
   ContactPoints kept_points_ = ContactPoints::all;
   Team team_;
   detail::VisitOrder<S> order_;
+  detail::InternalEdges<ShapeT> internal_edges_;
   std::vector<Member> members_;             // of the team
   std::vector<typename Member::Run> runs_;  // of each grain
   std::vector<std::size_t> place_;  // of the contacts of each grain; at the end, their number
@@ -355,6 +355,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
   team_.share_each(grains_.size(), least, [&](std::size_t k) {
     members_[runs_[k].finder].write(runs_[k], grains_[k].body.value, place_[k], out);
   });
+  internal_edges_.replace(grains_, bodies, lengths.resolution, lengths.margin, out);
 }
 
 template <class ShapeT, class BroadPhaseT>

@@ -33,6 +33,7 @@
 #include "moreau/world/body_control.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
+#include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 #include "moreau/world/detail/impulse_dynamics.hpp"
 #include "moreau/world/detail/policies.hpp"
@@ -260,7 +261,7 @@ class Simulation : public BodyControl<ShapeT> {
   Value<Vector> gravity() const { return gravity_; }  ///< world axes [m/s^2]
 
   /// Sum of the impulses that a body received from its contacts in the last step, attraction
-  /// included, world axes [N s].
+  /// included, world axes [N s]. Two bodies of prescribed motion have no contact.
   /// @throws std::invalid_argument for a body that is not of this simulation
   Value<Vector> contact_impulse(BodyId body) const {
     assembly_.require_body(body, "Simulation::contact_impulse");
@@ -277,7 +278,6 @@ class Simulation : public BodyControl<ShapeT> {
   using Dynamics =
       std::conditional_t<set_valued, detail::ImpulseDynamics<S, Law, Integrator, Solver>,
                          detail::ForceDynamics<S, Law, Integrator>>;
-
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances,
              Dynamics&& dynamics)
       : grain_size_(grain_size),
@@ -351,10 +351,10 @@ class Simulation : public BodyControl<ShapeT> {
   Dynamics dynamics_;
   Vector gravity_ = Vector::Zero();
   double time_ = 0;
-
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
+  detail::ChordVelocities<ShapeT> chords_;
   Team team_;
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
@@ -365,7 +365,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
           "must be finite and > 0");
   StepReport report;
-  const detail::StepContext<S, Law> context{
+  detail::StepContext<S, Law> context{
       assembly_.bodies(), gravity_,    materials_, previous_,
       contacts_,          grain_size_, step,       lengths().margin};
   const auto start = Clock::now();
@@ -383,6 +383,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
   detect(report, clock);
+  context.chords = chords_.update(assembly_, contacts_, set_valued ? step : -step);
   const auto detected = Clock::now();
   if constexpr (set_valued) {
     dynamics_.advance(context, report);

@@ -204,6 +204,12 @@ class Assembly {
     return static_cast<std::size_t>(found - grain_ids_.begin());
   }
 
+  /// Shape of a grain; the body is not checked.
+  const ShapeT& shape_of(BodyId grain) const {
+    const auto found = std::lower_bound(grain_ids_.begin(), grain_ids_.end(), grain);
+    return shape_of_grain(static_cast<std::size_t>(found - grain_ids_.begin()));
+  }
+
   static void require_pose(const Pose<S>& pose, const char* function) {
     require(all_finite(pose.position), function, "pose.position", pose.position, "must be finite");
     require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",

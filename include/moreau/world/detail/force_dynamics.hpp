@@ -17,6 +17,7 @@
 #include "moreau/contact/detail/warm_start.hpp"
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
@@ -64,7 +65,9 @@ class ForceDynamics {
     memory_.swap(next_);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
-      const ContactMotion<S> motion = motion_of(bodies, contact, elapsed);
+      ContactMotion<S> motion = motion_of(bodies, contact, elapsed);
+      if (!context.chords.empty())
+        motion.velocity += transposed_product(contact.frame, context.chords[c]);
       const Vector force = context.materials.laws()[contact.law].force(motion, memory_[c]);
       contacts.impulses[c] = context.step * force;
       report.dissipation -= double(contacts.impulses[c].dot(motion.velocity));

@@ -38,6 +38,7 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/split_shared_bodies.hpp"
 #include "moreau/solve/shared_bodies.hpp"
+#include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/contact_unknowns.hpp"
@@ -305,8 +306,10 @@ class ImpulseDynamics {
                              before_[c] = BodyDelassus<S>::relative_velocity(
                                  contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
                              fastest.add({-before_[c][0]});
-                             const Scalar offset =
-                                 law.velocity_offset(contact.gap, before_[c][0], context.step);
+                             const Scalar arc =
+                                 add_chord(problem_.delassus, context, c, before_[c]);
+                             const Scalar offset = law.velocity_offset(
+                                 contact.gap, before_[c][0] - arc, context.step);
                              if (!std::isfinite(offset)) impulses[c].setZero();
                              problem_.delassus.offset_normal(c, offset);
                            })

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/law/materials.hpp"
@@ -18,6 +20,9 @@ struct StepContext {
   typename S::Scalar grain_size;  ///< length that tolerances are relative to [m]
   typename S::Scalar step;        ///< h [s]
   typename S::Scalar margin;      ///< largest gap at which a contact is made [m]
+  /// What second-order terms add to the relative velocity of each contact, world axes [m/s]; empty if
+  /// none has any (chord_velocities.hpp).
+  std::span<const typename S::Vector> chords = {};
 };
 
 }  // namespace moreau::detail

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Contacts with turning walls and with cylinders, to second order in the step h.
+//
+// A material point at the lever X from the centre of a body that turns at w moves along an arc. Over a
+// step it is displaced by h (v + w x X + E(w) X), where
+//
+//     E(w) X = ((exp(h w) - 1) / h) X - w x X = h/2 w x (w x X) + O(h^2).
+//
+// The velocity v + w x X is tangent to the arc: a grain that follows it leaves the wall's circle by
+// E(w) X per unit of time. So a body that rests on a turning wall would drift outwards, by pi h |w| times
+// its radius per turn. The contact problem therefore takes the chord of the arc, (displacement)/h, for
+// the velocity of the wall, and the same of the grain's own rotation, so that a grain that turns with the
+// wall is at rest to rounding. Of a gap g(t) along the normal n the second derivative has one more term
+// if the body that owns the touching face turns at w and the bodies slide at u_t:
+//
+//     h/2 g'' = n . (E(w_b) X_b - E(w_a) X_a) + h (w x n) . u_t
+//
+// A wall along a cylinder is curved itself. Let R be the radius of the cylinder minus that of the
+// rounding of the grain. A point on the circle R that moves by h u along its tangent stays inside of the
+// circle only if it moves inwards by
+//
+//     h c = R - sqrt(R^2 - (h u)^2).
+//
+// Without c a grain that slides along the wall would lose the part of its velocity along the new normal
+// in every step: pi h u / R of its speed per turn. With c a step without friction is the map of SHAKE (J.-P.
+// Ryckaert et al., J. Comput. Phys. 23 (1977) 327), which reflects this part and conserves the speed.
+//
+// Of rounded grains the point that counts is that of the core: the centre of a ball, the end of the
+// segment of a capsule. Of shapes of which only the support function is known it is the centre.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/shape/one_of.hpp"
+#include "moreau/shape/rounded.hpp"
+#include "moreau/world/detail/assembly.hpp"
+
+namespace moreau::detail {
+
+/// E(w) X at the top of this file [m/s].
+/// @param w     angular velocity, world axes [rad/s]
+/// @param lever X, world axes [m]
+/// @param step  h, also negative: the chord of the past step [s]
+template <class S>
+[[gnu::cold, gnu::noinline]] typename S::Vector chord_excess(const typename S::Angular& w,
+                                                             const typename S::Vector& lever,
+                                                             typename S::Scalar step) {
+  using T = typename S::Scalar;
+  const T angle = std::abs(step) * w.norm(), square = angle * angle, half = std::sin(angle / 2);
+  // sin(x) / x - 1 and (1 - cos x) / x^2, for small x by their series
+  const bool is_small = angle < T(1e-2);
+  const T first = is_small ? -square / 6 * (1 - square / 20) : std::sin(angle) / angle - 1;
+  const T second = is_small ? (1 - square / 12) / 2 : 2 * half * half / square;
+  const typename S::Vector along = S::spin(w, lever);
+  return first * along + second * step * S::spin(w, along);
+}
+
+/// Radius of the rounding around the core of a grain [m]; < 0 if it is not known.
+template <class ShapeT>
+typename SpaceOf<ShapeT>::Scalar core_rounding(const ShapeT&) {
+  return Polytope<ShapeT> ? 0 : -1;
+}
+template <class S>
+typename S::Scalar core_rounding(const BallIn<S>& ball) {
+  return ball.radius();
+}
+template <class Core>
+typename SpaceOf<Core>::Scalar core_rounding(const Rounded<Core>& shape) {
+  return shape.radius() + std::max(typename SpaceOf<Core>::Scalar(0), core_rounding(shape.core()));
+}
+template <class... Shapes>
+auto core_rounding(const OneOf<Shapes...>& shape) {
+  return shape.visit([](const auto& held) { return core_rounding(held); });
+}
+
+/// The velocities to add to the relative velocities of contacts, so that these times h are displacements
+/// over a step to second order.
+template <class ShapeT>
+class ChordVelocities {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Angular = typename S::Angular;
+
+  /// @param contacts of the bodies at their present poses
+  /// @param step     h [s]: of the step that begins; -h for the step that ends; 0: none
+  /// @returns one per contact, body b minus body a, world axes [m/s]; empty if all are zero
+  std::span<const Vector> update(const Assembly<ShapeT>& assembly, const Contacts<S>& contacts,
+                                 Scalar step) {
+    velocities_.clear();
+    find_turning(assembly);
+    if (step == 0 || turning_.empty()) return {};
+    velocities_.assign(contacts.size(), Vector::Zero());
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Contact<S>& contact = contacts.points[c];
+      if (!turning_[contact.a] && !turning_[contact.b]) continue;
+      const auto* cylinder = cylinder_of(assembly, contact.b);
+      const ContactKey& key = contacts.keys[c];
+      velocities_[c] = cylinder ? along_cylinder(assembly, *cylinder, contact, key, step)
+                                : along_wall(assembly, contact, key, step);
+    }
+    return velocities_;
+  }
+
+ private:
+  /// Marks cylinders, and bodies with a rotation that is prescribed.
+  void find_turning(const Assembly<ShapeT>& assembly) {
+    const Bodies<S>& bodies = assembly.bodies();
+    turning_.clear();
+    const auto mark = [&](std::size_t i) {
+      turning_.resize(bodies.size(), 0);
+      turning_[i] = 1;
+    };
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (!bodies.rotates(i) && !angular<S>(bodies.velocity[i]).isZero(0)) mark(i);
+    for (const CylinderBody<S>& cylinder : assembly.cylinders()) mark(cylinder.body.index());
+  }
+  static const CylinderBody<S>* cylinder_of(const Assembly<ShapeT>& assembly, std::uint32_t body) {
+    for (const CylinderBody<S>& cylinder : assembly.cylinders())
+      if (cylinder.body.index() == body) return &cylinder;
+    return nullptr;
+  }
+
+  static Scalar rounding_of(const ShapeT& shape, [[maybe_unused]] std::uint32_t part) {
+    if constexpr (CompoundShape<ShapeT>)
+      return core_rounding(shape.parts()[part].shape);
+    else
+      return core_rounding(shape);
+  }
+  /// From the point of the core of a grain to the contact point [m].
+  /// @param part    of the grain
+  /// @param outward unit normal out of the grain
+  /// @param lever   from the centre of the grain to the contact point [m]
+  [[gnu::cold, gnu::noinline]] static Vector from_core(const Assembly<ShapeT>& assembly,
+                                                       std::uint32_t grain, std::uint32_t part,
+                                                       const Vector& outward, const Vector& lever,
+                                                       Scalar gap) {
+    const Scalar radius = rounding_of(assembly.shape_of(assembly.bodies().id[grain]), part);
+    return radius < 0 ? lever : Vector((radius + gap / 2) * outward);
+  }
+  /// Velocity of the point at `lever` [m/s].
+  static Vector velocity_at(const typename S::Twist& twist, const Vector& lever) {
+    return linear<S>(twist) + S::spin(angular<S>(twist), lever);
+  }
+
+  /// Of a half-space, a mesh wall or a grain whose rotation is prescribed.
+  [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
+                                                        const Contact<S>& contact,
+                                                        const ContactKey& key, Scalar step) {
+    const Bodies<S>& bodies = assembly.bodies();
+    const std::uint32_t a = contact.a, b = contact.b;
+    const Vector normal = contact.frame.col(0);
+    const bool a_moves = bodies.rotates(a);
+    const Vector shift =
+        a_moves ? from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap)
+        : bodies.rotates(b)
+            ? from_core(assembly, b, key.part_b, -normal, contact.lever_b, contact.gap)
+            : Vector(Vector::Zero());
+    const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
+    const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
+    const Vector slip =
+        velocity_at(bodies.velocity[b], lever_b) - velocity_at(bodies.velocity[a], lever_a);
+    const auto face_of_b = vertex_on_face(S{});
+    const auto face_of_a = FeatureKey(face_of_b, 0, 0).swapped().kind();
+    const auto kind = key.feature.kind();
+    const bool owner_is_a = kind == face_of_a || (kind != face_of_b && !a_moves);
+    const Vector turn = step * S::spin(owner_is_a ? of_a : of_b, normal);
+    return chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step) +
+           turn.dot(slip) * normal;
+  }
+
+  /// Of a cylinder, which its rotation about its axis leaves where it is.
+  [[gnu::cold, gnu::noinline]] static Vector along_cylinder(const Assembly<ShapeT>& assembly,
+                                                            const CylinderBody<S>& cylinder,
+                                                            const Contact<S>& contact,
+                                                            const ContactKey& key, Scalar step) {
+    const Bodies<S>& bodies = assembly.bodies();
+    const std::uint32_t a = contact.a, b = contact.b;
+    const Vector normal = contact.frame.col(0);
+    const Vector shift = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
+    const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
+    const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
+    const Angular axis = product(S::adjoint(bodies.pose[b].rotation), cylinder.shape.axis());
+    const Angular tilt = of_b - axis * axis.dot(of_b);
+    const Vector own = chord_excess<S>(of_a, lever_a, step);
+    const Vector tilted = chord_excess<S>(tilt, lever_b, step);
+    const Vector slip = linear<S>(bodies.velocity[b]) + S::spin(tilt, lever_b) -
+                        velocity_at(bodies.velocity[a], lever_a);
+    const Scalar radius = -S::spin(axis, S::spin(axis, lever_b)).dot(normal) + contact.gap;
+    const Scalar along = step * S::spin(axis, normal).dot(slip + tilted - own);
+    const Scalar inside = std::sqrt(std::max(Scalar(0), radius * radius - along * along));
+    const Scalar curved = radius > 0 ? along * along / (radius + inside) / step : Scalar(0);
+    const Scalar along_normal =
+        normal.dot(tilted - own) + step * S::spin(tilt, normal).dot(slip) - curved;
+    // Only a wall that turns does work on a grain that rests on it.
+    const Vector sum = of_b.isZero(0) ? Vector(Vector::Zero())
+                                      : Vector(chord_excess<S>(of_b, lever_b, step) - own);
+    return sum + (along_normal - normal.dot(sum)) * normal;
+  }
+
+  std::vector<unsigned char> turning_;  // one per body; empty if there is none
+  std::vector<Vector> velocities_;      // one per contact
+};
+
+/// Adds the second-order terms of contact c to its free relative velocity. A normal term that pushes is at
+/// most the approach before the step, which it equals in a contact that stays closed: it makes no energy.
+/// @param op      the operator of the contacts, of their points or also of their couples
+/// @param context StepContext of the step
+/// @param before  relative velocity before the step, contact frame [m/s]
+/// @returns the normal term [m/s]: u_n before the step where the contact neither opens nor closes
+template <class Operator>
+typename Operator::Scalar add_chord(Operator& op, const auto& context, std::size_t c,
+                                    const auto& before) {
+  if (context.chords.empty()) return 0;
+  auto chord = transposed_product(context.contacts.points[c].frame, context.chords[c]);
+  using Scalar = typename Operator::Scalar;
+  chord[0] = std::max(chord[0], std::min(Scalar(0), before[0]));
+  typename Operator::Vector row = Operator::Vector::Zero();
+  for (Eigen::Index k = 0; k < chord.size(); ++k) row[k] = chord[k];
+  op.offset(c, row);
+  return chord[0];
+}
+
+}  // namespace moreau::detail

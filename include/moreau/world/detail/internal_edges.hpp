@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// Internal edges: contacts of a grain with an obstacle that stands flush beside another one.
+//
+// Obstacles whose tops lie in one plane, or the flush convex parts of a compound grain, are one surface for
+// a grain X that slides over them. But X overlaps the plane by rounding errors and by what the law leaves,
+// so that its corner meets the side of the next obstacle B, and would stop there. (Box2D: ghost vertices;
+// Jolt Physics and Bullet: internal edges.)
+//
+// Let C be a body that touches X with the outward normal m, and P the plane of C's surface there. If X lies
+// above P, to the depth of this contact, and B below P, to the flush tolerance, then P separates X from B:
+// the normal of their contact is m. So a contact of X and B with another normal is replaced by one along
+// m, with the same points, if its normal
+//
+//   - makes more than 45 degrees with m, as that of a side of B, or
+//   - is that between two nearest vertices or edges.
+//
+// Any step that is higher than the tolerance, a side wall, a ramp or a groove reaches above P and is left
+// as it is. If P of B separates X from C as well, both contacts stay. Only the geometry of the present step
+// decides, so neither the order of bodies nor the past has an influence.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/detect/manifold.hpp"
+#include "moreau/detect/placed.hpp"
+#include "moreau/shape/concepts.hpp"
+
+namespace moreau::detail {
+
+/// Replaces the contacts at internal edges in the list of a step.
+template <class ShapeT>
+class InternalEdges {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// @param grains     ascending by body, with their placed shapes
+  /// @param bodies     those whose motion is prescribed are obstacles
+  /// @param resolution contact points closer together than this are merged; a fifth of it is the largest
+  ///                   height of a step that counts as none [m]
+  /// @param margin     largest gap of a contact [m]
+  /// @param contacts   in: as detected; out: with contacts replaced or removed
+  void replace(const auto& grains, const Bodies<S>& bodies, Scalar resolution, Scalar margin,
+               Contacts<S>& contacts) {
+    const auto is_obstacle = [&](const auto& grain) {
+      return bodies.is_prescribed(grain.body.index());
+    };
+    const bool has_obstacles = std::any_of(grains.begin(), grains.end(), is_obstacle);
+    if (!CompoundShape<ShapeT> && !has_obstacles) return;
+    const Scalar flush = resolution / 5;
+    const auto placed_of = [&](std::uint32_t body) {
+      const BodyId id = bodies.id[body];
+      const auto found =
+          std::lower_bound(grains.begin(), grains.end(), id,
+                           [](const auto& grain, BodyId other) { return grain.body < other; });
+      return found != grains.end() && found->body == id ? &found->placed : nullptr;
+    };
+    find_views(bodies, has_obstacles, contacts);
+    gone_.clear();
+    found_.clear();
+    for (std::size_t begin = 0, end = 0; begin < views_.size(); begin = end) {
+      while (end < views_.size() && views_[end].is_beside(views_[begin])) ++end;
+      if (end > begin + 1) compare(begin, end, flush, placed_of, contacts);
+    }
+    for (const Found& found : found_) apply(found, resolution, margin, contacts);
+    if (!gone_.empty()) contacts.erase([&](std::size_t c) { return gone_[c] != 0; });
+  }
+
+ private:
+  static constexpr std::uint32_t obstacles = 0xffffffff;
+
+  /// A manifold as the body X sees it, which touches another body.
+  struct View {
+    std::uint32_t x, part;  ///< index of X, and the part that touches
+    std::uint32_t group;    ///< `obstacles`, or the index of a compound grain: what moves as one
+    std::uint32_t first, last;  ///< its points
+    bool is_a;                  ///< whether X is body a of the contact
+    bool is_beside(const View& other) const {
+      return x == other.x && part == other.part && group == other.group;
+    }
+    friend constexpr auto operator<=>(const View&, const View&) = default;
+  };
+  /// A contact to replace.
+  struct Found {
+    View view;
+    Vector normal;      ///< m
+    Scalar separation;  ///< of X and B along m [m]
+  };
+
+  [[gnu::cold, gnu::noinline]] void find_views(const Bodies<S>& bodies, bool has_obstacles,
+                                               const Contacts<S>& contacts) {
+    views_.clear();
+    const auto count = static_cast<std::uint32_t>(contacts.size());
+    for (std::uint32_t first = 0, last = 0; first < count; first = last) {
+      const ContactKey& key = contacts.keys[first];
+      while (last < count && contacts.keys[last].a == key.a && contacts.keys[last].b == key.b)
+        ++last;
+      if (has_obstacles && bodies.is_prescribed(key.a))
+        add_views(first, last, false, obstacles, contacts);
+      if (has_obstacles && bodies.is_prescribed(key.b))
+        add_views(first, last, true, obstacles, contacts);
+      if (!CompoundShape<ShapeT> || has_one_manifold(first, last, contacts)) continue;
+      add_views(first, last, false, key.a, contacts);
+      add_views(first, last, true, key.b, contacts);
+    }
+    std::sort(views_.begin(), views_.end());
+  }
+  /// Whether two contact points belong to one manifold.
+  static bool are_of_one(std::uint32_t c, std::uint32_t d, const Contacts<S>& contacts) {
+    return contacts.keys[c].is_of_parts_of(contacts.keys[d]) &&
+           contacts.points[c].frame.col(0) == contacts.points[d].frame.col(0);
+  }
+  static bool has_one_manifold(std::uint32_t first, std::uint32_t last,
+                               const Contacts<S>& contacts) {
+    while (first + 1 < last && are_of_one(first, last - 1, contacts)) ++first;
+    return first + 1 == last;
+  }
+  /// Adds the manifolds of a pair.
+  [[gnu::cold, gnu::noinline]] void add_views(std::uint32_t first, std::uint32_t last, bool is_a,
+                                              std::uint32_t group, const Contacts<S>& contacts) {
+    for (std::uint32_t end = first; first < last; first = end) {
+      const ContactKey& key = contacts.keys[first];
+      while (end < last && are_of_one(first, end, contacts)) ++end;
+      views_.push_back(
+          {is_a ? key.a : key.b, is_a ? key.part_a : key.part_b, group, first, end, is_a});
+    }
+  }
+
+  /// Normal out of the other body, towards X.
+  static Vector outward(const View& view, const Contacts<S>& contacts) {
+    const auto normal = contacts.points[view.first].frame.col(0);
+    return view.is_a ? Vector(-normal) : Vector(normal);
+  }
+  /// The plane P of a contact, relative to the centre of X.
+  struct Surface {
+    Vector normal;
+    Scalar height;  ///< along the normal [m]
+    Scalar gap;     ///< of the contact [m]
+  };
+  [[gnu::cold, gnu::noinline]] static Surface surface_of(const View& view,
+                                                         const Contacts<S>& contacts) {
+    Surface surface{outward(view, contacts), 0, 0};
+    for (std::uint32_t c = view.first; c < view.last; ++c) {
+      const Contact<S>& point = contacts.points[c];
+      const Vector& lever = view.is_a ? point.lever_a : point.lever_b;
+      const Scalar height = surface.normal.dot(lever) - point.gap / 2;
+      surface.height = c == view.first ? height : std::max(surface.height, height);
+      surface.gap = c == view.first ? point.gap : std::min(surface.gap, point.gap);
+    }
+    return surface;
+  }
+  /// How far a part of a grain reaches along a unit vector from the centre of the grain [m].
+  static Scalar reach(const Placed<ShapeT>& grain, [[maybe_unused]] std::uint32_t part,
+                      const Vector& direction) {
+    if constexpr (CompoundShape<ShapeT>)
+      return direction.dot(grain.part(part).center() - grain.center()) +
+             direction.dot(grain.part(part).support(direction));
+    else
+      return direction.dot(grain.support(direction));
+  }
+  /// Height of X above, and of the other body below, along the normal of a surface [m].
+  struct Heights {
+    Scalar x, other;
+  };
+  static Heights heights(const View& view, const Vector& normal, const auto& placed_of,
+                         const Contacts<S>& contacts) {
+    const Contact<S>& point = contacts.points[view.first];
+    const ContactKey& key = contacts.keys[view.first];
+    const Vector between =
+        view.is_a ? point.lever_a - point.lever_b : point.lever_b - point.lever_a;
+    const auto* x = placed_of(view.x);
+    const auto* other = placed_of(view.is_a ? key.b : key.a);
+    return {-reach(*x, view.part, -normal),
+            normal.dot(between) + reach(*other, view.is_a ? key.part_b : key.part_a, normal)};
+  }
+
+  /// Whether a normal can be that of an internal edge: of a side, or between two nearest vertices or edges
+  /// of polytopes, not that of a face.
+  static bool is_candidate(const View& view, Scalar cosine, const Contacts<S>& contacts) {
+    if (cosine < Scalar(0.7)) return true;
+    if (!Polytope<PartOf<ShapeT>> || cosine > Scalar(1 - 1e-6)) return false;
+    const ContactClass found = contacts.classes[view.first];
+    if (vertex_on_face(S{}) == FeatureKey::Kind::vertex_edge)  // the faces are the edges
+      return found == ContactClass::vertex_vertex;
+    return found == ContactClass::vertex_vertex || found == ContactClass::vertex_edge ||
+           found == ContactClass::edge_edge;
+  }
+  /// Whether the surface of another contact separates X from the other body of a contact.
+  [[gnu::cold, gnu::noinline]] static bool is_separated(const View& view, const Surface& surface,
+                                                        Scalar flush, const auto& placed_of,
+                                                        const Contacts<S>& contacts,
+                                                        Heights& found) {
+    const ContactKey& key = contacts.keys[view.first];
+    if (!placed_of(key.a) || !placed_of(key.b)) return false;  // a wall
+    found = heights(view, surface.normal, placed_of, contacts);
+    return found.other <= surface.height + flush &&
+           found.x >= surface.height + std::min(surface.gap, Scalar(0)) - flush;
+  }
+
+  /// Finds the contacts to replace among those of one part of X with one group.
+  [[gnu::cold, gnu::noinline]] void compare(std::size_t begin, std::size_t end, Scalar flush,
+                                            const auto& placed_of, const Contacts<S>& contacts) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const View& view = views_[t];
+      const Vector normal = outward(view, contacts);
+      Found best{view, Vector::Zero(), 0};
+      for (std::size_t s = begin; s < end; ++s) {
+        const Scalar cosine = normal.dot(outward(views_[s], contacts));
+        if (s == t || !is_candidate(view, cosine, contacts)) continue;
+        const Surface surface = surface_of(views_[s], contacts);
+        Heights found, of_other;
+        if (!is_separated(view, surface, flush, placed_of, contacts, found) ||
+            is_separated(views_[s], surface_of(view, contacts), flush, placed_of, contacts,
+                         of_other))
+          continue;
+        const Scalar separation = found.x - found.other;
+        if (best.normal.isZero(0) || separation > best.separation)
+          best = {view, surface.normal, separation};
+      }
+      if (!best.normal.isZero(0)) found_.push_back(best);
+    }
+  }
+
+  /// Gives a contact the normal m; of points that then coincide only the first stays.
+  [[gnu::cold, gnu::noinline]] void apply(const Found& found, Scalar near, Scalar margin,
+                                          Contacts<S>& contacts) {
+    const Vector old = outward(found.view, contacts);
+    const Vector normal = found.view.is_a ? Vector(-found.normal) : found.normal;
+    const auto frame = S::contact_frame(normal);
+    gone_.resize(contacts.size(), 0);
+    for (std::uint32_t c = found.view.first; c < found.view.last; ++c) {
+      Contact<S>& point = contacts.points[c];
+      point.gap = std::max(found.separation, point.gap * old.dot(found.normal));
+      point.frame = frame;
+      gone_[c] = point.gap > margin;
+      for (std::uint32_t k = found.view.first; k < c; ++k)
+        if (!gone_[k] && (point.lever_a - contacts.points[k].lever_a).norm() <= near) gone_[c] = 1;
+    }
+  }
+
+  std::vector<View> views_;
+  std::vector<Found> found_;
+  std::vector<unsigned char> gone_;  // one per contact
+};
+
+}  // namespace moreau::detail
