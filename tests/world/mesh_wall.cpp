@@ -2,6 +2,7 @@
 // Mesh walls in a simulation: they hold grains as half-spaces do where they are plane, they move, and
 // they are part of a snapshot.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <doctest/doctest.h>
@@ -10,11 +11,14 @@
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
+#include "moreau/measure/energy.hpp"
 #include "moreau/moreau.hpp"
 #include "moreau/sample/concave_mesh.hpp"
 #include "moreau/shape/compound.hpp"
 #include "moreau/shape/facet_mesh.hpp"
 
+#include "conformance/random_direction.hpp"
+#include "detect/mesh_surfaces.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace {
@@ -304,4 +308,136 @@ TEST_CASE("bad mesh walls are refused, the simulation is unchanged") {
   other.add_mesh_wall(mesh);
   CHECK_THROWS_AS(other.set_periodic(0, 0, 1), std::invalid_argument);
   CHECK_THROWS_AS(other.set_wall_mass(other.mesh_walls()[0].body, -1), std::invalid_argument);
+}
+
+namespace {
+
+using mesh_surfaces::profiles;
+using mesh_surfaces::surface;
+using mesh_surfaces::union_gap;
+
+/// What grains do that are shot at a wall.
+struct Shots {
+  int count = 0, thrown = 0, driven = 0, through = 0;
+};
+
+/// Shoots a grain at a wall without gravity, at the speed of one margin per step.
+template <class ShapeT>
+void shoot(const MeshWall<SpaceOf<ShapeT>>& wall, const ShapeT& shape,
+           const Pose<SpaceOf<ShapeT>>& pose, const typename SpaceOf<ShapeT>::Vector& velocity,
+           const typename SpaceOf<ShapeT>::Angular& spin, double friction, Shots& shots) {
+  const double h = 1e-3;
+  if (union_gap(wall, Placed<ShapeT>(shape, pose), 0.02) < 1e-3) return;  // it starts in the wall
+  auto simulation = World<ShapeT>(0.02, Materials<Law>(1, Law(friction)));
+  simulation.add_mesh_wall(wall.mesh(), {}, wall.sides());
+  const BodyId grain = simulation.add_grain(simulation.add_shape(shape), pose, 2700);
+  simulation.set_velocity(grain, velocity);
+  simulation.set_spin(grain, spin);
+  const double start = kinetic_energy(simulation).total();
+  double energy = start, farthest = 0, gain = 0, gap = 1;
+  for (int step = 0; step < 150; ++step) {
+    const auto before = simulation.pose(grain).position;
+    simulation.step(h);
+    farthest = std::max(farthest, (simulation.pose(grain).position - before).norm());
+    const double now = kinetic_energy(simulation).total();
+    gain = std::max(gain, now - energy);
+    energy = now;
+    if (step % 8 == 0)
+      gap = std::min(gap, union_gap(wall, Placed<ShapeT>(shape, simulation.pose(grain)), 1e-3));
+  }
+  ++shots.count;
+  shots.driven += gain > 1e-6 * start;
+  shots.thrown +=
+      farthest > h * std::sqrt(2 * start / simulation.bodies().grain_mass[grain.index()]) + 2e-4;
+  shots.through += gap < -4e-4;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("grains shot at steps, ridges, valleys and rims are not thrown and pass nothing",
+                   ShapeT, Polyhedron<>, Polygon<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  const auto shapes = mesh_surfaces::grains<ShapeT>();
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const auto& named : profiles()) {
+    // From behind, grains pass a wall with one side.
+    const MeshWall<S> wall(surface(S{}, named.profile), WallSides::both);
+    Shots shots;
+    for (int t = 0; t < 30; ++t) {
+      const auto& side = wall.side(random() % wall.size());
+      Vector w;  // a place on the facet, often on a ridge
+      for (auto& x : w) x = uniform(random);
+      if (t % 3 != 0) w[int(random() % S::dim)] = 0;
+      Vector up = side.normal;
+      if (t % 4 != 0) up = (up + conformance::random_direction<S>(random)).normalized();
+      const auto turn = t % 2 != 0 ? random_rotation<S>(random) : S::identity();
+      const Vector at = side.corners * w / w.sum() + 0.04 * up;
+      shoot(wall, shapes[std::size_t(t) % shapes.size()],
+            Pose<S>(at + 0.01 * conformance::random_direction<S>(random), turn), Vector(-0.4 * up),
+            typename S::Angular(S::Angular::Constant(t % 3 == 0 ? 5 : 0)), t % 5 == 0 ? 0.3 : 0.0,
+            shots);
+    }
+    CAPTURE(named.name);
+    CHECK(shots.count > 0);
+    CHECK(shots.thrown == 0);
+    CHECK(shots.driven == 0);
+    CHECK(shots.through == 0);
+  }
+}
+
+// The step overlaps a turned cube by less than a micrometre: no contact is as deep as the step is high.
+TEST_CASE("a cube that leans against a step moves as against two half-spaces") {
+  using S = Volume;
+  const auto mesh = surface(S{}, {{60, 0}, {0, 0}, {0, 8}, {-60, 8}});
+  for (const double turn : {0.0, 0.2, 0.5, 1.0}) {
+    auto on_mesh = world<Polyhedron<>>(0.02, 0), on_planes = world<Polyhedron<>>(0.02, 0);
+    on_mesh.add_mesh_wall(mesh);
+    on_planes.add_wall(S::Vector::UnitZ(), S::Vector::Zero());
+    on_planes.add_wall(S::Vector::UnitX(), S::Vector::Zero());
+    std::array<S::Vector, 2> end;
+    double highest = 0;
+    int k = 0;
+    for (auto* simulation : {&on_mesh, &on_planes}) {
+      simulation->set_gravity({-3, 0, -9.81});
+      const BodyId cube =
+          simulation->add_grain(simulation->add_shape(cuboid<Polyhedron<>>({0.01, 0.01, 0.01})),
+                                {{0.016, 0.003, 0.01}, S::exp({0, 0, turn})}, 2700);
+      for (int step = 0; step < 800; ++step) {
+        simulation->step(5e-4);
+        highest = std::max(highest, simulation->pose(cube).position[2]);
+      }
+      end[std::size_t(k++)] = simulation->pose(cube).position;
+    }
+    CAPTURE(turn);
+    CHECK(highest < 0.01001);
+    CHECK((end[0] - end[1]).norm() < 1e-4);
+  }
+}
+
+TEST_CASE("hulls that rain into a basin with a wavy floor stay in it") {
+  using S = Volume;
+  auto simulation = world<Polyhedron<>>(0.02);
+  simulation.add_mesh_wall(floor_of(S{}, 0.3, 60, [](const auto& x) {
+    const double k = 2 * std::numbers::pi / 0.05;
+    return 0.006 * std::sin(k * x[0]) * std::cos(k * x[1]) + 0.4 * (x[0] * x[0] + x[1] * x[1]);
+  }));
+  std::vector<ShapeId> shapes;
+  for (const auto& shape : mesh_surfaces::grains<Polyhedron<>>())
+    shapes.push_back(simulation.add_shape(shape));
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 4; ++k)
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -3; j <= 3; ++j)
+        simulation.add_grain(shapes[random() % shapes.size()],
+                             {{0.04 * i, 0.04 * j, 0.06 + 0.04 * k}, random_rotation<S>(random)},
+                             2700);
+  for (int step = 0; step < 600; ++step) simulation.step(1e-3);
+  int lost = 0;
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const S::Vector at = simulation.pose(simulation.grain(k)).position;
+    lost += !(at[2] > -0.006 && at.head<2>().norm() < 0.25 && at[2] < 0.3);
+  }
+  CHECK(lost == 0);
 }

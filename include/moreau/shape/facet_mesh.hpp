@@ -191,4 +191,50 @@ void for_each_ridge(const std::vector<Ridge<S>>& ridges, const Use& use) {
   }
 }
 
+namespace detail {
+
+/// The number of no facet.
+inline constexpr std::uint32_t no_facet = ~0U;
+
+/// For each facet the facets that join it, at the ridges opposite its corners; `no_facet` at a rim.
+/// @param ridges result of ridges_of()
+/// @param count  number of facets
+/// @param front  number of facets in front: these join among themselves, and so do those behind
+template <class S>
+std::vector<typename FacetMesh<S>::Facet> neighbours_of(const std::vector<Ridge<S>>& ridges,
+                                                        std::size_t count, std::size_t front) {
+  std::vector<typename FacetMesh<S>::Facet> neighbours(count);
+  for (auto& joined : neighbours) joined.fill(no_facet);
+  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
+    for (const Ridge<S>& a : at)
+      for (const Ridge<S>& b : at)
+        if (a.is_forward != b.is_forward && (a.facet < front) == (b.facet < front))
+          neighbours[a.facet][a.corner] = b.facet;
+  });
+  return neighbours;
+}
+
+/// The facets, the largest first, whatever their order in the mesh.
+template <class S>
+std::vector<std::uint32_t> largest_first(const FacetMesh<S>& mesh) {
+  std::vector<std::pair<typename S::Scalar, typename S::Vector>> place(mesh.facets.size());
+  std::vector<std::uint32_t> order(mesh.facets.size());
+  for (std::uint32_t f = 0; f < order.size(); ++f) {
+    const typename S::Matrix corners = corners_of(mesh, f);
+    place[f] = {-area_vector(corners).norm(), corners.rowwise().mean()};
+    order[f] = f;
+  }
+  std::sort(order.begin(), order.end(), [&](std::uint32_t f, std::uint32_t g) {
+    const auto& [area, at] = place[f];
+    const auto& [other, there] = place[g];
+    if (area != other) return area < other;
+    for (int k = 0; k < S::dim; ++k)
+      if (at[k] != there[k]) return at[k] < there[k];
+    return f < g;
+  });
+  return order;
+}
+
+}  // namespace detail
+
 }  // namespace moreau

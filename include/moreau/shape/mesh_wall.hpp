@@ -9,8 +9,7 @@
 //     divided among the facets by planes that two neighbours share;
 //   - concave: a grain outside touches the two facets, never the ridge;
 //   - convex: a grain can touch the ridge, with a normal between those of the two facets. The rim of an
-//     open surface counts as convex: normals there lie between the normal of the facet and the
-//     direction that continues the facet beyond its rim.
+//     open surface counts as convex: normals there point away from the facet, upwards or downwards.
 //
 // Between different faces there is no angle too small to be convex or concave. High above a convex ridge
 // the space between the two faces is wide even if their angle is small.
@@ -71,8 +70,8 @@ class MeshWall {
   struct ConvexRidge {
     std::array<std::uint32_t, std::size_t(S::dim - 1)> vertices;  ///< its ends; in the plane one
     /// Directions d of contact normals at the ridge, towards the grain, satisfy d . beyond >= 0 for
-    /// both: unit vectors in the planes of the two faces, away from the facets; at a rim, the second
-    /// is the normal of the facet, without its component along the ridge.
+    /// both: unit vectors in the planes of the two faces, away from the facets; at a rim both are the
+    /// same.
     std::array<Vector, 2> beyond;
     Vector middle;                       ///< of the directions d: unit
     std::array<std::uint32_t, 2> facet;  ///< that join; the same twice at a rim
@@ -116,6 +115,27 @@ class MeshWall {
       if (is_tip(v)) return false;
     return true;
   }
+  /// The place of the facet that joins side(k) at the ridge opposite corner c, or `none` at a rim.
+  std::uint32_t neighbour(std::size_t k, std::size_t c) const { return neighbours_[k][c]; }
+  /// Whether side(k) has a concave ridge opposite corner c.
+  bool is_concave(std::size_t k, std::size_t c) const {
+    const Side& side = facet_sides_[k];
+    const std::uint32_t other = neighbours_[k][c];
+    return other != none && side.ridge[c] == none && facet_sides_[other].face != side.face;
+  }
+  /// Whether side(k) has a concave ridge.
+  bool has_concave(std::size_t k) const {
+    bool has = false;
+    for (std::size_t c = 0; c < facets_[k].size(); ++c) has = has || is_concave(k, c);
+    return has;
+  }
+  /// Whether side(k) has a rim that ends at vertex v.
+  bool has_rim_at(std::size_t k, std::uint32_t v) const {
+    bool has = false;
+    for (std::size_t c = 0; c < facets_[k].size(); ++c)
+      has = has || (neighbours_[k][c] == none && facets_[k][c] != v);
+    return has;
+  }
   /// Whether a direction d is a possible contact normal at a tip, towards the grain: all faces at the
   /// vertex lie below the plane through it.
   /// @param tolerance sine of the largest angle of a face above the plane [-]
@@ -138,7 +158,7 @@ class MeshWall {
 
   void build();
   void set_sides();
-  void join_faces(const std::vector<Ridge<S>>& ridges);
+  void join_faces();
   void set_inward();
   void set_ridges(const std::vector<Ridge<S>>& ridges);
   void set_tips();
@@ -158,6 +178,7 @@ class MeshWall {
   WallSides sides_ = WallSides::outside;
   std::vector<Facet> facets_;
   std::vector<Side> facet_sides_;
+  std::vector<Facet> neighbours_;  ///< see neighbour()
   std::vector<Aabb<S>> boxes_;
   std::vector<ConvexRidge> ridges_;
   std::vector<unsigned char> is_tip_;
@@ -182,7 +203,8 @@ void MeshWall<S>::build() {
   set_sides();
   // The two sides of a thin wall join at its rim alone: the ridges of each side are paired first.
   const auto ridges = ridges_of<S>(facets_);
-  join_faces(ridges);
+  neighbours_ = detail::neighbours_of<S>(ridges, facets_.size(), mesh_.facets.size());
+  join_faces();
   set_inward();
   set_ridges(ridges);
   set_tips();
@@ -199,16 +221,21 @@ void MeshWall<S>::sort_by_place() {
   tree_ = detail::BoxTree<S>(boxes);
   const auto facets = facets_;
   const auto sides = facet_sides_;
+  const auto neighbours = neighbours_;
   std::vector<std::uint32_t> place(facets.size());
   boxes_.resize(facets.size());
   for (std::uint32_t k = 0; k < facets.size(); ++k) {
     facets_[k] = facets[tree_.order()[k]];
     facet_sides_[k] = sides[tree_.order()[k]];
+    neighbours_[k] = neighbours[tree_.order()[k]];
     boxes_[k] = boxes[tree_.order()[k]];
     place[tree_.order()[k]] = k;
   }
   for (ConvexRidge& ridge : ridges_)
     for (std::uint32_t& f : ridge.facet) f = place[f];
+  for (Facet& joined : neighbours_)
+    for (std::uint32_t& f : joined)
+      if (f != none) f = place[f];
 }
 
 template <EuclideanSpace S>
@@ -226,41 +253,35 @@ void MeshWall<S>::set_sides() {
   }
 }
 
-/// Unites facets that lie in the plane of the lowest numbered facet of their face.
+/// Unites facets that lie in the plane of the largest facet of their face.
 template <EuclideanSpace S>
-void MeshWall<S>::join_faces(const std::vector<Ridge<S>>& ridges) {
-  std::vector<std::array<std::uint32_t, std::size_t(S::dim)>> neighbour(facets_.size());
-  for (auto& of_facet : neighbour) of_facet.fill(none);
-  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
-    for (const Ridge<S>& a : at)
-      for (const Ridge<S>& b : at)
-        if (a.is_forward != b.is_forward &&
-            facet_sides_[a.facet].normal.dot(facet_sides_[b.facet].normal) > 0)
-          neighbour[a.facet][a.corner] = b.facet;
-  });
-  std::vector<unsigned char> is_done(facets_.size(), 0);
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t seed = 0; seed < facets_.size(); ++seed) {
-    if (is_done[seed] != 0) continue;
-    is_done[seed] = 1;
+void MeshWall<S>::join_faces() {
+  std::vector<std::uint32_t> lowest(facets_.size(), none), open;  // by the largest facet
+  for (Side& side : facet_sides_) side.face = none;
+  for (const std::uint32_t seed : detail::largest_first<S>({mesh_.vertices, facets_})) {
+    if (facet_sides_[seed].face != none) continue;
+    const Side& first = facet_sides_[seed];
+    const auto is_flat = [&](std::uint32_t g) {
+      bool is = facet_sides_[g].normal.dot(first.normal) > 0;
+      for (const std::uint32_t v : facets_[g])
+        is = is && std::abs(first.normal.dot(mesh_.vertices[v]) - first.offset) <= flat_;
+      return is;
+    };
+    facet_sides_[seed].face = seed;
     for (open.assign(1, seed); !open.empty();) {
       const std::uint32_t f = open.back();
       open.pop_back();
-      for (const std::uint32_t g : neighbour[f]) {
-        if (g == none || is_done[g] != 0) continue;
-        bool is_flat = facet_sides_[g].normal.dot(facet_sides_[seed].normal) > 0;
-        for (const std::uint32_t v : facets_[g])
-          is_flat = is_flat && std::abs(facet_sides_[seed].normal.dot(mesh_.vertices[v]) -
-                                        facet_sides_[seed].offset) <= flat_;
-        if (!is_flat) continue;
-        is_done[g] = 1;
+      lowest[seed] = std::min(lowest[seed], f);
+      for (const std::uint32_t g : neighbours_[f]) {
+        if (g == none || facet_sides_[g].face != none || !is_flat(g)) continue;
         facet_sides_[g].face = seed;
-        facet_sides_[g].normal = facet_sides_[seed].normal;
-        facet_sides_[g].offset = facet_sides_[seed].offset;
+        facet_sides_[g].normal = first.normal;
+        facet_sides_[g].offset = first.offset;
         open.push_back(g);
       }
     }
   }
+  for (Side& side : facet_sides_) side.face = lowest[side.face];
 }
 
 /// Sets the planes that bound the space above each facet. They contain the normal of the face: two
@@ -287,8 +308,7 @@ void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
     const Vector of_a = -facet_sides_[a.facet].inward[a.corner];
     const Vector normal = facet_sides_[a.facet].normal, other = facet_sides_[b.facet].normal;
     const bool is_rim = a.facet == b.facet;
-    const Vector of_b = is_rim ? Vector(across(a, normal).normalized())
-                               : Vector(-facet_sides_[b.facet].inward[b.corner]);
+    const Vector of_b = -facet_sides_[b.facet].inward[b.corner];  // at a rim that of the same facet
     // Where the angle is small, the sum of these two is too short to have an accurate direction.
     Vector middle = of_a + of_b;
     if (!is_rim) middle += across(a, normal + other);
@@ -309,8 +329,10 @@ void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
           is_paired[i] = is_paired[j] = 1;
           if (facet_sides_[a.facet].face == facet_sides_[b.facet].face) continue;
           const bool is_fold = (a.facet < mesh_.facets.size()) != (b.facet < mesh_.facets.size());
-          const Vector& inward = facet_sides_[a.facet].inward[a.corner];
-          if (is_fold || facet_sides_[b.facet].normal.dot(inward) < 0) add(a, b);
+          const Side &of_a = facet_sides_[a.facet], &of_b = facet_sides_[b.facet];
+          const Scalar rise =
+              of_b.normal.dot(of_a.inward[a.corner]) + of_a.normal.dot(of_b.inward[b.corner]);
+          if (is_fold || rise < 0) add(a, b);
         }
     };
     const std::size_t front = mesh_.facets.size();

@@ -6,17 +6,21 @@
 //
 //   1. a vertex of the shape above a facet, or below it by a small depth. The normal is that of the
 //      facet. All points on one face of the wall (facets in one plane that are connected) make one
-//      manifold, as on a half-space: the ridges between them are not seen;
+//      manifold, as on a half-space. For concave ridges and rims see mesh_facet_region.hpp;
 //   2. in space, an edge of the shape and a convex ridge of the wall that cross;
 //   3. a vertex of the shape and a convex ridge, if the vertex is nearest to the ridge;
 //   4. a tip of the wall (a vertex at which convex ridges end) and the nearest feature of the shape.
 //
 // A normal of 2, 3 and 4 must lie between the normals of the facets that join there: in the normal
 // cone of the ridge or the tip. The shape must lie on one side of the plane through the point, so that
-// the normal lies in its normal cone as well. Therefore no ridge between coplanar facets and no
-// concave ridge ever gives a contact, and of several facets that join only one gives it. Where two
+// the normal lies in its normal cone as well. Therefore no flat and no concave ridge gives a contact,
+// and of several facets that join only one gives it. Where two
 // normal cones meet, each of them takes what rounding errors might push out of it, and a contact that
 // is known is left out: those of faces come first, those of tips last.
+//
+// If the shape overlaps the wall, several edges can cross a ridge. A contact of 2 is left out if the
+// ridge is not in the shape, or if ending the overlap of a shallower contact takes the shape off the
+// point of the ridge: a block that leans against a step does not jump onto it.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +29,12 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
 #include "moreau/detect/pairs/mesh_collidable.hpp"
 #include "moreau/detect/pairs/mesh_core.hpp"
+#include "moreau/detect/pairs/mesh_facet_region.hpp"
 #include "moreau/detect/pairs/mesh_neighbours.hpp"
 #include "moreau/detect/pairs/mesh_scratch.hpp"
 #include "moreau/detect/pairs/nearest_on_facet.hpp"
@@ -74,10 +77,12 @@ class MeshCollision {
     scratch_.tips.clear();
     scratch_.known.clear();
     const Aabb<S> around = box.inflated(margin_ - radius_);
+    const T beside = std::max(margin_ - radius_, core_.deepest() / 8);
+    const FacetRegion<S> region{wall_, near, around, center_, core_.size(), near_, beside};
     bool touch = false;
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
       while (end < near.size() && near[end].face == near[begin].face) ++end;
-      if (!take_face(near.subspan(begin, end - begin), around) || !touch_face()) continue;
+      if (!take_face(near.subspan(begin, end - begin), around) || !touch_face(region)) continue;
       finish();
       use(near[begin].face);
       touch = true;
@@ -89,32 +94,54 @@ class MeshCollision {
   bool touch_points(const Use& use) {
     sort_short(scratch_.ridges);
     sort_short(scratch_.tips);
-    bool touch = false;
+    auto& known = scratch_.known;
+    const std::size_t begin = known.size();
     const T flatness = wall_.flatness();
     const auto add = [&](const Vector& to_shape, T gap, const Vector& x, FeatureKey key) {
-      const T near = 2 * flatness + 4 * near_ + T(1e-4) * std::abs(gap);
-      if (!scratch_.known.add(x, to_shape, gap, near)) return;
-      out_.set_single_point(-to_shape, gap, center_ + (x - gap / 2 * to_shape), key);
-      finish();
-      use(Wall::none);
-      touch = true;
+      known.add(Known{x, to_shape, gap, key}, 2 * flatness + 4 * near_ + T(1e-4) * std::abs(gap));
     };
     for (const std::uint32_t r : scratch_.ridges) touch_ridge(S{}, r, add);
     touch_tips(aligned, add);
-    if (radius_ > 0 && scratch_.known.is_empty()) {
+    if (radius_ > 0 && known.is_empty()) {
       // High above a corner of faces whose vertices lie near their planes only, normal cones that were
       // computed from these planes can leave a gap.
       T least = std::numeric_limits<T>::infinity();
       const auto find = [&](const Vector&, T gap, const auto&...) { least = std::min(least, gap); };
       touch_tips(uneven, find);
       touch_tips(uneven, [&](const Vector& to_shape, T gap, const auto&... rest) {
-        if (gap == least && !touch) add(to_shape, gap, rest...);
+        if (gap == least && known.is_empty()) add(to_shape, gap, rest...);
       });
     }
-    return touch;
+    return use_points(begin, use);
   }
 
  private:
+  using Known = KnownContacts::Contact<Vector>;
+
+  /// Calls use(none) for the contacts at ridges and tips, from number `begin` on.
+  template <class Use>
+  bool use_points(std::size_t begin, const Use& use) {
+    bool touch = false;
+    for (std::size_t i = begin; i < scratch_.known.size(); ++i) {
+      const auto contact = scratch_.known.template at<Vector>(i);
+      if (contact.gap < -near_ && !is_deepest(contact)) continue;
+      const Vector middle = contact.x - contact.gap / 2 * contact.to_shape;
+      out_.set_single_point(-contact.to_shape, contact.gap, center_ + middle, contact.feature);
+      finish();
+      use(Wall::none);
+      touch = true;
+    }
+    return touch;
+  }
+  /// Whether a ridge lies in the shape and no shallower contact leads out of the wall there.
+  bool is_deepest(const Known& contact) {
+    if (contact.feature.kind() != FeatureKey::Kind::edge_edge) return true;
+    const auto& ends = wall_.ridge(contact.feature.b()).vertices;
+    const auto bounds = [&](const Known& other) { return is_lowest(other.x, other.to_shape); };
+    return core_.meets(wall_.vertex(ends.front()) - center_, wall_.vertex(ends.back()) - center_,
+                       near_) &&
+           !scratch_.known.frees(contact, near_, bounds);
+  }
   /// Height of the centre above the plane of a facet [m].
   T height(const typename Wall::Side& side) const { return side.normal.dot(center_) - side.offset; }
   /// Whether a convex set, of which `nearest` is the point nearest to the centre, may be within the
@@ -167,7 +194,7 @@ class MeshCollision {
   }
 
   /// The points above the facets of the list, which are of one face.
-  bool touch_face() {
+  bool touch_face(const FacetRegion<S>& region) {
     const std::uint32_t face = scratch_.facets[0].face;
     const Vector normal = -plane_->normal;  // into the wall
     out_.start(normal, gap_);
@@ -179,33 +206,17 @@ class MeshCollision {
       if (gap_v < -core_.deepest()) return;
       const Vector projected = center_ + (x + gap_v * normal);
       for (const NearFacet& facet : scratch_.facets) {
-        if (!wall_.box(facet.place).inflated(off).contains(projected)) continue;
-        if (!is_above(facet.place, center_ + x, gap_v)) continue;
+        const T around = facet.has_concave ? off + region.beside : off;
+        if (!wall_.box(facet.place).inflated(around).contains(projected)) continue;
+        if (!region.holds(facet, center_ + x, gap_v)) continue;
         out_.points.push_back({center_ + (x + T(0.5) * gap_v * normal), gap_v,
                                FeatureKey(vertex_on_face(S{}), v, face)});
-        scratch_.known.add_new(x, Vector(-normal), gap_v);
+        scratch_.known.add_new(Known{x, -normal, gap_v, FeatureKey()});
         return;
       }
     });
     if (out_.points.empty()) return false;
     out_.contact_class = class_at_plane(S{}, out_.points.size());
-    return true;
-  }
-  /// Whether a point projects onto a facet. A point below it must not be nearer to the other facet of
-  /// a convex ridge, out of which it would be pushed.
-  bool is_above(std::uint32_t f, const Vector& x, T gap) const {
-    const auto& side = wall_.side(f);
-    for (std::size_t k = 0; k < side.inward.size(); ++k)
-      if (side.inward[k].dot(x) < side.inward_offset[k] - near_) return false;
-    if (gap >= 0) return true;
-    for (const std::uint32_t r : side.ridge) {
-      if (r == Wall::none) continue;
-      const auto& pair = wall_.ridge(r).facet;
-      const auto& other = wall_.side(pair[0] == f ? pair[1] : pair[0]);
-      if (pair[0] == pair[1] || other.normal.dot(side.normal) < T(-0.99)) continue;  // a rim
-      if (!(height(other) > 0)) continue;  // the shape does not touch this facet
-      if (other.normal.dot(x) - other.offset > gap + near_) return false;
-    }
     return true;
   }
 
@@ -224,8 +235,8 @@ class MeshCollision {
     // edge through such a point has an end there or below.
     const T lowest = -ridge.middle.dot(from) - margin_;
     scratch_.low.clear();
-    core_.for_each_above(-ridge.middle, lowest,
-                         [&](std::uint32_t v) { scratch_.low.push_back(v); });
+    const auto add_low = [&](std::uint32_t v) { scratch_.low.push_back(v); };
+    core_.for_each_above(-ridge.middle, lowest, add_low);
     const auto is_low = [&](std::uint32_t v) {
       return -ridge.middle.dot(core_.vertex(v)) >= lowest;
     };
@@ -240,7 +251,7 @@ class MeshCollision {
     const auto& beyond = wall_.ridge(r).beyond;
     return d.dot(beyond[0]) >= -aligned && d.dot(beyond[1]) >= -aligned;
   }
-  /// The contact of an edge, from vertex v to vertex w, with a ridge.
+  /// The contact of an edge, from vertex v to w, with a ridge.
   template <class Add>
   void cross_ridge(std::uint32_t r, std::uint32_t e, std::uint32_t v, std::uint32_t w,
                    const Vector& from, const Vector& along, const Add& add) {
@@ -250,12 +261,13 @@ class MeshCollision {
     if (!(across2 > T(1e-8) * edge.squaredNorm() * along.squaredNorm())) return;
     const T on_edge = apart.cross(along).dot(across), on_ridge = apart.cross(edge).dot(across);
     if (!(on_edge >= 0 && on_edge <= across2 && on_ridge >= 0 && on_ridge <= across2)) return;
-    Vector d = across / std::sqrt(across2);
-    if (!is_in_cone(r, d)) d = -d;
-    const T gap = -d.dot(apart);
-    if (!is_in_cone(r, d) || !is_near(gap) || !is_lowest(p, d)) return;
-    add(d, gap, Vector(p + on_edge / across2 * edge),
-        FeatureKey(FeatureKey::Kind::edge_edge, e, r));
+    // At a rim two opposite directions can lie in the normal cone.
+    for (const T length : {std::sqrt(across2), -std::sqrt(across2)}) {
+      const Vector d = across / length;
+      if (is_in_cone(r, d) && is_near(-d.dot(apart)) && is_lowest(p, d))
+        return add(d, -d.dot(apart), Vector(p + on_edge / across2 * edge),
+                   FeatureKey(FeatureKey::Kind::edge_edge, e, r));
+    }
   }
   /// The contact of vertex v with a ridge, if it is nearest to the ridge.
   template <class Add>
@@ -288,7 +300,8 @@ class MeshCollision {
     if (!wall_.is_top(v, d, tolerance)) return;
     bool is_outside = false;
     for (std::size_t k = first; k < scratch_.tips.size() && scratch_.tips[k].first == v; ++k)
-      is_outside = is_outside || d.dot(wall_.side(scratch_.tips[k].second).normal) >= -aligned;
+      is_outside = is_outside || d.dot(wall_.side(scratch_.tips[k].second).normal) >= -aligned ||
+                   wall_.has_rim_at(scratch_.tips[k].second, v);
     if (!is_outside) return;
     add(d, found.distance, Vector(x - found.distance * found.outward),
         FeatureKey(found.feature.kind(), found.feature.a(), v));
@@ -298,7 +311,7 @@ class MeshCollision {
   bool is_lowest(const Vector& x, const Vector& d) const {
     return core_.reach(-d) <= -d.dot(x) + near_;
   }
-  /// Moves points of the core to midway between the surfaces.
+  /// Moves points to midway between the surfaces.
   void finish() {
     out_.gap -= radius_;
     for (auto& point : out_.points) {
@@ -316,7 +329,6 @@ class MeshCollision {
   const T radius_, margin_, rounding_, near_;
   MeshScratch& scratch_;
   Manifold<S>& out_;
-  // Of reach().
   Vector last_direction_ = Vector::Zero();
   T last_reach_ = 0;
   // Of take_face().

@@ -58,6 +58,19 @@ class MeshCore {
       }
     }
   }
+  /// Whether a segment meets the shape, whose faces are moved outwards by `near` [m].
+  bool meets(const Vector& from, const Vector& to, T near) const {
+    T first = 0, last = 1;  // of the part of the segment that is behind all faces
+    for (Eigen::Index f = 0; f < shape_.shape().face_offsets().size(); ++f) {
+      const Vector normal = shape_.normals()[std::size_t(f)];
+      const T offset = shape_.offset(std::size_t(f)) + near;
+      const T begin = normal.dot(from) - offset, end = normal.dot(to) - offset;
+      if (begin > 0 && end > 0) return false;
+      if (begin > 0) first = std::max(first, begin / (begin - end));
+      if (end > 0) last = std::min(last, begin / (begin - end));
+    }
+    return first <= last;
+  }
   /// If the distance exceeds the margin, any distance that exceeds it.
   CoreDistance<S> distance(const Vector& x, T margin) const {
     const auto highest = highest_face(shape_, x);
@@ -89,6 +102,7 @@ class MeshCore<BallIn<S>> {
   }
   template <class Use>
   void for_each_edge_at(std::uint32_t, const Use&) const {}
+  bool meets(const Vector&, const Vector&, T) const { return true; }  // has no edges: is not asked
   CoreDistance<S> distance(const Vector& x, T) const {
     const T distance = x.norm();
     return {distance, distance > 0 ? Vector(x / distance) : Vector(Vector::UnitX()),
@@ -121,6 +135,7 @@ class MeshCore<Segment<S>> {
   void for_each_edge_at(std::uint32_t v, const Use& use) const {
     use(0U, 1 - v);
   }
+  bool meets(const Vector&, const Vector&, T) const { return true; }  // has no inside
   CoreDistance<S> distance(const Vector& x, T) const {
     const Vector half = shape_.half();
     const T along = std::clamp(x.dot(half) / half.squaredNorm(), T(-1), T(1));

@@ -18,6 +18,7 @@ struct NearFacet {
   std::uint32_t face;   ///< MeshWall::Side::face
   std::uint32_t place;  ///< k of MeshWall::side(k)
   bool is_plain;        ///< whether the facet has neither a convex ridge nor a tip
+  bool has_concave;     ///< whether the facet has a concave ridge
 
   friend constexpr auto operator<=>(const NearFacet&, const NearFacet&) = default;
 };
@@ -50,11 +51,12 @@ void sort_short(std::vector<X>& list) {
 template <class S>
 void find_facets(const MeshWall<S>& wall, const Aabb<S>& box, std::vector<NearFacet>& facets) {
   facets.clear();
-  wall.tree().query([&](const Aabb<S>& node) { return node.overlaps(box); },
-                    [&](std::uint32_t k) {
-                      if (wall.box(k).overlaps(box))
-                        facets.push_back({wall.side(k).face, k, wall.is_plain(k)});
-                    });
+  wall.tree().query(
+      [&](const Aabb<S>& node) { return node.overlaps(box); },
+      [&](std::uint32_t k) {
+        if (wall.box(k).overlaps(box))
+          facets.push_back({wall.side(k).face, k, wall.is_plain(k), wall.has_concave(k)});
+      });
   sort_short(facets);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/mesh_neighbours.hpp"
 
 namespace moreau {
@@ -17,42 +18,74 @@ namespace detail {
 /// where two of them meet both can give the same contact.
 class KnownContacts {
  public:
+  /// A contact, relative to the centre of the shape, in the frame of the wall.
+  template <class Vector>
+  struct Contact {
+    Vector x;         ///< the point of the shape [m]
+    Vector to_shape;  ///< unit normal
+    typename Vector::Scalar gap;
+    FeatureKey feature;
+    Vector on_wall() const { return x - gap * to_shape; }
+  };
+
   void clear() { list_.clear(); }
   bool is_empty() const { return list_.empty(); }
+  std::size_t size() const { return list_.size(); }
+  template <class Vector>
+  Contact<Vector> at(std::size_t i) const {
+    const Stored& stored = list_[i];
+    return {of<Vector>(stored.x), of<Vector>(stored.to_shape),
+            static_cast<typename Vector::Scalar>(stored.gap), stored.feature};
+  }
   /// Adds a contact, unless it is known: the points of the shape and of the wall are the same, and so
   /// is the normal.
-  /// @param x        the point of the shape [m]
-  /// @param to_shape normal
-  /// @param near     points closer to each other are the same [m]
-  /// @returns whether it was added
+  /// @param near points closer to each other are the same [m]
   template <class Vector, class T>
-  bool add(const Vector& x, const Vector& to_shape, T gap, T near) {
-    const Vector on_wall = x - gap * to_shape;
+  void add(const Contact<Vector>& contact, T near) {
+    const Vector on_wall = contact.on_wall();
     const T near2 = near * near;
-    for (const Contact& other : list_) {
-      const Vector y = of<Vector>(other.x), normal = of<Vector>(other.to_shape);
-      if ((y - x).squaredNorm() <= near2 && (normal - to_shape).squaredNorm() <= T(4e-6) &&
-          (y - T(other.gap) * normal - on_wall).squaredNorm() <= near2)
-        return false;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto other = at<Vector>(i);
+      if ((other.x - contact.x).squaredNorm() <= near2 &&
+          (other.to_shape - contact.to_shape).squaredNorm() <= T(4e-6) &&
+          (other.on_wall() - on_wall).squaredNorm() <= near2)
+        return;
     }
-    add_new(x, to_shape, gap);
-    return true;
+    add_new(contact);
   }
   /// Adds a contact that need not be compared.
-  template <class Vector, class T>
-  void add_new(const Vector& x, const Vector& to_shape, T gap) {
-    Contact& contact = list_.emplace_back();
-    for (int k = 0; k < x.size(); ++k) {
-      contact.x[std::size_t(k)] = x[k];
-      contact.to_shape[std::size_t(k)] = to_shape[k];
+  template <class Vector>
+  void add_new(const Contact<Vector>& contact) {
+    Stored& stored = list_.emplace_back();
+    for (int k = 0; k < contact.x.size(); ++k) {
+      stored.x[std::size_t(k)] = contact.x[k];
+      stored.to_shape[std::size_t(k)] = contact.to_shape[k];
     }
-    contact.gap = gap;
+    stored.gap = contact.gap;
+    stored.feature = contact.feature;
+  }
+
+  /// Whether a motion that ends the overlap of a shallower contact takes the shape off the point of
+  /// the wall at which another contact is.
+  /// @param near shorter lengths count as 0 [m]
+  /// @param bounds function: whether the shape lies on one side of the plane of a contact
+  template <class Vector, class T, class Bounds>
+  bool frees(const Contact<Vector>& contact, T near, const Bounds& bounds) const {
+    const Vector on_wall = contact.on_wall();
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto other = at<Vector>(i);
+      if (other.gap > contact.gap + near &&
+          other.to_shape.dot(on_wall - other.x) <= near - other.gap && bounds(other))
+        return true;
+    }
+    return false;
   }
 
  private:
-  struct Contact {
+  struct Stored {
     std::array<double, 3> x = {}, to_shape = {};  // in the plane the last coordinate is not used
     double gap = 0;
+    FeatureKey feature;
   };
   template <class Vector>
   static Vector of(const std::array<double, 3>& a) {
@@ -62,7 +95,7 @@ class KnownContacts {
     return x;
   }
 
-  std::vector<Contact> list_;
+  std::vector<Stored> list_;
 };
 
 }  // namespace detail

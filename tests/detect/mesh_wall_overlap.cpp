@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+// Contacts with mesh walls where a shape overlaps the wall beside ridges, in valleys and corners and at
+// rims: none is deeper than the overlap, none is missing, and none depends on the order of the triangles.
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "moreau/detect/pairs/collide_mesh_wall.hpp"
+#include "moreau/sample/concave_mesh.hpp"
+#include "moreau/sample/random_rotation.hpp"
+#include "moreau/shape/regular_shape.hpp"
+
+#include "conformance/random_direction.hpp"
+#include "detect/mesh_surfaces.hpp"
+#include "types.hpp"
+
+namespace {
+
+using namespace moreau;
+using namespace mesh_surfaces;
+constexpr double grain_size = 0.02, margin = 0.02 * grain_size;  // [m]
+
+/// What was found over many poses.
+struct Tally {
+  int poses = 0, wanted = 0, missing = 0, too_deep = 0, aside = 0;
+};
+
+/// A shape between half-spaces {x : normal . x <= 0}, at given depths below their planes.
+template <class ShapeT>
+class AmongHalfSpaces {
+ public:
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  AmongHalfSpaces(const FacetMesh<S>& mesh, const std::vector<Vector>& normals)
+      : wall_(mesh), normals_(normals) {}
+  /// Compares the contacts with those of the half-spaces: each vertex below a plane touches it, where it is
+  /// not far from the facets; no contact has another normal.
+  void check(const ShapeT& grain, const typename S::Rotation& turn,
+             const std::vector<double>& depth, Tally& tally) const {
+    Placed<ShapeT> shape(grain, {Vector::Zero(), turn});
+    typename S::Matrix rows = S::Matrix::Identity();  // without a third plane: y = 3.7 mm
+    Vector heights = Vector::Zero();
+    if constexpr (S::dim == 3) rows.row(2) = Vector::UnitY(), heights[2] = T(0.0037);
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      rows.row(int(i)) = normals_[i].transpose();
+      heights[int(i)] = shape.vertices().reach(-normals_[i]) - T(depth[i]);
+    }
+    shape.move_to(rows.inverse() * heights);
+    for (const Vector& n : normals_)
+      if (!(n.dot(shape.center()) > T(2e-4))) return;
+    ++tally.poses;
+    const auto found = contacts(shape, wall_, margin);
+    const double deepest = *std::max_element(depth.begin(), depth.end());
+    for (const auto& point : found) {
+      const auto is_normal = [&](const Vector& n) { return (n - point.normal).norm() < T(1e-5); };
+      tally.aside += std::none_of(normals_.begin(), normals_.end(), is_normal);
+      tally.too_deep += point.gap < -deepest - tolerance();
+    }
+    for (std::size_t v = 0; v < shape.vertices().size(); ++v)
+      for (const Vector& n : normals_) {
+        const Vector x = shape.center() + shape.vertices()[v];
+        const T gap = n.dot(x);
+        if (!(gap < -2 * tolerance()) || !is_near_face(n, x, 0.9 * margin)) continue;
+        ++tally.wanted;
+        const auto is_it = [&](const auto& point) {
+          return (point.normal - n).norm() < T(1e-5) && std::abs(point.gap - gap) < tolerance() &&
+                 (point.position - (x - gap / 2 * n)).norm() < 1e-7 + tolerance();
+        };
+        tally.missing += std::none_of(found.begin(), found.end(), is_it);
+      }
+  }
+
+ private:
+  double tolerance() const {
+    return 2e-9 + 2 * double(wall_.flatness()) +
+           (std::same_as<T, float> ? grain_size * double(DetectionTolerance<T>::coincident) : 0);
+  }
+  bool is_near_face(const Vector& n, const Vector& x, double distance) const {
+    for (std::size_t k = 0; k < wall_.size(); ++k) {
+      if (!(wall_.side(k).normal.dot(n) > T(1 - 5e-7))) continue;
+      const Vector projected = x - n.dot(x) * n;
+      const typename S::Matrix corners = wall_.side(k).corners.colwise() - projected;
+      if (double(moreau::detail::nearest_on_facet(corners).norm()) < distance) return true;
+    }
+    return false;
+  }
+
+  MeshWall<S> wall_;
+  std::vector<Vector> normals_;
+};
+
+/// Depths below the planes of up to 1.5 % of the grain size, often none and often equal.
+std::vector<double> depths(std::mt19937_64& random) {
+  std::vector<double> list;
+  for (int i = 0; i < 3; ++i) list.push_back(std::array{0.0, 1e-6, 1e-5, 1e-4, 3e-4}[random() % 5]);
+  if (random() % 2 == 0)
+    for (double& d : list) d *= std::uniform_real_distribution<double>(0, 1)(random);
+  return list;
+}
+
+void check_tally(const Tally& tally) {
+  CHECK(tally.wanted > 0);
+  CHECK(tally.missing == 0);
+  CHECK(tally.too_deep == 0);
+  CHECK(tally.aside == 0);
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("vertices below a valley touch both faces, as at two half-spaces", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Polygon<>), (Polyhedron<float>, Polygon<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  std::mt19937_64 random(3);
+  const auto shapes = grains<ShapeT>();
+  for (const double angle :
+       {20.0, 45.0, 60.0, 89.9, 90.0, 90.1, 120.0, 150.0, 170.0, 179.0, 179.9}) {
+    const double a = angle * std::numbers::pi / 180;
+    const Profile profile{{1000, 0}, {0, 0}, {1000 * std::cos(a), 1000 * std::sin(a)}};
+    Vector first = Vector::Unit(S::dim - 1), second = Vector::Zero();
+    second[0] = T(std::sin(a));
+    second[S::dim - 1] = T(-std::cos(a));
+    const AmongHalfSpaces<ShapeT> valley(shuffled(surface(S{}, profile), 4), {first, second});
+    Tally tally;
+    for (std::size_t k = 0; k < 60; ++k)
+      valley.check(shapes[k % shapes.size()],
+                   k % 3 == 0 ? S::identity() : random_rotation<S>(random), depths(random), tally);
+    CAPTURE(angle);
+    check_tally(tally);
+  }
+}
+
+TEST_CASE_TEMPLATE("vertices below a corner of three faces touch them, as at three half-spaces",
+                   ShapeT, MOREAU_TYPES((Polyhedron<>), (Polyhedron<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const auto shapes = grains<ShapeT>();
+  Tally tally;
+  for (int k = 0; k < 40; ++k) {
+    std::array<Vector, 3> edge{Vector::UnitX(), Vector::UnitY(), Vector::UnitZ()};
+    if (k % 2 != 0)
+      for (Vector& e : edge) {
+        for (auto& c : e) c = T(normal(random));
+        e.normalize();
+      }
+    if (edge[0].cross(edge[1]).dot(edge[2]) < 0) std::swap(edge[0], edge[1]);
+    if (edge[0].cross(edge[1]).dot(edge[2]) < T(0.2)) continue;
+    const std::uint32_t fan = std::uint32_t(k) / 2 % 5 + 1;  // triangles of a face at the corner
+    FacetMesh<S> mesh{{Vector::Zero()}, {}};
+    std::vector<Vector> normals;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector next = edge[(i + 1) % 3];
+      normals.push_back(edge[i].cross(next).normalized());
+      for (std::uint32_t f = 0; f < fan; ++f) {
+        const T w = T(f) / T(fan);
+        mesh.vertices.push_back(T(0.5) * ((1 - w) * edge[i] + w * next).normalized());
+      }
+    }
+    for (std::uint32_t i = 0; i < 3 * fan; ++i)
+      mesh.facets.push_back({0, 1 + i, 1 + (i + 1) % (3 * fan)});
+    const AmongHalfSpaces<ShapeT> corner(shuffled(mesh, std::uint32_t(k)), normals);
+    for (std::size_t j = 0; j < 10; ++j)
+      corner.check(shapes[j % shapes.size()],
+                   j % 3 == 0 ? S::identity() : random_rotation<S>(random), depths(random), tally);
+  }
+  check_tally(tally);
+}
+
+namespace {
+
+/// A shape that touches a wall, and then overlaps it by moving on: the overlap is not deeper than the way.
+template <class ShapeT>
+struct Approach {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  int poses = 0, too_deep = 0, missing = 0, sliding = 0, by_order = 0;
+
+  void check(const MeshWall<S>& wall, const MeshWall<S>& same, Placed<ShapeT>& shape,
+             const Vector& up) {
+    if (!lower(wall, up, shape)) return;
+    if (!is_in_front(wall, shape)) return;
+    const Vector touching = shape.center();
+    const double tolerance = 6e-9 + wall.flatness();
+    for (const double way : {0.0, 2e-8, 2e-7, 2e-6, 2e-5}) {
+      shape.move_to(touching - way * up);
+      const auto found = contacts(shape, wall, margin);
+      double least = 1, resists = 0;
+      for (const auto& point : found) {
+        least = std::min(least, point.gap);
+        if (point.gap <= tolerance) resists = std::max(resists, point.normal.dot(up));
+      }
+      ++poses;
+      too_deep += least < -way - tolerance;
+      missing += least > tolerance;
+      sliding += way > tolerance && !(resists > 1e-6);
+      by_order += !are_equal(found, contacts(shape, same, margin));
+    }
+  }
+
+ private:
+  /// A wall with one side holds only what is in front of it.
+  static bool is_in_front(const MeshWall<S>& wall, const Placed<ShapeT>& shape) {
+    if (wall.sides() == WallSides::both) return true;
+    for (std::uint32_t k = 0; k < wall.size(); ++k)
+      if (facet_gap(wall, k, shape, 1e-3) < 2e-9 &&
+          wall.side(k).normal.dot(shape.center()) < wall.side(k).offset + 2e-5)
+        return false;
+    return true;
+  }
+  static bool are_equal(const std::vector<Point<S>>& some, const std::vector<Point<S>>& others) {
+    const auto has = [&](const Point<S>& p) {
+      return std::any_of(others.begin(), others.end(), [&](const Point<S>& q) {
+        return (p.position - q.position).norm() < 2e-8 && (p.normal - q.normal).norm() < 1e-6 &&
+               std::abs(p.gap - q.gap) < 2e-9;
+      });
+    };
+    return some.size() == others.size() && std::all_of(some.begin(), some.end(), has);
+  }
+};
+
+template <class ShapeT>
+void check_approaches(const char* name, const FacetMesh<SpaceOf<ShapeT>>& mesh, int count) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  static const auto shapes = grains<ShapeT>();
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(mesh, sides), same(shuffled(mesh, 5), sides);
+    Approach<ShapeT> approach;
+    for (int t = 0; t < count; ++t) {
+      const auto& side = wall.side(random() % wall.size());
+      Vector w;  // a place on the facet, often on a ridge
+      for (auto& x : w) x = uniform(random);
+      if (t % 3 != 0) w[int(random() % S::dim)] = 0;
+      Vector up = side.normal;
+      if (t % 4 != 0) up = (up + conformance::random_direction<S>(random)).normalized();
+      const auto turn = t % 2 != 0 ? random_rotation<S>(random) : S::identity();
+      const Vector aside = 0.012 * conformance::random_direction<S>(random);
+      Placed<ShapeT> shape(shapes[std::size_t(t) % shapes.size()],
+                           {side.corners * w / w.sum() + 0.045 * up + aside, turn});
+      approach.check(wall, same, shape, up);
+    }
+    CAPTURE(name);
+    CAPTURE(int(sides));
+    CHECK(approach.poses > 0);
+    CHECK(approach.too_deep == 0);
+    CHECK(approach.missing == 0);
+    CHECK(approach.sliding == 0);
+    CHECK(approach.by_order == 0);
+  }
+}
+
+#ifdef MOREAU_TEST_FURTHER_TYPES
+constexpr int approaches = 300;  // per surface
+#else
+constexpr int approaches = 15;
+#endif
+
+}  // namespace
+
+TEST_CASE("no contact is deeper than the way into the wall, none is missing: profiles") {
+  for (const auto& [name, profile] : profiles()) {
+    check_approaches<Polygon<>>(name, surface(Space<2>{}, profile), 2 * approaches);
+    check_approaches<Polyhedron<>>(name, surface(Space<3>{}, profile), approaches);
+  }
+}
+
+TEST_CASE(
+    "no contact is deeper than the way into the wall, none is missing: closed bodies and bowls") {
+  using S = Space<3>;
+  for (const double radius : {0.02, 0.1}) {
+    check_approaches<Polyhedron<>>("pebble", pebble_mesh<S>(radius, 5, 2, 2), approaches);
+    check_approaches<Polygon<>>("pebble", pebble_mesh<Space<2>>(radius, 5, 2), approaches);
+    check_approaches<Polyhedron<>>("tetrapod", tetrapod_mesh<S>(radius, 0.35 * radius, 3),
+                                   approaches);
+  }
+  FacetMesh<S> bowl = star_mesh<S>([](const auto&) { return 0.05; }, 2);
+  for (auto& facet : bowl.facets) std::swap(facet[0], facet[1]);  // the outside is within
+  check_approaches<Polyhedron<>>("bowl", bowl, approaches);
+}
