@@ -311,7 +311,8 @@ std::string binary_ply(const Parts& parts, bool is_big) {
   std::string text = parts.ply();
   text.resize(text.find("end_header"));
   text.replace(text.find("ascii"), 5, is_big ? "binary_big_endian" : "binary_little_endian");
-  for (std::size_t at = text.find("float"); at != std::string::npos; at = text.find("float", at + 1))
+  for (std::size_t at = text.find("float"); at != std::string::npos;
+       at = text.find("float", at + 1))
     text.replace(at, 5, sizeof(Coordinate) == 8 ? "double" : "float32");
   text += "end_header\n";
   const auto put = [&](const auto& value) {
@@ -544,6 +545,42 @@ TEST_CASE("a file that is damaged, or is something else, gives an error with its
   std::filesystem::create_directory(folder / "folder.obj");
   CHECK_THROWS_WITH_AS(read_mesh(folder / "folder.obj", 1.0),
                        doctest::Contains("folder.obj': Is a directory"), std::runtime_error);
+}
+
+TEST_CASE("bytes changed at random give a mesh or an error") {
+  const Parts cube = Parts::cube();
+  std::mt19937 random(7);
+  int errors = 0, meshes = 0;
+  const std::vector<std::pair<std::string, detail::MeshFile (*)(std::string_view)>> files{
+      {cube.obj(), detail::read_obj},
+      {cube.stl(), detail::read_stl},
+      {cube.binary_stl(), detail::read_stl},
+      {cube.ply(), detail::PlyReader::read},
+      {binary_ply<float>(cube, false), detail::PlyReader::read},
+      {binary_ply<double>(cube, true), detail::PlyReader::read}};
+  for (const auto& [text, read] : files)
+    for (int trial = 0; trial < 3000; ++trial) {
+      std::string changed = text;
+      for (unsigned k = 0; k < 1 + random() % 4; ++k) {
+        const std::size_t at = random() % changed.size();
+        if (random() % 4 == 0)
+          changed.erase(at, 1 + random() % 20);
+        else
+          changed[at] = random() % 2 == 0 ? "0123456789-+. \n/"[random() % 16] : char(random());
+        if (changed.empty()) changed = " ";
+      }
+      try {
+        const detail::MeshFile file = read(changed);
+        for (const auto& triangle : file.triangles)
+          for (const std::uint32_t v : triangle) REQUIRE(v < file.vertices.size());
+        for (const auto& x : file.vertices) REQUIRE(x.allFinite());
+        ++meshes;
+      } catch (const std::runtime_error&) {
+        ++errors;
+      }
+    }
+  CHECK(errors > 6000);
+  CHECK(meshes > 1000);
 }
 
 TEST_CASE("a hull needs only vertices: of any mesh of the corpus") {

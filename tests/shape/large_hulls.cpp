@@ -227,6 +227,16 @@ TEST_CASE("hulls of many vertices") {
   }
 }
 
+TEST_CASE("narrow sides of a prism are not divided") {
+  for (const int n : {500, 1000, 2000, 4000})
+    for (const double height : {0.01, 1.0, 30.0}) {
+      CAPTURE(n);
+      CAPTURE(height);
+      CHECK(hull_of(prism(n, height)).face_count() == std::size_t(n + 2));
+      CHECK(hull_of(turned(prism(n, height))).face_count() == std::size_t(n + 2));
+    }
+}
+
 TEST_CASE("polygons of many points") {
   for (const double angle : {0.0, 0.3, 0.785, 2.0}) {
     const Eigen::Rotation2Dd turn(angle);

@@ -64,6 +64,8 @@ class DepthBelowFaces {
   using Vector = typename S::Vector;
 
   explicit DepthBelowFaces(const PolytopeOf<S>& hull) : hull_(hull) {
+    // A hull as thin as its rounding errors has no dual points.
+    if (!(hull.inradius() > 64 * std::numeric_limits<T>::epsilon() * hull.circumradius())) return;
     std::vector<Aabb<S>> boxes;
     for (Eigen::Index f = 0; f < hull.face_offsets().size(); ++f) {
       const Vector dual = hull.face_normals().row(f).transpose() / hull.face_offsets()[f];
@@ -75,6 +77,8 @@ class DepthBelowFaces {
   T operator()(const Vector& x) {
     const T slack = 32 * std::numeric_limits<T>::epsilon() * hull_.circumradius();
     T least = depth(nearest_, x);
+    if (tree_.order().empty())
+      return (hull_.face_offsets() - (hull_.face_normals() * x).array()).minCoeff();
     const auto may_be_nearer = [&](const Aabb<S>& box) {
       T above = T(1);
       for (int k = 0; k < S::dim; ++k) above -= std::max(box.lower[k] * x[k], box.upper[k] * x[k]);

@@ -59,8 +59,9 @@ inline void MeshFile::add_polygon(std::span<const std::uint32_t> corners) {
     normal +=
         (vertices[ring[k - 1]] - vertices[ring[0]]).cross(vertices[ring[k]] - vertices[ring[0]]);
   const double flat = 1e-12 * normal.norm();
+  const Eigen::Vector3d up = normal.normalized();
   const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    return normal.normalized().dot((vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]));
+    return up.dot((vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]));
   };
   while (ring.size() > 3) {
     const std::size_t n = ring.size();

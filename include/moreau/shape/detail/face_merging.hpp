@@ -64,10 +64,8 @@ class FaceMerging {
               double tolerance)
       : triangles_(triangles), points_(points), tolerance_(tolerance) {
     area_.reserve(triangles.size());
-    for (const HullTriangle& t : triangles) {
-      const auto& [a, b, c] = t.vertex;
-      area_.push_back((points[b] - points[a]).cross(points[c] - points[a]));
-    }
+    for (const HullTriangle& t : triangles)
+      area_.push_back(area_vector(points[t.vertex[0]], points[t.vertex[1]], points[t.vertex[2]]));
     std::vector<double> size;
     for (const Eigen::Vector3d& area : area_) size.push_back(area.squaredNorm());
     std::vector<std::uint32_t> order(triangles.size());
@@ -96,6 +94,16 @@ class FaceMerging {
 
  private:
   static constexpr std::uint32_t none = ~0U;
+
+  /// The product of the two shorter edges: that of two long edges of a sliver, which are nearly
+  /// parallel, would lose digits.
+  static Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                     const Eigen::Vector3d& c) {
+    const Eigen::Vector3d ab = b - a, bc = c - b, ca = a - c;
+    const double of_ab = ab.squaredNorm(), of_bc = bc.squaredNorm(), of_ca = ca.squaredNorm();
+    if (of_bc >= of_ab && of_bc >= of_ca) return ca.cross(ab);
+    return of_ca >= of_ab ? ab.cross(bc) : bc.cross(ca);
+  }
 
   void grow(std::uint32_t seed) {
     const auto g = static_cast<std::uint32_t>(members_.size());
