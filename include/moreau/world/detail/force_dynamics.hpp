@@ -60,7 +60,9 @@ class ForceDynamics {
     const Bodies<S>& bodies = context.bodies;
     Contacts<S>& contacts = context.contacts;
     loads_.assign(bodies.size(), Twist::Zero());
-    report.warm_started = carry(context.previous, contacts, memory_, next_, turned<S>);
+    const SpringTurn<S> turn{bodies.velocity, elapsed};
+    report.warm_started = carry(context.previous, contacts, memory_, next_, turn);
+    hand_over_stretches(context.previous, contacts, memory_, next_, turn);
     memory_.swap(next_);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];

@@ -217,7 +217,9 @@ class ImpulseDynamics {
     }
   }
   std::size_t start(const Context& context, const Contacts<S>& before) {
-    return unknowns_.start(problem_.delassus, before, context.contacts, team_);
+    SpringTurn<S> turn{};
+    if constexpr (compliant) turn = springs_.turn(context, integrator_);
+    return unknowns_.start(problem_.delassus, before, context.contacts, turn, team_);
   }
   /// The contacts of the step before with their pushes against the attraction that they had then: the
   /// springs bear the pushes. Without attraction these are their impulses.
