@@ -55,7 +55,9 @@ struct SpringTurn {
   typename S::Vector operator()(const Contact<S>& before, const Contact<S>& now,
                                 const typename S::Vector& vector) const {
     if (vector.template tail<S::dim - 1>().isZero(0)) return vector;
-    return transposed_product(now.frame, product(axes(before, now), vector));
+    typename S::Vector carried = transposed_product(now.frame, product(axes(before, now), vector));
+    carried[0] = vector[0];  // to the last bit
+    return carried;
   }
 };
 
@@ -180,8 +182,7 @@ void hand_over_stretches(const Contacts<S>& before, const Contacts<S>& now,
       before, now, old,
       [&](const ContactKey& key) {
         const auto i = std::size_t(&key - now.keys.data());
-        return out[i].isZero(0) &&
-            !std::binary_search(before.keys.begin(), before.keys.end(), key);
+        return out[i].isZero(0) && !std::binary_search(before.keys.begin(), before.keys.end(), key);
       },
       [&](std::size_t i, std::size_t j) {
         out[i] = turn(before.points[j], now.points[i], old[j]);

@@ -26,7 +26,12 @@
 namespace moreau::detail {
 
 /// In place of the springs of a law that has none.
-struct NoSprings {};
+struct NoSprings {
+  template <class S, class Law>
+  static SpringTurn<S> turn(const StepContext<S, Law>&, const auto&) {
+    return {};
+  }
+};
 
 /// The springs of compliant contacts over a step: their compliance in units of the solver, their
 /// memory of the step before, their energy. law/compliant.hpp has the equations.
