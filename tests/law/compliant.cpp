@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <doctest/doctest.h>
 #include <filesystem>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -240,13 +241,67 @@ TEST_CASE_TEMPLATE("compliant: a normal force that turns makes no tangential for
   add(before, 0);
   add(now, 0.1);
   before.impulses = {typename S::Vector(S::Vector::Unit(0) * 3 + S::Vector::Unit(1))};
-  CHECK(remember_springs(before, now) == 1);
+  const std::vector<typename S::Twist> at_rest(2, S::Twist::Zero());
+  CHECK(remember_springs(before, now, SpringTurn<S>{at_rest, 1}) == 1);
   CHECK(now.impulses[0][0] == 3);
   const typename S::Vector tangential =
       now.points[0].frame * now.impulses[0] - 3 * now.points[0].frame.col(0);
   const typename S::Vector expected = before.points[0].frame.col(1);
   CHECK((tangential - expected).norm() <= 0.1);
   CHECK(std::abs(tangential.dot(now.points[0].frame.col(0))) < 1e-15);
+}
+
+TEST_CASE_TEMPLATE("springs turn with the mean rotation of the two bodies", S, Space<2>, Space<3>) {
+  constexpr int tangents = S::dim - 1;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 40; ++trial) {
+    CAPTURE(trial);
+    const double size = std::pow(10., -trial % 4);  // of the rotation of a step [rad]
+    std::vector<typename S::Twist> velocity(2, S::Twist::Zero());
+    typename S::Vector n, memory;
+    for (auto& x : n) x = normal(random);
+    n.normalize();
+    for (auto& x : memory) x = normal(random);
+    Contact<S> before{}, now{};
+    before.b = now.b = 1;
+    before.frame = S::contact_frame(n);
+    // Both bodies turn as one: the components of the spring stay, in the turned frame.
+    for (auto& twist : velocity)
+      for (int k = 0; k < S::dofs; ++k)
+        twist[k] = k < S::dim               ? normal(random)
+                   : &twist == &velocity[0] ? size * normal(random)
+                                            : velocity[0][k];
+    const double h = 0.5;
+    const auto q = S::exp(typename S::Angular(h * angular<S>(velocity[0])));
+    now.frame = q.toRotationMatrix() * before.frame;
+    const SpringTurn<S> turn{velocity, h};
+    CHECK((turn(before, now, memory) - memory).norm() <= 1e-14 * memory.norm());
+    // The frame of this step may have other tangents: the spring is the same vector.
+    const typename S::Vector spring =
+        now.frame.template rightCols<tangents>() * memory.template tail<tangents>();
+    now.frame = S::contact_frame(q * n);
+    typename S::Vector carried = turn(before, now, memory);
+    CHECK(carried[0] == doctest::Approx(memory[0]));
+    CHECK((now.frame.template rightCols<tangents>() * carried.template tail<tangents>() - spring)
+              .norm() <= 1e-14);
+    // One body turns about the normal: half of its angle. The normal tilts: the length is kept.
+    velocity[0].setZero();
+    velocity[1].setZero();
+    if constexpr (S::dim == 3) angular<S>(velocity[1]) = 2 * size * n;
+    now.frame = before.frame;
+    carried = turn(before, now, memory);
+    const double cosine = S::dim == 3 ? std::cos(h * size) : 1;
+    CHECK(carried.template tail<tangents>().dot(memory.template tail<tangents>()) ==
+          doctest::Approx(cosine * memory.template tail<tangents>().squaredNorm()));
+    typename S::Vector other = n;
+    for (auto& x : other) x += size * normal(random);
+    now.frame = S::contact_frame(other.normalized());
+    carried = turn(before, now, memory);
+    CHECK(carried.norm() == doctest::Approx(memory.norm()).epsilon(1e-12));
+    now.frame = S::contact_frame(-n);  // any turn about a tangent: finite, and no longer
+    CHECK(turn(before, now, memory).norm() <= 2 * memory.norm());
+  }
 }
 
 #ifdef MOREAU_TEST_FURTHER_TYPES

@@ -7,9 +7,14 @@
 //     f_n = max(0, 2/3 s_n d - c_n u_n),             f_t = -s_t xi - c_t u_t, |f_t| <= mu f_n
 //     c = 2 sqrt(5/6) beta sqrt(s m),                e = exp(-2 beta acos(beta)/sqrt(1 - beta^2))
 //
-// R and m are the effective radius and mass of the contact, E and G the effective moduli of the
-// two materials. In the plane, and for shapes that are no spheres, the distance of the contact
+// R and m are the effective radius and mass of the contact (ContactMotion), E and G the effective moduli
+// of the two materials. In the plane, and for shapes that are no spheres, the distance of the contact
 // point from the centre of mass stands in for the radius.
+//
+// s_t changes with the overlap. While the overlap grows, the force s_t xi persists: new area of contact is
+// free of shear, so xi is scaled by s_t before / s_t. While it shrinks, xi persists. In both cases the energy of
+// the spring s_t xi^2/2 does not grow, so that no cycle of shear and compression makes energy (C.
+// Thornton, S. J. Cummins and P. W. Cleary, Powder Technol. 233 (2013) 30, section 2).
 #pragma once
 
 #include <algorithm>
@@ -71,7 +76,8 @@ class HertzMindlin {
 
   /// Force on b in the frame of the contact, normal first, f_n >= 0 [N]; zero if the gap is open.
   /// @param motion of the contact; its effective mass and radius are m and R
-  /// @param memory in and out: xi in the frame [m], zero if the gap is open
+  /// @param memory in and out: first sqrt(R d) of the call before, then xi in the frame [m]; zero if the
+  ///               gap is open
   template <class S>
   typename S::Vector force(const ContactMotion<S>& motion, typename S::Vector& memory) const {
     if (motion.gap >= 0) {
@@ -85,9 +91,12 @@ class HertzMindlin {
         std::max(T(0), T(2) / T(3) * normal_stiffness * depth -
                            damping * std::sqrt(normal_stiffness * motion.effective_mass) *
                                motion.velocity[0]);
-    return detail::spring_friction<S>(
+    if (width > memory[0]) memory.template tail<S::dim - 1>() *= memory[0] / width;
+    const typename S::Vector force = detail::spring_friction<S>(
         motion, normal, tangential_stiffness,
         damping * std::sqrt(tangential_stiffness * motion.effective_mass), friction_, memory);
+    memory[0] = width;
+    return force;
   }
 
  private:

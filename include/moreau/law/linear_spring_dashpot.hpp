@@ -7,7 +7,8 @@
 //
 // with xi the integral of u_t over the contact's life, shortened where the contact slides to what
 // the limit can hold. The dashpots follow from the restitution of a free impact, c = 2 beta
-// sqrt(m k), e = exp(-2 beta acos(beta)/sqrt(1 - beta^2)), m the effective mass of the contact.
+// sqrt(m k), e = exp(-2 beta acos(beta)/sqrt(1 - beta^2)), m the effective mass of the point
+// (ContactMotion): n points of a face bear 1/n each, so that a face that lands flat has the restitution e.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +53,8 @@ class LinearSpringDashpot {
   T stiffness() const { return stiffness_; }  ///< k_n [N/m]
   T friction() const { return friction_; }    ///< mu [-]
   /// How long a free impact lasts [s]; a twentieth of it is a good step.
-  /// @param effective_mass 1 / (1/m_a + 1/m_b) [kg], > 0; not checked
+  /// @param effective_mass that of a point, see ContactMotion [kg], > 0; not checked. If a face with n
+  ///                       points lands flat, 1 / (1/m_a + 1/m_b) / n
   T duration(T effective_mass) const {
     return detail::contact_time(damping_) * std::sqrt(effective_mass / stiffness_);
   }

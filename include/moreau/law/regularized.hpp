@@ -15,9 +15,13 @@ namespace moreau {
 /// One contact point at one time, in its own frame, normal first.
 template <class S>
 struct ContactMotion {
-  typename S::Scalar gap;               ///< [m], < 0 is penetration
-  typename S::Vector velocity;          ///< of b against a at the point; u_n > 0 separates [m/s]
-  typename S::Scalar effective_mass;    ///< 1 / (1/m_a + 1/m_b), with 1/m = 0 for a wall [kg]
+  typename S::Scalar gap;       ///< [m], < 0 is penetration
+  typename S::Vector velocity;  ///< of b against a at the point; u_n > 0 separates [m/s]
+  /// Mass that the point bears [kg]. Of two balls it is 1 / (1/m_a + 1/m_b), with 1/m = 0 for a wall. At a
+  /// vertex of a grain it is smaller, because the grain can turn. n points of a face that lands flat
+  /// have 1/n of it each, so that a dashpot 2 beta sqrt(k m) has the damping ratio beta for the face, too.
+  /// contact/detail/effective_mass.hpp has the definition.
+  typename S::Scalar effective_mass;
   typename S::Scalar effective_radius;  ///< 1 / (1/R_a + 1/R_b) with R from the centre of mass to
                                         ///< the point; a wall has no curvature [m]
   typename S::Scalar step;              ///< since the last call [s]; 0 in the first call
@@ -27,7 +31,9 @@ struct ContactMotion {
 ///
 /// - force(motion, memory): the force on b [N] in the frame of the contact, D entries, normal
 ///   first; f_n > 0 pushes. memory is a vector in the frame, in a unit of the law, 0 for a new
-///   contact; it is carried from step to step in world axes.
+///   contact. From step to step its first entry is kept. Its tangential entries turn with the mean rotation of
+///   the two bodies and with the normal (SpringTurn). If the key of a contact is gone, the nearest new contact
+///   of the pair takes its memory over.
 template <class L, class S>
 concept RegularizedLaw = std::copyable<L> &&
     requires(const L law, const ContactMotion<S> motion, typename S::Vector memory) {

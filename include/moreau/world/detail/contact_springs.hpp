@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/detail/warm_start.hpp"
 #include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/detail/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
@@ -26,7 +27,12 @@
 namespace moreau::detail {
 
 /// In place of the springs of a law that has none.
-struct NoSprings {};
+struct NoSprings {
+  template <class S, class Law>
+  static SpringTurn<S> turn(const StepContext<S, Law>&, const auto&) {
+    return {};
+  }
+};
 
 /// The springs of compliant contacts over a step: their compliance in units of the solver, their
 /// memory of the step before, their energy. law/compliant.hpp has the equations.
@@ -67,6 +73,15 @@ class ContactSprings {
   Scalar last_step() const {
     return last_step_;
   }  ///< length of the step before; 0 before the first [s]
+  /// How springs turn since the detection of the step before: at the velocity after that step, over
+  /// theta times its length and 1 - theta times this length. An integrator without theta() counts as
+  /// one with 1/2.
+  template <class Integrator>
+  SpringTurn<S> turn(const StepContext<S, Law>& context, const Integrator& integrator) const {
+    auto theta = Scalar(0.5);
+    if constexpr (requires { integrator.theta(); }) theta = Scalar(integrator.theta());
+    return {context.bodies.velocity, theta * last_step_ + (1 - theta) * context.step};
+  }
   /// Makes the impulses of the step before those of the same forces over this step.
   /// @param impulses in: of the step before; out: s [N s]
   void scale(const StepContext<S, Law>& context, std::span<Row> impulses) {

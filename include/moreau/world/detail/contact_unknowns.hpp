@@ -17,13 +17,15 @@ namespace moreau::detail {
 
 /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of
 /// the springs of compliant contacts.
+/// @param turn how springs turn since the step before
 /// @param team threads that share the work
 /// @returns how many contacts have a predecessor
 template <class Law, class S>
-std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts, const Team& team) {
+std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts,
+                  [[maybe_unused]] const SpringTurn<S>& turn, const Team& team) {
   if constexpr (CompliantLaw<Law, S>) {
-    const std::size_t found = remember_springs(previous, contacts, team);
-    hand_over(previous, contacts);
+    const std::size_t found = remember_springs(previous, contacts, turn, team);
+    hand_over(previous, contacts, turn);
     return found;
   } else {
     return warm_start(previous, contacts, team);
@@ -38,8 +40,8 @@ class PointUnknowns {
 
   static const BodyDelassus<S>& points(const Operator& op) { return op; }
   std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts,
-                    const Team& team) {
-    return detail::start<Law>(previous, contacts, team);
+                    const SpringTurn<S>& turn, const Team& team) {
+    return detail::start<Law>(previous, contacts, turn, team);
   }
   static std::span<typename S::Vector> impulses(Contacts<S>& contacts) { return contacts.impulses; }
   static void finish(const Operator&, Contacts<S>&) {}
@@ -53,9 +55,15 @@ class RollingUnknowns {
 
   static const BodyDelassus<S>& points(const Operator& op) { return op.points(); }
   std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts,
-                    const Team& team) {
-    const std::size_t found = detail::start<Law>(previous, contacts, team);
-    carry_couples(previous, contacts, previous.couples, contacts.couples);
+                    const SpringTurn<S>& turn, const Team& team) {
+    const std::size_t found = detail::start<Law>(previous, contacts, turn, team);
+    carry_couples(previous, contacts, previous.couples, contacts.couples,
+                  [&](const Contact<S>& before, const Contact<S>& now) -> typename S::Matrix {
+                    if constexpr (CompliantLaw<Law, S>)
+                      return turn.axes(before, now);
+                    else
+                      return before.frame;
+                  });
     unknowns_.resize(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       linear<S>(unknowns_[c]) = contacts.impulses[c];
@@ -78,7 +86,7 @@ class RollingUnknowns {
 /// The unknowns of a law:
 ///
 /// - points(operator): the part of the operator that acts at points
-/// - start(operator, previous, contacts, team): warm start; returns how many contacts have a
+/// - start(operator, previous, contacts, turn, team): warm start; returns how many contacts have a
 ///   predecessor
 /// - impulses(contacts): the unknowns r, one per contact
 /// - finish(operator, contacts): writes r to the impulses and couples of the contacts

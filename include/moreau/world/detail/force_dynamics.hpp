@@ -13,6 +13,7 @@
 
 #include "moreau/body/bodies.hpp"
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/detail/effective_mass.hpp"
 #include "moreau/contact/detail/effective_radius.hpp"
 #include "moreau/contact/detail/warm_start.hpp"
 #include "moreau/core/detail/erase_at.hpp"
@@ -61,11 +62,19 @@ class ForceDynamics {
     const Bodies<S>& bodies = context.bodies;
     Contacts<S>& contacts = context.contacts;
     loads_.assign(bodies.size(), Twist::Zero());
-    report.warm_started = carry(context.previous, contacts, memory_, next_, turned<S>);
+    const SpringTurn<S> turn{bodies.velocity, elapsed};
+    report.warm_started = carry(context.previous, contacts, memory_, next_, turn);
+    hand_over_stretches(context.previous, contacts, memory_, next_, turn);
     memory_.swap(next_);
+    masses_.resize(contacts.size());
+    for (std::size_t first = 0, last; first < contacts.size(); first = last) {
+      last = end_of_pair(contacts, first);
+      share_mass<S>(bodies, std::span(contacts.points).subspan(first, last - first),
+                    std::span(masses_).subspan(first, last - first));
+    }
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
-      ContactMotion<S> motion = motion_of(bodies, contact, elapsed);
+      ContactMotion<S> motion = motion_of(bodies, contact, masses_[c], elapsed);
       if (!context.chords.empty())
         motion.velocity += transposed_product(contact.frame, context.chords[c]);
       const Vector force = context.materials.laws()[contact.law].force(motion, memory_[c]);
@@ -86,18 +95,13 @@ class ForceDynamics {
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(integrator_, loads_, memory_); }
 
-  static ContactMotion<S> motion_of(const Bodies<S>& bodies, const Contact<S>& contact,
+  static ContactMotion<S> motion_of(const Bodies<S>& bodies, const Contact<S>& contact, Scalar mass,
                                     Scalar elapsed) {
     const std::uint32_t a = contact.a, b = contact.b;
-    const Scalar inverse_mass = inverse_mass_along(bodies, a, contact.frame.col(0)) +
-                                inverse_mass_along(bodies, b, contact.frame.col(0));
     return {contact.gap,
             BodyDelassus<S>::relative_velocity(contact, bodies.velocity[a], bodies.velocity[b]),
-            inverse_mass > 0 ? 1 / inverse_mass : Scalar(0),
-            effective_radius(contact, bodies.grain_mass[a] > 0, bodies.grain_mass[b] > 0), elapsed};
-  }
-  static Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i, const Vector& n) {
-    return (bodies.axes(i).transpose() * n).cwiseAbs2().dot(bodies.inverse_mass[i]);
+            mass, effective_radius(contact, bodies.grain_mass[a] > 0, bodies.grain_mass[b] > 0),
+            elapsed};
   }
   void apply(const Contact<S>& contact, const Vector& force) {
     linear<S>(loads_[contact.b]) += force;
@@ -108,6 +112,7 @@ class ForceDynamics {
 
   Integrator integrator_;
   std::vector<Twist> loads_;           ///< of the contacts on every body
+  std::vector<Scalar> masses_;         ///< effective mass of every contact [kg]
   std::vector<Vector> memory_, next_;  ///< the law's, one per contact, in its frame
 };
 

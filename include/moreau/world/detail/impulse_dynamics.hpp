@@ -9,7 +9,7 @@
 //   5. correct overlaps: bodies and gaps move, velocities do not
 //   6. variants: the law of each contact in this step, where it depends on the step before
 //   7. offset velocities: what each law adds to the normal velocity, from the corrected gaps
-//   8. solve the contact problem; by default with solve/coloured_gauss_seidel.hpp
+//   8. solve the contact problem, by default with solve/coloured_gauss_seidel.hpp; limit the restitution
 //   9. velocities after the impulses
 //  10. measure the dissipation
 //  11. advance to the end of the step
@@ -42,6 +42,7 @@
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/contact_unknowns.hpp"
+#include "moreau/world/detail/restitution_limit.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
@@ -218,7 +219,8 @@ class ImpulseDynamics {
     }
   }
   std::size_t start(const Context& context, const Contacts<S>& before) {
-    return unknowns_.start(problem_.delassus, before, context.contacts, team_);
+    return unknowns_.start(problem_.delassus, before, context.contacts,
+                           springs_.turn(context, integrator_), team_);
   }
   /// The contacts of the step before with their pushes against the attraction that they had then: the
   /// springs bear the pushes. Without attraction these are their impulses.
@@ -298,6 +300,7 @@ class ImpulseDynamics {
     const Bodies<S>& bodies = context.bodies;
     const auto impulses = unknowns_.impulses(context.contacts);
     before_.resize(context.contacts.size());
+    limit_.resize(context.contacts.size());
     return sum_of<Largest>(team_, context.contacts.size(),
                            [&](Largest& fastest, std::size_t c) {
                              const Contact<S>& contact = context.contacts.points[c];
@@ -306,10 +309,11 @@ class ImpulseDynamics {
                              before_[c] = BodyDelassus<S>::relative_velocity(
                                  contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
                              fastest.add({-before_[c][0]});
-                             const Scalar arc =
-                                 add_chord(problem_.delassus, context, c, before_[c]);
-                             const Scalar offset = law.velocity_offset(
-                                 contact.gap, before_[c][0] - arc, context.step);
+                             const Scalar approach =
+                                 before_[c][0] - add_chord(problem_.delassus, context, c, before_[c]);
+                             const Scalar offset =
+                                 law.velocity_offset(contact.gap, approach, context.step);
+                             limit_.set(c, law, contact.gap, approach, context.step, offset);
                              if (!std::isfinite(offset)) impulses[c].setZero();
                              problem_.delassus.offset_normal(c, offset);
                            })
@@ -321,11 +325,12 @@ class ImpulseDynamics {
   };
 
   void solve(const Context& context, StepReport& report) {
-    report.solve = solver_.solve(problem_, unknowns_.impulses(context.contacts), workspace_);
+    const auto impulses = unknowns_.impulses(context.contacts);
+    report.solve = solver_.solve(problem_, impulses, workspace_);
+    if constexpr (!compliant)
+      if (!shared_) limit_.apply(context.bodies, problem_, impulses, solver_, workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
-    if constexpr (compliant)
-      springs_.measure(context, problem_, unknowns_.impulses(context.contacts), report,
-                       shared_.get());
+    if constexpr (compliant) springs_.measure(context, problem_, impulses, report, shared_.get());
     if constexpr (stateful) choose_variants(context.materials, context.contacts);
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, -1);
     unknowns_.finish(problem_.delassus, context.contacts);
@@ -349,6 +354,7 @@ class ImpulseDynamics {
   Unknowns unknowns_;
   [[no_unique_address]] std::conditional_t<compliant, ContactSprings<S, Law>, NoSprings> springs_;
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
+  RestitutionLimit<S, Law> limit_;
 
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]

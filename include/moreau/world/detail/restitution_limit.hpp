@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Newton's restitution, limited so that the impulses of a step add no kinetic energy.
+//
+// With friction, or where several contacts of a body act at once, Newton's law of restitution can add energy
+// (T. R. Kane and D. A. Levinson, Dynamics: Theory and Applications, 1985, section 5.8). Without restitution
+// it cannot: let u_f be the relative velocities without impulses, u = u_f + W r those with the impulses r. The
+// impulses change the kinetic energy by
+//
+//     G(r) = r . u_f + r . W r / 2.
+//
+// Signorini's and Coulomb's laws without restitution give r . u <= 0, and so G <= -r . W r / 2 <= 0.
+//
+// Let r_e be the impulses with restitution and r_0 those without. If G(r_e) > 0 for an island, a set of
+// bodies that impulses connect, its impulses become
+//
+//     r = r_0 + s (r_e - r_0)
+//
+// with the largest s in [0, 1] for which G(r) <= 0: the root of a parabola. s exists because G(r_0) <= 0. The
+// impulses lie in the cones of friction, because these are convex, and the bodies do not approach, because u
+// is linear in r. Between prescribed bodies nothing is exchanged: they end islands.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/solve/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
+
+namespace moreau::detail {
+
+/// The limit of the restitution of a step; the head of this file has its equations.
+template <class S, class Law>
+class RestitutionLimit {
+ public:
+  using Scalar = typename S::Scalar;
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
+  using Problem = ContactProblem<Operator, Law>;
+
+  void resize(std::size_t contacts) {
+    offset_.resize(contacts);
+    bounce_.resize(contacts);
+  }
+  /// Splits the offset of a contact into that without restitution and the rest. Several threads may call
+  /// it for different contacts.
+  /// @param offset velocity_offset(gap, before, step) [m/s]
+  void set(std::size_t c, const Law& law, Scalar gap, Scalar before, Scalar step, Scalar offset) {
+    offset_[c] = offset;
+    bounce_[c] = 0;
+    if (before < 0 && std::isfinite(offset))
+      bounce_[c] = offset - law.velocity_offset(gap, Scalar(0), step);
+  }
+  /// Limits the impulses of a solved problem; leaves the operator with their velocities.
+  /// @param solver,workspace solve the problem without restitution, if it is needed
+  void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses, const auto& solver,
+             auto& workspace) {
+    if (std::all_of(bounce_.begin(), bounce_.end(), [](Scalar x) { return x == 0; })) return;
+    resting_.resize(impulses.size());  // here, so that a later step need not allocate
+    roots_.resize(bodies.size());
+    islands_.resize(bodies.size());
+    measure(problem, impulses, Scalar(0), bouncing_);
+    if (!gains(bodies, problem)) return;
+    offset_all(problem, -1);
+    solver.solve(problem, impulses, workspace);
+    measure(problem, impulses, Scalar(1), resting_);
+    offset_all(problem, 1);
+    combine(bodies, problem, impulses);
+    set_impulses(problem.delassus, std::span<const Row>(impulses));
+  }
+
+ private:
+  /// A contact under some impulse.
+  struct State {
+    Row impulse, velocity;  ///< r [N s] and u, without offset [m/s]
+    double gain = 0;        ///< r . (u_f + u) / 2 [J]
+    bool acts = false;      ///< r is not zero
+  };
+  struct Island {
+    double gain = 0, size = 0;                   // with restitution: G and the sum of |r . u_f|
+    double start = 0, slope = 0, curvature = 0;  // of the parabola G(s)
+
+    /// More than the rounding of its terms.
+    bool makes_energy() const { return gain > 1e-12 * size; }
+    Scalar share() const {
+      if (!makes_energy()) return 1;
+      if (start > 0 || curvature <= 0) return 0;
+      const double root = std::sqrt(slope * slope - 2 * curvature * start);
+      const double s = slope < 0 ? (root - slope) / curvature : -2 * start / (slope + root);
+      return s < 1 ? Scalar(s) : s >= 1 ? Scalar(1) : Scalar(0);  // 0 of 0/0
+    }
+  };
+
+  /// @param without share of the restitution that the operator lacks, 0 or 1
+  void measure(const Problem& problem, std::span<const Row> impulses, Scalar without,
+               std::vector<State>& states) const {
+    states.resize(impulses.size());
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      State& state = states[c];
+      state.impulse = impulses[c];
+      state.velocity.setZero();
+      state.gain = 0;
+      state.acts = !impulses[c].isZero(0);
+      if (!std::isfinite(offset_[c])) continue;
+      const Scalar offset = offset_[c] - without * bounce_[c];
+      state.velocity = problem.delassus.velocity(c);
+      state.velocity[0] -= offset;
+      if (!state.acts) continue;
+      Row free = problem.delassus.free_velocity(c);
+      free[0] -= offset;
+      state.gain = double(state.impulse.dot(free + state.velocity)) / 2;
+    }
+  }
+  /// Whether the impulses with restitution add energy in an island.
+  bool gains(const Bodies<S>& bodies, const Problem& problem) {
+    if (std::none_of(bouncing_.begin(), bouncing_.end(),
+                     [](const State& state) { return state.gain > 0; }))
+      return false;
+    std::fill(resting_.begin(), resting_.end(), State{Row::Zero(), Row::Zero()});
+    add_up(bodies, problem);
+    return std::any_of(islands_.begin(), islands_.end(),
+                       [](const Island& island) { return island.makes_energy(); });
+  }
+  void offset_all(Problem& problem, Scalar sign) const {
+    for (std::size_t c = 0; c < bounce_.size(); ++c)
+      if (bounce_[c] != 0) problem.delassus.offset_normal(c, sign * bounce_[c]);
+  }
+  void combine(const Bodies<S>& bodies, const Problem& problem, std::span<Row> impulses) {
+    add_up(bodies, problem);
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      const Row& rest = resting_[c].impulse;
+      const Scalar share = islands_[island_of(bodies, problem, c)].share();
+      impulses[c] =
+          share == 1 ? bouncing_[c].impulse : Row(rest + share * (bouncing_[c].impulse - rest));
+    }
+  }
+  /// Finds the islands of contacts that act in one of the two states, and adds up their energies.
+  void add_up(const Bodies<S>& bodies, const Problem& problem) {
+    std::iota(roots_.begin(), roots_.end(), 0u);
+    std::fill(islands_.begin(), islands_.end(), Island{});
+    for (std::size_t c = 0; c < bouncing_.size(); ++c) {
+      const auto [a, b] = problem.delassus.bodies(c);
+      if (!bouncing_[c].acts && !resting_[c].acts) continue;
+      if (!bodies.is_prescribed(a) && !bodies.is_prescribed(b)) roots_[root_of(a)] = root_of(b);
+    }
+    for (std::size_t c = 0; c < bouncing_.size(); ++c) {
+      const State &bounce = bouncing_[c], &rest = resting_[c];
+      if (!bounce.acts && !rest.acts) continue;
+      Island& island = islands_[island_of(bodies, problem, c)];
+      const Row change = bounce.impulse - rest.impulse;
+      island.gain += bounce.gain;
+      island.size += std::abs(bounce.gain) + std::abs(double(bounce.impulse.dot(bounce.velocity)));
+      island.start += rest.gain;
+      island.slope += double(change.dot(rest.velocity));
+      island.curvature += double(change.dot(bounce.velocity - rest.velocity));
+    }
+  }
+  std::uint32_t island_of(const Bodies<S>& bodies, const Problem& problem, std::size_t c) {
+    const auto [a, b] = problem.delassus.bodies(c);
+    return root_of(bodies.is_prescribed(b) ? a : b);
+  }
+  std::uint32_t root_of(std::uint32_t i) {
+    while (roots_[i] != i) i = roots_[i] = roots_[roots_[i]];
+    return i;
+  }
+
+  std::vector<Scalar> offset_, bounce_;  // one per contact: all of the offset, its part by e [m/s]
+  std::vector<State> bouncing_, resting_;  // one per contact: with restitution, without
+  std::vector<std::uint32_t> roots_;       // one per body: towards the root of its island
+  std::vector<Island> islands_;            // one per body: that of a root counts
+};
+
+}  // namespace moreau::detail
