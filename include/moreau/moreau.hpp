@@ -16,6 +16,9 @@
 //   residual                     measure_residual()             solve/measure_residual.hpp
 #pragma once
 
+#include "moreau/core/detail/compiler.hpp"
+#if __cplusplus >= 202002L  // the error above is the only one
+
 #include "moreau/law/materials.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
@@ -30,3 +33,4 @@
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/version.hpp"
 #include "moreau/world/simulation.hpp"
+#endif

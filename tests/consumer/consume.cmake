@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs a program as a project of its own, outside this one's source tree.
-#   WAY       find_package | build_tree | add_subdirectory | fetch_content | pkg_config | plain
+#   WAY       find_package | build_tree | eigen_5 | add_subdirectory | fetch_content | pkg_config | plain
 #             | debian_package
 #   LIBRARY   this project's source    BUILD     its build folder
 #   COMPILER  the C++ compiler         GENERATOR of build files
 #   EIGEN     its include folder
 # One way builds the whole twenty-line example, fully optimized, for the warnings that only
 # optimizers give; one builds two units with all of moreau.hpp; for the others it is enough that
-# the headers are found, and Eigen's. The subdirectory meets globals with the names that
+# the headers are found, and Eigen's. eigen_5 has a package file as Eigen 5 has it, which refuses a
+# request for version 3.4, over the headers that are there. The subdirectory meets globals with the names that
 # the library has for its own.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
@@ -55,7 +56,7 @@ else()
 endif()
 
 # An installed tree must not depend on where it was installed: move it.
-if(WAY MATCHES "find_package|pkg_config")
+if(WAY MATCHES "find_package|pkg_config|eigen_5")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/staging)
   file(RENAME ${WORK}/staging ${WORK}/prefix)
 endif()
@@ -93,6 +94,17 @@ else()
   set(project ${WAY})
   if(WAY STREQUAL "find_package")
     list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+  elseif(WAY STREQUAL "eigen_5")
+    file(WRITE ${WORK}/eigen/Eigen3Config.cmake
+         "add_library(Eigen3::Eigen INTERFACE IMPORTED)\n"
+         "target_include_directories(Eigen3::Eigen INTERFACE ${EIGEN})\n")
+    file(WRITE ${WORK}/eigen/Eigen3ConfigVersion.cmake
+         "set(PACKAGE_VERSION 5.0.1)\n"
+         "if(NOT PACKAGE_FIND_VERSION OR PACKAGE_FIND_VERSION_MAJOR EQUAL 5)\n"
+         "  set(PACKAGE_VERSION_COMPATIBLE TRUE)\n"
+         "endif()\n")
+    list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix -DEigen3_DIR=${WORK}/eigen)
+    set(project find_package)
   elseif(WAY STREQUAL "build_tree")
     list(APPEND options -Dmoreau_DIR=${BUILD})
     set(project find_package)

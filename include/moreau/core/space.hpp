@@ -12,6 +12,8 @@
 // the geometry of single shapes depend on the dimension.
 #pragma once
 
+#include "moreau/core/detail/compiler.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
