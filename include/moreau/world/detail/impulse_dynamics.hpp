@@ -301,22 +301,22 @@ class ImpulseDynamics {
     const auto impulses = unknowns_.impulses(context.contacts);
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
-    return sum_of<Largest>(team_, context.contacts.size(),
-                           [&](Largest& fastest, std::size_t c) {
-                             const Contact<S>& contact = context.contacts.points[c];
-                             const Law& law = context.materials.laws()[contact.law];
-                             problem_.law_of[c] = law_of(contact);
-                             before_[c] = BodyDelassus<S>::relative_velocity(
-                                 contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
-                             fastest.add({-before_[c][0]});
-                             const Scalar approach =
-                                 before_[c][0] - add_chord(problem_.delassus, context, c, before_[c]);
-                             const Scalar offset =
-                                 law.velocity_offset(contact.gap, approach, context.step);
-                             limit_.set(c, law, contact.gap, approach, context.step, offset);
-                             if (!std::isfinite(offset)) impulses[c].setZero();
-                             problem_.delassus.offset_normal(c, offset);
-                           })
+    return sum_of<Largest>(
+               team_, context.contacts.size(),
+               [&](Largest& fastest, std::size_t c) {
+                 const Contact<S>& contact = context.contacts.points[c];
+                 const Law& law = context.materials.laws()[contact.law];
+                 problem_.law_of[c] = law_of(contact);
+                 before_[c] = BodyDelassus<S>::relative_velocity(
+                     contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
+                 fastest.add({-before_[c][0]});
+                 const Scalar approach =
+                     before_[c][0] - add_chord(problem_.delassus, context, c, before_[c]);
+                 const Scalar offset = law.velocity_offset(contact.gap, approach, context.step);
+                 limit_.set(c, law, contact.gap, approach, context.step, offset);
+                 if (!std::isfinite(offset)) impulses[c].setZero();
+                 problem_.delassus.offset_normal(c, offset);
+               })
         .value;
   }
   struct Largest {
