@@ -53,8 +53,9 @@ struct SpringTurn {
     return axes;
   }
   /// A vector in the frame of a contact of the step before, in the frame of the contact in this step.
-  typename S::Vector operator()(const Contact<S>& before, const Contact<S>& now,
-                                const typename S::Vector& vector) const {
+  MOREAU_COMPILED_ONCE typename S::Vector operator()(const Contact<S>& before,
+                                                     const Contact<S>& now,
+                                                     const typename S::Vector& vector) const {
     if (vector.template tail<S::dim - 1>().isZero(0)) return vector;
     typename S::Vector carried = transposed_product(now.frame, product(axes(before, now), vector));
     carried[0] = vector[0];  // to the last bit
