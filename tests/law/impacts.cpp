@@ -219,12 +219,14 @@ TEST_CASE("springs: a load that turns with grain and floor keeps the grain in it
     world.gravity[2] = -9.81;
     world.bodies.velocity[0][5] = world.velocity()[5] = spin;
     const double turn = 2 * std::numbers::pi / std::abs(spin), load = 0.1 * grain.mass * 9.81;
+    // The rod oscillates with a period of 0.56 ms: with the longer step its springs are lost again and again.
+    const double h = grain.mass < 1e-3 ? 1e-5 : 5e-5;
     const auto run_to = [&](double end) {
       while (world.time < end) {
-        const double angle = spin * (world.time + 5e-5);
+        const double angle = spin * (world.time + h);
         world.bodies.force[1][0] = load * std::cos(angle);
         world.bodies.force[1][1] = load * std::sin(angle);
-        world.step(5e-5);
+        world.step(h);
       }
       const Eigen::Vector3d& x = world.bodies.pose[1].position;
       return Eigen::Vector2d(Eigen::Rotation2Dd(-spin * world.time) * Eigen::Vector2d(x[0], x[1]));
@@ -239,7 +241,6 @@ TEST_CASE("springs: a load that turns with grain and floor keeps the grain in it
   for (const std::size_t i : {0u, 1u, 2u, 3u, 4u, 6u, 10u, 11u})  // those that do not tip over
     for (const double spin : {20.0, -40.0}) {
       check(Linear(1e4, 1e2, 2, 0.2), grains[i], spin);
-      if (i == 6) continue;  // the light rod moves by 0.5 mm per turn; the reason is not known
       check(Hertz(1e6, 2e4, 2, 0.2), grains[i], spin);
     }
 }
