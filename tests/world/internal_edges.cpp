@@ -10,6 +10,7 @@
 
 #include "moreau/shape/compound.hpp"
 
+#include "types.hpp"
 #include "world/assemblies.hpp"
 #include "worlds/compound.hpp"
 
@@ -185,8 +186,8 @@ TEST_CASE("a cube slides over flush blocks in any direction of its edges") {
   check<ShapeT>({.grain = 0.024, .turn = 0.3}, box<ShapeT>(0.05, 0.05), prism);
 }
 
-TEST_CASE_TEMPLATE("a compound grain slides over flush parts and flush obstacles", Part, Polygon<>,
-                   Polyhedron<>) {
+TEST_CASE_TEMPLATE("a compound grain slides over flush parts and flush obstacles", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
   using S = SpaceOf<Part>;
   using Vector = typename S::Vector;
   // Parts of different height: their vertices do not coincide.

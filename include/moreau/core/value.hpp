@@ -53,54 +53,68 @@ requires(Left::ColsAtCompileTime == Right::RowsAtCompileTime) auto times(const L
 
 /// @name Operators of a Value: they return a Value.
 /// @{
+
+/// The opposite.
 template <class M>
 Value<M> operator-(const Value<M>& a) {
   return Value<M>(-detail::plain(a));
 }
+/// The sum.
 template <class M>
 Value<M> operator+(const Value<M>& a, const Value<M>& b) {
   return Value<M>(detail::plain(a) + detail::plain(b));
 }
+/// The sum.
 template <class M, class Other>
 Value<M> operator+(const Value<M>& a, const Eigen::MatrixBase<Other>& b) {
   return Value<M>(detail::plain(a) + b.derived());
 }
+/// The sum.
 template <class M, class Other>
 Value<M> operator+(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
   return Value<M>(a.derived() + detail::plain(b));
 }
+/// The difference.
 template <class M>
 Value<M> operator-(const Value<M>& a, const Value<M>& b) {
   return Value<M>(detail::plain(a) - detail::plain(b));
 }
+/// The difference.
 template <class M, class Other>
 Value<M> operator-(const Value<M>& a, const Eigen::MatrixBase<Other>& b) {
   return Value<M>(detail::plain(a) - b.derived());
 }
+/// The difference.
 template <class M, class Other>
 Value<M> operator-(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
   return Value<M>(a.derived() - detail::plain(b));
 }
+/// The multiple.
 template <class M, detail::FactorOf<typename M::Scalar> Number>
 Value<M> operator*(const Value<M>& a, Number factor) {
   return Value<M>(detail::plain(a) * static_cast<typename M::Scalar>(factor));
 }
+/// The multiple.
 template <class M, detail::FactorOf<typename M::Scalar> Number>
 Value<M> operator*(Number factor, const Value<M>& a) {
   return Value<M>(static_cast<typename M::Scalar>(factor) * detail::plain(a));
 }
+/// The quotient.
 template <class M, detail::FactorOf<typename M::Scalar> Number>
 Value<M> operator/(const Value<M>& a, Number divisor) {
   return Value<M>(detail::plain(a) / static_cast<typename M::Scalar>(divisor));
 }
+/// The product.
 template <class M, class N>
 auto operator*(const Value<M>& a, const Value<N>& b) {
   return detail::times(detail::plain(a), detail::plain(b));
 }
+/// The product.
 template <class M, class Other>
 auto operator*(const Value<M>& a, const Eigen::MatrixBase<Other>& b) {
   return detail::times(detail::plain(a), b.derived());
 }
+/// The product.
 template <class M, class Other>
 auto operator*(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
   return detail::times(a.derived(), detail::plain(b));
