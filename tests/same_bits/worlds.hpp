@@ -153,7 +153,7 @@ void check(const Law& law, int steps = 12) {
   const auto run = [&](const Team& team) { return Press<ShapeT, Law>(law, team).run(steps); };
   Press<ShapeT, Law> alone(law, Team());
   const std::uint64_t expected = alone.run(steps);
-  CHECK(alone.most_points() > 500);
+  CHECK(alone.most_points() > 300);  // enough to be shared
   for (const int threads : {2, 3, 8}) CHECK(run(ruled(threads, shared)) == expected);
   CHECK(run(ruled(2, in_turn)) == expected);
   CHECK(run(ruled(3, at_random)) == expected);
