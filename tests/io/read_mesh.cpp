@@ -396,7 +396,8 @@ TEST_CASE("the same cube as many programs write it") {
       {"little_double.ply", binary_ply<double>(cube, false)},
       {"big_double.PLY", binary_ply<double>(cube, true)},
   };
-  for (const auto& [name, text] : files) {
+  for (const auto& file : files) {
+    const std::string &name = file.name, &text = file.text;  // clang 14 captures no bindings
     CAPTURE(name);
     Mesh mesh;
     CHECK_NOTHROW(mesh = read_mesh(write(folder, name, text), 1.0));
@@ -522,7 +523,8 @@ TEST_CASE("a file that is damaged, or is something else, gives an error with its
     for (std::size_t size = 1; size + 14 < text.size(); size += 53)
       files.push_back({name, text.substr(0, size)});
   CHECK(files.size() > 100);
-  for (const auto& [name, text] : files) {
+  for (const auto& file : files) {
+    const std::string &name = file.name, &text = file.text;  // clang 14 captures no bindings
     CAPTURE(name);
     CAPTURE(text.size());
     const auto path = write(folder, name, text);
