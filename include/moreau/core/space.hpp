@@ -12,8 +12,6 @@
 // the geometry of single shapes depend on the dimension.
 #pragma once
 
-#include "moreau/core/detail/compiler.hpp"
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -22,6 +20,7 @@
 #include <numbers>
 
 #include "moreau/core/components.hpp"
+#include "moreau/core/detail/compiler.hpp"
 #include "moreau/core/small_matrix.hpp"
 
 namespace moreau {
