@@ -189,33 +189,71 @@ TEST_CASE_TEMPLATE("aligned shapes: ties of features are not remembered wrongly"
     }
 }
 
-TEST_CASE("coherent pairs are proved, seldom searched") {
-  using S = Space<3>;
+TEST_CASE_TEMPLATE("coherent pairs are proved, seldom searched", T, double, float) {
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+  using Shape = Polyhedron<T>;
   std::mt19937_64 random(4);
-  std::vector<Polyhedron<double>> shapes;
+  std::vector<Shape> shapes;
   for (int i = 0; i < 20; ++i) shapes.push_back(samples::grain(S{}, random));
   int proved = 0, asked = 0;
-  for (int i = 0; i < rounds(200); ++i) {
-    const auto& shape_a = shapes[random() % shapes.size()];
-    const auto& shape_b = shapes[random() % shapes.size()];
-    Companions<Polyhedron<double>> pair(shape_a, shape_b, random);
-    Pose<S> pose_a, pose_b{1.2 * samples::direction<S>(random), samples::rotation(S{}, random)};
-    const Placed<Polyhedron<double>> a(shape_a, pose_a);
-    const auto found = distance(a, Placed<Polyhedron<double>>(shape_b, pose_b));
-    pose_b.position -= (found.gap + 1e-3) * found.normal;
-    PairCache<S> cache;
-    for (int k = 0; k < 20; ++k) {
-      const Placed<Polyhedron<double>> b(shape_b, pose_b);
-      const detail::PolytopePair<Polyhedron<double>> both(a, b);
-      if (k > 0) {
-        proved += detail::prove_axis(both, cache).has_value();
-        ++asked;
+  // Shapes that overlap and, with another share of pairs of vertices and edges, that are apart.
+  for (const T depth : {T(1e-3), T(-0.05)})
+    for (int i = 0; i < rounds(100); ++i) {
+      const Shape& shape_a = shapes[random() % shapes.size()];
+      const Shape& shape_b = shapes[random() % shapes.size()];
+      Pose<S> pose_a,
+          pose_b{Vector(T(1.2) * samples::direction<S>(random)), samples::rotation(S{}, random)};
+      const Placed<Shape> a(shape_a, pose_a);
+      const auto found = distance(a, Placed<Shape>(shape_b, pose_b));
+      pose_b.position -= (found.gap + depth) * found.normal;
+      PairCache<S> cache;
+      for (int k = 0; k < 20; ++k) {
+        const Placed<Shape> b(shape_b, pose_b);
+        const detail::PolytopePair<Shape> both(a, b);
+        if (k > 0) {
+          proved += detail::prove_axis(both, cache).has_value();
+          ++asked;
+        }
+        static_cast<void>(distance(a, b, cache));
+        pose_b.position += T(1e-4) * samples::direction<S>(random);
+        pose_b.rotation = S::exp(Vector(T(1e-4) * samples::direction<S>(random))) * pose_b.rotation;
       }
-      static_cast<void>(distance(a, b, cache));
-      pose_b.position += 1e-4 * samples::direction<S>(random);
-      pose_b.rotation = S::exp(1e-4 * samples::direction<S>(random)) * pose_b.rotation;
     }
-  }
   MESSAGE("proved ", proved, " of ", asked);
   CHECK(proved > 0.9 * asked);
+}
+
+TEST_CASE("boxes that lie on each other are proved, whatever their tilt, and no bit changes") {
+  using S = Space<3>;
+  using Vector = S::Vector;
+  std::mt19937_64 random(5);
+  const auto box = samples::box<double>(1, 1, 1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const Vector& at : {Vector(.55, 0, 1), Vector(0, 0, 1), Vector(.3, .2, 1)})
+    for (const double tilt : {0., 1e-12, 1e-8, 1e-5, 1e-3}) {
+      int proved = 0, asked = 0;
+      for (int i = 0; i < rounds(20); ++i) {
+        PairCache<S> cache;
+        const Vector turn = tilt * samples::direction<S>(random);
+        const Placed<Polyhedron<double>> a(box);
+        for (int k = 0; k < 10; ++k) {
+          Pose<S> pose;
+          pose.position = at + 1e-6 * samples::direction<S>(random) - 1e-3 * Vector::UnitZ();
+          pose.rotation = S::exp(Vector(turn + 0.1 * tilt * samples::direction<S>(random)));
+          const Placed<Polyhedron<double>> b(box, pose);
+          const detail::PolytopePair<Polyhedron<double>> both(a, b);
+          if (k > 0) {
+            proved += detail::prove_axis(both, cache) || detail::prove_facing(both, cache);
+            ++asked;
+          }
+          Manifold<S> cold, cached;
+          CHECK(collide(a, b, 0.01, cold));
+          CHECK(collide(a, b, 0.01, cached, cache));
+          CHECK(is_same(cold, cached));
+        }
+      }
+      INFO("at ", at.x(), " tilt ", tilt);
+      CHECK(proved > 0.9 * asked);
+    }
 }

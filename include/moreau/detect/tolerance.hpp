@@ -24,9 +24,9 @@ struct DetectionTolerance {
   /// If the direction between two nearest points differs from the normal of a face at the same
   /// distance by an angle with a smaller sine [-], the normal of the face is used.
   static constexpr T aligned = std::same_as<T, float> ? T(1e-3) : T(1e-5);
-  /// Angle [rad] between two axes above which it can be proved which of them separates the shapes
+  /// Least angle [rad] between two axes above which it can be proved which of them separates the shapes
   /// by more (polytope/prove_axis.hpp).
-  static constexpr T distinct = std::same_as<T, float> ? T(1e-2) : T(1e-7);
+  static constexpr T distinct = std::same_as<T, float> ? T(5e-4) : T(1e-7);
   /// Angle [rad] by which the normal is tilted to measure the flat part of a surface of which only
   /// the support function is known. The surface counts as flat if its support point then moves by
   /// more than ten times this angle times the size of the shape's bounding box.

@@ -86,12 +86,18 @@ struct Wide {
       typedef double Doubles __attribute__((vector_size(32)));
       return static_cast<std::uint32_t>(
           __builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(mask)));
+    } else if constexpr (Bytes == 32) {
+      typedef float Floats __attribute__((vector_size(32)));
+      return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)));
     }
 #endif
 #if defined(__SSE2__)
     if constexpr (Bytes == 16 && of_doubles) {
       typedef double Doubles __attribute__((vector_size(16)));
       return static_cast<std::uint32_t>(__builtin_ia32_movmskpd(reinterpret_cast<Doubles>(mask)));
+    } else if constexpr (Bytes == 16) {
+      typedef float Floats __attribute__((vector_size(16)));
+      return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Floats>(mask)));
     }
 #endif
     std::uint32_t bits = 0;

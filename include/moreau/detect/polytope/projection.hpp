@@ -4,6 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "moreau/detect/placed.hpp"
 #include "moreau/shape/polygon.hpp"
@@ -46,6 +49,37 @@ bool projects_within(const Placed<Polyhedron<T>>& shape, std::size_t face,
     if (inside < T(0) || inside * inside < clearance2 * along.squaredNorm()) return false;
   }
   return true;
+}
+
+/// The square of the distance of the projection of a point onto a face from the rim of the face [m^2]; -1 if the
+/// projection lies outside.
+/// @param x  relative to the shape's centre, world axes [m]
+template <std::floating_point T>
+T rim_distance2(const Placed<Polygon<T>>& shape, std::size_t edge,
+                const typename Space<2, T>::Vector& x) {
+  using Vector = typename Space<2, T>::Vector;
+  const std::size_t next = edge + 1 < shape.vertices().size() ? edge + 1 : 0;
+  const Vector from = shape.vertices()[edge];
+  const Vector along = shape.vertices()[next] - from;
+  const T t = along.dot(x - from), length2 = along.squaredNorm();
+  const T inside = std::min(t, length2 - t);
+  return inside < T(0) ? T(-1) : inside * inside / length2;
+}
+template <std::floating_point T>
+T rim_distance2(const Placed<Polyhedron<T>>& shape, std::size_t face,
+                const typename Space<3, T>::Vector& x) {
+  using Vector = typename Space<3, T>::Vector;
+  const auto loop = shape.shape().face(face);
+  const Vector normal = shape.normals()[face];
+  T least = std::numeric_limits<T>::infinity();
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Vector from = shape.vertices()[loop[k]];
+    const Vector along = shape.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] - from;
+    const T inside = normal.cross(along).dot(x - from);
+    if (inside < T(0)) return T(-1);
+    least = std::min(least, inside * inside / along.squaredNorm());
+  }
+  return least;
 }
 
 /// Whether the projection of a point lies inside a face, at least `clearance` [m] from its rim.

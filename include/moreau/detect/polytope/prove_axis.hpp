@@ -33,11 +33,12 @@
 //
 // The result must also be equal to the result of the full search. If several axes have the same
 // separation to within rounding, the full search returns the first of them. So the proof must
-// exclude other axes with the same separation. An axis at an angle of more than `distinct` from n
-// has a separation smaller by more than `doubt` if r >= d tau_0 + 2 doubt / distinct and tau_0 <
-// 100, where d includes `doubt` (DetectionTolerance). Axes at a smaller angle are excluded by
-// requiring that no other feature of either shape has a direction that close to n. If any of these
-// conditions fails, prove_axis returns nothing, and the full search is made.
+// exclude other axes with the same separation. An axis at an angle of more than theta from n has a
+// separation smaller by more than `doubt` if r >= d tau_0 + 2 doubt / theta, tau_0 < 100 and
+// theta < 0.04, where d includes `doubt` (DetectionTolerance). So theta follows from the distance r that
+// the projection has. Axes at a smaller angle are excluded by requiring that no other feature of either
+// shape has a direction that close to n. If any of these conditions fails, prove_axis returns nothing,
+// and the full search is made.
 #pragma once
 
 #include <algorithm>
@@ -50,12 +51,17 @@
 
 namespace moreau::detail {
 
-/// The smallest distance r [m] of the projection from the rim of the facet for which the proof
-/// holds; infinite if no distance suffices.
+/// The angle theta [rad] from the axis beyond which the proof excludes all other axes, at least `distinct`;
+/// infinite if it excludes none.
+/// @param clearance  the distance r of the projection from the rim of the facet [m]
+/// @param spread     how far points of the facet may lie above the plane of the axis, >= 0 [m]
 template <class ShapeT>
-typename SpaceOf<ShapeT>::Scalar needed_clearance(const PolytopePair<ShapeT>& pair,
-                                                  const Axis<SpaceOf<ShapeT>>& axis) {
+typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pair,
+                                                 const Axis<SpaceOf<ShapeT>>& axis,
+                                                 typename SpaceOf<ShapeT>::Scalar clearance,
+                                                 typename SpaceOf<ShapeT>::Scalar spread = 0) {
   using T = typename SpaceOf<ShapeT>::Scalar;
+  constexpr T infinity = std::numeric_limits<T>::infinity();
   const T height = axis.normal.dot(pair.offset), apart2 = pair.offset.squaredNorm();
   const T inner = pair.a.shape().inradius() + pair.b.shape().inradius();
   const T doubt = DetectionTolerance<T>::doubt * pair.size;
@@ -63,9 +69,34 @@ typename SpaceOf<ShapeT>::Scalar needed_clearance(const PolytopePair<ShapeT>& pa
   const T aside = std::sqrt(std::max(apart2 - height * height, T(0)));
   const T within = inner - depth;
   const T root = std::sqrt(std::max(apart2 - within * within, T(0)));
-  if (!(aside + root < T(100) * (height + within))) return std::numeric_limits<T>::infinity();
-  return depth * (aside + root) / (height + within) +
-         T(2) * doubt / DetectionTolerance<T>::distinct;
+  if (!(aside + root < T(100) * (height + within))) return infinity;
+  const T spare = clearance - depth * (aside + root) / (height + within);
+  const T below = T(2) * (spread + doubt);
+  return below < T(0.04) * spare ? std::max(DetectionTolerance<T>::distinct, below / spare)
+                                 : infinity;
+}
+/// The same for an axis of a face and a vertex.
+/// @param point  the vertex, relative to the centre of the shape of the face, world axes [m]
+template <class ShapeT>
+typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pair,
+                                                 const Axis<SpaceOf<ShapeT>>& axis,
+                                                 const Placed<ShapeT>& shape, std::size_t face,
+                                                 const typename SpaceOf<ShapeT>::Vector& point) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  const T distance2 = rim_distance2(shape, face, point);
+  if (distance2 < T(0)) return std::numeric_limits<T>::infinity();
+  return excluded_beyond(pair, axis, std::sqrt(distance2));
+}
+
+/// Whether the normals of all other faces differ from that of a face by more than `angle` [rad].
+template <class ShapeT>
+bool is_alone(const Placed<ShapeT>& shape, std::size_t face,
+              typename SpaceOf<ShapeT>::Scalar angle) {
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  if (shape.shape().normal_spacing() >= angle) return true;
+  // 1 - angle^2 / 2 is at most the cosine; the rest allows for rounding.
+  const T cosine = T(1) - T(0.55) * angle * angle - T(4) * std::numeric_limits<T>::epsilon();
+  return shape.normals().count_above(shape.normals()[face], cosine) == 1;
 }
 
 /// The number of vertices of a shape that can be its top vertex along a direction at most `angle`
@@ -116,7 +147,7 @@ bool has_face_near_top(const Placed<Polygon<T>>& shape, std::uint32_t vertex,
 }
 
 /// Proves an axis of a face of a. The full search takes a face of a unless another axis separates
-/// by more than rounding beyond it. So the only further condition is that no two faces of a have
+/// by more than rounding beyond it. So the only further condition is that no other face of a has
 /// nearly the same normal.
 /// @param vertex  of b, the deepest in the previous step
 template <class ShapeT>
@@ -124,11 +155,10 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pa
                                                   std::uint32_t face, std::uint32_t vertex) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   using Vector = typename SpaceOf<ShapeT>::Vector;
-  if (pair.a.shape().normal_spacing() < T(2) * DetectionTolerance<T>::distinct) return std::nullopt;
   const auto axis = axis_of_face_a(pair, face, vertex);
-  if (!projects_onto(pair.a, face, Vector(pair.b.vertices()[axis.b] + pair.offset),
-                     needed_clearance(pair, axis)))
-    return std::nullopt;
+  const T angle =
+      excluded_beyond(pair, axis, pair.a, face, Vector(pair.b.vertices()[axis.b] + pair.offset));
+  if (!std::isfinite(angle) || !is_alone(pair.a, face, T(2) * angle)) return std::nullopt;
   return axis;
 }
 /// Proves an axis of a face of b. In addition, no face of a may be nearly perpendicular to the
@@ -138,36 +168,39 @@ std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pa
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_face_b(const PolytopePair<ShapeT>& pair,
                                                   std::uint32_t vertex, std::uint32_t face) {
-  using S = SpaceOf<ShapeT>;
-  using Vector = typename S::Vector;
-  constexpr auto distinct = DetectionTolerance<typename S::Scalar>::distinct;
-  if (pair.b.shape().normal_spacing() < 2 * distinct) return std::nullopt;
+  using T = typename SpaceOf<ShapeT>::Scalar;
+  using Vector = typename SpaceOf<ShapeT>::Vector;
   const auto axis = axis_of_face_b(pair, face, vertex);
-  const Vector deepest = pair.a.vertices()[axis.a];
-  if (!projects_onto(pair.b, face, Vector(deepest - pair.offset), needed_clearance(pair, axis)) ||
-      has_face_near_top(pair.a, axis.a, axis.normal, distinct))
+  const T angle =
+      excluded_beyond(pair, axis, pair.b, face, Vector(pair.a.vertices()[axis.a] - pair.offset));
+  if (!std::isfinite(angle) || !is_alone(pair.b, face, T(2) * angle) ||
+      has_face_near_top(pair.a, axis.a, axis.normal, angle))
     return std::nullopt;
   return axis;
 }
 
-/// Whether the shapes are so far apart that an axis of two vertices, or of a vertex and an edge,
-/// can be proved. C lies beyond the plane n . c = gap, so an axis at the angle theta from n
-/// separates by at most gap cos theta. For these axes the smallest angle that can be told apart is
-/// `aligned`, which is larger than `distinct`.
+/// The angle [rad] from an axis of two vertices, or of a vertex and an edge, beyond which every axis of a face or
+/// of two edges separates by less than this axis, by more than the full search leaves in doubt. C lies beyond the
+/// plane n . c = gap, so an axis at the angle theta from n separates by at most gap cos theta. The smaller
+/// the gap, the larger the angle. It is at least `aligned`, the smallest angle that the search tells
+/// apart, and infinite if there is no such angle below 0.1.
 template <class ShapeT>
-bool is_far_enough(const PolytopePair<ShapeT>& pair, const Axis<SpaceOf<ShapeT>>& axis) {
+typename SpaceOf<ShapeT>::Scalar distinct_angle(const PolytopePair<ShapeT>& pair,
+                                                const Axis<SpaceOf<ShapeT>>& axis) {
   using T = typename SpaceOf<ShapeT>::Scalar;
-  constexpr T aligned = DetectionTolerance<T>::aligned;
-  return axis.gap * aligned * aligned > T(8) * pair.rounding();
+  // cos theta < 1 - 0.499 theta^2 for theta < 0.1
+  const T angle2 = T(9) * pair.rounding() / axis.gap;
+  if (!(axis.gap > T(0) && angle2 < T(0.01))) return std::numeric_limits<T>::infinity();
+  return std::max(DetectionTolerance<T>::aligned, std::sqrt(angle2));
 }
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_vertices(const PolytopePair<ShapeT>& pair,
                                                     std::uint32_t a, std::uint32_t b) {
   using S = SpaceOf<ShapeT>;
-  constexpr auto aligned = DetectionTolerance<typename S::Scalar>::aligned;
   const auto axis = axis_of_nearest(pair, AxisKind::vertices, a, b);
-  if (!is_far_enough(pair, axis) || !vertex_is_top(pair.a, a, axis.normal, aligned) ||
-      !vertex_is_top(pair.b, b, typename S::Vector(-axis.normal), aligned))
+  const auto angle = distinct_angle(pair, axis);
+  if (!std::isfinite(angle) || !vertex_is_top(pair.a, a, axis.normal, angle) ||
+      !vertex_is_top(pair.b, b, typename S::Vector(-axis.normal), angle))
     return std::nullopt;
   return axis;
 }
@@ -184,47 +217,48 @@ std::optional<Axis<Space<3, T>>> prove_edge_and_vertex(const PolytopePair<Polyhe
                          : fraction_along(pair.b, b, Vector(pair.a.vertices()[a] - pair.offset));
   if (!(fraction > aligned && fraction < 1 - aligned)) return std::nullopt;
   const auto axis = axis_of_nearest(pair, kind, a, b);
-  if (!is_far_enough(pair, axis)) return std::nullopt;
+  const T angle = distinct_angle(pair, axis);
+  if (!std::isfinite(angle)) return std::nullopt;
   const Vector& n = axis.normal;
-  const bool is_top =
-      edge_is_of_a ? edge_is_top(pair.a, a, n, aligned) && vertex_is_top(pair.b, b, -n, aligned)
-                   : vertex_is_top(pair.a, a, n, aligned) && edge_is_top(pair.b, b, -n, aligned);
+  const bool is_top = edge_is_of_a
+                          ? edge_is_top(pair.a, a, n, angle) && vertex_is_top(pair.b, b, -n, angle)
+                          : vertex_is_top(pair.a, a, n, angle) && edge_is_top(pair.b, b, -n, angle);
   return is_top ? std::optional(axis) : std::nullopt;
 }
 
-/// Whether the crossing of two edges, seen along the normal, lies at least `clearance` [m] inside
-/// the parallelogram of all differences between points of the two edges. False if the edges are
+/// How far the crossing of two edges, seen along the normal, lies inside the parallelogram of all
+/// differences between points of the two edges [m]. Negative if it lies outside, or if the edges are
 /// nearly parallel.
 template <std::floating_point T>
-bool crosses_inside(const EdgeView<T>& a, const EdgeView<T>& b,
+T depth_of_crossing(const EdgeView<T>& a, const EdgeView<T>& b,
                     const PolytopePair<Polyhedron<T>>& pair,
-                    const typename Space<3, T>::Vector& normal, T clearance) {
+                    const typename Space<3, T>::Vector& normal) {
   using Vector = typename Space<3, T>::Vector;
   const Vector apart = b.from + pair.offset - a.from;
   const Vector across_a = normal.cross(a.direction);
   const Vector across_b = normal.cross(b.direction);
   const T turn = a.direction.dot(across_b), area = std::abs(turn);
   const T length2_a = a.direction.squaredNorm(), length2_b = b.direction.squaredNorm();
-  if (!(area * area > T(1e-4) * length2_a * length2_b)) return false;
+  if (!(area * area > T(1e-4) * length2_a * length2_b)) return T(-1);
   const T sign = std::copysign(T(1), turn);
-  const auto is_inside = [&](T along, T length2) {
-    const T inside = std::min(along, area - along);
-    return inside >= T(0) && inside * inside >= clearance * clearance * length2;
-  };
-  return is_inside(sign * apart.dot(across_b), length2_b) &&
-         is_inside(sign * apart.dot(across_a), length2_a);
+  const auto inside = [&](T along) { return std::min(along, area - along); };
+  const T from_a = inside(sign * apart.dot(across_b)), from_b = inside(sign * apart.dot(across_a));
+  if (!(from_a >= T(0) && from_b >= T(0))) return T(-1);
+  return std::min(from_a / std::sqrt(length2_b), from_b / std::sqrt(length2_a));
 }
 /// Proves an axis of two edges. No face and no other edge may be nearly perpendicular to the axis,
 /// so the two ends of each edge must be the only vertices near the top.
 template <std::floating_point T>
 std::optional<Axis<Space<3, T>>> prove_edges(const PolytopePair<Polyhedron<T>>& pair,
                                              std::uint32_t id_a, std::uint32_t id_b) {
-  constexpr T distinct = DetectionTolerance<T>::distinct;
   const EdgeView<T> a(pair.a, id_a), b(pair.b, id_b);
   const auto axis = axis_of_edges(a, b, pair.offset);
-  if (!axis || !crosses_inside(a, b, pair, axis->normal, needed_clearance(pair, *axis)) ||
-      !edge_is_top(pair.a, id_a, axis->normal, distinct) ||
-      !edge_is_top(pair.b, id_b, -axis->normal, distinct))
+  if (!axis) return std::nullopt;
+  const T inside = depth_of_crossing(a, b, pair, axis->normal);
+  if (!(inside >= T(0))) return std::nullopt;
+  const T angle = excluded_beyond(pair, *axis, inside);
+  if (!std::isfinite(angle) || !edge_is_top(pair.a, id_a, axis->normal, angle) ||
+      !edge_is_top(pair.b, id_b, -axis->normal, angle))
     return std::nullopt;
   return axis;
 }
