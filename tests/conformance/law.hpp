@@ -11,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <type_traits>
+#include <vector>
 
 #include "moreau/law/concepts.hpp"
 
@@ -222,33 +223,46 @@ void attractive_law(const Law& law, typename S::Scalar range) {
   CHECK(last == T(0));
 }
 
-/// Checks that solve_lanes of a law converges to the scalar solution in every lane.
+/// Checks that visits with solve_lanes of a law converge to the scalar solution in every lane. As in a
+/// solver, a visit subtracts the lane block times the impulse from the velocity under the impulse: for
+/// a law with couples the lane block stands for W.
+/// @param visits of each problem
 template <class S, class Law>
 requires moreau::LaneLaw<Law, S>
-void lane_law(const Law& law) {
+void lane_law(const Law& law, int visits = 50) {
   using T = typename S::Scalar;
-  using Block = moreau::LaneBlock<S>;
+  using Block = moreau::LaneBlockOf<Law, S>;
+  using Vector = typename LocalProblem<S, Law>::Vector;
+  constexpr std::size_t lanes = moreau::LaneBlock<S>::W::lanes;
   std::mt19937_64 random(3);
   double worst = 0;
   for (int i = 0; i < 300; ++i) {
     Block block = Block::unit();
-    typename Block::Vector b{}, r{};
-    std::array<typename S::Vector, std::size_t{Block::W::lanes}> exact;
-    for (std::size_t l = 0; l < exact.size(); ++l) {
-      const LocalProblem<S, Law> p(random);
+    typename Block::Vector r{};
+    std::vector<LocalProblem<S, Law>> problems;
+    std::array<Vector, lanes> exact;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const LocalProblem<S, Law>& p = problems.emplace_back(random);
       block.set(l, p.block);
-      for (std::size_t d = 0; d < Block::dim; ++d) b[d][l] = p.velocity[Eigen::Index(d)];
       exact[l] = law.solve(p.block, p.velocity, p.guess);
     }
     const auto parameters = law.lane_parameters();
     std::array<typename Block::Values, std::tuple_size_v<decltype(law.lane_parameters())>> wide{};
     for (std::size_t k = 0; k < parameters.size(); ++k)
       wide[k] = Block::W::broadcast(parameters[k]);
-    typename Block::Values memory{};
-    for (int visit = 0; visit < 50; ++visit)
-      r = Law::solve_lanes(block, b, r, wide, memory, visit == 49);
-    for (std::size_t l = 0; l < exact.size(); ++l)
-      for (std::size_t d = 0; d < Block::dim; ++d)
+    typename Block::Memory memory{};
+    for (int visit = 1; visit <= visits; ++visit) {
+      typename Block::Vector b = block * r;
+      for (std::size_t l = 0; l < lanes; ++l) {
+        Vector impulse;
+        for (std::size_t d = 0; d < Block::rows; ++d) impulse[Eigen::Index(d)] = r[d][l];
+        const Vector u = problems[l].block * impulse + problems[l].velocity;
+        for (std::size_t d = 0; d < Block::rows; ++d) b[d][l] = u[Eigen::Index(d)] - b[d][l];
+      }
+      r = Law::solve_lanes(block, b, r, wide, memory, visit == visits);
+    }
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t d = 0; d < Block::rows; ++d)
         worst = std::max(worst, std::abs(double(r[d][l] - exact[l][Eigen::Index(d)])) /
                                     (1 + double(exact[l].norm())));
   }

@@ -23,6 +23,9 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   set_valued_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
   const RollingResistance<T> rolling(T(0.4), T(0.2));
   set_valued_law<S>(rolling);
+  lane_law<S>(rolling, 400);
+  lane_law<S>(Cohesive<RollingResistance<T>>(rolling, T(1)), 400);
+  lane_law<S>(Compliant<RollingResistance<T>>(rolling, T(1e8)), 400);
   set_valued_law<S>(Cohesive<Frictionless<T>>(Frictionless<T>(), T(1)));
   set_valued_law<S>(Cohesive<RollingResistance<T>>(rolling, T(1)));
   lane_law<S>(coulomb);

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/law/rolling_resistance.hpp"
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <doctest/doctest.h>
+#include <limits>
 #include <random>
+
+#include "types.hpp"
 
 using namespace moreau;
 using S = Space<3>;
@@ -41,14 +50,124 @@ RollingBlock<S> eccentric_block(std::mt19937_64& random) {
   return block;
 }
 
-Row velocity_of(const RollingBlock<S>& block, const Row& r, const Row& b) {
-  Row u = b;
-  linear<S>(u) += block.point.matrix() * linear<S>(r) + block.coupling * angular<S>(r);
-  angular<S>(u) += block.coupling.transpose() * linear<S>(r) + block.spin * angular<S>(r);
-  return u;
+/// W of two balls, or of a ball and a wall, that touch on the line of their centres. The mass lies
+/// anywhere between the centre and the surface.
+template <class Space>
+RollingBlock<Space> round_block(std::mt19937_64& random) {
+  using T = typename Space::Scalar;
+  using Vector = typename Space::Vector;
+  std::uniform_real_distribution<double> part(0, 1);
+  const double radii[] = {0.2 + part(random), 0.2 + part(random)};
+  const bool wall = part(random) < 0.3;
+  const double radius = wall ? radii[0] : 1 / (1 / radii[0] + 1 / radii[1]);
+  double normal = 0, slip = 0, cross = 0, spin = 0;
+  for (const int sign : {1, -1}) {
+    if (wall && sign < 0) continue;
+    const double r = radii[sign < 0], mass = std::pow(r, Space::dim);
+    const double turn = 1 / (mass * r * r * (0.1 + 0.9 * part(random)));
+    normal += 1 / mass;
+    slip += 1 / mass + r * r * turn;
+    cross += sign * radius * r * turn;
+    spin += radius * radius * turn;
+  }
+  RollingBlock<Space> block;
+  block.point.normal = T(normal);
+  block.point.coupling.setZero();
+  block.point.slip.setConstant(T(slip));
+  block.coupling = T(cross) * Space::lever(Vector(Vector::Unit(0)));
+  block.spin = T(spin) * Space::Inertia::Identity();
+  return block;
 }
 
 }  // namespace
+
+TEST_CASE_TEMPLATE("round contacts: lanes visited again and again have the scalar solution", Any,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
+  using T = typename Any::Scalar;
+  using Block = LaneRollingBlock<Any>;
+  using Values = typename Block::Values;
+  using Problem = RollingBlock<Any>;
+  constexpr std::size_t lanes = Block::W::lanes;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> part(0, 1);
+  std::normal_distribution<double> normal;
+  double worst = 0;
+  int open = 0, rolls = 0, slips = 0, both = 0, neither = 0;
+  for (int i = 0; i < 400; ++i) {
+    Block block = Block::unit();
+    typename Block::Vector b{}, r{};
+    std::array<Values, 2> parameters{};
+    std::array<typename Problem::Vector, lanes> exact;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const RollingResistance<T> law(T(part(random)), T(part(random) * part(random)));
+      const Problem problem = round_block<Any>(random);
+      typename Problem::Vector velocity;
+      for (T& x : velocity) x = T(normal(random));
+      velocity[0] -= 1;
+      exact[l] = law.solve(problem, velocity, typename Problem::Vector(Problem::Vector::Zero()));
+      block.set(l, problem);
+      for (std::size_t d = 0; d < Block::rows; ++d) b[d][l] = velocity[Eigen::Index(d)];
+      for (std::size_t k = 0; k < 2; ++k) parameters[k][l] = law.lane_parameters()[k];
+      const auto u = problem * exact[l] + velocity;
+      const T small = T(1e-4) * velocity.norm();
+      const bool slides = u.template segment<Any::dim - 1>(1).norm() > small;
+      const bool turns = angular<Any>(u).norm() > small;
+      (exact[l][0] == 0 ? open : slides ? (turns ? both : slips) : turns ? rolls : neither)++;
+    }
+    typename Block::Memory memory{};
+    for (int visit = 1; visit <= 600; ++visit)
+      r = RollingResistance<T>::template solve_lanes<Any>(block, b, r, parameters, memory,
+                                                          visit == 600);
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t d = 0; d < Block::rows; ++d)
+        worst = std::max(worst, std::abs(double(r[d][l] - exact[l][Eigen::Index(d)])) /
+                                    std::max(1., double(exact[l].norm())));
+  }
+  CHECK(worst < 1e3 * double(std::numeric_limits<T>::epsilon()));
+  for (const int count : {open, rolls, slips, both, neither}) CHECK(count > 10);
+}
+
+TEST_CASE("a contact that does not roll is solved by one visit") {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> normal;
+  using Block = LaneRollingBlock<S>;
+  int count = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const RollingBlock<S> problem = round_block<S>(random);
+    const RollingResistance<> law(0.5, 3);
+    Row b, exact;
+    for (double& x : b) x = normal(random);
+    b[0] -= 2;
+    exact = law.solve(problem, b, Row(Row::Zero()));
+    const Row u = problem * exact + b;
+    if (angular<S>(u).norm() > 1e-10 || u.segment<2>(1).norm() > 1e-10) continue;
+    ++count;
+    Block block = Block::unit();
+    block.set(0, problem);
+    typename Block::Vector lanes{}, guess{};
+    for (std::size_t d = 0; d < Block::rows; ++d) {
+      lanes[d][0] = b[Eigen::Index(d)];
+      guess[d][0] = normal(random);
+    }
+    Block::Memory memory{};
+    const auto r = RollingResistance<>::solve_lanes<S>(
+        block, lanes, guess, {Block::W::broadcast(0.5), Block::W::broadcast(3)}, memory, false);
+    for (std::size_t d = 0; d < Block::rows; ++d)
+      CHECK(std::abs(r[d][0] - exact[Eigen::Index(d)]) <= 1e-13 * (1 + exact.norm()));
+  }
+  CHECK(count > 100);
+}
+
+TEST_CASE("a round block stands for any other: the difference is not negative") {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 1000; ++i) {
+    const RollingBlock<S> block = eccentric_block(random);
+    LaneRollingBlock<S> lanes = LaneRollingBlock<S>::unit();
+    lanes.set(0, block);
+    const Eigen::Matrix<double, 6, 6> above = lanes[0].matrix() - block.matrix();
+    CHECK(above.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-12 * block.trace());
+  }
+}
 
 TEST_CASE("a point on the cone is its own projection") {
   std::mt19937_64 random(1);
@@ -82,8 +201,8 @@ TEST_CASE("the local problem is solved for any friction and any levers") {
     double least = 1;
     for (const double factor : {1.0, 1 + 1e-13, 1 - 1e-13}) {
       const Row x = factor * r;
-      least = std::min(least,
-                       law.natural_map(velocity_of(block, x, b), Row(scale * x)).norm() / b.norm());
+      least =
+          std::min(least, law.natural_map(Row(block * x + b), Row(scale * x)).norm() / b.norm());
     }
     worst = std::max(worst, least);
   }

@@ -73,6 +73,34 @@ TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S
   CHECK(open > 1000);
 }
 
+TEST_CASE_TEMPLATE("a load of any size along the normal has an impulse in the cone", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
+  using T = typename S::Scalar;
+  for (const T tilt : {T(0), T(0.3)})
+    for (const T mass : {T(1e-6), T(1), T(1e6)})
+      for (const T friction : {T(0.4), T(3)})
+        for (T load = 1; load > 0; load /= 16) {
+          LocalBlock<S> block;
+          block.normal = 1 / mass;
+          block.coupling.setConstant(tilt);
+          block.slip.setConstant(3 / mass);
+          typename S::Vector b = S::Vector::Constant(T(0.5));
+          b[0] = -load;
+          b[1] = -T(1);
+          const SignoriniCoulomb<T> law(friction);
+          const typename S::Vector r = law.solve(block, b, typename S::Vector(S::Vector::Zero()));
+          INFO("dimension ", S::dim, ", load ", load, ", mass ", mass, ", tilt ", tilt);
+          CHECK(r.allFinite());
+          CHECK(r[0] >= 0);
+          CHECK(r.template tail<S::dim - 1>().stableNorm() <=
+                friction * r[0] * (1 + 100 * std::numeric_limits<T>::epsilon()) +
+                    std::numeric_limits<T>::min());
+          const typename S::Vector scaled = r / mass;
+          CHECK(law.natural_map(typename S::Vector(block * r + b), scaled).norm() <=
+                1e4 * double(std::numeric_limits<T>::epsilon()));
+        }
+}
+
 TEST_CASE_TEMPLATE("turning the tangents keeps W", S,
                    MOREAU_TYPES((Space<2>, Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;

@@ -13,5 +13,5 @@ TEST_CASE("polygons: springs under an attraction of one's own") {
   check<Polygon<>>(Compliant<Decaying<double>>(Decaying<double>(0.4, 0.5, 1e-3), 1e6));
 }
 TEST_CASE("balls: rolling") {
-  check<Ball<>>(RollingResistance<>(0.4, 0.05), 24);
+  check<Ball<>>(RollingResistance<>(0.4, 0.05), 60);
 }

@@ -82,10 +82,12 @@ static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
 static_assert(CoulombLaw<SignoriniCoulomb<>, S> && !CoulombLaw<Frictionless<>, S>);
 static_assert(StatefulLaw<SignoriniCoulomb<>, S> && LaneLaw<SignoriniCoulomb<>, S>);
+static_assert(LaneLaw<RollingResistance<>, S> && LaneLaw<Frictionless<>, S>);
 static_assert(RegularizedLaw<LinearSpringDashpot<>, S> && RegularizedLaw<HertzMindlin<>, S>);
 static_assert(ContactLaw<SignoriniCoulomb<>, S> && ContactLaw<HertzMindlin<>, S>);
 static_assert(std::same_as<BlockOf<SignoriniCoulomb<>, S>, LocalBlock<S>>);
 static_assert(std::same_as<BlockOf<RollingResistance<>, S>, RollingBlock<S>>);
+static_assert(std::same_as<LaneBlockOf<RollingResistance<>, S>, LaneRollingBlock<S>>);
 }  // namespace law
 
 namespace integrate {
@@ -100,6 +102,7 @@ using namespace moreau;
 using S = Space<3>;
 
 static_assert(ContactSolver<ColouredGaussSeidel, SignoriniCoulomb<>, S>);
+static_assert(ContactSolver<ColouredGaussSeidel, RollingResistance<>, S>);
 static_assert(ContactSolver<NonlinearGaussSeidel, RollingResistance<>, S>);
 static_assert(std::same_as<OperatorOf<SignoriniCoulomb<>, S>, BodyDelassus<S>>);
 static_assert(std::same_as<OperatorOf<RollingResistance<>, S>, RollingDelassus<S>>);
@@ -114,7 +117,7 @@ using S = Space<3>;
 static_assert(std::same_as<DefaultIntegrator<SignoriniCoulomb<>, S>, MoreauJean>);
 static_assert(std::same_as<DefaultIntegrator<HertzMindlin<>, S>, VelocityVerlet>);
 static_assert(std::same_as<DefaultSolver<SignoriniCoulomb<>, S>, ColouredGaussSeidel>);
-static_assert(std::same_as<DefaultSolver<RollingResistance<>, S>, NonlinearGaussSeidel>);
+static_assert(std::same_as<DefaultSolver<RollingResistance<>, S>, ColouredGaussSeidel>);
 static_assert(std::derived_from<Simulation<Ball<>, SignoriniCoulomb<>>, BodyAccess<Ball<>>>);
 }  // namespace world
 

@@ -60,7 +60,7 @@ using Rolling = moreau::RollingResistance<double>;
 static_assert(moreau::ContactSolver<moreau::NonlinearGaussSeidel, Rolling, Space<2>>);
 static_assert(moreau::ContactSolver<moreau::NonlinearGaussSeidel, moreau::Cohesive<>, Space<3>>);
 static_assert(moreau::ContactSolver<moreau::ColouredGaussSeidel, moreau::Cohesive<>, Space<3>>);
-static_assert(!moreau::ContactSolver<moreau::ColouredGaussSeidel, Rolling, Space<2>>);
+static_assert(moreau::ContactSolver<moreau::ColouredGaussSeidel, Rolling, Space<2>>);
 static_assert(!moreau::ContactSolver<moreau::NoSolver, moreau::Cohesive<>, Space<3>>);
 
 // A cohesive law has the concepts of the law on which it is based.

@@ -15,6 +15,7 @@
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/facet_mesh.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
 #include "moreau/world/simulation.hpp"
 
@@ -142,7 +143,8 @@ TEST_CASE("springs in series with rolling resistance: a disk is slowed down as b
 TEST_CASE("a solver's place may be left to its default where the solver is the reference") {
   using Law = RollingResistance<double>;
   const Materials<Law> materials(1, Law(0.4, 0.1));
-  CHECK(Simulation<Disk<double>, Law>(0.1, materials, {}, Tolerances()).grain_size() == 0.1);
+  using World = Simulation<Disk<double>, Law, MoreauJean, CellGrid<Space<2>>, NonlinearGaussSeidel>;
+  CHECK(World(0.1, materials, {}, Tolerances()).grain_size() == 0.1);
   CHECK(ProximalFallback<>().options().tolerance == ProximalFallback<>::Options().tolerance);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Delassus blocks of several independent contacts, one per SIMD lane.
+// The Delassus blocks of several independent contacts, one per SIMD lane, or of one contact, for local
+// solutions that are written once for both.
 #pragma once
 
 #include <array>
@@ -11,14 +12,17 @@
 namespace moreau {
 
 /// LocalBlock of one contact per lane, with the reciprocals that local solutions need.
-template <class S>
+/// @tparam Number detail::Wide, or detail::OneNumber for a single contact
+template <class S, class Number = detail::Wide<typename S::Scalar, detail::widest_bytes>>
 struct LaneBlock {
-  static constexpr std::size_t dim = S::dim;        ///< D, rows of a contact
+  static constexpr std::size_t dim = S::dim;        ///< D
+  static constexpr std::size_t rows = dim;          ///< rows of a contact
   static constexpr std::size_t tangents = dim - 1;  ///< D - 1
-  using W = detail::Wide<typename S::Scalar, detail::widest_bytes>;
+  using W = Number;
   using Values = typename W::Values;
   using Vector = std::array<Values, dim>;
   using Tangent = std::array<Values, tangents>;
+  using Memory = Values;  ///< of a local solution, see LaneLaw
 
   Values normal;          ///< as in LocalBlock [1/kg]
   Values inverse_normal;  ///< 1 / normal [kg]
@@ -36,21 +40,23 @@ struct LaneBlock {
   }
   /// Sets the block of a lane, lane < W::lanes.
   void set(std::size_t lane, const LocalBlock<S>& block) {
-    normal[lane] = block.normal;
-    inverse_normal[lane] = 1 / block.normal;
+    W::set(normal, lane, block.normal);
+    W::set(inverse_normal, lane, 1 / block.normal);
     for (std::size_t t = 0; t < tangents; ++t) {
-      coupling[t][lane] = block.coupling[Eigen::Index(t)];
-      slip[t][lane] = block.slip[Eigen::Index(t)];
-      inverse_slip[t][lane] = 1 / block.slip[Eigen::Index(t)];
+      W::set(coupling[t], lane, block.coupling[Eigen::Index(t)]);
+      W::set(slip[t], lane, block.slip[Eigen::Index(t)]);
+      W::set(inverse_slip[t], lane, 1 / block.slip[Eigen::Index(t)]);
     }
   }
+  /// Sets the memory of a lane to 0.
+  static void forget(Memory& memory, std::size_t lane) { W::set(memory, lane, 0); }
   /// The block of a lane, lane < W::lanes.
   LocalBlock<S> operator[](std::size_t lane) const {
     LocalBlock<S> block;
-    block.normal = normal[lane];
+    block.normal = W::get(normal, lane);
     for (std::size_t t = 0; t < tangents; ++t) {
-      block.coupling[Eigen::Index(t)] = coupling[t][lane];
-      block.slip[Eigen::Index(t)] = slip[t][lane];
+      block.coupling[Eigen::Index(t)] = W::get(coupling[t], lane);
+      block.slip[Eigen::Index(t)] = W::get(slip[t], lane);
     }
     return block;
   }

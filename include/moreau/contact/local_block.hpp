@@ -41,6 +41,12 @@ struct LocalBlock {
     for (int t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
     return u;
   }
+  /// Makes the block that of W times a factor > 0 [-].
+  LocalBlock& operator*=(Scalar factor) {
+    normal *= factor;
+    slip *= factor;
+    return *this;
+  }
   /// Trace of W [1/kg].
   Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
   /// W, D x D, normal first [1/kg].

@@ -119,24 +119,29 @@ constexpr std::size_t variants_of() {
     return 1;
 }
 
+/// W of one contact per SIMD lane as a law sees it. Where the contact has couples it stands for W, see
+/// rolling_block.hpp.
+template <class L, class S>
+using LaneBlockOf = std::conditional_t<Rolls<L>, LaneRollingBlock<S>, LaneBlock<S>>;
+
 /// A law that also solves the local problems of several contacts at once, one per SIMD lane.
 ///
 /// - lane_parameters(): an array of the parameters of the local problem, in units of the law
 /// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or one step
-///   of an iteration whose only fixed point is solve(). memory is one number per contact for the
-///   law's own use, 0 at first, kept from visit to visit. If polish is set, the impulse lies in the
-///   cone to rounding.
+///   of an iteration whose only fixed point is solve(). memory is for the law's own use: one number per
+///   contact, two if the contact has couples, 0 at first, kept from visit to visit. If polish is set,
+///   the impulse lies in the cone to rounding.
 template <class L, class S>
-concept LaneLaw = PointLaw<L, S> &&
-    requires(const L law, const LaneBlock<S> block, const typename LaneBlock<S>::Vector vector,
-             typename LaneBlock<S>::Values memory) {
+concept LaneLaw = SetValuedLaw<L, S> && requires(const L law, const LaneBlockOf<L, S> block,
+                                                 const typename LaneBlockOf<L, S>::Vector vector,
+                                                 typename LaneBlockOf<L, S>::Memory memory) {
   std::tuple_size<decltype(law.lane_parameters())>::value;
   {
     L::solve_lanes(block, vector, vector,
                    std::array<typename LaneBlock<S>::Values,
                               std::tuple_size_v<decltype(law.lane_parameters())>>{},
                    memory, true)
-    } -> std::same_as<typename LaneBlock<S>::Vector>;
+    } -> std::same_as<typename LaneBlockOf<L, S>::Vector>;
 };
 
 }  // namespace moreau

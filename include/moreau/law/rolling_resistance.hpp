@@ -15,6 +15,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -24,6 +25,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/law/detail/rolling_lanes.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
@@ -56,7 +58,7 @@ Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
 }  // namespace detail
 
 /// Signorini's condition with friction and rolling resistance for one pair of materials; the head
-/// of this file has its equations and their source. Model of RollingLaw.
+/// of this file has its equations and their source. Model of RollingLaw and LaneLaw.
 template <std::floating_point T = double>
 class RollingResistance {
  public:
@@ -101,6 +103,19 @@ class RollingResistance {
     const T unit = b.cwiseAbs().maxCoeff();
     const Vector start = guess / unit;
     return unit * solve_unit<S>(block, b / unit, start.allFinite() ? start : Vector::Zero());
+  }
+
+  /// See LaneLaw: the friction and the coefficient of rolling resistance [-].
+  std::array<T, 2> lane_parameters() const { return {friction(), rolling_}; }
+  /// See LaneLaw: RollingLanes, whose memory is alpha, and whether the contact rolls.
+  template <class S>
+  static typename LaneRollingBlock<S>::Vector solve_lanes(
+      const LaneRollingBlock<S>& block, const typename LaneRollingBlock<S>::Vector& b,
+      const typename LaneRollingBlock<S>::Vector& guess,
+      const std::array<typename LaneRollingBlock<S>::Values, 2>& parameters,
+      typename LaneRollingBlock<S>::Memory& memory, bool polish) {
+    return detail::RollingLanes<S>::solve(block, b, guess, parameters[0], parameters[1], memory,
+                                          polish);
   }
 
   /// r - P_K(r - (u + (mu |u_t| + eta |w|) n)), K the cone of project(). Zero iff (u, r) satisfies
@@ -175,7 +190,7 @@ class RollingResistance {
                                            const typename RollingBlock<S>::Vector& b,
                                            const typename RollingBlock<S>::Vector& r) const {
     using Vector = typename RollingBlock<S>::Vector;
-    const auto w = matrix<S>(block);
+    const auto w = block.matrix();
     const T scale = w.trace() / T(RollingBlock<S>::rows);
     for (const T damping : {T(0.3), T(0.1), T(0.03)}) {
       Vector x = r;
@@ -189,22 +204,11 @@ class RollingResistance {
     return r;
   }
 
-  /// W of a block.
-  template <class S>
-  static auto matrix(const RollingBlock<S>& block) {
-    constexpr int d = S::dim, rows = RollingBlock<S>::rows;
-    Eigen::Matrix<T, rows, rows> w;
-    w.template topLeftCorner<d, d>() = block.point.matrix();
-    w.template topRightCorner<d, rows - d>() = block.coupling;
-    w.template bottomLeftCorner<rows - d, d>() = block.coupling.transpose();
-    w.template bottomRightCorner<rows - d, rows - d>() = block.spin;
-    return w;
-  }
   /// u = 0 in all rows.
   template <class S>
   static typename RollingBlock<S>::Vector sticking(const RollingBlock<S>& block,
                                                    const typename RollingBlock<S>::Vector& b) {
-    return -matrix<S>(block).partialPivLu().solve(b);
+    return -block.matrix().partialPivLu().solve(b);
   }
 
   SignoriniCoulomb<T> point_;

@@ -13,6 +13,7 @@
 // plane the sign of r_t does not depend on alpha: the solution is explicit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -42,6 +43,11 @@ Eigen::Matrix<T, 2, 1> solve_slip(const LocalBlock<Space<2, T>>& block,
   return {normal, s * normal};
 }
 
+/// A contact whose sticking impulse is longer than this, in units of the impulse without friction and of
+/// 1 + mu, slips against an alpha beside which the slip of the block is below rounding.
+template <std::floating_point T>
+inline constexpr T far_outside = std::numeric_limits<T>::epsilon() < T(1e-10) ? T(1e30) : T(1e9);
+
 /// The impulse of slip in space; Newton's method starts from the alpha of the guess.
 template <std::floating_point T>
 Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
@@ -58,6 +64,18 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
   const T k1 = block.coupling[0], k2 = block.coupling[1];
   const T c1 = unit * (b[1] - k1 * b[0]), c2 = unit * (b[2] - k2 * b[0]);
   const T l1 = block.slip[0], l2 = block.slip[1];
+  if (!(std::max(std::abs(c1), std::abs(c2)) < far_outside<T> * (l1 + l2) * (1 + friction))) {
+    // slip + alpha is alpha to rounding: r_t has the direction of -c. Powers of c1 would overflow, c1
+    // itself may have.
+    const T p1 = b[1] - k1 * b[0], p2 = b[2] - k2 * b[0];
+    const T most = std::max(std::abs(p1), std::abs(p2)), q1 = p1 / most, q2 = p2 / most;
+    const T length = std::sqrt(q1 * q1 + q2 * q2), t1 = -q1 / length, t2 = -q2 / length;
+    const T share = T(1) + friction * (k1 * t1 + k2 * t2);
+    if (share > T(0)) {
+      const T normal = free / share;
+      return {normal, friction * normal * t1, friction * normal * t2};
+    }
+  }
   T lower = 0, upper = std::numeric_limits<T>::infinity(), alpha = 0;
   const T g1 = unit * guess[1], g2 = unit * guess[2], squared = g1 * g1 + g2 * g2;
   if (squared > T(0)) {
@@ -94,6 +112,7 @@ Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
   const T normal = free * (T(1) - k1 * r1 - k2 * r2);
   const T length2 = r1 * r1 + r2 * r2;
   const T scale = length2 > T(0) ? friction * normal / std::sqrt(length2) : T(0);
+  if (!std::isfinite(scale * length2)) return {free, 0, 0};  // a load at the limit of the numbers
   return {normal, scale * r1, scale * r2};
 }
 
@@ -159,7 +178,9 @@ class SignoriniCoulomb {
     r[0] = free - block.coupling.dot(r.template tail<tangents>());
     // In units of the impulse without friction: squares of small impulses would underflow.
     const T unit = T(1) / free, limit = unit * friction_ * r[0];
-    if (limit >= T(0) && (unit * r.template tail<tangents>()).squaredNorm() <= limit * limit)
+    if (std::isfinite(limit * limit)
+            ? limit >= T(0) && (unit * r.template tail<tangents>()).squaredNorm() <= limit * limit
+            : r.template tail<tangents>().stableNorm() <= friction_ * r[0])
       return r;
     return detail::solve_slip<T>(block, b, friction_, guess);
   }

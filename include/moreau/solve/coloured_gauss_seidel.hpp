@@ -31,6 +31,7 @@
 #include <memory>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,17 +71,22 @@ struct ColouredOptions {
   double velocity_tolerance = 1e-5;  ///< on SolveReport::velocity_error, > 0 [-]
 };
 
-/// The default solver of contact problems, for laws of points.
+/// The default solver of contact problems, for every set-valued law.
 class ColouredGaussSeidel {
  public:
   using Options = ColouredOptions;
+  /// In place of the islands of a law with couples.
+  struct NoIslands {};
   /// Buffers, kept from step to step.
   template <class Operator, class Law>
-  requires PointLaw<Law, typename Operator::Space>
+  requires SetValuedLaw<Law, typename Operator::Space>
   struct Workspace {
     detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
     std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
-    detail::IslandSolver<Operator, Law> islands;   ///< small islands
+    /// Small islands; contacts with couples are solved by sweeps alone.
+    std::conditional_t<PointLaw<Law, typename Operator::Space>, detail::IslandSolver<Operator, Law>,
+                       NoIslands>
+        islands;
   };
 
   ColouredGaussSeidel() = default;  ///< with the default options
@@ -109,7 +115,20 @@ class ColouredGaussSeidel {
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
     detail::drop_if_not_finite(impulses, shared_.get());
-    if (!options_.islands || shared_) return sweep(problem, impulses, workspace);
+    if constexpr (PointLaw<Law, typename Operator::Space>)
+      if (options_.islands && !shared_) return solve_islands(problem, impulses, workspace);
+    return sweep(problem, impulses, workspace);
+  }
+
+ private:
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(options_); }
+
+  /// Solves small islands by a direct method, the others by sweeps.
+  template <class Operator, class Law>
+  SolveReport solve_islands(ContactProblem<Operator, Law>& problem,
+                            std::span<typename Operator::Vector> impulses,
+                            Workspace<Operator, Law>& workspace) const {
     auto& islands = workspace.islands;
     islands.start(problem, impulses,
                   std::min(options_.velocity_tolerance, island_share * options_.tolerance));
@@ -125,10 +144,6 @@ class ColouredGaussSeidel {
     judge(problem, impulses, swept, islands, report);
     return report;
   }
-
- private:
-  friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(options_); }
 
   /// Tolerance of islands, relative to that on the residual: a user's tighter tolerance holds for both.
   static constexpr double island_share = 0.1;

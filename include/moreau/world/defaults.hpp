@@ -10,7 +10,6 @@
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
-#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau {
@@ -19,12 +18,9 @@ namespace moreau {
 /// set-valued law.
 template <class Law, class S>
 using DefaultIntegrator = std::conditional_t<RegularizedLaw<Law, S>, VelocityVerlet, MoreauJean>;
-/// The default solver of a law: none for a regularized law, ColouredGaussSeidel for a law of
-/// points, NonlinearGaussSeidel for a law with couples.
+/// The default solver of a law: none for a regularized law, ColouredGaussSeidel for a set-valued law.
 template <class Law, class S>
-using DefaultSolver = std::conditional_t<
-    RegularizedLaw<Law, S>, NoSolver,
-    std::conditional_t<PointLaw<Law, S>, ColouredGaussSeidel, NonlinearGaussSeidel>>;
+using DefaultSolver = std::conditional_t<RegularizedLaw<Law, S>, NoSolver, ColouredGaussSeidel>;
 
 namespace detail {
 

@@ -36,6 +36,41 @@ struct LaneAlgebra {
                                       const std::array<Values, 2>& p) {
     return {lever[0] * p[1] - lever[1] * p[0]};
   }
+  /// The tangential velocity (w x n) of a point at the normal n = (1, 0[, 0]); the normal one is 0.
+  static std::array<Values, 2> spin_of_normal(const std::array<Values, 3>& w) {
+    return {w[2], -w[1]};
+  }
+  static std::array<Values, 1> spin_of_normal(const std::array<Values, 1>& w) { return w; }
+  /// n x p for n = (1, 0[, 0])
+  static std::array<Values, 3> moment_of_normal(const std::array<Values, 3>& p) {
+    return {Values{}, -p[2], p[1]};
+  }
+  static std::array<Values, 1> moment_of_normal(const std::array<Values, 2>& p) { return {p[1]}; }
+  /// An angular quantity in world axes.
+  /// @param frame first index: world axis, second: axis of the frame of x; the plane has one axis
+  static std::array<Values, 3> to_world(const std::array<std::array<Values, 3>, 3>& frame,
+                                        const std::array<Values, 3>& x) {
+    std::array<Values, 3> turned;
+    for (std::size_t k = 0; k < 3; ++k)
+      turned[k] = frame[k][0] * x[0] + frame[k][1] * x[1] + frame[k][2] * x[2];
+    return turned;
+  }
+  static std::array<Values, 1> to_world(const std::array<std::array<Values, 2>, 2>&,
+                                        const std::array<Values, 1>& x) {
+    return x;
+  }
+  /// The inverse of to_world().
+  static std::array<Values, 3> to_frame(const std::array<std::array<Values, 3>, 3>& frame,
+                                        const std::array<Values, 3>& x) {
+    std::array<Values, 3> turned;
+    for (std::size_t d = 0; d < 3; ++d)
+      turned[d] = frame[0][d] * x[0] + frame[1][d] * x[1] + frame[2][d] * x[2];
+    return turned;
+  }
+  static std::array<Values, 1> to_frame(const std::array<std::array<Values, 2>, 2>&,
+                                        const std::array<Values, 1>& x) {
+    return x;
+  }
   template <std::size_t N>
   static std::array<Values, N> product(const Symmetric<N>& m, const std::array<Values, N>& x) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +43,8 @@ struct Wide {
     return v;
   }
   static Values broadcast(T x) { return x - Values{}; }
+  static void set(Values& v, std::size_t lane, T x) { v[lane] = x; }   ///< lane < lanes
+  static T get(const Values& v, std::size_t lane) { return v[lane]; }  ///< lane < lanes
   /// Rotates the lanes: lane l of the result is lane (l + Shift) mod lanes of v.
   template <int Shift, class V>
   static V rotated(const V& v) {
@@ -166,6 +169,21 @@ struct Wide {
   static V rotate(const V& v, std::integer_sequence<int, Number...>) {
     return __builtin_shufflevector(v, v, ((Number + Shift) % lanes)...);
   }
+};
+
+/// The part of Wide that local solutions use, for one number in place of a register.
+template <std::floating_point T>
+struct OneNumber {
+  static constexpr int lanes = 1;
+  using Values = T;
+  using Indices = int;  ///< 0 or 1: what a comparison gives
+
+  static Values broadcast(T x) { return x; }
+  static bool any(Indices mask) { return mask != 0; }
+  static Values square_root(Values v) { return std::sqrt(v); }
+  static Values absolute(Values v) { return std::abs(v); }
+  static void set(Values& v, std::size_t, T x) { v = x; }
+  static T get(const Values& v, std::size_t) { return v; }
 };
 
 /// The largest (or smallest) of many numbers, and its index. Of equal numbers, the first.

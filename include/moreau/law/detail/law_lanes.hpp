@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The local solutions of several contacts at once, for any law of points.
+// The local solutions of several contacts at once, for any set-valued law.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace moreau::detail {
 template <class Law, class S>
 class LawLanes {
  public:
-  using Block = LaneBlock<S>;
+  using Block = LaneBlockOf<Law, S>;
   using Vector = typename Block::Vector;
 
   void set(std::size_t lane, const Law& law) { law_[lane] = &law; }
@@ -23,13 +23,14 @@ class LawLanes {
     Vector r{};
     for (std::size_t lane = 0; lane < law_.size(); ++lane) {
       if (!law_[lane]) continue;
-      typename S::Vector b_lane, guess_lane;
-      for (std::size_t d = 0; d < Block::dim; ++d) {
+      typename BlockOf<Law, S>::Vector b_lane, guess_lane;
+      for (std::size_t d = 0; d < Block::rows; ++d) {
         b_lane[Eigen::Index(d)] = b[d][lane];
         guess_lane[Eigen::Index(d)] = guess[d][lane];
       }
-      const typename S::Vector solution = law_[lane]->solve(block[lane], b_lane, guess_lane);
-      for (std::size_t d = 0; d < Block::dim; ++d) r[d][lane] = solution[Eigen::Index(d)];
+      const typename BlockOf<Law, S>::Vector solution =
+          law_[lane]->solve(block[lane], b_lane, guess_lane);
+      for (std::size_t d = 0; d < Block::rows; ++d) r[d][lane] = solution[Eigen::Index(d)];
     }
     return r;
   }
@@ -43,13 +44,13 @@ template <class Law, class S>
 requires LaneLaw<Law, S>
 class LawLanes<Law, S> {
  public:
-  using Block = LaneBlock<S>;
+  using Block = LaneBlockOf<Law, S>;
   using Vector = typename Block::Vector;
 
   void set(std::size_t lane, const Law& law) {
     const auto parameters = law.lane_parameters();
     for (std::size_t k = 0; k < parameters.size(); ++k) parameters_[k][lane] = parameters[k];
-    memory_[lane] = 0;
+    Block::forget(memory_, lane);
   }
   Vector solve(const Block& block, const Vector& b, const Vector& guess, bool polish) {
     return Law::solve_lanes(block, b, guess, parameters_, memory_, polish);
@@ -58,7 +59,7 @@ class LawLanes<Law, S> {
  private:
   using Parameters = decltype(std::declval<const Law&>().lane_parameters());
   std::array<typename Block::Values, std::tuple_size_v<Parameters>> parameters_{};
-  typename Block::Values memory_{};
+  typename Block::Memory memory_{};
 };
 
 }  // namespace moreau::detail

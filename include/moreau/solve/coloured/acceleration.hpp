@@ -32,7 +32,7 @@ class ImpulseMixing {
       const typename Kernel::Pairs& group = kernel.groups()[k];
       for (std::uint32_t p = 0; p < group.active; ++p) points_.push_back(group.first + p);
     }
-    packed_.resize(Eigen::Index(points_.size() * S::dim * std::size_t{W::lanes}));
+    packed_.resize(Eigen::Index(points_.size() * Kernel::rows * std::size_t{W::lanes}));
     pack(kernel);
     anderson_.start(packed_);
   }
@@ -42,7 +42,7 @@ class ImpulseMixing {
     anderson_.mix(packed_, shared);
     const T* from = packed_.data();
     for (const std::uint32_t p : points_)
-      for (std::size_t d = 0; d < S::dim; ++d, from += W::lanes)
+      for (std::size_t d = 0; d < Kernel::rows; ++d, from += W::lanes)
         kernel.points()[p].impulse[d] = W::load(from);
   }
 
@@ -50,7 +50,7 @@ class ImpulseMixing {
   void pack(Kernel& kernel) {
     T* to = packed_.data();
     for (const std::uint32_t p : points_)
-      for (std::size_t d = 0; d < S::dim; ++d, to += W::lanes)
+      for (std::size_t d = 0; d < Kernel::rows; ++d, to += W::lanes)
         std::memcpy(to, &kernel.points()[p].impulse[d], sizeof(typename W::Values));
   }
 

@@ -49,16 +49,18 @@ class ColouredSweeps {
   /// Saves the impulses.
   void save(const Team& team) {
     const auto& points = kernel_.points();
-    saved_.resize(points.size() * S::dim);
+    saved_.resize(points.size() * Kernel::rows);
     team.share_each(points.size(), 256, [&](std::size_t p) {
-      for (std::size_t d = 0; d < S::dim; ++d) saved_[p * S::dim + d] = points[p].impulse[d];
+      for (std::size_t d = 0; d < Kernel::rows; ++d)
+        saved_[p * Kernel::rows + d] = points[p].impulse[d];
     });
   }
   /// Goes back to the saved impulses; the next sweep has no acceleration.
   void restore() {
     std::size_t i = 0;
     for (auto& point : kernel_.points())
-      for (std::size_t d = 0; d < S::dim; ++d) point.impulse[d] = point.before[d] = saved_[i++];
+      for (std::size_t d = 0; d < Kernel::rows; ++d)
+        point.impulse[d] = point.before[d] = saved_[i++];
     recompute_velocities();
     kernel_.velocity().settle();
     acceleration_.restart();

@@ -51,10 +51,11 @@ class ContactGroups {
  public:
   using S = typename Operator::Space;
   using Points = PointPack<S, Law>;
-  using W = typename Points::Block::W;
+  using W = typename LaneBlock<S>::W;
   using Pairs = PairPack<W::lanes>;
   using Impulse = typename Operator::Vector;
-  static constexpr std::size_t lanes = W::lanes;
+  using Block = BlockOf<Law, S>;
+  static constexpr std::size_t lanes = W::lanes, rows_of_point = Points::Block::rows;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   /// Largest tr(W^-1 W_hub) of a hub whose pairs share groups.
   static constexpr auto largest_share = typename S::Scalar(0.02);
@@ -110,7 +111,7 @@ class ContactGroups {
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const std::uint32_t c = contact_of_[p * lanes + lane];
         if (c == none) continue;
-        for (std::size_t d = 0; d < S::dim; ++d)
+        for (std::size_t d = 0; d < rows_of_point; ++d)
           impulses[c][Eigen::Index(d)] = points[p].impulse[d][lane];
       }
     });
@@ -238,8 +239,9 @@ class ContactGroups {
   }
   /// tr(W^-1 W_hub), the share of the hub in W.
   static typename S::Scalar share_of_hub(const Operator& op, std::uint32_t c, Hub hub) {
-    const typename S::Matrix of_hub = hub == Hub::a ? op.block_of_a(c) : op.block_of_b(c);
-    const typename S::Matrix inverse = op.block(c).matrix().inverse();
+    using Matrix = typename Operator::Matrix;
+    const Matrix of_hub = hub == Hub::a ? op.block_of_a(c) : op.block_of_b(c);
+    const Matrix inverse = op.block(c).matrix().inverse();
     return inverse.cwiseProduct(of_hub).sum();
   }
 
@@ -336,7 +338,7 @@ class ContactGroups {
         for (std::uint32_t c = first_[k]; c < first_[k + 1]; ++c) {
           if (likely(op, impulses, c) != acts) continue;
           contact_of_[p * lanes + lane] = c;
-          LocalBlock<S> block = op.block(c);
+          Block block = op.block(c);
           if (group.hub != Hub::none) make_heavier(block, op, c, group.hub, with_hub);
           set(points[p++], lane, op, block, problem.law(c), impulses[c], c);
         }
@@ -344,15 +346,13 @@ class ContactGroups {
   }
 
   /// Replaces W by W' of the head of this file.
-  static void make_heavier(LocalBlock<S>& block, const Operator& op, std::uint32_t c, Hub hub,
+  static void make_heavier(Block& block, const Operator& op, std::uint32_t c, Hub hub,
                            std::uint32_t together) {
     using T = typename S::Scalar;
-    const T factor = 1 + static_cast<T>(together - 1) * share_of_hub(op, c, hub);
-    block.normal *= factor;
-    block.slip *= factor;
+    block *= 1 + static_cast<T>(together - 1) * share_of_hub(op, c, hub);
   }
 
-  static void set(Points& point, std::size_t lane, const Operator& op, const LocalBlock<S>& block,
+  static void set(Points& point, std::size_t lane, const Operator& op, const Block& block,
                   const Law& law, const Impulse& impulse, std::uint32_t c) {
     for (std::size_t d = 0; d < S::dim; ++d) {
       const auto column = Eigen::Index(d);
@@ -360,9 +360,14 @@ class ContactGroups {
         point.frame[k][d][lane] = op.frame(c)(Eigen::Index(k), column);
       point.lever_a[d][lane] = op.lever_a(c)[column];
       point.lever_b[d][lane] = op.lever_b(c)[column];
-      point.free[d][lane] = op.free_velocity(c)[column];
-      if constexpr (CompliantLaw<Law, S>) point.compliance[d][lane] = op.compliance(c)[column];
-      point.impulse[d][lane] = point.before[d][lane] = impulse[column];
+    }
+    if constexpr (Rolls<Law>) point.radius[lane] = op.radius(c);
+    const Impulse& free = op.free_velocity(c);
+    for (std::size_t d = 0; d < rows_of_point; ++d) {
+      const auto row = Eigen::Index(d);
+      point.free[d][lane] = free[row];
+      if constexpr (CompliantLaw<Law, S>) point.compliance[d][lane] = op.compliance(c)[row];
+      point.impulse[d][lane] = point.before[d][lane] = impulse[row];
     }
     point.block.set(lane, block);
     point.law.set(lane, law);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,8 @@ class GroupKernel {
   using W = typename Groups::W;
   using Values = typename W::Values;
   using Vector = typename LaneBlock<S>::Vector;
+  using Row = typename Groups::Points::Row;
+  static constexpr std::size_t rows = Groups::rows_of_point;  ///< of a contact
   using Impulse = typename Operator::Vector;
   using Pairs = typename Groups::Pairs;
   using Points = typename Groups::Points;
@@ -108,6 +111,7 @@ class GroupKernel {
  private:
   using BodyLanes = typename LaneVelocities<S, W>::BodyLanes;
   using Algebra = LaneAlgebra<S, Values>;
+  using Angular = std::array<Values, Algebra::angular>;
 
   /// Groups between the present one and that whose velocities are loaded into the cache: more than
   /// memory takes to answer. The groups of a colour are visited in their order, but their bodies lie
@@ -130,7 +134,7 @@ class GroupKernel {
     velocity_.scatter(group, a, b);
   }
   /// Adds what impulses at a point of group `number` do to the velocities of its bodies.
-  void push(std::size_t number, const Points& point, const Vector& impulse, BodyLanes& a,
+  void push(std::size_t number, const Points& point, const Row& impulse, BodyLanes& a,
             BodyLanes& b) const {
     Vector p;
     for (std::size_t k = 0; k < S::dim; ++k) {
@@ -138,10 +142,10 @@ class GroupKernel {
       for (std::size_t d = 1; d < S::dim; ++d) p[k] += point.frame[k][d] * impulse[d];
     }
     const auto& [mass_a, mass_b] = groups_.masses[number];
-    const auto turn_a = Algebra::template product<Algebra::angular>(
-        mass_a.angular, Algebra::moment(point.lever_a, p));
-    const auto turn_b = Algebra::template product<Algebra::angular>(
-        mass_b.angular, Algebra::moment(point.lever_b, p));
+    auto moment_a = Algebra::moment(point.lever_a, p), moment_b = Algebra::moment(point.lever_b, p);
+    if constexpr (Rolls<Law>) add_couple(point, impulse, moment_a, moment_b);
+    const auto turn_a = Algebra::template product<Algebra::angular>(mass_a.angular, moment_a);
+    const auto turn_b = Algebra::template product<Algebra::angular>(mass_b.angular, moment_b);
     const std::uint32_t matrices = groups_.pairs[number].matrices;
     if (matrices == Pairs::isotropic) {
       for (std::size_t k = 0; k < S::dim; ++k) {
@@ -162,6 +166,23 @@ class GroupKernel {
       b[S::dim + k] += turn_b[k];
     }
   }
+  /// Adds the couple of impulses at a point to their moments about the bodies, world axes [N m s].
+  static void add_couple(const Points& point, const Row& impulse, Angular& moment_a,
+                         Angular& moment_b) {
+    const Angular couple = Algebra::to_world(point.frame, Points::Block::angular(impulse));
+    for (std::size_t k = 0; k < Algebra::angular; ++k) {
+      moment_a[k] += point.radius * couple[k];
+      moment_b[k] += point.radius * couple[k];
+    }
+  }
+  /// Adds R times the spin of b with respect to a to the last rows of u, in the frame [m/s].
+  static void add_spin(const Points& point, const BodyLanes& a, const BodyLanes& b, Row& u) {
+    Angular between;
+    for (std::size_t k = 0; k < Algebra::angular; ++k)
+      between[k] = point.radius * (b[S::dim + k] - a[S::dim + k]);
+    const Angular spin = Algebra::to_frame(point.frame, between);
+    for (std::size_t k = 0; k < Algebra::angular; ++k) u[S::dim + k] += spin[k];
+  }
   /// Relative velocity of b with respect to a at a point, world axes [m/s].
   static Vector relative(const Points& point, const BodyLanes& a, const BodyLanes& b) {
     const Vector of_a = Algebra::point_velocity(a, point.lever_a);
@@ -178,7 +199,7 @@ class GroupKernel {
     for (std::uint32_t p = 0; p < group.count; ++p) {
       const Points& point = groups_.points[group.first + p];
       typename W::Indices some{};
-      for (std::size_t d = 0; d < S::dim; ++d)
+      for (std::size_t d = 0; d < rows; ++d)
         some |= (point.impulse[d] != Values{}) | (point.before[d] != Values{});
       if (W::any(some)) group.active = p + 1;
     }
@@ -207,20 +228,22 @@ class GroupKernel {
     const Values beta = W::broadcast(extrapolation);
     for (std::uint32_t p = group.first; p < group.first + count; ++p) {
       Points& point = groups_.points[p];
-      Vector guess;
-      for (std::size_t d = 0; d < S::dim; ++d)
+      Row guess;
+      for (std::size_t d = 0; d < rows; ++d)
         guess[d] = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
-      const Vector own = point.block * guess, between = relative(point, a, b);
-      Vector u;
-      for (std::size_t d = 0; d < S::dim; ++d) {
+      const Row own = point.block * guess;
+      const Vector between = relative(point, a, b);
+      Row u;
+      for (std::size_t d = 0; d < rows; ++d) {
         u[d] = point.free[d] - own[d];
         if constexpr (CompliantLaw<Law, S>) u[d] += point.compliance[d] * guess[d];
       }
       for (std::size_t k = 0; k < S::dim; ++k)
         for (std::size_t d = 0; d < S::dim; ++d) u[d] += point.frame[k][d] * between[k];
-      const Vector impulse = point.law.solve(point.block, u, guess, Measure);
-      Vector change;
-      for (std::size_t d = 0; d < S::dim; ++d) {
+      if constexpr (Rolls<Law>) add_spin(point, a, b, u);
+      const Row impulse = point.law.solve(point.block, u, guess, Measure);
+      Row change;
+      for (std::size_t d = 0; d < rows; ++d) {
         change[d] = impulse[d] - guess[d];
         change2 += change[d] * change[d];
         point.before[d] = point.impulse[d];
@@ -239,11 +262,11 @@ class GroupKernel {
       velocity_.scatter(group, a, b);
   }
 
-  static void measure(SweepChange& sum, const LaneBlock<S>& block, const Vector& change,
-                      const Vector& impulse) {
-    const Vector dv = block * change, wr = block * impulse;
+  static void measure(SweepChange& sum, const typename Points::Block& block, const Row& change,
+                      const Row& impulse) {
+    const Row dv = block * change, wr = block * impulse;
     Values dv2{}, r2{}, wr2{}, rwr{};
-    for (std::size_t d = 0; d < S::dim; ++d) {
+    for (std::size_t d = 0; d < rows; ++d) {
       dv2 += dv[d] * dv[d];
       r2 += impulse[d] * impulse[d];
       wr2 += wr[d] * wr[d];

@@ -21,19 +21,30 @@ struct PackedCompliance<Vector, true> {
   Vector compliance{};  ///< diagonal of D, see CompliantDelassus
 };
 
+/// The effective radius of one contact per lane, see effective_radius(); nothing for contacts without
+/// couples.
+template <class Values, bool Rolls>
+struct PackedRadius {};
+template <class Values>
+struct PackedRadius<Values, true> {
+  Values radius{};  ///< [m]
+};
+
 /// One contact point per lane. Unused lanes have a zero frame and a free velocity that separates.
 template <class S, class Law>
-struct PointPack : PackedCompliance<typename LaneBlock<S>::Vector, CompliantLaw<Law, S>> {
-  using Block = LaneBlock<S>;
-  using Values = typename Block::Values;
-  using Vector = typename Block::Vector;
+struct PointPack : PackedCompliance<typename LaneBlockOf<Law, S>::Vector, CompliantLaw<Law, S>>,
+                   PackedRadius<typename LaneBlock<S>::Values, Rolls<Law>> {
+  using Block = LaneBlockOf<Law, S>;
+  using Values = typename LaneBlock<S>::Values;
+  using Vector = typename LaneBlock<S>::Vector;
+  using Row = typename Block::Vector;  ///< D numbers, or D + A with the couple / R
 
   std::array<Vector, S::dim> frame{};  ///< first index: world axis, second: axis of the frame
   Vector lever_a{}, lever_b{};         ///< world axes [m]
   Block block = Block::unit();
-  Vector free{Values{} + 1};
+  Row free{Values{} + 1};
   LawLanes<Law, S> law{};
-  Vector impulse{}, before{};  ///< after the last visit and the visit before
+  Row impulse{}, before{};  ///< after the last visit and the visit before
 };
 
 /// Which body of their pairs the lanes of a group share.

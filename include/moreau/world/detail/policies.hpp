@@ -39,8 +39,8 @@ struct Policies {
                 "Simulation: Broad is no BroadPhase in the space of the shape, whose dimension and "
                 "scalar must be its own");
   static_assert(!set_valued || ContactSolver<Solver, Law, S>,
-                "Simulation: Solver cannot take this set-valued law: NonlinearGaussSeidel takes "
-                "all, ColouredGaussSeidel those without rolling, NoSolver none");
+                "Simulation: Solver cannot take this set-valued law: ColouredGaussSeidel and "
+                "NonlinearGaussSeidel take all, NoSolver none");
   static_assert(!forces || std::same_as<Solver, NoSolver>,
                 "Simulation: a regularized law leaves nothing to solve; its Solver is NoSolver");
 };

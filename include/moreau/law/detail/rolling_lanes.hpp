@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The local solution of Coulomb friction with resistance to rolling for one contact per SIMD lane,
+// RollingResistance::solve with a RoundBlock.
+//
+// A contact that does not roll has w = 0, so that m = -(b_w + c n x r) / q. What is left is Coulomb's
+// problem with
+//
+//     slip - c^2 / q,     b_t - (c / q) (b_w x n):
+//
+// one local solution, whether the contact sticks or slips. It is right if |m| <= eta r_n. Otherwise the
+// contact rolls. Then the two laws are solved in turn: the point with the couple of the last visit,
+//
+//     slip,     b_t + c (m x n),
+//
+// then the couple with the new impulse of the point, m = -(b_w + c n x r) / q, shortened to eta r_n. The
+// normal impulse does not depend on the couple: a visit lowers a convex function of r_t and m over their
+// two discs, whose only minimum is the solution.
+//
+// A visit takes the contact as rolling if m was shortened in the last visit. So the solution is the only
+// fixed point: a contact that is taken wrongly is taken rightly in the next visit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "moreau/contact/rolling_block.hpp"
+#include "moreau/law/detail/coulomb_lanes.hpp"
+
+namespace moreau::detail {
+
+/// The local problems of the lanes.
+template <class S>
+class RollingLanes {
+ public:
+  using Block = LaneRollingBlock<S>;
+  using W = typename Block::W;
+  using Values = typename W::Values;
+  using Indices = typename W::Indices;
+  using Vector = typename Block::Vector;
+
+  /// @param guess   of the couple of a contact that rolls
+  /// @param rolling eta
+  /// @param memory  in and out: alpha as in CoulombLanes; 1 if the contact rolls, else 0
+  /// @param polish  projects slipping impulses onto the cone
+  static Vector solve(const Block& block, const Vector& b, const Vector& guess,
+                      const Values& friction, const Values& rolling, typename Block::Memory& memory,
+                      bool polish) {
+    const Values zero{}, one = W::broadcast(1);
+    const Indices rolls = memory[1] > zero;
+    const auto push = CoulombLanes<S>::solve(
+        point_of(block, rolls), velocity_of(block, b, guess, rolls), friction, memory[0], polish);
+    Couple couple = Algebra::moment_of_normal(push);
+    Values length2{};
+    for (std::size_t k = 0; k < couples; ++k) {
+      couple[k] = -(b[S::dim + k] + block.cross * couple[k]) * block.inverse_spin;
+      length2 += couple[k] * couple[k];
+    }
+    const Values limit = rolling * push[0];
+    const Indices acts = b[0] < zero, beyond = acts & (length2 > limit * limit);
+    memory[1] = beyond ? one : zero;
+    Values scale = acts ? one : zero;
+    if (W::any(beyond)) scale = beyond ? limit / W::square_root(beyond ? length2 : one) : scale;
+    Vector r;
+    for (std::size_t d = 0; d < S::dim; ++d) r[d] = push[d];
+    for (std::size_t k = 0; k < couples; ++k) r[S::dim + k] = scale * couple[k];
+    return r;
+  }
+
+ private:
+  using Algebra = typename Block::Algebra;
+  using Point = typename Block::Point;
+  using Couple = typename Block::Couple;
+  static constexpr std::size_t couples = S::angular_dim;
+
+  static Point point_of(const Block& block, const Indices& rolls) {
+    Point point = block.point;
+    for (std::size_t t = 0; t < Point::tangents; ++t) {
+      point.slip[t] = rolls ? point.slip[t] : block.resting_slip[t];
+      point.inverse_slip[t] = rolls ? point.inverse_slip[t] : block.inverse_resting_slip[t];
+    }
+    return point;
+  }
+  static typename Point::Vector velocity_of(const Block& block, const Vector& b,
+                                            const Vector& guess, const Indices& rolls) {
+    Couple couple;
+    for (std::size_t k = 0; k < couples; ++k)
+      couple[k] = rolls ? guess[S::dim + k] : -block.inverse_spin * b[S::dim + k];
+    const auto aside = Algebra::spin_of_normal(couple);
+    auto velocity = Block::linear(b);
+    for (std::size_t t = 0; t < Point::tangents; ++t) velocity[1 + t] += block.cross * aside[t];
+    return velocity;
+  }
+};
+
+}  // namespace moreau::detail
