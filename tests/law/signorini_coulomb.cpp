@@ -12,6 +12,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 
+#include "law/oracle.hpp"
 #include "types.hpp"
 
 using moreau::LocalBlock;
@@ -71,6 +72,39 @@ TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S
   CHECK(stick > 1000);
   CHECK(slip > 1000);
   CHECK(open > 1000);
+}
+
+TEST_CASE_TEMPLATE("the local solution is that of the oracle", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal;
+  double worst = 0, residual = 0;
+  int others = 0;
+  constexpr int count = 250000;
+  for (int i = 0; i < count; ++i) {
+    const auto problem = random_problem<S>(random);
+    typename S::Vector guess;
+    for (auto& x : guess) x = i % 3 == 0 ? T(0) : static_cast<T>(normal(random));
+    const T friction = i % 50 == 0 ? T(0) : static_cast<T>(std::abs(normal(random)));
+    const SignoriniCoulomb<T> law(friction);
+    const typename S::Vector r = law.solve(problem.block, problem.velocity, guess);
+    const typename S::Vector expected =
+        law_oracle::solve_coulomb<S>(problem.block, problem.velocity, friction, guess);
+    const double size = double(expected.norm()) + double(problem.velocity.norm());
+    const double difference = double((r - expected).norm()) / size;
+    if (difference < 1e5 * double(std::numeric_limits<T>::epsilon())) {
+      worst = std::max(worst, difference);
+      continue;
+    }
+    // With large friction there may be several solutions: both must be one.
+    ++others;
+    const typename S::Vector u = problem.block * r + problem.velocity;
+    residual = std::max(residual, double(law.natural_map(u, r).norm()) / size);
+  }
+  CHECK(others < count / 1000);
+  CHECK(residual < 1e4 * double(std::numeric_limits<T>::epsilon()));
+  CHECK(worst < 1e5 * double(std::numeric_limits<T>::epsilon()));
 }
 
 TEST_CASE_TEMPLATE("a load of any size along the normal has an impulse in the cone", S,

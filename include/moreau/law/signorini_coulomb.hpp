@@ -4,16 +4,9 @@
 //   0 <= u_n + offset  _|_  r_n >= 0,     |r_t| <= mu r_n,  u_t = -alpha r_t with alpha >= 0,
 //                                          alpha = 0 inside the cone.
 //
-// The local solution is exact. If the sticking impulse is outside of the cone, the contact slips,
-// u_t = -alpha r_t, and alpha > 0 is the root of phi(alpha) = |r_t| - mu r_n, positive at 0 and
-// negative at infinity (O. Bonnefon and G. Daviet, "Quartic formulation of Coulomb 3D frictional
-// contact", INRIA RT-0400, 2011). Squaring phi would add roots with r_n < 0. Newton runs on 1/|r_t|
-// - 1/(mu r_n) instead, which is nearly linear in alpha (as in the secular equation of J. J. More
-// and D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553), inside a bracket for phi. In the
-// plane the sign of r_t does not depend on alpha: the solution is explicit.
+// law/detail/coulomb_lanes.hpp derives the local solution.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -29,94 +22,6 @@
 #include "moreau/law/detail/newton_restitution.hpp"
 
 namespace moreau {
-
-namespace detail {
-
-/// The impulse of slip in the plane: r_t = s mu r_n, where the sign s of r_t does not depend on
-/// alpha.
-template <std::floating_point T>
-Eigen::Matrix<T, 2, 1> solve_slip(const LocalBlock<Space<2, T>>& block,
-                                  const Eigen::Matrix<T, 2, 1>& b, T friction,
-                                  const Eigen::Matrix<T, 2, 1>&) {
-  const T s = b[1] > block.coupling[0] * b[0] ? -friction : friction;
-  const T normal = -b[0] / (block.normal * (T(1) + s * block.coupling[0]));
-  return {normal, s * normal};
-}
-
-/// A contact whose sticking impulse is longer than this, in units of the impulse without friction and of
-/// 1 + mu, slips against an alpha beside which the slip of the block is below rounding.
-template <std::floating_point T>
-inline constexpr T far_outside = std::numeric_limits<T>::epsilon() < T(1e-10) ? T(1e30) : T(1e9);
-
-/// The impulse of slip in space; Newton's method starts from the alpha of the guess.
-template <std::floating_point T>
-Eigen::Matrix<T, 3, 1> solve_slip(const LocalBlock<Space<3, T>>& block,
-                                  const Eigen::Matrix<T, 3, 1>& b, T friction,
-                                  const Eigen::Matrix<T, 3, 1>& guess) {
-  // Within this relative |phi| the last Newton step is taken along the derivative at hand, which
-  // leaves an error of its square: rounding.
-  constexpr T close = std::numeric_limits<T>::epsilon() < T(1e-10) ? T(2e-8) : T(2e-4);
-  // Velocities and impulses are divided by `free`, the impulse of the problem without friction.
-  // Otherwise products of small impulses would underflow.
-  const T free = -b[0] / block.normal, unit = T(1) / free;
-  if (!std::isfinite(unit))
-    return Eigen::Matrix<T, 3, 1>::Zero();  // below the smallest normal number
-  const T k1 = block.coupling[0], k2 = block.coupling[1];
-  const T c1 = unit * (b[1] - k1 * b[0]), c2 = unit * (b[2] - k2 * b[0]);
-  const T l1 = block.slip[0], l2 = block.slip[1];
-  if (!(std::max(std::abs(c1), std::abs(c2)) < far_outside<T> * (l1 + l2) * (1 + friction))) {
-    // slip + alpha is alpha to rounding: r_t has the direction of -c. Powers of c1 would overflow, c1
-    // itself may have.
-    const T p1 = b[1] - k1 * b[0], p2 = b[2] - k2 * b[0];
-    const T most = std::max(std::abs(p1), std::abs(p2)), q1 = p1 / most, q2 = p2 / most;
-    const T length = std::sqrt(q1 * q1 + q2 * q2), t1 = -q1 / length, t2 = -q2 / length;
-    const T share = T(1) + friction * (k1 * t1 + k2 * t2);
-    if (share > T(0)) {
-      const T normal = free / share;
-      return {normal, friction * normal * t1, friction * normal * t2};
-    }
-  }
-  T lower = 0, upper = std::numeric_limits<T>::infinity(), alpha = 0;
-  const T g1 = unit * guess[1], g2 = unit * guess[2], squared = g1 * g1 + g2 * g2;
-  if (squared > T(0)) {
-    alpha = -((c1 + l1 * g1) * g1 + (c2 + l2 * g2) * g2) / squared;
-    if (!(alpha > T(0) && std::isfinite(alpha))) alpha = 0;
-  }
-  T r1 = 0, r2 = 0;
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    const T i1 = T(1) / (l1 + alpha), i2 = T(1) / (l2 + alpha);
-    r1 = -c1 * i1, r2 = -c2 * i2;
-    const T s1 = r1 * i1, s2 = r2 * i2;  // -dr_t/dalpha
-    const T length2 = r1 * r1 + r2 * r2, length = std::sqrt(length2);
-    const T limit = friction * (T(1) - k1 * r1 - k2 * r2);
-    const T fall = r1 * s1 + r2 * s2;                      // -|r_t| d|r_t|/dalpha
-    const T limit_slope = friction * (k1 * s1 + k2 * s2);  // d limit/dalpha
-    const T phi = length - limit;
-    // Newton on the reciprocals where the limit is positive, on phi itself where it is not.
-    const T change = limit > T(0) ? phi * length2 * limit /
-                                        (limit_slope * length2 * length + fall * limit * limit)
-                                  : phi * length / (fall + limit_slope * length);
-    if (std::abs(phi) <= close * (length + std::abs(limit))) {
-      r1 -= change * s1;
-      r2 -= change * s2;
-      break;
-    }
-    (phi > T(0) ? lower : upper) = alpha;
-    if (std::isfinite(upper) && upper - lower <= close * close * upper) break;
-    T next = alpha + change;
-    if (!(next > lower && next < upper))
-      next = std::isinf(upper) ? T(2) * lower + l1 + l2 : (lower + upper) / T(2);
-    alpha = next;
-  }
-  // Projects the result onto the cone: Newton's method leaves a small distance.
-  const T normal = free * (T(1) - k1 * r1 - k2 * r2);
-  const T length2 = r1 * r1 + r2 * r2;
-  const T scale = length2 > T(0) ? friction * normal / std::sqrt(length2) : T(0);
-  if (!std::isfinite(scale * length2)) return {free, 0, 0};  // a load at the limit of the numbers
-  return {normal, scale * r1, scale * r2};
-}
-
-}  // namespace detail
 
 /// Signorini's condition with Coulomb friction and Newton's restitution for one pair of materials.
 /// Model of LaneLaw and StatefulLaw.
@@ -165,24 +70,27 @@ class SignoriniCoulomb {
   template <class S>
   typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
                            const typename S::Vector& guess) const {
-    constexpr int tangents = S::dim - 1;
-    typename S::Vector r = S::Vector::Zero();
-    if (b[0] >= T(0)) return r;
-    const T free = -b[0] / block.normal;
-    if (friction_ == T(0)) {
-      r[0] = free;
-      return r;
+    using Block = LaneBlock<S, detail::OneNumber<T>>;
+    if (b[0] >= T(0)) return S::Vector::Zero();
+    // In units of the velocity: squares of small impulses would underflow.
+    const T unit = b.cwiseAbs().maxCoeff();
+    Block lane;
+    lane.set(0, block);
+    typename Block::Vector velocity;
+    T squared = 0, opposed = 0;  // |r_t|^2 and -r_t . u_t of the guess, without its normal impulse
+    for (std::size_t d = 0; d < Block::dim; ++d) velocity[d] = b[Eigen::Index(d)] / unit;
+    for (std::size_t t = 0; t < Block::tangents; ++t) {
+      const T r = guess[Eigen::Index(t) + 1] / unit;
+      squared += r * r;
+      opposed -= (velocity[t + 1] - velocity[0] * lane.coupling[t] + lane.slip[t] * r) * r;
     }
-    const auto c = b.template tail<tangents>() - b[0] * block.coupling;
-    r.template tail<tangents>() = -c.cwiseQuotient(block.slip);
-    r[0] = free - block.coupling.dot(r.template tail<tangents>());
-    // In units of the impulse without friction: squares of small impulses would underflow.
-    const T unit = T(1) / free, limit = unit * friction_ * r[0];
-    if (std::isfinite(limit * limit)
-            ? limit >= T(0) && (unit * r.template tail<tangents>()).squaredNorm() <= limit * limit
-            : r.template tail<tangents>().stableNorm() <= friction_ * r[0])
-      return r;
-    return detail::solve_slip<T>(block, b, friction_, guess);
+    T alpha = squared > T(0) && opposed > T(0) ? opposed / squared : T(0);
+    if (!std::isfinite(alpha)) alpha = 0;
+    const auto impulse =
+        detail::CoulombLanes<S, Block>::solve(lane, velocity, friction_, alpha, true);
+    typename S::Vector r;
+    for (std::size_t d = 0; d < Block::dim; ++d) r[Eigen::Index(d)] = unit * impulse[d];
+    return r;
   }
 
   /// See StatefulLaw: static friction, friction in slip.

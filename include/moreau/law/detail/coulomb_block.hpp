@@ -8,7 +8,7 @@
 //     r_n = -(b_n + w_nt r_t) / w_nn.
 //
 // alpha = 0 sticks. If that impulse is outside of the cone, alpha > 0 is the root of
-// phi = |r_t| - mu r_n as in signorini_coulomb.hpp. If W is positive definite, phi is positive at 0
+// phi = |r_t| - mu r_n as in coulomb_lanes.hpp. If W is positive definite, phi is positive at 0
 // and negative at infinity.
 #pragma once
 

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The local solution of Signorini's and Coulomb's conditions for one contact per SIMD lane:
-// SignoriniCoulomb::solve without branches. No impulse and sticking are exact. Slip in space is
-// iterated until a Newton step is shorter than a few per cent. alpha is kept from sweep to sweep,
-// so that each visit squares the error and the only fixed point is the exact solution.
+// The local solution of Signorini's and Coulomb's conditions, for one contact or for one contact per SIMD
+// lane, without branches that depend on the lane.
+//
+// No impulse and sticking are explicit. If the sticking impulse is outside of the cone, the contact slips,
+// u_t = -alpha r_t, and alpha > 0 is the root of phi(alpha) = |r_t| - mu r_n, positive at 0 and
+// negative at infinity (O. Bonnefon and G. Daviet, "Quartic formulation of Coulomb 3D frictional
+// contact", INRIA RT-0400, 2011). Squaring phi would add roots with r_n < 0. Newton runs on 1/|r_t|
+// - 1/(mu r_n) instead, which is nearly linear in alpha (as in the secular equation of J. J. More
+// and D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553), inside a bracket for phi. In the
+// plane the sign of r_t does not depend on alpha: the solution is explicit.
+//
+// The iteration ends with a Newton step that is shorter than `close`. A single contact takes `close` so
+// small that the error of the step, its square, is rounding: the solution is exact. Lanes take a few per
+// cent: alpha is kept from sweep to sweep, so that each visit squares the error and the only fixed point
+// is the exact solution.
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 
@@ -13,12 +25,12 @@
 
 namespace moreau::detail {
 
-/// The local problems of the lanes.
-template <class S>
+/// The local problems of the lanes, or of one contact.
+/// @tparam Block LaneBlock
+template <class S, class Block = LaneBlock<S>>
 class CoulombLanes {
  public:
   using T = typename S::Scalar;
-  using Block = LaneBlock<S>;
   using W = typename Block::W;
   using Values = typename W::Values;
   using Indices = typename W::Indices;
@@ -60,9 +72,14 @@ class CoulombLanes {
   }
 
  private:
+  static constexpr bool exact = std::same_as<typename Block::W, OneNumber<T>>;
+  static constexpr bool fine = std::numeric_limits<T>::epsilon() < T(1e-10);
   /// The iteration ends after a Newton step shorter than this, relative to slip + alpha, if
   /// | |r_t| - mu r_n | is as small relative to |r_t| + mu r_n.
-  static constexpr T close = T(0.05);
+  static constexpr T close = !exact ? T(0.05) : fine ? T(2e-8) : T(2e-4);
+  /// If the sticking impulse is longer than this, in units of the impulse without friction and of 1 + mu,
+  /// the slip of the block is below the rounding of slip + alpha. Powers of it must not overflow.
+  static constexpr T far_outside = fine ? T(1e30) : T(1e9);
 
   /// @param c    b_t - k b_n
   /// @param free impulse without friction
@@ -135,11 +152,44 @@ class CoulombLanes {
     return r;
   }
 
-  /// Newton's method in a bracket, from any alpha >= 0; phi and the iteration are those of
-  /// solve_slip, in units of the impulse without friction.
+  /// Where alpha is so large that the slip of the block does not matter: r_t has the direction of -c.
+  Tangent far_tangent() const {
+    Values size{};
+    for (std::size_t t = 0; t < tangents; ++t) {
+      const Values one = W::absolute(c_[t]);
+      size = one > size ? one : size;
+    }
+    Tangent r;
+    Values length2{}, along{};
+    for (std::size_t t = 0; t < tangents; ++t) {
+      r[t] = -c_[t] / size;
+      length2 += r[t] * r[t];
+      along += coupling_[t] * r[t];
+    }
+    const Values length = W::square_root(length2), share = length + friction_ * along;
+    // If the share is negative there is no such impulse; if size is 0, it is not a number.
+    const Values normal = share > Values{} ? free_ / share : Values{};
+    for (std::size_t t = 0; t < tangents; ++t)
+      r[t] = normal > Values{} ? friction_ * normal * r[t] : Values{};
+    return r;
+  }
+  Indices is_far() const {
+    Values size{}, slip{};
+    for (std::size_t t = 0; t < tangents; ++t) {
+      const Values one = W::absolute(c_[t]);
+      size = one > size ? one : size;
+      slip += slip_[t];
+    }
+    return size > far_outside * (T(1) + friction_) * slip * free_;
+  }
+
+  /// Newton's method in a bracket, from any alpha >= 0, in units of the impulse without friction.
   Tangent search(Indices open, Values& alpha) const requires(tangents > 1) {
     const Values zero{}, most = W::broadcast(std::numeric_limits<T>::max());
     const Values unit = T(1) / free_;
+    const Indices all = open;
+    Indices direct = open & is_far();
+    open = open & ~direct;
     Values lower{}, upper = most, trial = alpha;
     Tangent result{};
     for (int iteration = 0; iteration < 100; ++iteration) {
@@ -168,11 +218,14 @@ class CoulombLanes {
       fallback = upper < most ? fallback : beyond;
       trial = ((next > lower) & (next < upper)) ? next : fallback;
     }
-    // A load at the limit of the numbers, as in solve_slip.
+    // A load at the limit of the numbers.
     Indices finite = W::absolute(alpha) <= most;
     for (std::size_t t = 0; t < tangents; ++t) finite = finite & (W::absolute(result[t]) <= most);
-    for (std::size_t t = 0; t < tangents; ++t) result[t] = finite ? result[t] : zero;
     alpha = finite ? alpha : zero;
+    direct = direct | (all & ~finite);
+    if (!W::any(direct)) return result;
+    const Tangent far = far_tangent();
+    for (std::size_t t = 0; t < tangents; ++t) result[t] = direct ? far[t] : result[t];
     return result;
   }
 
