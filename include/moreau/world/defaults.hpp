@@ -10,6 +10,7 @@
 #include "moreau/law/regularized.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau {
