@@ -22,6 +22,7 @@ fi
 .ci/require cmake g++ ninja-build pkg-config libeigen3-dev doctest-dev libcli11-dev \
   nlohmann-json3-dev libbenchmark-dev libhdf5-dev libpng-dev
 case $preset in clang | asan) .ci/require clang libclang-rt-14-dev ;; esac
+[[ $preset != release ]] || CMAKE_OPTIONS="-DMOREAU_TEST_FAST=ON ${CMAKE_OPTIONS:-}"
 # shellcheck disable=SC2086  # options, none of which holds a space
 cmake --preset "$preset" ${CMAKE_OPTIONS:-}
 cmake --build --preset "$preset" --target $target --parallel "$jobs"

@@ -15,7 +15,7 @@
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/rounded.hpp"
 
-#include "shapes.hpp"
+#include "detect/shapes.hpp"
 
 using namespace moreau;
 

@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <thread>
 
-#include "faults.hpp"
-#include "temporary_folder.hpp"
+#include "io/faults.hpp"
+#include "io/temporary_folder.hpp"
 
 using namespace moreau;
 

@@ -11,8 +11,8 @@
 #include "moreau/instances/friction_problems.hpp"
 #include "moreau/io/siconos_text.hpp"
 
-#include "faults.hpp"
-#include "temporary_folder.hpp"
+#include "io/faults.hpp"
+#include "io/temporary_folder.hpp"
 
 using namespace moreau;
 

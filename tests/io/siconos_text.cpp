@@ -7,7 +7,7 @@
 
 #include "moreau/instances/friction_problems.hpp"
 
-#include "temporary_folder.hpp"
+#include "io/temporary_folder.hpp"
 
 using namespace moreau;
 

@@ -14,9 +14,9 @@
 #include "moreau/shape/polyhedron.hpp"
 
 #include "detect/shapes.hpp"
-#include "faults.hpp"
-#include "temporary_folder.hpp"
-#include "vtk_samples.hpp"
+#include "io/faults.hpp"
+#include "io/temporary_folder.hpp"
+#include "io/vtk_samples.hpp"
 
 namespace {
 

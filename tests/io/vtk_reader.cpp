@@ -10,8 +10,8 @@
 #include "moreau/io/vtk.hpp"
 #include "moreau/shape/ball.hpp"
 
-#include "temporary_folder.hpp"
-#include "vtk_samples.hpp"
+#include "io/temporary_folder.hpp"
+#include "io/vtk_samples.hpp"
 
 using namespace moreau;
 using namespace vtk_samples;

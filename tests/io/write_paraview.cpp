@@ -9,7 +9,7 @@
 #include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
-#include "temporary_folder.hpp"
+#include "io/temporary_folder.hpp"
 
 using namespace moreau;
 

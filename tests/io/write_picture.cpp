@@ -14,7 +14,7 @@
 #include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
-#include "temporary_folder.hpp"
+#include "io/temporary_folder.hpp"
 
 using namespace moreau;
 

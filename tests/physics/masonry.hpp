@@ -36,7 +36,7 @@ struct Structure {
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
 
-  moreau::Simulation<ShapeT, Law, moreau::MoreauJean, moreau::SweepAndPrune<S>, Solver> simulation;
+  moreau::Simulation<ShapeT, Law, moreau::MoreauJean, moreau::CellGrid<S>, Solver> simulation;
   double depth;            ///< extent of the blocks perpendicular to the plane [m]
   double joint = 1e9;      ///< smallest width of a joint [m]
   double diameter = 0;     ///< diameter of the structure [m]

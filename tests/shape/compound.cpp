@@ -15,8 +15,8 @@
 
 #include "conformance/shape.hpp"
 #include "detect/shapes.hpp"
-#include "message_of.hpp"
 #include "shape/compounds.hpp"
+#include "shape/message_of.hpp"
 #include "types.hpp"
 
 using namespace moreau;

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
-#include "../../examples/ratcheting/active_phase.hpp"
-#include "../../examples/ratcheting/study/closed_form.hpp"
-#include "../../examples/ratcheting/study/line.hpp"
-#include "../../examples/ratcheting/study/result.hpp"
+#include "ratcheting/active_phase.hpp"
+#include "ratcheting/study/closed_form.hpp"
+#include "ratcheting/study/line.hpp"
+#include "ratcheting/study/result.hpp"
 
 using namespace study;
 using ratcheting::active_phase;

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "check_rest.hpp"
 #include "sanitized.hpp"
 #include "types.hpp"
 #include "world/assemblies.hpp"
+#include "world/check_rest.hpp"
 
 using moreau::BallIn;
 using moreau::BodyId;

@@ -7,7 +7,7 @@
 #include "moreau/moreau.hpp"
 #include "moreau/shape/ball.hpp"
 
-#include "check_rest.hpp"
+#include "world/check_rest.hpp"
 
 TEST_CASE_TEMPLATE("float: grains come to rest on each other, with bounded overlap", ShapeT,
                    moreau::Polyhedron<float>, moreau::Polygon<float>) {

@@ -176,23 +176,29 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     T size = 0;
     for (const Vector& x : input) size = std::max(size, x.cwiseAbs().maxCoeff());
     const T flat = static_cast<T>(HullTolerance{}.flat) * std::numeric_limits<T>::epsilon() * size;
+    const auto own = [&](std::size_t v, std::size_t f) {
+      return std::binary_search(vertex_faces(v).begin(), vertex_faces(v).end(),
+                                static_cast<std::uint32_t>(f));
+    };
     for (std::size_t f = 0; f < face_count(); ++f) {
-      const std::string name = "faces[" + std::to_string(f) + "]";
-      const auto row = static_cast<Eigen::Index>(f);
-      for (std::size_t v = 0; v < vertex_count(); ++v) {
-        const T height = face_normals_.row(row).dot(vertices_.row(static_cast<Eigen::Index>(v))) -
-                         face_offsets_[row];
-        const bool on_face = std::binary_search(vertex_faces(v).begin(), vertex_faces(v).end(),
-                                                static_cast<std::uint32_t>(f));
-        const std::string what = "height of vertices[" + std::to_string(v) + "] above " + name;
-        if (on_face) {
-          require(std::abs(height) <= flat, function, what, height, "m must be 0: planar faces");
-        } else {
-          require(height < -flat, function, what, height,
-                  "m must be negative: convex, coplanar neighbours joined");
-        }
-      }
+      std::size_t bad = vertex_count();
+      for (const std::uint32_t v : face(f))
+        if (!(std::abs(height(v, f)) <= flat)) bad = std::min(bad, std::size_t(v));
+      for (std::size_t v = 0; v < bad; ++v)
+        if (!(height(v, f) < -flat) && !own(v, f)) bad = v;
+      if (bad == vertex_count()) continue;
+      const std::string what =
+          "height of vertices[" + std::to_string(bad) + "] above faces[" + std::to_string(f) + "]";
+      require(!own(bad, f), function, what, height(bad, f), "m must be 0: planar faces");
+      require(false, function, what, height(bad, f),
+              "m must be negative: convex, coplanar neighbours joined");
     }
+  }
+  /// Height of vertex v above the plane of face f [m].
+  T height(std::size_t v, std::size_t f) const {
+    const auto row = static_cast<Eigen::Index>(f);
+    return face_normals_.row(row).dot(vertices_.row(static_cast<Eigen::Index>(v))) -
+           face_offsets_[row];
   }
 
   FaceTopology topology_;

@@ -28,6 +28,15 @@ namespace moreau::detail {
 
 /// In place of the springs of a law that has none.
 struct NoSprings {
+  /// 0, of any row and of a scalar.
+  struct Zero {
+    template <class Row>
+    operator Row() const {
+      return Row::Zero();
+    }
+  };
+  static Zero relaxation(std::size_t) { return {}; }
+  static double energy_before(std::size_t) { return 0; }
   template <class S, class Law>
   static SpringTurn<S> turn(const StepContext<S, Law>&, const auto&) {
     return {};
@@ -93,13 +102,22 @@ class ContactSprings {
   /// @param impulses s, attraction included [N s]
   void relax(const StepContext<S, Law>& context, std::span<const Row> impulses, Operator& op) {
     relaxation_.resize(impulses.size());
+    before_.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       relaxation_[c] = relaxation_of(compliance_[c], impulses[c]);
       const Contact<S>& point = context.contacts.points[c];
-      if (!context.materials.laws()[point.law].keeps_normal_impulse()) relaxation_[c][0] = 0;
+      Row stretch = relaxation_[c];
+      if (!context.materials.laws()[point.law].keeps_normal_impulse()) {
+        relaxation_[c][0] = 0;
+        stretch[0] = std::min(Scalar(0), point.gap) / context.step;
+      }
+      before_[c] = double(stretch.dot(stretch.cwiseQuotient(compliance_[c]))) / 2;
       op.offset(c, relaxation_[c]);
     }
   }
+  const Row& relaxation(std::size_t c) const { return relaxation_[c]; }  ///< -c s, part of b [m/s]
+  /// Energy of the springs of a contact before the step, with the stiffness of this one [J].
+  double energy_before(std::size_t c) const { return before_[c]; }
 
   /// Energy of the springs, their largest compression, and the residual of the law without springs.
   /// @param problem  as solved
@@ -198,6 +216,7 @@ class ContactSprings {
 
   std::vector<Row> compliance_;   // c [1/kg]
   std::vector<Row> relaxation_;   // what the memory adds to b [m/s]
+  std::vector<double> before_;    // energy before the step, one per contact [J]
   Scalar last_step_ = 0;          // h of the step before [s]
   std::vector<Energy> energies_;  // one per contact, after the step before
   Energy energy_;                 // their sum

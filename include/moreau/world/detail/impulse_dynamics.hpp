@@ -327,8 +327,7 @@ class ImpulseDynamics {
   void solve(const Context& context, StepReport& report) {
     const auto impulses = unknowns_.impulses(context.contacts);
     report.solve = solver_.solve(problem_, impulses, workspace_);
-    if constexpr (!compliant)
-      if (!shared_) limit_.apply(context.bodies, problem_, impulses, solver_, workspace_);
+    if (!shared_) limit_.apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant) springs_.measure(context, problem_, impulses, report, shared_.get());
     if constexpr (stateful) choose_variants(context.materials, context.contacts);

@@ -17,7 +17,17 @@
 //
 // with the largest s in [0, 1] for which G(r) <= 0: the root of a parabola. s exists because G(r_0) <= 0. The
 // impulses lie in the cones of friction, because these are convex, and the bodies do not approach, because u
-// is linear in r. Between prescribed bodies nothing is exchanged: they end islands.
+// is linear in r. Between prescribed bodies nothing is exchanged: they end islands. u and u_f are relative to the
+// prescribed bodies, to the chord of their motion where they turn (chord_velocities.hpp): nothing above asks how
+// these move, and their work is not counted.
+//
+// Springs (law/compliant.hpp) store energy. Let c be the compliance of a contact over h^2, s the impulse that
+// its spring remembers. The energy of the spring changes by (r . c r - s . c s) / 2, which adds to G. With
+// the operator's velocities, u + c (r - s) with the impulses and u_f - c s without, this is
+//
+//     G(r) = r . (u_f + u + c r) / 2 - s . c s / 2.
+//
+// Without restitution, r . (u + c (r - s)) <= 0, and so G <= -r . W r / 2 - (r - s) . c (r - s) / 2 <= 0.
 #pragma once
 
 #include <algorithm>
@@ -57,18 +67,19 @@ class RestitutionLimit {
       bounce_[c] = offset - law.velocity_offset(gap, Scalar(0), step);
   }
   /// Limits the impulses of a solved problem; leaves the operator with their velocities.
+  /// @param springs          of the contacts: their relaxation(c) and energy_before(c)
   /// @param solver,workspace solve the problem without restitution, if it is needed
-  void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses, const auto& solver,
-             auto& workspace) {
+  void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
+             const auto& springs, const auto& solver, auto& workspace) {
     if (std::all_of(bounce_.begin(), bounce_.end(), [](Scalar x) { return x == 0; })) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
     roots_.resize(bodies.size());
     islands_.resize(bodies.size());
-    measure(problem, impulses, Scalar(0), bouncing_);
+    measure(problem, impulses, springs, Scalar(0), bouncing_);
     if (!gains(bodies, problem)) return;
     offset_all(problem, -1);
     solver.solve(problem, impulses, workspace);
-    measure(problem, impulses, Scalar(1), resting_);
+    measure(problem, impulses, springs, Scalar(1), resting_);
     offset_all(problem, 1);
     combine(bodies, problem, impulses);
     set_impulses(problem.delassus, std::span<const Row>(impulses));
@@ -77,8 +88,8 @@ class RestitutionLimit {
  private:
   /// A contact under some impulse.
   struct State {
-    Row impulse, velocity;  ///< r [N s] and u, without offset [m/s]
-    double gain = 0;        ///< r . (u_f + u) / 2 [J]
+    Row impulse, velocity;  ///< r [N s] and u + c r, without offset [m/s]
+    double gain = 0;        ///< r . (u_f + u + c r) / 2 - s . c s / 2 [J]
     bool acts = false;      ///< r is not zero
   };
   struct Island {
@@ -97,23 +108,22 @@ class RestitutionLimit {
   };
 
   /// @param without share of the restitution that the operator lacks, 0 or 1
-  void measure(const Problem& problem, std::span<const Row> impulses, Scalar without,
-               std::vector<State>& states) const {
+  void measure(const Problem& problem, std::span<const Row> impulses, const auto& springs,
+               Scalar without, std::vector<State>& states) const {
     states.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       State& state = states[c];
       state.impulse = impulses[c];
       state.velocity.setZero();
-      state.gain = 0;
+      state.gain = -springs.energy_before(c);
       state.acts = !impulses[c].isZero(0);
       if (!std::isfinite(offset_[c])) continue;
-      const Scalar offset = offset_[c] - without * bounce_[c];
-      state.velocity = problem.delassus.velocity(c);
-      state.velocity[0] -= offset;
+      Row offset = springs.relaxation(c);
+      offset[0] += offset_[c] - without * bounce_[c];
+      state.velocity = problem.delassus.velocity(c) - offset;
       if (!state.acts) continue;
-      Row free = problem.delassus.free_velocity(c);
-      free[0] -= offset;
-      state.gain = double(state.impulse.dot(free + state.velocity)) / 2;
+      const Row free = problem.delassus.free_velocity(c) - offset;
+      state.gain += double(state.impulse.dot(free + state.velocity)) / 2;
     }
   }
   /// Whether the impulses with restitution add energy in an island.
