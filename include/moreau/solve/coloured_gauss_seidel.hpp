@@ -12,9 +12,9 @@
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
 //    stopping test visits all contacts and updates the set.
 //
-// With ColouredOptions::islands, small islands, sets of up to 200 bodies that contacts connect, are solved by a direct method to a
-// tolerance on the velocities of their bodies (detail/island_newton.hpp). Sweeps do not get there along chains: the
-// residual is relative to the largest impulses, and small errors of many contacts add up.
+// Small islands, sets of up to 200 bodies that contacts connect, are solved to a tolerance on the velocities of their
+// bodies by a direct method, if the law is Coulomb's (detail/island_solver.hpp, island_newton.hpp). Sweeps do not get
+// there along chains: the residual is relative to the largest impulses, and small errors of many contacts add up.
 //
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
 // solution of the law, for Coulomb's law that of law/detail/coulomb_lanes.hpp.
@@ -65,9 +65,9 @@ struct ColouredOptions {
   /// quarter of them, which ends the sweeps at a tenth of the tolerance.
   int check_interval = 20;
   bool accelerate = true;  ///< false: plain sweeps
-  /// Whether small islands are solved to velocity_tolerance, see SolveReport::velocity_error; false: by
+  /// Whether small structures at rest are solved to velocity_tolerance, see SolveReport::velocity_error; false: by
   /// sweeps, like all others.
-  bool islands = false;
+  bool islands = true;
   double velocity_tolerance = 1e-5;  ///< on SolveReport::velocity_error, > 0 [-]
 };
 
@@ -115,8 +115,8 @@ class ColouredGaussSeidel {
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
     detail::drop_if_not_finite(impulses, shared_.get());
-    if constexpr (PointLaw<Law, typename Operator::Space>)
-      if (options_.islands && !shared_) return solve_islands(problem, impulses, workspace);
+    if constexpr (CoulombLaw<Law, typename Operator::Space>)
+      if (options_.islands && !shared_) return solve_with_islands(problem, impulses, workspace);
     return sweep(problem, impulses, workspace);
   }
 
@@ -124,29 +124,28 @@ class ColouredGaussSeidel {
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(options_); }
 
-  /// Solves small islands by a direct method, the others by sweeps.
+  /// solve(), with small islands by the direct method.
   template <class Operator, class Law>
-  SolveReport solve_islands(ContactProblem<Operator, Law>& problem,
-                            std::span<typename Operator::Vector> impulses,
-                            Workspace<Operator, Law>& workspace) const {
+  SolveReport solve_with_islands(ContactProblem<Operator, Law>& problem,
+                                 std::span<typename Operator::Vector> impulses,
+                                 Workspace<Operator, Law>& workspace) const {
     auto& islands = workspace.islands;
-    islands.start(problem, impulses,
-                  std::min(options_.velocity_tolerance, island_share * options_.tolerance));
+    islands.start(problem, impulses, std::min(options_.velocity_tolerance, options_.tolerance));
     if (islands.empty()) return sweep(problem, impulses, workspace);
     SolveReport report;
-    bool swept = true;
-    if (islands.all_solved()) judge(problem, impulses, swept, islands, report);
-    if (islands.all_solved() && report.converged) return report;
+    const bool solved = islands.all_solved();
+    if (solved) judge(problem, impulses, true, islands, report);
+    if (solved && report.converged) return report;
     islands.save(impulses);
     report = sweep(problem, impulses, workspace);
-    swept = report.converged;
-    islands.finish(problem, impulses);
-    judge(problem, impulses, swept, islands, report);
+    if (solved && report.converged) {  // the sweeps have refined a solution
+      islands.write(report);
+      return report;
+    }
+    islands.finish(problem, impulses, report.sweeps);
+    if (islands.attempted()) judge(problem, impulses, report.converged, islands, report);
     return report;
   }
-
-  /// Tolerance of islands, relative to that on the residual: a user's tighter tolerance holds for both.
-  static constexpr double island_share = 0.1;
 
   /// Measures impulses of which some are those of islands.
   /// @param swept whether sweeps, if there were any, met their stopping test

@@ -27,12 +27,13 @@ struct SolveReport {
 
   /// Of bodies in small islands, sets of up to 200 bodies that contacts connect: the largest error of a
   /// velocity, as a root mean square over the mass of a body, relative to the largest velocity that
-  /// impulses gave to a body of its island in the step [-]. For a structure at rest this is g h. The
-  /// error is estimated by a direct method. 0 if there are no such islands or the solver does not
-  /// estimate it: small errors of many contacts then add up unseen.
+  /// impulses gave to a body of its island in the step [-]. For a structure at rest this is g h. It is
+  /// estimated by a direct method, which attempts structures at rest in every step, islands of many contacts
+  /// per body in some steps, and no colliding grains. 0 if none was attempted: small errors of many contacts
+  /// then add up unseen.
   double velocity_error = 0;
-  int islands = 0;           ///< small islands with at least two contacts
-  int unsolved_islands = 0;  ///< of these, those whose error is above the tolerance
+  int islands = 0;           ///< that the direct method attempted
+  int unsolved_islands = 0;  ///< of these, those whose error is above the tolerance: not converged
 
   // Measures of the last plain sweep by LMGC90: dv = W (change of r), means over the contacts with
   // r != 0.

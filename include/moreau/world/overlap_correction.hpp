@@ -28,7 +28,6 @@
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/solve/detail/contact_islands.hpp"
 #include "moreau/solve/detail/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
@@ -155,16 +154,14 @@ class OverlapCorrection {
   void correct_islands(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
                        Scalar largest) {
     constexpr std::size_t most_bodies = 200;
-    constexpr typename Newton::Precision precision{1e-3, 1e-4, 1e-4, 30};
+    constexpr typename Newton::Precision precision{1e-3, 1e-4, 30};
     islands_.find(op);
     pushes_.assign(contacts.size(), S::Vector::Zero());
     const auto is_deep = [&](std::uint32_t c) { return rows_[c].depth > 0; };
     const auto free = [&](std::size_t c) {
       return typename S::Vector(-target(rows_[c], largest) * S::Vector::Unit(0));
     };
-    const auto law = [&](std::size_t) -> const auto& {
-      return frictionless_;
-    };
+    const auto law = [](std::size_t) { return 0.0; };
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto own = islands_.contacts(k);
       if (own.size() < 2 || islands_.bodies(k) > most_bodies ||
@@ -172,8 +169,8 @@ class OverlapCorrection {
         continue;
       newton_.assign(
           op, own, [&](std::size_t body) { return islands_.moves(body); }, free, law);
-      if (!newton_.is_cheap(own.size()) ||
-          !(newton_.solve(pushes_, precision) <= precision.tolerance))
+      if (newton_.cost_of_step() > 100 * double(own.size()) ||
+          !(newton_.start(pushes_) >= 0 && newton_.solve(1e-4, precision) <= precision.tolerance))
         continue;
       newton_.finish(pushes_);
       for (const std::uint32_t c : own) {
@@ -226,13 +223,11 @@ class OverlapCorrection {
     for (std::size_t i = 0; i < shifts_.size(); ++i) moved_[i] = !shifts_[i].isZero(0);
   }
 
-  using Law = SignoriniCoulomb<Scalar>;
-  using Newton = detail::IslandNewton<BodyDelassus<S>, Law>;
+  using Newton = detail::IslandNewton<BodyDelassus<S>>;
 
   Options options_;
   detail::ContactIslands islands_;
   Newton newton_;
-  Law frictionless_{Scalar(0)};
   std::vector<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
   std::vector<unsigned char> moved_;        // bodies with a contact that pushed
   std::vector<Row> rows_;

@@ -130,14 +130,15 @@ void for_each_heir(const Contacts<S>& before, const Contacts<S>& now,
                    const std::vector<typename S::Vector>& memory, const auto& may_receive,
                    const auto& receive) {
   const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
-  auto first = now.keys.begin();  // the first contact of the pair; pairs are in ascending order
+  const auto begin = now.keys.begin(), end = now.keys.end();
+  auto next = begin;  // the first contact whose key is not below
   for (std::size_t j = 0; j < before.size(); ++j) {
-    if (memory[j].isZero(0)) continue;
     const ContactKey& key = before.keys[j];
-    while (first != now.keys.end() && pair_of(*first) < pair_of(key)) ++first;
-    auto last = first;
-    while (last != now.keys.end() && pair_of(*last) == pair_of(key)) ++last;
-    if (first == last || std::binary_search(first, last, key)) continue;
+    while (next != end && *next < key) ++next;
+    if ((next != end && *next == key) || memory[j].isZero(0)) continue;
+    auto first = next, last = next;
+    while (first != begin && pair_of(*(first - 1)) == pair_of(key)) --first;
+    while (last != end && pair_of(*last) == pair_of(key)) ++last;
     const auto distance = [&](auto it) {
       return (now.points[std::size_t(it - now.keys.begin())].lever_a - before.points[j].lever_a)
           .squaredNorm();
@@ -155,10 +156,11 @@ void for_each_heir(const Contacts<S>& before, const Contacts<S>& now,
 /// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
 /// contact. A contact without an impulse of its own takes the variant of the law, too.
 /// @param before,now each sorted by its keys; the impulses of `now` are those of
-///                   remember_springs()
+///                   warm_start() or remember_springs()
+/// @param turn       turned() or a SpringTurn
 /// @returns how many contacts handed their impulse over
-template <class S>
-std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now, const SpringTurn<S>& turn) {
+template <class S, class Turn>
+std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now, const Turn& turn) {
   std::size_t count = 0;
   detail::for_each_heir<S>(
       before, now, before.impulses, [](const ContactKey&) { return true; },

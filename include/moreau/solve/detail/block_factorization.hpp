@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A sparse matrix of square blocks with a symmetric pattern, and its factorization L U without
-// exchange of blocks. Blocks are eliminated in the order of minimum degree: the next block is that
-// with the fewest neighbours that are left (A. George and J. W. H. Liu, SIAM Rev. 31 (1989) 1). A
-// chain of bodies then has no fill. The pattern and the order are found once for each pattern.
+// A sparse symmetric positive definite matrix of square blocks, and its factorization L D L^T. Blocks are
+// eliminated in the order of minimum degree: the next block is that with the fewest neighbours that are left
+// (A. George and J. W. H. Liu, SIAM Rev. 31 (1989) 1). A chain of bodies then has no fill. The pattern and the
+// order are found once for each pattern.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -45,6 +46,7 @@ class BlockFactorization {
     first_later_.assign(1, 0);
     work_ = 0;
     gone_.assign(count, 0);
+    place_.resize(count);
     for (std::size_t k = 0; k < count; ++k) eliminate(next());
   }
   /// Products of two blocks that a factorization takes.
@@ -52,45 +54,66 @@ class BlockFactorization {
 
   /// Makes all blocks zero.
   void clear() { blocks_.assign(slot_count_, Block::Zero()); }
-  /// The block (i, j) of an edge, or of the diagonal.
-  Block& block(std::size_t i, std::size_t j) { return blocks_[slots_[i * count_ + j]]; }
+  /// Adds to the diagonal block of row i: its lower triangle is used.
+  Block& diagonal(std::size_t i) { return blocks_[i]; }
+  /// Adds a block (i, j) of an edge, and its transpose (j, i).
+  void add(std::size_t i, std::size_t j, const Block& block) {
+    if (place_[i] > place_[j])
+      blocks_[slots_[i * count_ + j]] += block;
+    else
+      blocks_[slots_[i * count_ + j]] += block.transpose();
+  }
 
   /// Replaces the matrix by its factors.
-  /// @returns false if a block to be inverted is singular
+  /// @returns false if the matrix is not positive definite
   bool factorize() {
     for (std::size_t k = 0; k < count_; ++k) {
       const std::uint32_t p = order_[k];
-      Block& pivot = block(p, p);
-      if (!invert(pivot)) return false;
-      for (const std::uint32_t i : later(k)) {
-        Block& lower = block(i, p);
-        lower = (lower * pivot).eval();
-        for (const std::uint32_t j : later(k)) block(i, j).noalias() -= lower * block(p, j);
+      const Eigen::LLT<Block> root(blocks_[p]);
+      if (root.info() != Eigen::Success) return false;
+      blocks_[p] = root.solve(Block::Identity());
+      const auto after = later(k);
+      for (std::size_t a = 0; a < after.size(); ++a) {
+        const Block& of_a = block(after[a], p);
+        scaled_.noalias() = of_a * blocks_[p];
+        blocks_[after[a]].noalias() -= scaled_ * of_a.transpose();
+        for (std::size_t b = a + 1; b < after.size(); ++b)
+          subtract(after[a], after[b], block(after[b], p));
       }
     }
     return true;
   }
   /// Replaces the right side by the solution.
-  void solve(std::span<Segment> x) {
+  void solve(std::span<Segment> x) const {
     for (std::size_t k = 0; k < count_; ++k) {
       const std::uint32_t p = order_[k];
-      for (const std::uint32_t i : later(k)) x[i].noalias() -= block(i, p) * x[p];
+      const Segment part = blocks_[p] * x[p];
+      for (const std::uint32_t i : later(k)) x[i].noalias() -= block(i, p) * part;
     }
     for (std::size_t k = count_; k-- > 0;) {
       const std::uint32_t p = order_[k];
       Segment rest = x[p];
-      for (const std::uint32_t j : later(k)) rest.noalias() -= block(p, j) * x[j];
-      x[p].noalias() = block(p, p) * rest;
+      for (const std::uint32_t j : later(k)) rest.noalias() -= block(j, p).transpose() * x[j];
+      x[p].noalias() = blocks_[p] * rest;
     }
   }
 
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+  /// The block of two rows: that of the row that is eliminated later and the column of the other.
+  const Block& block(std::size_t i, std::size_t j) const { return blocks_[slots_[i * count_ + j]]; }
+  /// Subtracts the product scaled_ * other^T from the block of the rows i and j.
+  void subtract(std::size_t i, std::size_t j, const Block& other) {
+    Block& target = blocks_[slots_[i * count_ + j]];
+    if (place_[i] > place_[j])
+      target.noalias() -= scaled_ * other.transpose();
+    else
+      target.noalias() -= other * scaled_.transpose();
+  }
   void connect(std::size_t i, std::size_t j) {
     if (slots_[i * count_ + j] != none) return;
-    slots_[i * count_ + j] = slot_count_++;
-    slots_[j * count_ + i] = slot_count_++;
+    slots_[i * count_ + j] = slots_[j * count_ + i] = slot_count_++;
     ++degree_[i];
     ++degree_[j];
   }
@@ -103,6 +126,7 @@ class BlockFactorization {
   }
   void eliminate(std::uint32_t p) {
     order_.push_back(p);
+    place_[p] = static_cast<std::uint32_t>(order_.size() - 1);
     gone_[p] = 1;
     const std::size_t begin = later_.size();
     for (std::uint32_t i = 0; i < count_; ++i)
@@ -113,47 +137,24 @@ class BlockFactorization {
       for (std::size_t b = begin; b < a; ++b) connect(later_[a], later_[b]);
     }
     const double neighbours = double(later_.size() - begin);
-    work_ += 1 + neighbours * (neighbours + 1);
+    work_ += 1 + neighbours * (neighbours + 3) / 2;
   }
   /// The rows that are eliminated after step k and have a block with that of step k.
   std::span<const std::uint32_t> later(std::size_t k) const {
     return std::span(later_).subspan(first_later_[k], first_later_[k + 1] - first_later_[k]);
   }
 
-  /// Replaces a matrix by its inverse: Gauss and Jordan, with exchange of rows.
-  static bool invert(Block& m) {
-    std::array<int, std::size_t(N)> from;
-    for (int k = 0; k < N; ++k) {
-      int pivot = k;
-      for (int i = k + 1; i < N; ++i)
-        if (std::abs(m(i, k)) > std::abs(m(pivot, k))) pivot = i;
-      from[std::size_t(k)] = pivot;
-      if (!(std::abs(m(pivot, k)) > 0)) return false;
-      if (pivot != k) m.row(k).swap(m.row(pivot));
-      const double inverse = 1 / m(k, k);
-      m(k, k) = 1;
-      m.row(k) *= inverse;
-      for (int i = 0; i < N; ++i) {
-        if (i == k) continue;
-        const double factor = m(i, k);
-        m(i, k) = 0;
-        m.row(i) -= factor * m.row(k);
-      }
-    }
-    for (int k = N; k-- > 0;)
-      if (from[std::size_t(k)] != k) m.col(k).swap(m.col(from[std::size_t(k)]));
-    return true;
-  }
-
   std::size_t count_ = 0;
   std::uint32_t slot_count_ = 0;
   double work_ = 0;
   std::vector<std::array<std::uint32_t, 2>> edges_;
-  std::vector<std::uint32_t> slots_;   // of the block (i, j) in blocks_, or none
+  std::vector<std::uint32_t> slots_;   // of the block (i, j) or (j, i) in blocks_, or none
+  std::vector<std::uint32_t> place_;   // of each row in order_
   std::vector<std::uint32_t> degree_;  // neighbours that are left
   std::vector<std::uint32_t> order_, later_;
   std::vector<std::size_t> first_later_;  // of each step, in later_
   std::vector<unsigned char> gone_;
+  Block scaled_;
   std::vector<Block> blocks_;
 };
 

@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: MIT
-// The contact problem of one island by a direct method: the proximal point method, each step of
-// which is solved by a semismooth Newton method in the coordinates y of the bodies (see
-// island_points.hpp). With a centre c of impulses, and a compliance s = epsilon w in series with every
-// contact, where w is the mean of the diagonal of W_cc,
+// The contact problem of one island by a direct method in the coordinates y of its bodies (see
+// island_points.hpp). With the shift sigma = mu |u_t|, Coulomb's law is that of convex cones (G. De Saxce and
+// Z.-Q. Feng, Math. Comput. Modelling 28 (1998) 225),
 //
-//     r(y): impulse with u = b + J y + C r + s (r - c) and the law, contact by contact,
-//     F(y) = y - J^T r(y) = 0,        F' = I + J^T A J,   A = -dr/du.
+//     K contains r,   K* contains u + sigma n,   both perpendicular,
 //
-// F' has one block per body and per pair of bodies. It is regular also where contacts are redundant.
-// The solution r becomes the next centre. A centre that stays where it is solves the problem of
-// the law. The change of y by one step is the error of the velocities of the centre, except for modes
-// whose stiffness is small against epsilon. Their error shrinks by a factor q per step; q is the ratio
-// of the changes by two steps, and the error is taken as change / (1 - q).
+// and with fixed shifts the problem is convex (V. Acary, F. Cadoux, C. Lemarechal and J. Malick, ZAMM 91 (2011)
+// 155). It is solved by the proximal point method: with a centre c of impulses and a compliance s = epsilon w in
+// series with every contact, where w is the mean of the diagonal of W_cc,
+//
+//     r(y): minus the projection of (b + J y + sigma n - s c) / (C + s) onto K,
+//     y minimizes  phi(y) = |y|^2 / 2 + r(y) . (C + s) r(y) / 2,    phi' = F = y - J^T r,   phi'' = I + J^T A J,
+//
+// by a semismooth Newton method with a line search, which converges from everywhere: A = -dr/du is symmetric and
+// not negative. phi'' has one block per body and per pair of bodies, and is regular also where contacts are
+// redundant. The solution r becomes the next centre, and its velocities give the next shifts. A centre that
+// stays where it is, with its shifts, solves the problem of the law. The change of y by one step is the error of
+// the velocities of the centre, except for modes whose stiffness is small against epsilon, and for slip. Their
+// error shrinks by a factor q per step; q is the ratio of the changes by two steps, and the error is taken as
+// change / (1 - q).
 #pragma once
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,72 +37,93 @@
 namespace moreau::detail {
 
 /// The direct method for one island; the head of this file has the equations. Keeps its memory.
-template <class Operator, class Law>
+template <class Operator>
 class IslandNewton {
  public:
-  using Points = IslandPoints<Operator, Law>;
+  using Points = IslandPoints<Operator>;
   using S = typename Points::S;
   using Impulse = typename Operator::Vector;
 
   /// How to solve an island.
   struct Precision {
     double tolerance;      ///< on the error that solve() returns
-    double first_epsilon;  ///< of the first proximal step: `least` from impulses near a solution
     double least_epsilon;  ///< impulses times this times w are velocities that are not resolved
     int most_steps;        ///< of Newton's method, each with a factorization
   };
 
   /// Takes an island; the arguments are those of IslandPoints::assign.
   void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
-              const auto& free_of, const auto& law_of) {
-    points_.assign(op, contacts, moves, free_of, law_of);
-    stiffness_.resize(points_.points().size());
-    for (auto* impulses : {&centre_, &found_}) impulses->resize(points_.points().size());
+              const auto& free_of, const auto& friction_of) {
+    points_.assign(op, contacts, moves, free_of, friction_of);
+    const std::size_t count = points_.points().size();
+    shift_.resize(count);
+    stiffness_.resize(count);
+    for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
   }
-  /// Whether a factorization takes about as long as other work on so many contacts.
-  bool is_cheap(std::size_t contacts) {
-    constexpr double work_per_contact = 10, edges_per_body = 4;
-    if (double(points_.edges().size()) > edges_per_body * double(points_.bodies())) return false;
+  /// What a step of Newton's method costs, in visits of a contact by a sweep; infinite if more pairs of bodies
+  /// touch than in structures. Finds the order of the factorization.
+  double cost_of_step() {
+    constexpr double edges_per_body = 4;
+    if (double(points_.edges().size()) > edges_per_body * double(points_.bodies()))
+      return std::numeric_limits<double>::infinity();
     matrix_.analyse(points_.bodies(), points_.edges());
-    return points_.bodies() <= 3 || matrix_.work() <= work_per_contact * double(contacts);
+    return visits_per_contact * double(points_.points().size()) + visits_per_block * matrix_.work();
   }
 
-  /// Solves the island.
-  /// @param impulses in: the start [N s]
-  /// @returns the largest error of the velocity of a body, relative to the largest change of such a
-  ///          velocity by the impulses of the island: estimate of a root mean square over the mass [-]
-  double solve(std::span<const Impulse> impulses, const Precision& precision) {
-    const double tolerance = precision.tolerance, least = precision.least_epsilon;
-    double epsilon = precision.first_epsilon;
+  /// Moves to impulses.
+  /// @param impulses [N s]
+  /// @returns how far their motion is from that which the laws would make of it with a compliance w in series with
+  ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no
+  ///          factorization
+  double start(std::span<const Impulse> impulses) {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
     move_to_centre();
-    double error = bound(least), before = 0, first = 0;
-    if (error <= tolerance) return error;
+    first_shifts();
+    respond(1, y_);
+    const double defect = rest(), motion = scale(y_);
+    return motion > 0 ? defect / motion : defect > 0 ? 1 : 0;
+  }
+
+  /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
+  /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
+  double slip() const {
+    constexpr int tangents = S::dim - 1;
+    double fastest = 0;
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      if (!(centre_[k][0] > 0)) continue;
+      const auto& point = points_.points()[k];
+      const Vector u = point.free + points_.velocity(point, y_);
+      fastest = std::max(fastest, u.template tail<tangents>().norm());
+    }
+    const double motion = scale(y_);
+    return motion > 0 ? fastest / motion : 0;
+  }
+
+  /// Solves the island, from the impulses of start().
+  /// @param epsilon of the first proximal step
+  /// @returns the largest error of the velocity of a body, relative to the largest change of such a
+  ///          velocity by the impulses of the island: estimate of a root mean square over the mass [-]
+  double solve(double epsilon, const Precision& precision) {
+    const double tolerance = precision.tolerance, least = precision.least_epsilon;
     matrix_.analyse(points_.bodies(), points_.edges());
     steps_ = 0;
-    is_better_ = monotone_ = false;
-    for (int k = 0; k < most_proximal_steps && steps_ < precision.most_steps; ++k) {
-      if (!proximal_step(epsilon, precision.most_steps, tolerance)) {
-        epsilon = std::min(most_compliant, raise * epsilon);
-        before = 0;
-        monotone_ = !monotone_;
-        continue;
-      }
-      const double change = largest_change();
+    is_better_ = false;
+    double error = 0, before = 0, first = 0;
+    while (proximal_step(epsilon, precision.most_steps, tolerance)) {
+      const double change = std::max(largest_change(), next_shifts());
+      if (!std::isfinite(change)) break;
       const double q = before > 0 ? std::min(largest_q, change / before) : 0;
       error = change / (1 - q);
       if (first == 0) first = change;
       is_better_ = change <= first;
-      const bool solved = error <= tolerance && epsilon <= least;
-      const double further = !solved && q > slow ? q / (1 - q) : 0;
-      for (std::size_t c = 0; c < centre_.size(); ++c)
-        centre_[c] = found_[c] + further * (found_[c] - centre_[c]);
-      if (solved) return error;
-      before = further == 0 && epsilon <= least ? change : 0;
+      std::swap(centre_, found_);
+      std::swap(y_, next_);
+      // A mode whose stiffness is `least` shows only the share least / epsilon of its error.
+      if (error * epsilon <= tolerance * least) return error;
+      before = epsilon <= least ? change : 0;
       epsilon = std::max(least, lower * epsilon);
-      move_to_centre();
     }
     return std::max(error, 2 * tolerance);
   }
@@ -111,21 +139,51 @@ class IslandNewton {
  private:
   using Vector = typename Points::Vector;
   using Coordinates = typename Points::Coordinates;
-  static constexpr int most_proximal_steps = 40;
-  static constexpr double most_compliant = 1, raise = 30, lower = 0.1;
-  /// Ratio of the changes of two steps from which the centre is extrapolated, and largest ratio.
-  static constexpr double slow = 0.3, largest_q = 0.95;
+  using Tangent = Eigen::Matrix<double, S::dim - 1, 1>;
+  static constexpr double lower = 0.1;
+  /// Measured: response and assembly of a contact, and product of two blocks, in visits of a sweep.
+  static constexpr double visits_per_contact = S::dim == 3 ? 15 : 5,
+                          visits_per_block = S::dim == 3 ? 6 : 1;
+  static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
 
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
     for (std::size_t k = 0; k < centre_.size(); ++k)
       points_.push(points_.points()[k], centre_[k], y_);
   }
+  /// Shifts of the motion of the centre.
+  void first_shifts() {
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      const Vector u =
+          point.free + points_.velocity(point, y_) + point.compliance.cwiseProduct(centre_[k]);
+      shift_[k] = point.friction * u.template tail<S::dim - 1>().norm();
+    }
+  }
+  /// Sets the shifts of the motion that a proximal step has found.
+  /// @returns their largest change, relative to scale() [-]
+  double next_shifts() {
+    double largest = 0;
+    for (std::size_t k = 0; k < shift_.size(); ++k) {
+      const double shift =
+          points_.points()[k].friction * slip_[k].template tail<S::dim - 1>().norm();
+      if (found_[k][0] > 0) largest = std::max(largest, std::abs(shift - shift_[k]));
+      shift_[k] = shift;
+    }
+    return largest > 0 ? largest / scale(next_) : 0;
+  }
   /// Largest velocity of a body in the motion of the centre and in another one [m/s].
   double scale(std::span<const Coordinates> other) const {
     double largest = 0;
     for (std::size_t i = 0; i < y_.size(); ++i)
       largest = std::max(largest, std::max(y_[i].norm(), other[i].norm()) * points_.speed(i));
+    return largest;
+  }
+  /// Largest velocity of a body in F, at the motion of the last respond() [m/s].
+  double rest() const {
+    double largest = 0;
+    for (std::size_t i = 0; i < f_.size(); ++i)
+      largest = std::max(largest, f_[i].norm() * points_.speed(i));
     return largest;
   }
   /// Largest change of the velocity of a body by the last proximal step, relative to scale() [-].
@@ -135,94 +193,114 @@ class IslandNewton {
       largest = std::max(largest, (next_[i] - y_[i]).norm() * points_.speed(i));
     return largest > 0 ? largest / scale(next_) : 0;
   }
-  /// An upper bound of the error, without a factorization: F' >= I.
-  double bound(double epsilon) {
-    const double norm = respond(epsilon, y_);
-    double fastest = 0;
-    for (std::size_t i = 0; i < points_.bodies(); ++i)
-      fastest = std::max(fastest, points_.speed(i));
-    return norm > 0 ? norm * fastest / scale(f_) : 0;
-  }
-  /// Sets found_, stiffness_ and f_ for a motion y.
-  /// @returns |F|
-  double respond(double epsilon, std::span<const Coordinates> y) {
+
+  /// phi and F at a motion.
+  struct Value {
+    double phi, norm;
+  };
+  /// Sets found_, slip_, stiffness_ and f_ for a motion y.
+  Value respond(double epsilon, std::span<const Coordinates> y) {
     std::copy(y.begin(), y.end(), f_.begin());
+    double energy = 0;
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
       const double soft = epsilon * point.diagonal;
       const Vector s = point.compliance.array() + soft;
-      const Vector b = point.free + points_.velocity(point, y) - soft * centre_[k];
-      const ContactResponse<S> answer = response<S>(*point.law, s, b);
+      Vector b = point.free + points_.velocity(point, y) - soft * centre_[k];
+      slip_[k] = b;
+      b[0] += shift_[k];
+      const ContactResponse<S> answer = response<S>(point.friction, s, b);
       found_[k] = answer.impulse;
       stiffness_[k] = answer.stiffness;
+      slip_[k] += s.cwiseProduct(answer.impulse);
+      energy += s.dot(answer.impulse.cwiseAbs2());
       points_.push(point, -answer.impulse, f_);
     }
-    double sum = 0;
-    for (const Coordinates& f : f_) sum += f.squaredNorm();
-    return std::sqrt(sum);
+    double squares = 0;
+    for (std::size_t i = 0; i < f_.size(); ++i) {
+      squares += f_[i].squaredNorm();
+      energy += y[i].squaredNorm();
+    }
+    return {energy / 2, std::sqrt(squares)};
   }
 
   /// One proximal step from y_ and centre_ to next_ and found_.
   /// @returns whether Newton's method has converged
   bool proximal_step(double epsilon, int most_steps, double tolerance) {
-    constexpr double rounding = 1e-12, share = 0.01;
-    constexpr int most = 20;
-    constexpr std::size_t memory = 4;
-    std::array<double, memory> recent{};
+    constexpr double share = 0.03;
+    constexpr int most_of_one = 12;  // structures take 2 to 6
+    most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
-    double norm = respond(epsilon, next_), size = 0;
-    for (const Coordinates& y : y_) size += y.squaredNorm();
-    for (int k = 0; k < most && steps_ < most_steps; ++k) {
-      if (!std::isfinite(norm)) return false;
-      if (norm <= rounding * std::sqrt(size)) return true;
+    Value value = respond(epsilon, next_);
+    while (std::isfinite(value.norm)) {
+      if (rest() <= share * tolerance * scale(next_)) {
+        for (std::size_t i = 0; i < f_.size(); ++i)
+          next_[i] -= f_[i];  // the motion by the impulses
+        return true;
+      }
+      if (steps_ == most_steps) return false;
       ++steps_;
-      double length = 1;
-      recent[std::size_t(k) % memory] = norm;
-      double bound = 0;
-      for (const double one : recent) bound = std::max(bound, monotone_ ? norm : one);
-      if (!newton_direction() || !shorten(epsilon, bound, norm, length)) return false;
+      if (!newton_direction() || !shorten(epsilon, value)) return false;
       std::swap(next_, trial_);
-      double moved = 0;
-      for (std::size_t i = 0; i < next_.size(); ++i)
-        moved = std::max(moved, direction_[i].norm() * points_.speed(i));
-      if (length == 1 && moved <= share * tolerance * scale(next_)) return true;
     }
     return false;
   }
-  /// Halves the step until |F| is below a bound; trial_ is the point that it leads to.
-  /// @param bound  the largest |F| of the last few points (L. Grippo, F. Lampariello and S. Lucidi, SIAM J.
-  ///               Numer. Anal. 23 (1986) 707)
-  /// @param norm   out: |F| at trial_
-  /// @param length out: of the step, relative to direction_
+  /// Minimizes phi along direction_, roughly: phi is convex, and its slope is about linear in pieces. trial_ is the
+  /// point that the step leads to.
+  /// @param value  in: phi and |F| at next_, out: at trial_
   /// @returns whether there is such a step
-  bool shorten(double epsilon, double bound, double& norm, double& length) {
-    constexpr int halvings = 6;
-    for (int k = 0; k < halvings; ++k, length /= 2) {
+  bool shorten(double epsilon, Value& value) {
+    constexpr int most = 30;
+    constexpr double enough = 0.3;
+    const double first = slope();
+    if (!(first < 0)) return false;
+    double length = 1, low = 0, low_slope = first, high = 0, high_slope = 0;
+    for (int k = 0; k < most; ++k) {
       for (std::size_t i = 0; i < next_.size(); ++i) trial_[i] = next_[i] + length * direction_[i];
-      const double reached = respond(epsilon, trial_);
-      if (!(reached < bound)) continue;
-      norm = reached;
-      return true;
+      const Value reached = respond(epsilon, trial_);
+      const double here = slope();
+      if (std::abs(here) <= -enough * first || reached.norm < value.norm / 2) {
+        value = reached;
+        return true;
+      }
+      if (here < 0) {
+        if (high == 0) {
+          value = reached;
+          return true;
+        }
+        if (low > 0) high_slope /= 2;
+        low = length, low_slope = here;
+      } else {
+        if (high > 0) low_slope /= 2;
+        high = length, high_slope = here;
+      }
+      const double secant = low - low_slope * (high - low) / (high_slope - low_slope);
+      length = std::clamp(secant, low + 0.02 * (high - low), high - 0.02 * (high - low));
     }
     return false;
   }
-  /// Solves F' direction_ = -F at the motion of the last respond().
+  double slope() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < f_.size(); ++i) sum += f_[i].dot(direction_[i]);
+    return sum;
+  }
+  /// Solves phi'' direction_ = -F at the motion of the last respond().
   bool newton_direction() {
     matrix_.clear();
-    for (std::size_t i = 0; i < points_.bodies(); ++i) matrix_.block(i, i).setIdentity();
+    for (std::size_t i = 0; i < points_.bodies(); ++i) matrix_.diagonal(i).setIdentity();
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
-      if (stiffness_[k](0, 0) == 0 && stiffness_[k].isZero(0)) continue;
-      const auto add = [&](std::uint32_t column, const typename Points::Rows& j) {
-        if (column == Points::none) return;
-        const typename Points::Rows rows = stiffness_[k] * j;
-        if (point.body_a != Points::none)
-          matrix_.block(point.body_a, column).noalias() += point.a.transpose() * rows;
-        if (point.body_b != Points::none)
-          matrix_.block(point.body_b, column).noalias() += point.b.transpose() * rows;
-      };
-      add(point.body_a, point.a);
-      add(point.body_b, point.b);
+      if (found_[k][0] == 0) continue;
+      typename Points::Rows of_a, of_b;
+      if (point.body_a != Points::none) {
+        of_a.noalias() = stiffness_[k] * point.a;
+        matrix_.diagonal(point.body_a).noalias() += point.a.transpose() * of_a;
+      }
+      if (point.body_b == Points::none) continue;
+      of_b.noalias() = stiffness_[k] * point.b;
+      matrix_.diagonal(point.body_b).noalias() += point.b.transpose() * of_b;
+      if (point.body_a != Points::none)
+        matrix_.add(point.body_a, point.body_b, point.a.transpose() * of_b);
     }
     if (!matrix_.factorize()) return false;
     for (std::size_t i = 0; i < f_.size(); ++i) direction_[i] = -f_[i];
@@ -233,9 +311,9 @@ class IslandNewton {
 
   Points points_;
   int steps_ = 0;
-  bool is_better_ = false;              // the impulses than those from which solve() started
-  bool monotone_ = false;               // line search; in turn, where a proximal step fails
-  std::vector<Vector> centre_, found_;  // impulses: c, and r at the last motion
+  bool is_better_ = false;                     // the impulses than those from which solve() started
+  std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
+  std::vector<double> shift_;                  // sigma [m/s]
   std::vector<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
   std::vector<Coordinates> y_;                                    // of the centre
   std::vector<Coordinates> next_, trial_, f_, direction_;

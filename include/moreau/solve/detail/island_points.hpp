@@ -30,67 +30,53 @@ namespace moreau::detail {
 /// The impulse of one contact as a function of u, and its derivative.
 template <class S>
 struct ContactResponse {
-  Eigen::Matrix<double, S::dim, 1> impulse;         ///< [N s]
-  Eigen::Matrix<double, S::dim, S::dim> stiffness;  ///< - d impulse / d u [kg]
+  Eigen::Matrix<double, S::dim, 1> impulse;  ///< [N s]
+  Eigen::Matrix<double, S::dim, S::dim>
+      stiffness;  ///< - d impulse / d u [kg], symmetric, not negative
 };
 
-/// The law of one contact with a compliance s in series: the impulse r with u = s r + b and the law.
-/// @param s diagonal of the compliance, equal for all tangents, > 0 [1/kg]
-template <class S, class Law>
-ContactResponse<S> response(const Law& law, const Eigen::Matrix<double, S::dim, 1>& s,
+/// The impulse r in Coulomb's cone K with K* containing s r + b, perpendicular to r: minus the projection of b / s
+/// onto K in the norm of s.
+/// @param mu friction coefficient [-]
+/// @param s  diagonal of the compliance, equal for all tangents, > 0 [1/kg]
+template <class S>
+ContactResponse<S> response(double mu, const Eigen::Matrix<double, S::dim, 1>& s,
                             const Eigen::Matrix<double, S::dim, 1>& b) {
   constexpr int tangents = S::dim - 1;
+  using Tangent = Eigen::Matrix<double, tangents, 1>;
   ContactResponse<S> answer;
-  answer.impulse.setZero();
-  answer.stiffness.setZero();
-  if constexpr (CoulombLaw<Law, S>) {
-    if (!(b[0] < 0)) return answer;
-    const double mu = double(law.friction()), normal = -b[0] / s[0];
-    answer.impulse[0] = normal;
-    answer.stiffness(0, 0) = 1 / s[0];
-    if (mu == 0) return answer;
-    using Tangent = Eigen::Matrix<double, tangents, 1>;
-    using Square = Eigen::Matrix<double, tangents, tangents>;
-    const Tangent slip = b.template tail<tangents>();
-    const double length = slip.norm(), limit = mu * normal;
-    if (length <= s[1] * limit) {
-      answer.impulse.template tail<tangents>() = slip / -s[1];
-      answer.stiffness.diagonal().template tail<tangents>().setConstant(1 / s[1]);
-      return answer;
-    }
-    const Tangent direction = slip / -length;
-    answer.impulse.template tail<tangents>() = limit * direction;
-    answer.stiffness.template bottomLeftCorner<tangents, 1>() = mu / s[0] * direction;
-    answer.stiffness.template bottomRightCorner<tangents, tangents>() =
-        (Square::Identity() - direction * direction.transpose()) * (limit / length);
-    return answer;
-  } else {
-    using T = typename S::Scalar;
-    using Vector = typename S::Vector;
-    LocalBlock<S> block;
-    block.normal = T(s[0]);
-    block.coupling.setZero();
-    block.slip.setConstant(T(s[1]));
-    const auto solve = [&](const Eigen::Matrix<double, S::dim, 1>& at) {
-      return Vector(law.solve(block, Vector(at.template cast<T>()), Vector(Vector::Zero())))
-          .template cast<double>()
-          .eval();
-    };
-    answer.impulse = solve(b);
-    // Differences: Newton's method needs the derivative only to a few digits.
-    const double step = std::sqrt(double(std::numeric_limits<T>::epsilon())) *
-                        std::max(b.norm(), double(std::numeric_limits<T>::min()));
-    for (int k = 0; k < S::dim; ++k) {
-      Eigen::Matrix<double, S::dim, 1> moved = b;
-      moved[k] += step;
-      answer.stiffness.col(k) = (answer.impulse - solve(moved)) / step;
-    }
+  // In the coordinates sqrt(s) r the projection is orthogonal, onto a cone of another angle.
+  const double stretch = std::sqrt(s[1] / s[0]), slope = mu * stretch;
+  const double normal = -b[0] / s[0];
+  const Tangent slip = b.template tail<tangents>() * (-stretch / s[1]);
+  const double length = slip.norm();
+  if (slope * length <= -normal) {
+    answer.impulse.setZero();
+    answer.stiffness.setZero();
     return answer;
   }
+  if (length < slope * normal) {
+    answer.impulse = -b.cwiseQuotient(s);
+    answer.stiffness = s.cwiseInverse().asDiagonal();
+    return answer;
+  }
+  const Tangent direction = length > 0 ? Tangent(slip / length) : Tangent(Tangent::Zero());
+  const double share = 1 / (1 + slope * slope), reached = (normal + slope * length) * share;
+  answer.impulse[0] = reached;
+  answer.impulse.template tail<tangents>() = mu * reached * direction;
+  answer.stiffness(0, 0) = share / s[0];
+  answer.stiffness.template bottomLeftCorner<tangents, 1>() = mu * share / s[0] * direction;
+  answer.stiffness.template topRightCorner<1, tangents>() =
+      mu * share / s[0] * direction.transpose();
+  const double across = length > 0 ? slope * reached / length : 0;
+  answer.stiffness.template bottomRightCorner<tangents, tangents>() =
+      (across / s[1]) * Eigen::Matrix<double, tangents, tangents>::Identity() +
+      (mu * mu * share / s[0] - across / s[1]) * direction * direction.transpose();
+  return answer;
 }
 
 /// The contacts of one island; the head of this file has the coordinates.
-template <class Operator, class Law>
+template <class Operator>
 class IslandPoints {
  public:
   using S = typename Operator::Space;
@@ -108,15 +94,15 @@ class IslandPoints {
     double diagonal;               ///< mean of the diagonal of W_cc [1/kg]
     std::uint32_t body_a, body_b;  ///< in the island; none: cannot move
     std::uint32_t contact;         ///< in the problem
-    const Law* law;
+    double friction;               ///< mu [-]
   };
 
   /// @param contacts of the island
   /// @param moves    function: body -> whether impulses move it
   /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
-  /// @param law_of   function: contact -> its law, a reference that stays valid
+  /// @param friction_of function: contact -> mu [-]
   void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
-              const auto& free_of, const auto& law_of) {
+              const auto& free_of, const auto& friction_of) {
     number_.resize(op.body_count(), none);
     points_.clear();
     roots_.clear();
@@ -133,7 +119,7 @@ class IslandPoints {
       if constexpr (requires { op.compliance(c); })
         point.compliance = op.compliance(c).template cast<double>();
       point.contact = c;
-      point.law = &law_of(c);
+      point.friction = friction_of(c);
       point.body_a = moves(a) ? local(op, a) : none;
       point.body_b = moves(b) ? local(op, b) : none;
       point.a = rows(op, c, point.body_a, op.lever_a(c), -1);

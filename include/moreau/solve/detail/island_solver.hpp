@@ -4,8 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,8 +19,13 @@
 
 namespace moreau::detail {
 
-/// The small islands of one contact problem: those of at most most_bodies bodies and at least two contacts
-/// whose factorization is cheap. A single contact is solved exactly by every sweep. Keeps its memory.
+/// The small islands of one contact problem: those of at least two contacts, and of at most most_bodies bodies for
+/// which steps of Newton's method are cheap. A single contact is solved exactly by every sweep. Keeps its memory.
+///
+/// Where the warm start is near a solution, as in structures at rest, few steps are enough, before the sweeps. Other
+/// islands are attempted after the sweeps, which takes as long as many sweeps. So that the work of a simulation stays
+/// in proportion, only some islands are, drawn by a hash of their state: a structure is solved some steps after it
+/// came to rest, and then stays so; colliding grains are left to the sweeps in most steps.
 template <class Operator, class Law>
 class IslandSolver {
  public:
@@ -26,7 +34,8 @@ class IslandSolver {
   using Impulses = std::span<Impulse>;
   static constexpr std::size_t most_bodies = 200;
 
-  /// Finds the small islands and solves those for which a few Newton steps from the warm start are enough.
+  /// Finds the small islands and solves those that are near a solution.
+  /// @param impulses  in: the warm start; out: those of the islands are better or the same [N s]
   /// @param tolerance on the error of the velocities, see SolveReport::velocity_error [-]
   void start(const Problem& problem, Impulses impulses, double tolerance) {
     tolerance_ = tolerance;
@@ -34,70 +43,113 @@ class IslandSolver {
     small_.clear();
     others_ = false;
     for (std::size_t k = 0; k < islands_.size(); ++k) {
-      if (islands_.contacts(k).size() < 2 || islands_.bodies(k) > most_bodies ||
-          !take(problem, k)) {
+      const auto contacts = islands_.contacts(k);
+      if (contacts.size() < 2 || islands_.bodies(k) > most_bodies) {
         others_ = true;
         continue;
       }
-      small_.push_back({k, solve(impulses, {tolerance, least_epsilon, least_epsilon, warm_steps})});
+      take(problem, k);
+      const double cost = newton_.cost_of_step() / double(contacts.size());
+      if (cost > most_visits) {
+        others_ = true;
+        continue;
+      }
+      const bool is_new = std::all_of(contacts.begin(), contacts.end(),
+                                      [&](std::uint32_t c) { return impulses[c].isZero(0); });
+      small_.push_back({k, cost, newton_.start(impulses), is_new, not_attempted});
+      attempt(small_.back(), impulses);
     }
   }
   bool empty() const { return small_.empty(); }  ///< no island is small
-  /// Whether all contacts lie in small islands that are solved.
+  /// Whether all contacts lie in islands that are solved.
   bool all_solved() const {
     return !others_ && std::all_of(small_.begin(), small_.end(),
                                    [&](const Small& one) { return is_solved(one); });
   }
   /// Saves the impulses, which sweeps change.
   void save(Impulses impulses) { saved_.assign(impulses.begin(), impulses.end()); }
-  /// After sweeps: goes back to the saved impulses of the islands that were solved, and solves the others
-  /// from the impulses of the sweeps.
-  void finish(const Problem& problem, Impulses impulses) {
+  /// After sweeps: goes back to the saved impulses of the islands where these are better, and solves some of the
+  /// others from the impulses of the sweeps.
+  void finish(const Problem& problem, Impulses impulses, int sweeps) {
     for (Small& one : small_) {
-      if (is_solved(one)) {
+      if (one.error <= near * tolerance_)
         for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
-        continue;
-      }
+      if (is_solved(one) || !is_drawn(one, usual_steps * one.cost, sweeps)) continue;
       take(problem, one.island);
-      one.error = solve(impulses, {tolerance_, first_epsilon, least_epsilon, most_steps});
+      newton_.start(impulses);
+      if (newton_.slip() < 1) improve(one, impulses, late_epsilon, most_steps);
     }
+  }
+  /// Whether the direct method has estimated the error of an island.
+  bool attempted() const {
+    return std::any_of(small_.begin(), small_.end(),
+                       [](const Small& one) { return one.error < not_attempted; });
   }
   /// Writes what the islands have come to.
   void write(SolveReport& report) const {
-    report.islands = int(small_.size());
-    report.unsolved_islands = 0;
+    report.islands = report.unsolved_islands = 0;
     report.velocity_error = 0;
     for (const Small& one : small_) {
+      if (one.error == not_attempted) continue;
       report.velocity_error = std::max(report.velocity_error, one.error);
+      ++report.islands;
       report.unsolved_islands += !is_solved(one);
     }
   }
 
  private:
-  using Newton = IslandNewton<Operator, Law>;
+  using Newton = IslandNewton<Operator>;
   struct Small {
     std::size_t island;
-    double error;  // relative [-]
+    double cost;    // of a Newton step, in visits of its contacts by a sweep
+    double defect;  // of the warm start, see IslandNewton::start()
+    bool is_new;    // no contact has an impulse in the warm start
+    double error;   // relative [-]
   };
-  static constexpr int warm_steps = 6, most_steps = 60;
-  static constexpr double first_epsilon = 1e-4, least_epsilon = 1e-6;
+  static constexpr double not_attempted = std::numeric_limits<double>::infinity();
+  static constexpr bool in_space = Operator::Space::dim == 3;
+  /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
+  /// first bound an island is attempted in every step, up to the second before the sweeps.
+  static constexpr double solved_defect = 1e-5, largest_defect = 0.01;
+  /// Compliances of proximal steps: the least; the first before the sweeps; the first after them.
+  static constexpr double least_epsilon = 1e-6, warm_epsilon = 1e-5, late_epsilon = 1e-4;
+  /// Newton steps of an attempt after the sweeps, at most and usually.
+  static constexpr int most_steps = 60, usual_steps = 20;
+  /// Impulses are kept up to this multiple of the tolerance: they are a better start for the next step.
+  static constexpr double near = 10;
+  /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
+  /// Newton step of islands that are attempted in every step, as in columns, arches and low walls; a Newton step at
+  /// most; all Newton steps before the sweeps at most.
+  static constexpr double other_visits = in_space ? 25 : 12, cheap_visits = in_space ? 22 : 8,
+                          most_visits = in_space ? 30 : 12, warm_visits = in_space ? 150 : 60;
 
   bool is_solved(const Small& one) const { return one.error <= tolerance_; }
-  /// Gives an island to the direct method.
-  /// @returns whether its factorization is cheap
-  bool take(const Problem& problem, std::size_t island) {
-    const auto contacts = islands_.contacts(island);
-    newton_.assign(
-        problem.delassus, contacts, [&](std::size_t body) { return islands_.moves(body); },
-        [&](std::size_t c) { return problem.delassus.free_velocity(c); },
-        [&](std::size_t c) -> const Law& { return problem.law(c); });
-    return newton_.is_cheap(contacts.size());
+  /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
+  /// average.
+  /// @param visits of an attempt, per contact
+  static bool is_drawn(const Small& one, double visits, int sweeps) {
+    if (one.is_new || one.cost <= cheap_visits) return true;
+    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
+    const std::uint64_t hash = (std::bit_cast<std::uint64_t>(one.defect) * golden) >> 32;
+    return std::ldexp(double(hash), -32) * visits < other_visits + sweeps;
   }
-  double solve(Impulses impulses, const typename Newton::Precision& precision) {
-    const double error = newton_.solve(impulses, precision);
-    const bool last = precision.most_steps == most_steps;
-    if (error <= tolerance_ || (last && newton_.is_better())) newton_.finish(impulses);
-    return error;
+  /// Before the sweeps.
+  void attempt(Small& one, Impulses impulses) {
+    if (one.defect > largest_defect) return;
+    if (one.defect > solved_defect && !is_drawn(one, warm_visits, 0)) return;
+    improve(one, impulses, std::clamp(one.defect, warm_epsilon, late_epsilon),
+            std::max(2, int(warm_visits / one.cost)));
+  }
+  void take(const Problem& problem, std::size_t island) {
+    newton_.assign(
+        problem.delassus, islands_.contacts(island),
+        [&](std::size_t body) { return islands_.moves(body); },
+        [&](std::size_t c) { return problem.delassus.free_velocity(c); },
+        [&](std::size_t c) { return double(problem.law(c).friction()); });
+  }
+  void improve(Small& one, Impulses impulses, double epsilon, int steps) {
+    one.error = newton_.solve(epsilon, {tolerance_, least_epsilon, steps});
+    if (newton_.is_better() && one.error <= near * tolerance_) newton_.finish(impulses);
   }
 
   double tolerance_ = 0;

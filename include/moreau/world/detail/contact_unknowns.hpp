@@ -16,7 +16,8 @@
 namespace moreau::detail {
 
 /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of
-/// the springs of compliant contacts.
+/// the springs of compliant contacts. Where the features of a pair have changed names, impulses go to the nearest
+/// contact.
 /// @param turn how springs turn since the step before
 /// @param team threads that share the work
 /// @returns how many contacts have a predecessor
@@ -28,7 +29,9 @@ std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts,
     hand_over(previous, contacts, turn);
     return found;
   } else {
-    return warm_start(previous, contacts, team);
+    const std::size_t found = warm_start(previous, contacts, team);
+    hand_over(previous, contacts, turned<S>);
+    return found;
   }
 }
 
