@@ -56,24 +56,21 @@ void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle,
         structure.mass() * velocity * velocity / 2);
 }
 
-/// Simulates a structure whose islands are solved by the direct method, with a tolerance of 1e-4 for the
-/// residual. No block may move by 1 % of the width of a joint. In every step that converged, the error of the
+/// Simulates a structure with the default options. No block may move by 1 % of the width of a joint. After the step in
+/// which the load arrives, at most a hundredth of the steps may be unsolved; where a step converged, the error of the
 /// velocities is within its tolerance.
 template <class ShapeT>
-void check_stands_with_islands(Structure<ShapeT> structure, double step, int count) {
-  moreau::ColouredOptions options;
-  options.islands = true;
+void check_stands_by_default(Structure<ShapeT> structure, double step, int count) {
+  const moreau::ColouredOptions options;
   structure.simulation.set_solver(moreau::ColouredGaussSeidel(options));
-  moreau::OverlapCorrectionOptions correction;
-  correction.islands = true;
-  structure.simulation.set_correction(correction);
   const auto start = structure.vertices();
-  int islands = 0;
+  int islands = 0, unsolved = 0;
   double error = 0;
   for (int k = 0; k < count; ++k) {
     const moreau::SolveReport report = structure.simulation.step(step).solve;
     CHECK(report.converged == !report.capped);
     islands = std::max(islands, report.islands);
+    unsolved += !report.converged;
     if (report.converged) error = std::max(error, report.velocity_error);
   }
   double moved = 0;
@@ -82,6 +79,7 @@ void check_stands_with_islands(Structure<ShapeT> structure, double step, int cou
   CAPTURE(step);
   CAPTURE(structure.simulation.grain_count());
   CHECK(islands == 1);
+  CHECK(unsolved <= 2 + count / 100);
   CHECK(error <= options.velocity_tolerance);
   CHECK(moved < 0.01 * structure.joint);
 }

@@ -35,16 +35,19 @@ TEST_CASE_TEMPLATE("a semicircular arch of 17 voussoirs stands", ShapeT, Polyhed
   masonry::check_stands(structure, step, settle, second);
 }
 
-TEST_CASE_TEMPLATE("structures stand if islands are solved by the direct method", ShapeT,
-                   Polyhedron<>, Polygon<>) {
+TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedron<>, Polygon<>) {
   constexpr int count = rounds(40);
   for (const double h : {1e-3, 1.0 / 60}) {
     for (const int cubes : {2, 10, 20, 30})
       for (const double jitter : {0.0, 0.005})
-        masonry::check_stands_with_islands(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, count);
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, count);
     for (const double ratio : {1e3, 1e-3})
       for (const double friction : {0.0, 0.5})
-        masonry::check_stands_with_islands(masonry::stack<ShapeT>(2, friction, 0, ratio), h, count);
-    masonry::check_stands_with_islands(masonry::arch<ShapeT>(11, 0.2), h, count);
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(2, friction, 0, ratio), h, count);
+    masonry::check_stands_by_default(masonry::arch<ShapeT>(11, 0.2), h, count);
+    masonry::check_stands_by_default(masonry::arch<ShapeT>(31, 0.2), h, count);
+    masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, count);
+    masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
+                                     count);
   }
 }

@@ -75,7 +75,7 @@ struct ColouredOptions {
 class ColouredGaussSeidel {
  public:
   using Options = ColouredOptions;
-  /// In place of the islands of a law with couples.
+  /// In place of the islands of a law that is not Coulomb's.
   struct NoIslands {};
   /// Buffers, kept from step to step.
   template <class Operator, class Law>
@@ -83,9 +83,9 @@ class ColouredGaussSeidel {
   struct Workspace {
     detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
     std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
-    /// Small islands; contacts with couples are solved by sweeps alone.
-    std::conditional_t<PointLaw<Law, typename Operator::Space>, detail::IslandSolver<Operator, Law>,
-                       NoIslands>
+    /// Small islands; contacts with other laws are solved by sweeps alone.
+    std::conditional_t<CoulombLaw<Law, typename Operator::Space>,
+                       detail::IslandSolver<Operator, Law>, NoIslands>
         islands;
   };
 

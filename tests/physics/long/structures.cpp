@@ -39,11 +39,20 @@ TEST_CASE_TEMPLATE("an arch of 41 voussoirs stands for ten seconds", ShapeT, Pol
   masonry::check_stands(structure, step, settle, ten_seconds);
 }
 
-TEST_CASE_TEMPLATE("stacks stand for a minute if islands are solved by the direct method", ShapeT,
-                   Polyhedron<>, Polygon<>) {
-  for (const double h : {1e-3, 1.0 / 60})
-    for (const int cubes : {10, 20, 30})
+TEST_CASE_TEMPLATE("structures stand for a minute with the default options", ShapeT, Polyhedron<>,
+                   Polygon<>) {
+  for (const double h : {1e-3, 1.0 / 60}) {
+    const int minute = static_cast<int>(60 / h);
+    for (const int cubes : {10, 20, 30, 50})
       for (const double jitter : {0.0, 0.005})
-        masonry::check_stands_with_islands(masonry::stack<ShapeT>(cubes, 0.5, jitter), h,
-                                           static_cast<int>(60 / h));
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, minute);
+    for (const double ratio : {1e3, 1e-3})
+      for (const double friction : {0.0, 0.5})
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(2, friction, 0, ratio), h, minute);
+    for (const int stones : {11, 21, 31, 51})
+      masonry::check_stands_by_default(masonry::arch<ShapeT>(stones, 0.2), h, minute);
+    masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, minute);
+    masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
+                                     minute);
+  }
 }
