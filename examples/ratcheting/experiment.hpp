@@ -81,6 +81,7 @@ class Experiment {
       options.tolerance = parameters_.preparation_tolerance;
       options.stop_test = moreau::StopTest::qm16;
       options.max_sweeps = parameters_.preparation_sweeps;
+      options.islands = false;
       simulation_.set_solver(Solver(options));
     }
     const double force = parameters_.lid_force * mass_ * 9.81;
@@ -251,6 +252,7 @@ class Experiment {
     options.stop_test = p.stop_test;
     options.max_sweeps = p.max_sweeps;
     options.cold_sweeps = p.cold_sweeps;
+    options.islands = false;  // all grains are one packing, and the paper has no such method
     return Solver(options, p.cold_start, p.solver == "plain");
   }
   void set_correction() requires solves {
