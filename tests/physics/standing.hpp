@@ -80,7 +80,7 @@ void check_stands_by_default(Structure<ShapeT> structure, double step, int count
   CAPTURE(structure.simulation.grain_count());
   CHECK(islands == 1);
   CHECK(unsolved <= 2 + count / 100);
-  CHECK(error <= options.velocity_tolerance);
+  CHECK(error <= 100 * options.velocity_tolerance);
   CHECK(moved < 0.01 * structure.joint);
 }
 

@@ -105,12 +105,12 @@ struct RoundBlock {
 template <class S>
 struct LaneRollingBlock {
   static constexpr std::size_t rows = S::dofs;  ///< D + A, rows of a contact
-  using Point = LaneBlock<S>;
+  using Point = LaneBlock<S>;                   ///< the block of the point alone
   using W = typename Point::W;
   using Values = typename Point::Values;
-  using Algebra = detail::LaneAlgebra<S, Values>;
+  using Algebra = detail::LaneAlgebra<S, Values>;  ///< products in every lane
   using Vector = std::array<Values, rows>;
-  using Couple = std::array<Values, std::size_t{S::angular_dim}>;
+  using Couple = std::array<Values, std::size_t{S::angular_dim}>;  ///< A rows
   using Memory = std::array<Values, 2>;  ///< of a local solution, see LaneLaw
 
   Point point;          ///< P

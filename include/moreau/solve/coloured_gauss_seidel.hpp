@@ -68,7 +68,9 @@ struct ColouredOptions {
   /// Whether small structures at rest are solved to velocity_tolerance, see SolveReport::velocity_error; false: by
   /// sweeps, like all others.
   bool islands = true;
-  double velocity_tolerance = 1e-5;  ///< on SolveReport::velocity_error, > 0 [-]
+  /// Aim of the direct method for SolveReport::velocity_error, > 0 [-]. A step counts as converged up to a hundred
+  /// times of it.
+  double velocity_tolerance = 1e-5;
 };
 
 /// The default solver of contact problems, for every set-valued law.
@@ -82,7 +84,7 @@ class ColouredGaussSeidel {
   requires SetValuedLaw<Law, typename Operator::Space>
   struct Workspace {
     detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
-    std::vector<typename Operator::Vector> first;  ///< result of a first attempt [N s]
+    std::vector<typename Operator::Vector> first;  ///< result of sweeps [N s]
     /// Small islands; contacts with other laws are solved by sweeps alone.
     std::conditional_t<CoulombLaw<Law, typename Operator::Space>,
                        detail::IslandSolver<Operator, Law>, NoIslands>
@@ -130,7 +132,7 @@ class ColouredGaussSeidel {
                                  std::span<typename Operator::Vector> impulses,
                                  Workspace<Operator, Law>& workspace) const {
     auto& islands = workspace.islands;
-    islands.start(problem, impulses, std::min(options_.velocity_tolerance, options_.tolerance));
+    islands.start(problem, impulses, options_.velocity_tolerance);
     if (islands.empty()) return sweep(problem, impulses, workspace);
     SolveReport report;
     const bool solved = islands.all_solved();
@@ -142,8 +144,16 @@ class ColouredGaussSeidel {
       islands.write(report);
       return report;
     }
+    const bool swept = report.converged;
+    const double residual = report.residual;
+    workspace.first.assign(impulses.begin(), impulses.end());
     islands.finish(problem, impulses, report.sweeps);
-    if (islands.attempted()) judge(problem, impulses, report.converged, islands, report);
+    if (!islands.attempted()) return report;
+    judge(problem, impulses, swept, islands, report);
+    if (!swept || report.residual <= std::max(residual, options_.tolerance)) return report;
+    // Impulses of islands that are not solved are worse than those of the sweeps.
+    std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
+    judge(problem, impulses, swept, islands, report);
     return report;
   }
 

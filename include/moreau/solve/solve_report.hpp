@@ -33,7 +33,8 @@ struct SolveReport {
   /// then add up unseen.
   double velocity_error = 0;
   int islands = 0;           ///< that the direct method attempted
-  int unsolved_islands = 0;  ///< of these, those whose error is above the tolerance: not converged
+  int unsolved_islands = 0;  ///< of these, those whose error is above a hundred times
+                             ///< ColouredOptions::velocity_tolerance: not converged
 
   // Measures of the last plain sweep by LMGC90: dv = W (change of r), means over the contacts with
   // r != 0.

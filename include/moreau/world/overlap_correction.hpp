@@ -6,9 +6,10 @@
 //     change of the gap by d >= rate (-gap - slop)   where gap < -slop
 //     change of the gap by d >= -(gap + slop)        elsewhere (no new overlap)
 //
-// by a few projected Gauss-Seidel sweeps over the normals. The sweeps carry a shift over few contacts. With the
-// option `islands` the shifts of small islands, such as tall stacks, are those of a direct method: d is a motion
-// under frictionless impulses with the free normal velocity -rate depth (solve/detail/island_newton.hpp).
+// by a few projected Gauss-Seidel sweeps over the normals. The sweeps carry a shift over few contacts. The shifts of
+// columns, arches and other small islands in which no more pairs touch than there are bodies are those of a direct
+// method: d is a motion under frictionless impulses with the free normal velocity -rate depth
+// (solve/detail/island_newton.hpp).
 //
 // No body is moved by more than max_shift in a step: the gaps are linear in d, and contacts beyond the margin
 // are not known, only for small d. The report has the work of the external forces along the shift.
@@ -43,8 +44,8 @@ struct OverlapCorrectionOptions {
   /// Largest displacement of a body in one step, of its centre and by its rotation at half a grain size
   /// from there, relative to the grain size, > 0 [-]. The default is the default margin of detection.
   double max_shift = 0.02;
-  /// Whether a direct method corrects islands of up to 200 bodies, if their matrix is sparse
-  bool islands = false;
+  /// Whether a direct method corrects islands of up to 200 bodies in which no more pairs touch than there are bodies
+  bool islands = true;
 };
 
 /// Results of the correction in one step.
@@ -154,7 +155,8 @@ class OverlapCorrection {
   void correct_islands(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
                        Scalar largest) {
     constexpr std::size_t most_bodies = 200;
-    constexpr typename Newton::Precision precision{1e-3, 1e-4, 30};
+    constexpr double first_epsilon = 1e-4;
+    constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
     islands_.find(op);
     pushes_.assign(contacts.size(), S::Vector::Zero());
     const auto is_deep = [&](std::uint32_t c) { return rows_[c].depth > 0; };
@@ -169,9 +171,9 @@ class OverlapCorrection {
         continue;
       newton_.assign(
           op, own, [&](std::size_t body) { return islands_.moves(body); }, free, law);
-      if (newton_.cost_of_step() > 100 * double(own.size()) ||
-          !(newton_.start(pushes_) >= 0 && newton_.solve(1e-4, precision) <= precision.tolerance))
-        continue;
+      if (!newton_.is_chain()) continue;
+      newton_.start(pushes_);
+      if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);
       for (const std::uint32_t c : own) {
         rows_[c].done = true;

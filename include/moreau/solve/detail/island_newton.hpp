@@ -61,6 +61,8 @@ class IslandNewton {
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
   }
+  /// Whether the bodies touch like those of a column, an arch or a tree: no more pairs than bodies.
+  bool is_chain() const { return points_.edges().size() <= points_.bodies(); }
   /// What a step of Newton's method costs, in visits of a contact by a sweep; infinite if more pairs of bodies
   /// touch than in structures. Finds the order of the factorization.
   double cost_of_step() {
@@ -110,14 +112,15 @@ class IslandNewton {
     matrix_.analyse(points_.bodies(), points_.edges());
     steps_ = 0;
     is_better_ = false;
-    double error = 0, before = 0, first = 0;
+    first_ = 0;
+    double error = 0, before = 0;
     while (proximal_step(epsilon, precision.most_steps, tolerance)) {
       const double change = std::max(largest_change(), next_shifts());
       if (!std::isfinite(change)) break;
       const double q = before > 0 ? std::min(largest_q, change / before) : 0;
       error = change / (1 - q);
-      if (first == 0) first = change;
-      is_better_ = change <= first;
+      if (first_ == 0) first_ = change;
+      is_better_ = change <= first_;
       std::swap(centre_, found_);
       std::swap(y_, next_);
       // A mode whose stiffness is `least` shows only the share least / epsilon of its error.
@@ -130,6 +133,9 @@ class IslandNewton {
   /// Whether the impulses that solve() has found are better than those from which it started, as far as is known:
   /// the last proximal step changed the motion no more than the first one.
   bool is_better() const { return is_better_; }
+  /// Change of the motion by the first proximal step, an estimate of the error of the impulses from which solve()
+  /// started [-]; 0 if that step did not succeed.
+  double first_change() const { return first_; }
   /// Writes the impulses that solve() has found [N s].
   void finish(std::span<Impulse> impulses) const {
     for (std::size_t k = 0; k < centre_.size(); ++k)
@@ -142,8 +148,8 @@ class IslandNewton {
   using Tangent = Eigen::Matrix<double, S::dim - 1, 1>;
   static constexpr double lower = 0.1;
   /// Measured: response and assembly of a contact, and product of two blocks, in visits of a sweep.
-  static constexpr double visits_per_contact = S::dim == 3 ? 15 : 5,
-                          visits_per_block = S::dim == 3 ? 6 : 1;
+  static constexpr double visits_per_contact = 5 * S::angular_dim,
+                          visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
 
   void move_to_centre() {
@@ -311,6 +317,7 @@ class IslandNewton {
 
   Points points_;
   int steps_ = 0;
+  double first_ = 0;                           // see first_change()
   bool is_better_ = false;                     // the impulses than those from which solve() started
   std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
   std::vector<double> shift_;                  // sigma [m/s]

@@ -93,7 +93,7 @@ class IslandSolver {
       if (one.error == not_attempted) continue;
       report.velocity_error = std::max(report.velocity_error, one.error);
       ++report.islands;
-      report.unsolved_islands += !is_solved(one);
+      report.unsolved_islands += one.error > accepted * tolerance_;
     }
   }
 
@@ -107,7 +107,6 @@ class IslandSolver {
     double error;   // relative [-]
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
-  static constexpr bool in_space = Operator::Space::dim == 3;
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
   /// first bound an island is attempted in every step, up to the second before the sweeps.
   static constexpr double solved_defect = 1e-5, largest_defect = 0.01;
@@ -115,13 +114,15 @@ class IslandSolver {
   static constexpr double least_epsilon = 1e-6, warm_epsilon = 1e-5, late_epsilon = 1e-4;
   /// Newton steps of an attempt after the sweeps, at most and usually.
   static constexpr int most_steps = 60, usual_steps = 20;
-  /// Impulses are kept up to this multiple of the tolerance: they are a better start for the next step.
-  static constexpr double near = 10;
+  /// Multiples of the tolerance: up to the first one impulses are kept, as a better start for the next step; up to the
+  /// second one an island counts as solved.
+  static constexpr double near = 10, accepted = 100;
   /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
   /// Newton step of islands that are attempted in every step, as in columns, arches and low walls; a Newton step at
   /// most; all Newton steps before the sweeps at most.
-  static constexpr double other_visits = in_space ? 25 : 12, cheap_visits = in_space ? 22 : 8,
-                          most_visits = in_space ? 30 : 12, warm_visits = in_space ? 150 : 60;
+  static constexpr double unit = Operator::Space::angular_dim, other_visits = 8 * unit,
+                          cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
+                          warm_visits = 50 * unit;
 
   bool is_solved(const Small& one) const { return one.error <= tolerance_; }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
@@ -130,7 +131,9 @@ class IslandSolver {
   static bool is_drawn(const Small& one, double visits, int sweeps) {
     if (one.is_new || one.cost <= cheap_visits) return true;
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
-    const std::uint64_t hash = (std::bit_cast<std::uint64_t>(one.defect) * golden) >> 32;
+    constexpr int dropped = 44;  // bits of the defect that rounding may change
+    const std::uint64_t hash =
+        ((std::bit_cast<std::uint64_t>(one.defect) >> dropped) * golden) >> 32;
     return std::ldexp(double(hash), -32) * visits < other_visits + sweeps;
   }
   /// Before the sweeps.
@@ -149,7 +152,10 @@ class IslandSolver {
   }
   void improve(Small& one, Impulses impulses, double epsilon, int steps) {
     one.error = newton_.solve(epsilon, {tolerance_, least_epsilon, steps});
-    if (newton_.is_better() && one.error <= near * tolerance_) newton_.finish(impulses);
+    if (newton_.is_better() && one.error <= near * tolerance_)
+      newton_.finish(impulses);
+    else
+      one.error = newton_.first_change() > 0 ? newton_.first_change() : not_attempted;
   }
 
   double tolerance_ = 0;
