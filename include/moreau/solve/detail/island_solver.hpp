@@ -74,6 +74,8 @@ class IslandSolver {
     for (Small& one : small_) {
       if (one.error <= near * tolerance_)
         for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
+      else
+        one.error = not_attempted;  // that was the error of the warm start
       if (is_solved(one) || !is_drawn(one, usual_steps * one.cost, sweeps)) continue;
       take(problem, one.island);
       newton_.start(impulses);
