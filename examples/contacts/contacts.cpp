@@ -44,4 +44,5 @@ int main() {
     }
     std::cout << '\n';
   }
+  return 0;
 }
