@@ -9,7 +9,7 @@ struct SolveReport {
   int sweeps = 0;         ///< passes over all contacts, those of a first attempt included
   bool converged = true;  ///< the stopping test was met
   /// Not converged: the cap on sweeps was reached before the stopping test was met with
-  /// relative_approach <= max_relative_approach.
+  /// relative_approach <= max_relative_approach, or islands are unsolved.
   bool capped = false;
 
   /// Natural-map residual || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the

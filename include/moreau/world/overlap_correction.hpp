@@ -163,14 +163,14 @@ class OverlapCorrection {
     const auto free = [&](std::size_t c) {
       return typename S::Vector(-target(rows_[c], largest) * S::Vector::Unit(0));
     };
-    const auto law = [](std::size_t) { return 0.0; };
+    const auto frictionless = [](std::size_t) { return 0.0; };
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto own = islands_.contacts(k);
       if (own.size() < 2 || islands_.bodies(k) > most_bodies ||
           std::none_of(own.begin(), own.end(), is_deep))
         continue;
       newton_.assign(
-          op, own, [&](std::size_t body) { return islands_.moves(body); }, free, law);
+          op, own, [&](std::size_t body) { return islands_.moves(body); }, free, frictionless);
       if (!newton_.is_chain()) continue;
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;

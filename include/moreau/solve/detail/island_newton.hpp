@@ -145,7 +145,6 @@ class IslandNewton {
  private:
   using Vector = typename Points::Vector;
   using Coordinates = typename Points::Coordinates;
-  using Tangent = Eigen::Matrix<double, S::dim - 1, 1>;
   static constexpr double lower = 0.1;
   /// Measured: response and assembly of a contact, and product of two blocks, in visits of a sweep.
   static constexpr double visits_per_contact = 5 * S::angular_dim,
