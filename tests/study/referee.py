@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: MIT
+"""Numbers of the first pages and of the report of the study, computed again from the table of the runs by another way: own selection
+of the runs, own statistics (Student's t by integration of its density, medians by the bootstrap beside Welch's intervals). Shares no code
+with the scripts that write the pages. Argument: the top folder."""
+import json
+import math
+import pathlib
+import random
+import re
+import sys
+import unittest
+
+TOP = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
+RESULTS = TOP / "examples/ratcheting/results"
+LINES = [json.loads(line) for line in (RESULTS / "runs.jsonl").read_text(encoding="utf8").splitlines()]
+
+
+def pick(shape, rigid, jammed, control=False, **other):
+    """One number of periods and one set of parameters; every parameter that is not named has the paper's value."""
+    want = {"grains": 1200, "frequency": 5, "gravity": 9.81, "wall_mass_ratio": 0.5, "box_ratio": 1, "size_scale": 1, "friction": 0.4,
+            "fmin": 0, "size_reading": "circumdiameter", "lid_force_weights": 10, "flatness": 1, "wall_speed": 0, "fewest_vertices": 0,
+            "most_vertices": 0, "width_ratio": 1, "side_walls": "frictionless", "stiffness": None if rigid else 1e8, "step": 2e-4,
+            "tolerance": 1e-4 if rigid else 1e-5, "fmax": None} | other
+    if want["fmax"] is None:
+        want["fmax"] = 5 * want["grains"]
+    usual = {"flatness": 1, "wall_speed": 0, "fewest_vertices": 0, "most_vertices": 0, "width_ratio": 1, "side_walls": "frictionless"}
+    found = []
+    for line in LINES:
+        p = line["parameters"]
+        if p["shape"] != shape or ("from" in p) != jammed or (p["method"] == "contact-dynamics") != rigid:
+            continue
+        if (p["seed"] > 30) != control or p["max_sweeps"] == 200 or p["overlap_correction"] != rigid:
+            continue
+        if any(v is not None and not _same(p.get(k, usual.get(k)), v) for k, v in want.items()):
+            continue
+        count = len(line["periods"]["x_j"])
+        if jammed and not 4 <= count <= 5 or not jammed and not 0.5 < p["duration"] <= 1:
+            continue
+        found.append(line)
+    longest = max((line["parameters"]["duration"] for line in found), default=0)
+    return [line for line in found if jammed or line["parameters"]["duration"] == longest]
+
+
+def _same(a, b):
+    return abs(a - b) <= 1e-9 * abs(b) if isinstance(b, (int, float)) and a is not None else a == b
+
+
+def excursion_over_load(line, key="dx_active"):
+    """C = Δx (m + m_w) fmax ν² / (m g)²."""
+    p = line["parameters"]
+    return line[key] * (1 + p["wall_mass_ratio"]) * line["mass"] * p["fmax"] * p["frequency"] ** 2 / (line["mass"] * p["gravity"]) ** 2
+
+
+def period_strain(line):
+    """Of the first four periods, from the positions of the wall at the maxima of f."""
+    x = line["periods"]
+    return sum(a - b for a, b in zip(x["x_j"][:4], x["x_j_after"][:4])) / (4 * line["length"])
+
+
+def t_quantile(freedom):
+    """t with 95 % of Student's density between -t and t, by Simpson's rule."""
+    scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
+
+    def half_mass(t, n=4000):
+        h = t / n
+        f = [(1 + (k * h) ** 2 / freedom) ** (-(freedom + 1) / 2) for k in range(n + 1)]
+        return scale * h / 3 * (f[0] + f[-1] + 4 * sum(f[1:-1:2]) + 2 * sum(f[2:-1:2]))
+    low, high = 1.0, 40.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if half_mass(middle) < 0.475 else (low, middle)
+    return low
+
+
+def mean_and_variance(values):
+    m = sum(values) / len(values)
+    return m, sum((v - m) ** 2 for v in values) / (len(values) - 1) / len(values)
+
+
+def student(values):
+    m, variance = mean_and_variance(values)
+    half = t_quantile(len(values) - 1) * math.sqrt(variance)
+    return m, m - half, m + half
+
+
+def welch(above, below, logs=True):
+    """Ratio of geometric means, or of means by propagation of their errors."""
+    if logs:
+        (a, va), (b, vb) = (mean_and_variance([math.log(v) for v in x]) for x in (above, below))
+        centre = a - b
+    else:
+        (a, va), (b, vb) = (mean_and_variance(x) for x in (above, below))
+        centre, va, vb = math.log(a / b), va / a ** 2, vb / b ** 2
+    freedom = (va + vb) ** 2 / (va ** 2 / (len(above) - 1) + vb ** 2 / (len(below) - 1))
+    half = t_quantile(freedom) * math.sqrt(va + vb)
+    return math.exp(centre), math.exp(centre - half), math.exp(centre + half)
+
+
+def bootstrap(above, below, count=4000):
+    """95 % range of the ratio of geometric means of resampled samples."""
+    draw = random.Random(5)
+    logs = [[math.log(v) for v in x] for x in (above, below)]
+    ratios = sorted(math.exp(sum(draw.choices(logs[0], k=len(above))) / len(above) - sum(draw.choices(logs[1], k=len(below))) / len(below))
+                    for _ in range(count))
+    return ratios[count // 40], ratios[-count // 40]
+
+
+def strain_over_root(line):
+    p = line["parameters"]
+    load = line["mass"] * p["gravity"] ** 2 / ((1 + p["wall_mass_ratio"]) * p["fmax"] * p["frequency"] ** 2)
+    return period_strain(line) / math.sqrt(load / line["length"])
+
+
+# Name in the templates: function of a run, factor, whether ratios are of means.
+MEASURED = {
+    "C": (excursion_over_load, 1, False), "C_drift": (lambda r: excursion_over_load(r, "dx_max"), 1, False),
+    "strain": (period_strain, 1e4, True), "strain_root": (strain_over_root, 1e3, True), "dx": (lambda r: r["dx_active"], 1e3, False),
+    "rate": (lambda r: r["rate"], 1e3, True), "rho_box": (lambda r: r["rho_box_initial"], 1, False),
+    "rho_start": (lambda r: r["rho_initial"], 1, False), "rho_02": (lambda r: r["rho_0"], 1, False),
+    "stress": (lambda r: r["behaviour"]["jammed_xx"] / r["behaviour"]["jammed_zz"], 1, False),
+    "stress_active": (lambda r: r["behaviour"]["active_xx"] / r["behaviour"]["active_zz"], 1, False),
+    "extension": (lambda r: r["behaviour"]["rho_extension"], 1e4, False), "contraction": (lambda r: r["behaviour"]["rho_contraction"], 1e4, False),
+    "delay": (lambda r: r["delay"], 1e3, False),
+    "rise": (lambda r: r["behaviour"]["active_slope"] * r["dx_active"] / r["parameters"]["fmax"], 100, False)}
+NAMED = {"box": "box_ratio", "nu": "frequency", "wall": "wall_mass_ratio", "mu": "friction", "size": "size_scale", "lid": "lid_force_weights",
+         "fmax": "fmax", "flat": "flatness"}
+BOXES = {"polygon": {8: 49, 10.7: 91, 16: 209, 24: 480}, "disk": {8: 29, 10.7: 54, 16: 112, 24: 291},
+         "polyhedron": {8: 493, 10.7: 1200, 16: 4063}, "sphere": {8: 174, 10.7: 424, 16: 1200, 24: 4876}}
+
+
+def chosen(words):
+    """The runs that a name of the templates means: SHAPE SET options, or SHAPE CONTACTS START options of the controls."""
+    shape, kind, *more = words
+    other = dict(word.split("=") for word in more if "=" in word)
+    if kind in ("rigid", "compliant") and more and more[0] in ("filling", "jammed"):
+        grains = 1200 if "thousand" in more else BOXES[shape][float(other.get("L", 10.7))]
+        grains = round(grains * float(other.get("W", 1)))
+        want = {"grains": grains, "frequency": float(other.get("nu", 5)), "fmax": 5 * grains * float(other.get("force", 1)),
+                "width_ratio": float(other.get("W", 1)), "side_walls": other.get("walls", "frictionless"), "box_ratio": 1 if grains == 1200 else None}
+        if kind == "compliant":
+            want["stiffness"] = 1e8 * float(other.get("k", 1))
+        return [r for control in (False, True) for r in pick(shape, kind == "rigid", more[0] == "jammed", control, **want)]
+    want = {NAMED[key]: float(value) for key, value in other.items()}
+    if "small" in more:
+        want |= {"grains": {"polygon": 94, "disk": 111}[shape], "box_ratio": 0.9} | ({"tolerance": 1e-5} if kind == "rigid" else {})
+    elif "fmax" not in want:
+        want["fmax"] = 6000
+    return pick(shape, kind == "rigid", kind == "jammed", **want)
+
+
+def of_samples(found, value):
+    """One number for each sample, without those that are not known."""
+    samples = {}
+    for line in found:
+        samples.setdefault(line["parameters"]["seed"], []).append(value(line))
+    return [sum(v) / len(v) for v in samples.values() if all(x is not None and math.isfinite(x) for x in v)]
+
+
+def expected(name):
+    """Value, low and high end of the interval, numbers of samples; None for a name that is not known here."""
+    word, *rest = name.split()
+    if word == "control":
+        word, *rest = rest
+    if word not in MEASURED or not rest:
+        return None
+    value, factor, of_means = MEASURED[word]
+    if "/" in rest:
+        cut = rest.index("/")
+        above, below = (of_samples(chosen(part), value) for part in (rest[:cut], rest[cut + 1:]))
+        if min(len(above), len(below)) < 2:
+            return None
+        return (*welch(above, below, not of_means), len(above), len(below))
+    values = of_samples(chosen(rest), value)
+    return (*(factor * v for v in student(values)), len(values)) if len(values) > 1 else None
+
+
+NUMBERS = re.compile(r"(−?[\d.]+) \[(−?[\d.]+), (−?[\d.]+)\] \((\d+)(?: and (\d+))?\)")
+
+
+def told(template, page):
+    """(name, text) of every place of a template, from the page that was made of it."""
+    lines = iter(page.splitlines())
+    for row in template.splitlines():
+        if re.fullmatch(r"\{(?:table|control_table|not_run)[^}]*\}", row):
+            continue
+        places = re.findall(r"\{([^{}]+)\}", row)
+        pattern = re.compile("(.*?)".join(re.escape(part) for part in re.split(r"\{[^{}]+\}", row)) + r"\Z")
+        for line in lines:
+            match = pattern.match(line)
+            if match:
+                yield from zip(places, match.groups())
+                break
+
+
+class Referee(unittest.TestCase):
+    def test_numbers_of_the_pages(self):
+        checked = 0
+        for name in ("README", "report", "supplement"):
+            places = list(told(*((RESULTS / (name + end)).read_text(encoding="utf8") for end in (".md.in", ".md"))))
+            self.assertGreater(len(places), 30, name)
+            for place, text in places:
+                found, want = NUMBERS.fullmatch(text), expected(place)
+                if not found or want is None:
+                    continue
+                checked += 1
+                last = 0.51 * 10.0 ** -len(found[1].partition(".")[2])
+                for k, number in enumerate(want[:3], 1):
+                    self.assertLess(abs(float(found[k].replace("−", "-")) - number), last + 2e-4 * abs(number), f"{name}: {{{place}}}: {text}, {want}")
+                self.assertEqual([int(n) for n in found.groups()[3:] if n], list(want[3:]), f"{name}: {{{place}}}: {text}")
+        self.assertGreater(checked, 150)
+
+    def test_intervals_hold_by_the_bootstrap(self):
+        # Welch's interval is not narrower than four fifths of that of the bootstrap, which is too narrow for few samples.
+        for plane, space in (("polygon", "polyhedron"), ("disk", "sphere")):
+            above, below = (of_samples(chosen([s, "jammed"]), excursion_over_load) for s in (plane, space))
+            _, low, high = welch(above, below)
+            least, most = bootstrap(above, below)
+            self.assertGreater(high / low, (most / least) ** 0.8)
+
+
+if __name__ == "__main__":
+    unittest.main()
