@@ -57,6 +57,7 @@ void check_bits(const std::string& start, int steps) {
 
 TEST_CASE("The state has the same bits for any number of processes") {
   check_bits<OrderedPolygons>(snapshot(box_of_grains<OrderedPolygons>(80)), 240);
+  check_bits<OrderedRollingBalls>(snapshot(box_of_grains<OrderedRollingBalls>(60)), 120);
   check_bits<OrderedSoftPolyhedra>(snapshot(box_of_grains<OrderedSoftPolyhedra>(60)), 200);
 }
 

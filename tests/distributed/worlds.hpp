@@ -17,6 +17,7 @@
 #include "moreau/distributed/distributed_simulation.hpp"
 #include "moreau/distributed/reproducible_gauss_seidel.hpp"
 #include "moreau/law/compliant.hpp"
+#include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
@@ -30,14 +31,17 @@ using namespace moreau;
 
 using Rigid = SignoriniCoulomb<>;
 using Soft = Compliant<>;
+using Rolling = RollingResistance<>;
 using Polygons = Simulation<Polygon<>, Rigid>;
 using Balls = Simulation<Ball<>, Rigid>;
+using RollingBalls = Simulation<Ball<>, Rolling>;
 using SoftPolyhedra = Simulation<Polyhedron<>, Soft>;
 /// With the solver that has the same bits for any number of processes.
 template <class ShapeT, class Law>
 using Ordered =
     Simulation<ShapeT, Law, MoreauJean, CellGrid<SpaceOf<ShapeT>>, ReproducibleGaussSeidel>;
 using OrderedPolygons = Ordered<Polygon<>, Rigid>;
+using OrderedRollingBalls = Ordered<Ball<>, Rolling>;
 using OrderedSoftPolyhedra = Ordered<Polyhedron<>, Soft>;
 
 template <class World>
@@ -75,6 +79,8 @@ World empty_world(double tolerance = 1e-6) {
   const Law law = [] {
     if constexpr (std::is_same_v<Law, Soft>)
       return Soft(Rigid(0.4), 1e6);
+    else if constexpr (std::is_same_v<Law, Rolling>)
+      return Rolling(0.4, 0.1);
     else
       return Rigid(0.4);
   }();
@@ -146,13 +152,20 @@ SolveReport measured_on_one_rank(World before, const World& after) {
     return report;
   }
   auto problem = before.contact_problem();
-  std::vector<typename S::Vector> impulses;
-  for (std::size_t c = 0; c < mine.size(); ++c)
-    impulses.push_back(mine.points[c].frame.transpose() *
-                       (found.points[c].frame * found.impulses[c]));
+  using Row = typename std::remove_cvref_t<decltype(problem)>::Vector;
+  std::vector<Row> impulses;
+  for (std::size_t c = 0; c < mine.size(); ++c) {
+    Row& row = impulses.emplace_back();
+    const typename S::Matrix &my_frame = mine.points[c].frame, &found_frame = found.points[c].frame;
+    linear<S>(row) = my_frame.transpose() * (found_frame * found.impulses[c]);
+    if constexpr (Rolls<LawIn<World>>)
+      angular<S>(row) = S::angular_frame(my_frame).transpose() *
+                        (S::angular_frame(found_frame) * found.couples[c]) /
+                        problem.delassus.radius(c);
+  }
   problem.delassus.clear();
   for (std::size_t c = 0; c < mine.size(); ++c) problem.delassus.apply(c, impulses[c]);
-  measure_residual(problem, std::span<const typename S::Vector>(impulses), report);
+  measure_residual(problem, std::span<const Row>(impulses), report);
   return report;
 }
 
@@ -166,8 +179,10 @@ namespace moreau {
 #endif
 MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::Polygons>;
 MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::Balls>;
+MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::RollingBalls>;
 MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::SoftPolyhedra>;
 MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::OrderedPolygons>;
+MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::OrderedRollingBalls>;
 MOREAU_DISTRIBUTED_INSTANCE class DistributedSimulation<distributed_test::OrderedSoftPolyhedra>;
 MOREAU_DISTRIBUTED_INSTANCE StepReport Simulation<Polyhedron<>, Compliant<>>::step(double);
 }  // namespace moreau

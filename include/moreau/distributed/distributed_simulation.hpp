@@ -70,7 +70,7 @@ struct DistributionReport {
 ///
 /// A std::exception in one process ends all processes with one message that names the process.
 ///
-/// @tparam World a Simulation whose law is a PointLaw without attraction, and whose solver can share
+/// @tparam World a Simulation whose law is a SetValuedLaw without attraction, and whose solver can share
 ///               bodies (ColouredGaussSeidel, ReproducibleGaussSeidel)
 template <class World>
 class DistributedSimulation;
@@ -84,7 +84,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   using S = typename World::S;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
-  static_assert(PointLaw<Law, S>, "DistributedSimulation: the law has couples or is regularized");
+  static_assert(SetValuedLaw<Law, S>, "DistributedSimulation: the law is regularized");
   static_assert(!AttractiveLaw<Law, S>, "DistributedSimulation: the law attracts");
   static_assert(
       requires(Solver solver) { solver.share_bodies(nullptr); },

@@ -39,6 +39,7 @@
 #include "moreau/distributed/detail/ordered_sharing.hpp"
 #include "moreau/distributed/detail/pair_colours.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/measure_residual.hpp"
@@ -67,7 +68,7 @@ class OrderedSweeps {
 
   OrderedSweeps(Problem& problem, std::span<Vector> impulses, OrderedSharing* sharing)
       : problem_(problem), base_(problem.delassus), impulses_(impulses), sharing_(sharing) {
-    colours_.find(base_, sharing);
+    colours_.find(points(base_), sharing);
     before_.assign(impulses.begin(), impulses.end());
     count_points_at_walls();
   }
@@ -125,7 +126,14 @@ class OrderedSweeps {
   double count() const { return sum_over(sharing_, double(problem_.size())); }
 
  private:
+  using Rigid = RigidOperatorOf<Law, S>;
   static constexpr std::size_t width = BodyDelassus<S>::width;
+  static const BodyDelassus<S>& points(const Rigid& op) {
+    if constexpr (Rolls<Law>)
+      return op.points();
+    else
+      return op;
+  }
   std::span<T> velocities() { return base_.velocity_changes(); }
   MOREAU_COMPILED_ONCE static void extrapolate(T* now, T* before, T beta) {
     for (std::size_t k = 0; k < width; ++k) {
@@ -203,7 +211,7 @@ class OrderedSweeps {
   MOREAU_COMPILED_ONCE T heavier(std::uint32_t c, const ColouredPair& pair,
                                  std::size_t colour) const {
     const auto [a, b] = base_.bodies(c);
-    const typename S::Matrix of_wall =
+    const typename Rigid::Matrix of_wall =
         a == colours_.walls()[pair.wall] ? base_.block_of_a(c) : base_.block_of_b(c);
     const T share = base_.block(c).matrix().inverse().cwiseProduct(of_wall).sum();
     const std::int64_t points = points_at_walls_[colour * colours_.walls().size() + pair.wall];
@@ -214,14 +222,13 @@ class OrderedSweeps {
     Vector u = base_.velocity(c);
     if constexpr (CompliantLaw<Law, S>) u += problem_.delassus.compliance(c).cwiseProduct(guess);
     if (guess[0] == 0 && u[0] >= 0) return Vector::Zero();
-    LocalBlock<S> block = base_.block(c);
-    block.normal *= heavier;
-    block.slip *= heavier;
+    BlockOf<Law, S> block = base_.block(c);
+    block *= heavier;
     return problem_.law(c).solve(block, Vector(u - block * guess), guess);
   }
 
   Problem& problem_;
-  BodyDelassus<S>& base_;
+  Rigid& base_;  // without the springs of compliant contacts
   std::span<Vector> impulses_;
   OrderedSharing* sharing_;
   PairColours<S> colours_;
@@ -240,7 +247,7 @@ class ReproducibleGaussSeidel {
   using Options = ReproducibleOptions;
   /// Needs no buffers.
   template <class Operator, class Law>
-  requires PointLaw<Law, typename Operator::Space>
+  requires SetValuedLaw<Law, typename Operator::Space>
   struct Workspace {
   };
   /// Bodies are shared by several processes, but not split.
