@@ -99,8 +99,15 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
       ->check(positive);
   app.add_option("--box-ratio", p.box_ratio, "height / length of the box")->check(positive);
   app.add_option("--box-length", p.box_length,
-                 "length and width of the box [m]; 0: computed from the volume of the grains")
+                 "length of the box [m]; 0: computed from the volume of the grains")
       ->check(not_negative);
+  app.add_option("--width-ratio", p.width_ratio, "width / length of the box, in space")
+      ->check(positive);
+  app.add_option(
+         "--side-walls", p.side_walls,
+         "walls parallel to the motion of the moving wall, in space: without friction, with "
+         "that of the grains, or none and a periodic axis")
+      ->check(CLI::IsMember({"frictionless", "frictional", "periodic"}));
   app.add_option("--lid-force", p.lid_force,
                  "force on the lid in the preparation / weight of the grains at 9.81 m/s^2")
       ->check(positive);
@@ -194,6 +201,11 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
                  "checkpoint of another run at a maximum of its force, of the same sample and "
                  "method: start from it in place of a packing")
       ->check(CLI::ExistingFile);
+  app.add_option(
+         "--from-method", p.from_method,
+         "method of the run that made the checkpoint of --from, for contact-dynamics; unset: "
+         "that of this run")
+      ->check(CLI::IsMember({"compliant"}));
   app.add_option("--hold", p.hold,
                  "time at fmax before the harmonic force begins at a maximum, for --from [s]")
       ->check(not_negative);
@@ -223,6 +235,12 @@ std::optional<Parameters> parse(int argc, char** argv, int& exit_status) {
   }
   if (p.wall_speed > 0 && p.from.empty()) {
     std::cerr << "--wall-speed: needs --from\n";
+    exit_status = 2;
+    return std::nullopt;
+  }
+  const bool planar = p.shape == "polygon" || p.shape == "disk" || p.shape == "compound_polygon";
+  if (planar && (p.width_ratio != 1 || p.side_walls != "frictionless")) {
+    std::cerr << "--width-ratio, --side-walls: a box of the plane has no side walls\n";
     exit_status = 2;
     return std::nullopt;
   }

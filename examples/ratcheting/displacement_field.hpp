@@ -34,7 +34,8 @@ class DisplacementField {
       now.push_back(simulation.bodies().pose[simulation.grain(k).index()].position);
     if (maxima == last_ + 1 && before_.size() == now.size()) {
       if (!field_) field_.emplace(experiment.box(), field_cells, field_cells);
-      for (std::size_t k = 0; k < now.size(); ++k) field_->add(before_[k], now[k] - before_[k]);
+      for (std::size_t k = 0; k < now.size(); ++k)
+        field_->add(before_[k], now[k] - before_[k], simulation.cell());
       ++periods_;
     }
     before_ = std::move(now);

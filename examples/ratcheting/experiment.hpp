@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -57,7 +58,10 @@ class Experiment {
     thickness_ = thickness;
     mass_ = p.density * thickness * volume_;
     length_ = p.box_length > 0 ? p.box_length : length_from_volume();
-    const auto poses = moreau::random_deposition<S>(grains.circumradii, length_, random_);
+    width_ = p.width_ratio * length_;
+    std::array<double, std::size_t(up)> floor;
+    for (int k = 0; k < up; ++k) floor[std::size_t(k)] = extent(k);
+    const auto poses = moreau::random_deposition<S>(grains.circumradii, floor, random_);
     double top = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const auto shape = simulation_.add_shape(grains.shapes[i]);
@@ -186,6 +190,26 @@ class Experiment {
     start_ = simulation_.time() - parameters_.begin();
   }
 
+  /// Gives grains and walls the positions and velocities of an experiment of the same sample with
+  /// another law, in place of compress() and release().
+  template <class Other>
+  void place_as(const Other& other) {
+    const auto& from = other.simulation();
+    for (std::size_t k = 0; k < simulation_.grain_count(); ++k) {
+      const auto grain = simulation_.grain(k);
+      const auto& velocity = from.bodies().velocity[from.grain(k).index()];
+      simulation_.set_pose(grain, from.pose(from.grain(k)));
+      simulation_.set_velocity(grain, velocity.template head<S::dim>());
+      simulation_.set_spin(grain, velocity.template tail<S::angular_dim>());
+    }
+    simulation_.set_pose(wall_, from.pose(other.wall()));
+    simulation_.set_velocity(wall_, from.velocity(other.wall()));
+    auto lid = simulation_.pose(lid_);
+    lid.position[up] = height_ = other.height();
+    simulation_.set_pose(lid_, lid);
+    settled_ = other.settled();
+  }
+
   double time() const { return simulation_.time() - start_; }  ///< since f started [s]
   /// Displacement of the wall, outward positive [m].
   double displacement() const { return simulation_.pose(wall_).position[0] - length_; }
@@ -211,6 +235,7 @@ class Experiment {
   double wall_mass() const { return wall_mass_; }
   double volume() const { return volume_; }
   double length() const { return length_; }
+  double width() const { return width_; }  ///< in the plane as in space
   double height() const { return height_; }
   double thickness() const { return thickness_; }
   moreau::BodyId wall() const { return wall_; }
@@ -218,7 +243,7 @@ class Experiment {
   moreau::Aabb<S> box() const {
     moreau::Aabb<S> box;
     box.lower.setZero();
-    box.upper.setConstant(length_);
+    for (int k = 0; k < up; ++k) box.upper[k] = extent(k);
     box.upper[0] += displacement();
     box.upper[up] = height_;
     return box;
@@ -284,11 +309,15 @@ class Experiment {
     return simulation;
   }
 
-  /// L = W from V = rho L^D H/L, where rho is the solid fraction after the compression: about 0.53
+  /// Length of the box along a horizontal axis at displacement 0 [m].
+  double extent(int axis) const { return axis == 0 ? length_ : width_; }
+
+  /// L from V = rho L^D H/L W/L, where rho is the solid fraction after the compression: about 0.53
   /// in space and 0.80 in the plane for angular grains. An error of rho only changes H/L.
   double length_from_volume() const {
     constexpr double packed[] = {0.80, 0.53};
-    return std::pow(volume_ / (packed[S::dim - 2] * parameters_.box_ratio), 1.0 / S::dim);
+    const double ratios = parameters_.box_ratio * parameters_.width_ratio;
+    return std::pow(volume_ / (packed[S::dim - 2] * ratios), 1.0 / S::dim);
   }
 
   /// Makes a new simulation with the same packing, with the grains in another order and the walls
@@ -316,9 +345,15 @@ class Experiment {
   void add_walls(double top) {
     const moreau::MaterialId horizontal(1), vertical(2);
     for (int axis = 0; axis < up; ++axis) {
+      if (axis > 0 && parameters_.side_walls == "periodic") {
+        simulation_.set_periodic(axis, 0, extent(axis));
+        continue;
+      }
+      const bool rough = axis > 0 && parameters_.side_walls == "frictional";
+      const auto material = rough ? horizontal : vertical;
       const Vector n = Vector::Unit(axis);
-      simulation_.add_wall(n, Vector::Zero(), vertical);
-      const auto far = simulation_.add_wall(-n, length_ * n, vertical);
+      simulation_.add_wall(n, Vector::Zero(), material);
+      const auto far = simulation_.add_wall(-n, extent(axis) * n, material);
       if (axis == 0) wall_ = far;
     }
     const Vector n = Vector::Unit(up);
@@ -329,7 +364,8 @@ class Experiment {
   Parameters parameters_;
   std::mt19937_64 random_;
   Simulation simulation_;
-  double volume_ = 0, thickness_ = 1, mass_ = 0, wall_mass_ = 0, length_ = 0, height_ = 0;
+  double volume_ = 0, thickness_ = 1, mass_ = 0, wall_mass_ = 0, length_ = 0, width_ = 0,
+         height_ = 0;
   double start_ = 0;
   double old_stiffness_ = 0;  // that still changes to the stiffness of the run; 0: none [N/m]
   bool settled_ = false;

@@ -26,9 +26,13 @@ struct Parameters {
   double duration = 1;           ///< of the simulation under the force [s]
   double step = 2e-4;            ///< h [s]
   moreau::SizeReading size_reading = moreau::SizeReading::circumdiameter;
-  double size_scale = 1;    ///< factor on the paper's sizes 2.5, 3.75 and 5 cm
-  double box_ratio = 1;     ///< intended H / L
-  double box_length = 0;    ///< L = W [m]; 0: from the sample's volume
+  double size_scale = 1;   ///< factor on the paper's sizes 2.5, 3.75 and 5 cm
+  double box_ratio = 1;    ///< intended H / L
+  double box_length = 0;   ///< L [m]; 0: from the sample's volume
+  double width_ratio = 1;  ///< W / L, in space
+  /// The two walls that are parallel to the motion of the wall, in space: frictionless, frictional
+  /// (the friction of the grains), or periodic (no walls).
+  std::string side_walls = "frictionless";
   double lid_force = 10;    ///< / (m 9.81 m/s^2)
   double lid_raise = 0.01;  ///< [m]
   int fewest_vertices = 0;  ///< of a polyhedron or polygon; 0: no limit
@@ -70,6 +74,9 @@ struct Parameters {
   std::string output = "ratcheting-output";
   /// Checkpoint of another run, to start from in place of a packing. Empty: none.
   std::string from;
+  /// Method of that run, if it is another one: the grains and walls start with its positions and
+  /// velocities. Empty: the same.
+  std::string from_method;
   /// Outward speed at which the wall is moved after the hold, in place of the harmonic force [m/s].
   /// 0: the force.
   double wall_speed = 0;

@@ -46,6 +46,9 @@ Json to_json(const Parameters& p) {
   if (p.most_vertices > 0) json["most_vertices"] = p.most_vertices;
   if (p.flatness != Parameters{}.flatness) json["flatness"] = p.flatness;
   if (p.wall_speed > 0) json["wall_speed"] = p.wall_speed;
+  if (p.width_ratio != Parameters{}.width_ratio) json["width_ratio"] = p.width_ratio;
+  if (p.side_walls != Parameters{}.side_walls) json["side_walls"] = p.side_walls;
+  if (!p.from_method.empty()) json["from_method"] = p.from_method;
   if (!p.from.empty()) {
     json["from"] = p.from;
     json["hold"] = p.hold;

@@ -33,7 +33,7 @@ class PassiveField {
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       const std::size_t body = simulation.grain(k).index();
       field_->add(simulation.bodies().pose[body].position,
-                  simulation.bodies().velocity[body].template head<S::dim>());
+                  simulation.bodies().velocity[body].template head<S::dim>(), simulation.cell());
     }
   }
 

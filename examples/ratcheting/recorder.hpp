@@ -112,7 +112,8 @@ class Recorder {
     moreau::VelocityField<S> field(experiment_.box(), 6, 6);
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       const std::size_t body = simulation.grain(k).index();
-      field.add(position(body), simulation.bodies().velocity[body].template head<S::dim>());
+      field.add(position(body), simulation.bodies().velocity[body].template head<S::dim>(),
+                simulation.cell());
     }
     const auto roll = field.roll();
     const moreau::Coordination coordination =

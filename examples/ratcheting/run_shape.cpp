@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <unistd.h>
 
 #include "moreau/shape/ball.hpp"
@@ -80,7 +81,7 @@ void require_experiment(const Parameters& p, const ExperimentT& experiment) {
                                 " s must not exceed --duration " + std::to_string(p.duration) +
                                 " s");
   const double inset = Recorder<ExperimentT>::inset(experiment);
-  if (experiment.length() <= 2 * inset)
+  if (std::min(experiment.length(), experiment.width()) <= 2 * inset)
     throw std::invalid_argument("--grains: " + std::to_string(p.grains) + " make a box " +
                                 std::to_string(experiment.length()) +
                                 " m long, too short for a control volume " + std::to_string(inset) +
@@ -155,6 +156,7 @@ constexpr const char* later[] = {"frequency",
                                  "cold_start",
                                  "order",
                                  "from",
+                                 "from_method",
                                  "hold",
                                  "wall_speed"};
 
@@ -166,16 +168,17 @@ std::string packing_identity(const Parameters& p) {
 }
 
 /// Reads a checkpoint of another run and makes it the start of this run.
-/// @param read reads the file and returns the parameters that it was made by
+/// @param read reads the checkpoint and returns the parameters that it was made by
 /// @throws std::invalid_argument if the file's packing was made by other parameters
 template <class ExperimentT, class Read>
 void start_from(const Parameters& p, ExperimentT& experiment, const Read& read) {
   if constexpr (ExperimentT::solves) {
-    const std::string made_by = read(p.from);
-    const auto sample = [](const std::string& made) {
+    const std::string made_by = read();
+    const auto sample = [&](const std::string& made) {
       Json json = Json::parse(made);
       for (const char* key : later) json.erase(key);
       json.erase("stiffness");
+      if (!p.from_method.empty()) json.erase("method");
       return json.dump();
     };
     if (sample(made_by) != sample(identity(p)))
@@ -184,6 +187,32 @@ void start_from(const Parameters& p, ExperimentT& experiment, const Read& read) 
     experiment.start_again(Json::parse(made_by)["stiffness"].get<double>());
   } else {
     throw std::invalid_argument("--from: --method springs cannot start from a checkpoint");
+  }
+}
+
+/// Reads a checkpoint of a run into its experiment.
+/// @returns the parameters that it was made by
+template <class ExperimentT>
+std::string read_checkpoint_of(const Parameters& p, ExperimentT& experiment) {
+  std::string made_by;
+  std::size_t steps = 0, files = 0;
+  typename Recorder<ExperimentT>::Record before;
+  Views<ExperimentT> views(experiment, p.step, p.output);
+  experiment.read_checkpoint(p.from, made_by, steps, files, before, views.grains(),
+                             views.contacts());
+  return made_by;
+}
+
+/// The same with the checkpoint of a run with compliant contacts, for a run with rigid ones.
+template <class ShapeT, class ExperimentT>
+std::string read_compliant_checkpoint(const Parameters& p, ExperimentT& experiment) {
+  if constexpr (std::is_same_v<ExperimentT, Experiment<ShapeT, ContactDynamics>>) {
+    Experiment<ShapeT, CompliantDynamics> other(p, experiment.thickness());
+    const std::string made_by = read_checkpoint_of(p, other);
+    experiment.place_as(other);
+    return made_by;
+  } else {
+    throw std::invalid_argument("--from-method: needs --method contact-dynamics");
   }
 }
 
@@ -264,14 +293,9 @@ int run(const Parameters& asked) {
                                   " was made with other parameters: " + made_by);
   }
   if (!resumes && !p.from.empty())
-    start_from(p, experiment, [&](const std::string& path) {
-      std::string made_by;
-      std::size_t steps = 0, files = 0;
-      typename Recorder<ExperimentT>::Record before;
-      Views<ExperimentT> views_before(experiment, p.step, p.output);
-      experiment.read_checkpoint(path, made_by, steps, files, before, views_before.grains(),
-                                 views_before.contacts());
-      return made_by;
+    start_from(p, experiment, [&] {
+      return p.from_method.empty() ? read_checkpoint_of(p, experiment)
+                                   : read_compliant_checkpoint<ShapeT>(p, experiment);
     });
   Recorder<ExperimentT> recorder(p, experiment, record);
   RunJson json(p, experiment);

@@ -43,6 +43,9 @@ refuse "--shape" --shape cube
 refuse "--size-reading" --size-reading diameter
 refuse "--stop-test" --stop-test quad
 refuse "--threads" --threads 0
+refuse "no side walls" --shape disk --width-ratio 2
+refuse "no side walls" --shape disk --side-walls periodic
+refuse "--from-method" --from-method springs
 refuse "not expected" --colour red
 touch "$folder/file"
 refuse "--output" --output "$folder/file/below" --grains 200

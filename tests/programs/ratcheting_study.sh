@@ -160,7 +160,7 @@ cp "$results"/{runs.jsonl,wall_clock.csv} "$folder/study"
 "$program" --plan paper --report-only --no-figures --output "$folder/none" --results "$folder/study" \
   >"$folder/study.log" 2>&1 || fail "tables of the repository's runs: $(tail -3 "$folder/study.log")"
 grep "^not read" "$folder/study.log" && fail "a line of the repository's table does not count"
-for file in runs.jsonl cases.csv wall_clock.csv wall_clock.md remaining-paper.md remaining-settled.md; do
+for file in runs.jsonl wall_clock.csv wall_clock.md remaining-{paper,settled,controls}.md; do
   cmp "$results/$file" "$folder/study/$file" || fail "$file is not what the table gives"
 done
 [ "$failures" = 0 ] && echo "all passed"

@@ -2,6 +2,7 @@
 #include "moreau/sample/random_deposition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -43,6 +44,30 @@ TEST_CASE_TEMPLATE("deposited spheres lie in the box, overlap nowhere and rest o
       nearest = std::min(nearest, (poses[j].position - x).norm() - radii[i] - radii[j]);
     CHECK(nearest >= -rounding);
     CHECK(nearest <= rounding);
+  }
+}
+
+TEST_CASE("a floor with two lengths is filled to both, and nowhere overlaps a sphere another") {
+  using S = Space<3>;
+  std::mt19937_64 random(3);
+  const std::vector<double> radii(400, 0.1);
+  for (const std::array<double, 2>& lengths : {std::array{2.0, 0.5}, {0.5, 2.0}, {0.2, 3.0}}) {
+    const auto poses = random_deposition<S>(radii, lengths, random);
+    S::Vector least = poses[0].position, most = poses[0].position;
+    double nearest = 1;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      least = least.cwiseMin(poses[i].position);
+      most = most.cwiseMax(poses[i].position);
+      for (std::size_t j = 0; j < i; ++j)
+        nearest = std::min(nearest, (poses[i].position - poses[j].position).norm());
+    }
+    CHECK(nearest >= 0.2 - 1e-12);
+    for (int k = 0; k < 2; ++k) {
+      CHECK(least[k] >= 0.1 - 1e-12);
+      CHECK(least[k] <= 0.12);
+      CHECK(most[k] <= lengths[std::size_t(k)] - 0.1 + 1e-12);
+      CHECK(most[k] >= lengths[std::size_t(k)] - 0.12);
+    }
   }
 }
 

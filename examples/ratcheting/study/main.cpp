@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -53,16 +54,19 @@ bool write_report(const Options& o) {
 bool report(const Options& o, const std::vector<study::Case>& plan) {
   const fs::path folder = o.results;
   fs::create_directories(folder);
-  // The plans "paper" and "settled" share a table of runs.
+  // The plans but "small" share a table of runs. A case may be in two of them.
   std::vector<study::Case> all = plan;
+  std::set<std::string> names;
+  for (const study::Case& c : all) names.insert(c.name);
   if (o.plan != "small")
-    for (study::Case& c : study::make_plan(o.plan == "paper" ? "settled" : "paper"))
-      all.push_back(std::move(c));
+    for (const char* other : {"paper", "settled", "controls"})
+      for (study::Case& c : study::make_plan(other))
+        if (names.insert(c.name).second) all.push_back(std::move(c));
   const auto [results, unread] = study::read_results(o.places(), all);
   study::write_cases(folder, results);
   study::write_wall_clock(folder, results);
   if (o.plan != "small")
-    for (const char* name : {"paper", "settled"})
+    for (const char* name : {"paper", "settled", "controls"})
       study::write_remaining(folder, name, study::make_plan(name), results);
   std::printf("%zu of %zu cases are done; tables: %s\n", results.size(), all.size(),
               folder.c_str());
@@ -106,8 +110,8 @@ void add_options(CLI::App& app, Options& o) {
   app.option_defaults()->always_capture_default();
   app.add_option("--plan", o.plan,
                  "paper: the whole study with rigid contacts; settled: with compliant contacts, "
-                 "from jammed "
-                 "states; small: few grains, takes about a minute")
+                 "from jammed states; controls: dimension, length of the box, contacts and start "
+                 "changed one at a time; small: few grains, takes about a minute")
       ->check(CLI::IsMember(study::plan_names()));
   app.add_option("--set", o.selection.sets,
                  "run only the cases of these series, e.g. frequencies, fmax, and those that make "

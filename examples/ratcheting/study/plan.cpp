@@ -39,6 +39,7 @@ const std::vector<Option>& options() {
       {"--gravity", "g", "", [](const Parameters& p) { return p.gravity; }},
       {"--wall-mass-ratio", "mw", "m", [](const Parameters& p) { return p.wall_mass_ratio; }},
       {"--box-ratio", "H", "L", [](const Parameters& p) { return p.box_ratio; }, true},
+      {"--width-ratio", "W", "L", [](const Parameters& p) { return p.width_ratio; }, true},
       {"--size-scale", "size", "x", [](const Parameters& p) { return p.size_scale; }, true},
       {"--lid-force", "lid", "mg", [](const Parameters& p) { return p.lid_force; }, true},
       {"--lid-raise", "raise", "m", [](const Parameters& p) { return p.lid_raise; }},
@@ -68,8 +69,9 @@ std::string name_of(const Parameters& p, const Parameters& base, double usual_du
     name += "-" + std::string(option.mark) + text(option.value(p)) + std::string(option.unit);
   }
   if (p.size_reading != base.size_reading) name += "-circumradius";
+  if (p.side_walls != base.side_walls) name += "-" + p.side_walls;
   if (p.correction != base.correction) name += p.correction ? "-corrected" : "-uncorrected";
-  // The runs of the plan "settled" share their table with those of the plan "paper".
+  // The plans "paper", "settled" and "controls" share their table.
   if (p.method == "compliant") name += "-compliant";
   if (!p.from.empty()) name += "-jammed";
   return name;
@@ -91,10 +93,15 @@ class Builder {
   /// Adds the baseline of a shape and seed with changes.
   void add(const std::string& set, const std::string& shape, std::size_t seed,
            const std::function<void(Parameters&)>& change) {
-    const Parameters base = baseline(plan_, shape, seed);
+    add_to(plan_, set, shape, seed, change);
+  }
+  /// The same with the baseline of another plan.
+  void add_to(const std::string& plan, const std::string& set, const std::string& shape,
+              std::size_t seed, const std::function<void(Parameters&)>& change) {
+    const Parameters base = baseline(plan, shape, seed);
     Parameters p = base;
     change(p);
-    const double usual = duration_at(plan_, p.frequency);
+    const double usual = duration_at(plan, p.frequency);
     if (p.duration == base.duration) p.duration = usual;
     const std::string name = name_of(p, base, usual);
     const auto [place, is_new] = place_of_.try_emplace(name, cases_.size());
@@ -226,8 +233,8 @@ std::vector<Case> paper_plan() {
   // of the same length and, with this ratio, of the same H/L; the force keeps fmax/mg.
   for (std::size_t seed = 1; seed <= 20; ++seed)
     for (const auto& [shape, grains] : {std::pair{"polygon", 94}, std::pair{"disk", 111}})
-      plan.add("same-length", shape, seed, [&](Parameters& p) {
-        p.grains = std::size_t(grains);
+      plan.add("same-length", shape, seed, [count = grains](Parameters& p) {
+        p.grains = std::size_t(count);
         p.fmax = usual_fmax(p.grains);
         p.box_ratio = 0.9;
         p.tolerance = 1e-5;
@@ -259,6 +266,8 @@ std::vector<Case> paper_plan() {
 std::string jammed_name(const Parameters& p) {
   Parameters start = baseline("settled", p.shape, p.seed);
   start.box_ratio = p.box_ratio;
+  start.width_ratio = p.width_ratio;
+  start.side_walls = p.side_walls;
   start.size_scale = p.size_scale;
   start.grains = p.grains;
   start.fmax = usual_fmax(p.grains);
@@ -268,21 +277,25 @@ std::string jammed_name(const Parameters& p) {
 
 /// Adds `periods` periods from the jammed state of a sample, after a hold at fmax. Adds the run that
 /// makes the state, too.
+/// @param contacts "settled": compliant ones; "paper": rigid ones, from the state that compliant contacts made
 void add_jammed(Builder& plan, const char* set, const char* shape, std::size_t seed, int periods,
-                const std::function<void(Parameters&)>& change) {
-  plan.add("jammed", shape, seed, [&](Parameters& p) {
+                const std::function<void(Parameters&)>& change, const char* contacts = "settled") {
+  plan.add_to("settled", "jammed", shape, seed, [&](Parameters& p) {
     Parameters changed = p;
     change(changed);
     p.box_ratio = changed.box_ratio;
+    p.width_ratio = changed.width_ratio;
+    p.side_walls = changed.side_walls;
     p.size_scale = changed.size_scale;
     p.grains = changed.grains;
     p.fmax = usual_fmax(p.grains);
     p.duration = 0.35;  // to the second maximum of the force
     p.checkpoint_every = 1750;
   });
-  plan.add(set, shape, seed, [&](Parameters& p) {
+  plan.add_to(contacts, set, shape, seed, [&](Parameters& p) {
     change(p);
     p.from = jammed_name(p);
+    if (p.method != "compliant") p.from_method = "compliant";
     // In whole steps.
     p.duration = std::round((p.hold + periods / p.frequency) / p.step) / std::round(1 / p.step);
   });
@@ -356,9 +369,9 @@ std::vector<Case> settled_plan() {
   // The sets that may meet all of the paper's figures, over one second as in the paper.
   for (const std::size_t seed : {1u, 2u, 3u})
     for (const auto& [ratio, size] : {std::pair{0.42, 1.3}, {0.42, 1.0}, {0.42, 1.5}, {0.5, 1.3}})
-      plan.add("box", "polyhedron", seed, [&](Parameters& p) {
-        p.box_ratio = ratio;
-        p.size_scale = size;
+      plan.add("box", "polyhedron", seed, [height = ratio, scale = size](Parameters& p) {
+        p.box_ratio = height;
+        p.size_scale = scale;
         p.duration = 1;
       });
   // The flat box with other grains, with rigid contacts as in the paper, and with the other forces.
@@ -406,8 +419,8 @@ std::vector<Case> settled_plan() {
   for (const double frequency : {5.0, 20.0})
     for (std::size_t seed = 1; seed <= 20; ++seed)
       for (const auto& [shape, grains] : {std::pair{"polygon", 94}, std::pair{"disk", 111}})
-        add_jammed(plan, "lengths", shape, seed, 4, [&](Parameters& p) {
-          p.grains = std::size_t(grains);
+        add_jammed(plan, "lengths", shape, seed, 4, [&, count = grains](Parameters& p) {
+          p.grains = std::size_t(count);
           p.fmax = usual_fmax(p.grains);
           p.box_ratio = 0.9;
           p.frequency = frequency;
@@ -473,16 +486,115 @@ std::vector<Case> settled_plan() {
   const auto converged = [&](const char* shape, std::size_t seed, Numbers frequencies) {
     for (const double frequency : frequencies)
       for (const auto& [step, tolerance] : {std::pair{1e-4, 1e-5}, {2e-4, 1e-6}})
-        add_jammed(plan, "converged", shape, seed, 4, [&](Parameters& p) {
-          p.frequency = frequency;
-          p.step = step;
-          p.tolerance = tolerance;
-        });
+        add_jammed(plan, "converged", shape, seed, 4,
+                   [&, h = step, limit = tolerance](Parameters& p) {
+                     p.frequency = frequency;
+                     p.step = h;
+                     p.tolerance = limit;
+                   });
   };
   for (const std::size_t seed : {1u, 2u, 3u}) {
     converged("polygon", seed, {7, 3.5, 2});
     converged("polyhedron", seed, {15, 7, 3.5});
   }
+  return std::move(plan).cases();
+}
+
+/// A box of the controls: so many grains and so high a box that H/L is 0.98 at the start, gap below the
+/// lid included, and L/d is `length`.
+struct ControlBox {
+  const char* shape;
+  double length;
+  std::size_t grains;
+  double ratio;
+  std::vector<std::size_t> seeds;
+};
+
+std::vector<std::size_t> seeds_from_31(std::size_t count) {
+  std::vector<std::size_t> seeds;
+  for (std::size_t k = 0; k < count; ++k) seeds.push_back(31 + k);
+  return seeds;
+}
+
+/// The cheapest boxes first. Samples from 31 on; 1200 grains in space are the boxes of the other plans, whose
+/// samples they continue.
+std::vector<ControlBox> control_boxes() {
+  const auto seeds = seeds_from_31;
+  return {{"polygon", 10.7, 91, 0.893, seeds(20)},  {"disk", 10.7, 54, 0.893, seeds(20)},
+          {"polygon", 8, 49, 0.866, seeds(20)},     {"disk", 8, 29, 0.86, seeds(20)},
+          {"sphere", 10.7, 424, 1, seeds(5)},       {"sphere", 8, 174, 0.98, seeds(5)},
+          {"disk", 15.1, 112, 0.918, seeds(20)},    {"polygon", 16, 209, 0.922, seeds(10)},
+          {"polyhedron", 8, 493, 0.98, seeds(5)},   {"sphere", 15.1, 1200, 1, seeds(5)},
+          {"polyhedron", 10.7, 1200, 1, seeds(5)},  {"disk", 24, 291, 0.95, seeds(10)},
+          {"polygon", 24, 480, 0.941, seeds(10)},   {"sphere", 24, 4876, 1.02, seeds(3)},
+          {"polyhedron", 16, 4063, 1.01, seeds(3)}, {"polyhedron", 24, 13850, 1.02, seeds(1)}};
+}
+
+/// Contacts x start in boxes of one length.
+void add_equal_lengths(Builder& plan, const ControlBox& box, double frequency, double force) {
+  const auto change = [&](Parameters& p) {
+    p.grains = box.grains;
+    p.box_ratio = box.ratio;
+    p.fmax = force * usual_fmax(box.grains);
+    p.frequency = frequency;
+  };
+  for (const std::size_t seed : box.seeds) {
+    for (const char* contacts : {"settled", "paper"})
+      add_jammed(plan, "equal-length", box.shape, seed, 4, change, contacts);
+    if (frequency != 5 || force != 1) continue;
+    for (const char* contacts : {"settled", "paper"})
+      plan.add_to(contacts, "equal-length", box.shape, seed, change);
+  }
+}
+
+/// Depth of the box and its side walls, at L/d = 10.7.
+void add_depths(Builder& plan, const char* shape, std::size_t grains) {
+  const auto vary = [&](double width, const char* walls) {
+    for (const std::size_t seed : seeds_from_31(5))
+      add_jammed(plan, "depth", shape, seed, 4, [&](Parameters& p) {
+        p.grains = std::size_t(std::lround(width * double(grains)));
+        p.fmax = usual_fmax(p.grains);
+        p.width_ratio = width;
+        p.side_walls = walls;
+      });
+  };
+  vary(0.5, "frictionless");
+  vary(1, "periodic");
+  vary(1, "frictional");
+  vary(2, "frictionless");
+}
+
+// What separates causes that the other plans change together: the dimension from the length of the box,
+// contacts from the start, the depth and the side walls of the box; one jammed state for each of ten
+// samples; the stiffness. Samples from 31 on, which no other plan has.
+std::vector<Case> controls_plan() {
+  Builder plan("settled");
+  for (const ControlBox& box : control_boxes())
+    if (box.grains < 4000) add_equal_lengths(plan, box, 5, 1);
+  add_depths(plan, "sphere", 424);
+  const Names all{"disk", "polygon", "sphere", "polyhedron"};
+  const auto one_state = [&](const char* set, const char* shape, std::size_t seed, double frequency,
+                             double stiffness) {
+    add_jammed(plan, set, shape, seed, 4, [&](Parameters& p) {
+      p.frequency = frequency;
+      p.stiffness = stiffness;
+    });
+  };
+  for (const char* shape : all)
+    for (const double frequency : {10.0, 15.0, 20.0, 35.0, 60.0})
+      for (const double stiffness : {1e8, 1e7, 1e9})
+        for (const std::size_t seed : seeds_from_31(3))
+          one_state("stiffness", shape, seed, frequency, stiffness);
+  for (const char* shape : all)
+    for (const double frequency : {5.0, 10.0, 2.0})
+      for (const std::size_t seed : seeds_from_31(10))
+        one_state("ten-states", shape, seed, frequency, 1e8);
+  for (const double frequency : {5.0, 2.0})
+    for (const double force : {1.0, 1 / 3.0, 5 / 3.0})
+      for (const ControlBox& box : control_boxes())
+        if (box.grains < 4000) add_equal_lengths(plan, box, frequency, force);
+  for (const ControlBox& box : control_boxes()) add_equal_lengths(plan, box, 5, 1);
+  add_depths(plan, "polyhedron", 1200);
   return std::move(plan).cases();
 }
 
@@ -517,7 +629,7 @@ void require_known(const std::vector<Case>& plan, const std::vector<Value>& aske
 }  // namespace
 
 std::vector<std::string> plan_names() {
-  return {"paper", "small", "settled"};
+  return {"paper", "small", "settled", "controls"};
 }
 
 Parameters baseline(const std::string& plan, const std::string& shape, std::size_t seed) {
@@ -545,6 +657,7 @@ std::vector<Case> make_plan(const std::string& name) {
   if (name == "paper") return paper_plan();
   if (name == "small") return small_plan();
   if (name == "settled") return settled_plan();
+  if (name == "controls") return controls_plan();
   throw std::invalid_argument("--plan: there is no plan " + name);
 }
 
@@ -584,6 +697,7 @@ std::string packing_name(const Parameters& p) {
     if (option.prepares && option.value(p) != option.value(usual))
       name += "-" + std::string(option.mark) + text(option.value(p)) + std::string(option.unit);
   if (p.size_reading != usual.size_reading) name += "-circumradius";
+  if (p.side_walls != usual.side_walls) name += "-" + p.side_walls;
   if (p.method == "compliant") name += "-compliant";
   return name;
 }
@@ -614,6 +728,8 @@ std::vector<std::string> arguments(const Parameters& p) {
   if (p.method != usual.method) list.insert(list.end(), {"--method", p.method});
   if (p.cold_sweeps != usual.cold_sweeps)
     list.insert(list.end(), {"--cold-sweeps", std::to_string(p.cold_sweeps)});
+  if (p.side_walls != usual.side_walls) list.insert(list.end(), {"--side-walls", p.side_walls});
+  if (!p.from_method.empty()) list.insert(list.end(), {"--from-method", p.from_method});
   if (!p.correction) list.emplace_back("--no-correction");
   if (p.checkpoint_every > 0)
     list.insert(list.end(), {"--checkpoint-every", std::to_string(p.checkpoint_every)});

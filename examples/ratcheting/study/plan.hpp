@@ -29,7 +29,7 @@ struct Selection {
   std::vector<std::size_t> seeds, numbers;
 };
 
-/// The names of the plans: "paper", "small" and "settled".
+/// The names of the plans: "paper", "small", "settled" and "controls".
 std::vector<std::string> plan_names();
 
 /// The cases of a plan, the most telling first.

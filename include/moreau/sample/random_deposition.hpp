@@ -26,15 +26,18 @@ class DepositedSpheres {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
+  using Lengths = std::array<T, std::size_t(up)>;
 
-  /// @param length of the floor along every horizontal axis [m]
-  /// @param widest radius of the largest sphere [m], at most half of the length
-  DepositedSpheres(T length, T widest)
-      : count_(std::max<std::size_t>(
-            1, static_cast<std::size_t>(std::min(length / (2 * widest), T(most_columns))))),
-        width_(length / static_cast<T>(count_)) {
+  /// @param lengths of the floor along the horizontal axes [m]
+  /// @param widest  radius of the largest sphere [m], at most half of the shortest length
+  DepositedSpheres(const Lengths& lengths, T widest) {
     std::size_t columns = 1;
-    for (int k = 0; k < up; ++k) columns *= count_;
+    for (std::size_t k = 0; k < std::size_t{up}; ++k) {
+      count_[k] = std::max<std::size_t>(
+          1, static_cast<std::size_t>(std::min(lengths[k] / (2 * widest), T(most_columns))));
+      width_[k] = lengths[k] / static_cast<T>(count_[k]);
+      columns *= count_[k];
+    }
     columns_.resize(columns);
   }
 
@@ -48,9 +51,9 @@ class DepositedSpheres {
     // column or in neighbours.
     std::array<std::size_t, std::size_t{up}> from{}, to{}, at{};
     for (std::size_t k = 0; k < std::size_t{up}; ++k) {
-      const std::size_t column = column_along(x[Eigen::Index(k)]);
+      const std::size_t column = column_along(k, x[Eigen::Index(k)]);
       from[k] = at[k] = column > 0 ? column - 1 : 0;
-      to[k] = std::min(column + 1, count_ - 1);
+      to[k] = std::min(column + 1, count_[k] - 1);
     }
     while (true) {
       for (const Sphere& sphere : columns_[index(at)]) {
@@ -68,7 +71,8 @@ class DepositedSpheres {
   }
   void add(const Vector& center, T radius) {
     std::array<std::size_t, std::size_t{up}> at{};
-    for (std::size_t k = 0; k < std::size_t{up}; ++k) at[k] = column_along(center[Eigen::Index(k)]);
+    for (std::size_t k = 0; k < std::size_t{up}; ++k)
+      at[k] = column_along(k, center[Eigen::Index(k)]);
     columns_[index(at)].push_back({center, radius});
   }
 
@@ -79,24 +83,24 @@ class DepositedSpheres {
     T radius;
   };
 
-  std::size_t column_along(T x) const {
-    return std::min(count_ - 1, static_cast<std::size_t>(std::max(T(0), x / width_)));
+  std::size_t column_along(std::size_t axis, T x) const {
+    return std::min(count_[axis] - 1, static_cast<std::size_t>(std::max(T(0), x / width_[axis])));
   }
   std::size_t index(const std::array<std::size_t, std::size_t{up}>& at) const {
     std::size_t index = 0;
-    for (const std::size_t k : at) index = index * count_ + k;
+    for (std::size_t k = 0; k < std::size_t{up}; ++k) index = index * count_[k] + at[k];
     return index;
   }
 
-  std::size_t count_;  // columns along each horizontal axis
-  T width_;            // of a column [m]
+  std::array<std::size_t, std::size_t(up)> count_{};  // columns along each horizontal axis
+  Lengths width_{};                                   // of a column [m]
   std::vector<std::vector<Sphere>> columns_;
 };
 
 }  // namespace detail
 
 /// Poses of grains with the given circumradii in a box with side walls. The last axis points up,
-/// and the floor is at height 0. Along each other axis the box is [0, length]. The circumscribed
+/// and the floor is at height 0. Along axis k the box is [0, lengths[k]]. The circumscribed
 /// spheres of the grains lie in the box and do not overlap. So the grains do not overlap.
 ///
 /// The spheres are placed one by one. For each sphere, 40 random horizontal positions are tried. At
@@ -105,17 +109,21 @@ class DepositedSpheres {
 /// grains times the number of layers, if the radii differ little.
 /// @tparam S      the space, e.g. Space<3>
 /// @param radii   radii of the circumscribed spheres, > 0 [m]
-/// @param length  length of the floor, at least the largest diameter [m]
+/// @param lengths lengths of the floor along the horizontal axes, at least the largest diameter [m]
 /// @param random  random number generator, whose state is advanced
-/// @throws std::invalid_argument if the length is not finite, or if a radius is not > 0 or does not
+/// @throws std::invalid_argument if a length is not finite, or if a radius is not > 0 or does not
 ///                               fit into the box
 template <class S>
-std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& radii,
-                                       typename S::Scalar length, std::mt19937_64& random) {
+std::vector<Pose<S>> random_deposition(
+    const std::vector<typename S::Scalar>& radii,
+    const std::array<typename S::Scalar, std::size_t(S::dim - 1)>& lengths,
+    std::mt19937_64& random) {
   using T = typename S::Scalar;
   constexpr const char* self = "random_deposition";
   constexpr int trials = 40, up = S::dim - 1;
-  require(std::isfinite(length), self, "length", length, "must be finite");
+  for (const T length : lengths)
+    require(std::isfinite(length), self, "length", length, "must be finite");
+  const T length = *std::min_element(lengths.begin(), lengths.end());
   T widest = 0;
   for (std::size_t i = 0; i < radii.size(); ++i) {
     require(radii[i] > 0 && 2 * radii[i] <= length, self, "radii[" + std::to_string(i) + "]",
@@ -124,13 +132,14 @@ std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& ra
   }
   std::vector<Pose<S>> poses(radii.size());
   if (radii.empty()) return poses;
-  detail::DepositedSpheres<S> deposited(length, widest);
+  detail::DepositedSpheres<S> deposited(lengths, widest);
   std::uniform_real_distribution<T> unit(0, 1);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     typename S::Vector lowest;
     for (int trial = 0; trial < trials; ++trial) {
       typename S::Vector x;
-      for (int k = 0; k < up; ++k) x[k] = radii[i] + unit(random) * (length - 2 * radii[i]);
+      for (int k = 0; k < up; ++k)
+        x[k] = radii[i] + unit(random) * (lengths[std::size_t(k)] - 2 * radii[i]);
       x[up] = deposited.height_at(x, radii[i]);
       if (trial == 0 || x[up] < lowest[up]) lowest = x;
     }
@@ -139,6 +148,15 @@ std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& ra
     poses[i].rotation = random_rotation<S>(random);
   }
   return poses;
+}
+
+/// The same above a floor of one length along all horizontal axes [m].
+template <class S>
+std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& radii,
+                                       typename S::Scalar length, std::mt19937_64& random) {
+  std::array<typename S::Scalar, std::size_t(S::dim - 1)> lengths;
+  lengths.fill(length);
+  return random_deposition<S>(radii, lengths, random);
 }
 
 }  // namespace moreau

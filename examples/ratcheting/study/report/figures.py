@@ -3,6 +3,7 @@
 import math
 
 import compaction
+import controls
 import excursion
 from interval import ratio, ratio_of_means
 from plots import BLACK, COLOR, GREY, POINT, Panel, draw
@@ -690,6 +691,32 @@ def dimension(runs, path):
     draw(path, panels, 1, 2, 1300, 480, "0.06, 0.99, 0.14, 0.91", "0.06, 0.1")
 
 
+def equal_length(runs, path):
+    """C and strain of a period, plane over space in boxes of equal length, over this length: the runs of the plan `controls`."""
+    panels = []
+    colors = {"rigid": "#b3261e", "compliant": "#1f5fa8"}
+    for quantity, name, limits in (("C", "C", "[0.4:2.5]"), ("strain", "strain of a period", "[0.15:4]")):
+        for plane, space in controls.PAIRS:
+            first = not panels
+            panel = Panel(f"{name}: {TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}", "L / d",
+                          "plane / space" if plane == "polygon" else "", ["set key top left" if first else "set key off"])
+            panel.commands += ["set logscale xy", "set xrange [7:28]", f"set yrange {limits}", "set xtics (8, 10.7, 16, 24)",
+                               "set ytics (0.25, 0.5, 0.75, 1, 1.5, 2, 3)"]
+            for k, (contacts, start) in enumerate(controls.CONTACTS_AND_STARTS):
+                rows = []
+                for length in controls.LENGTHS:
+                    above, below = (controls.select(runs, shape, contacts, start, length) for shape in (plane, space))
+                    value, low, high, *_ = controls.compare(above, below, quantity)
+                    rows.append((length * 1.025 ** (k - 1.5), value, low, high))
+                panel.ranges(rows, colors[contacts], (6 if start == "filling" else 7) - 2 * (contacts == "rigid"), f"{contacts}, {start}")
+            panels.append(panel)
+    if not any(panel.curves for panel in panels):
+        raise Missing
+    for panel in panels:
+        panel.function("1", GREY)
+    draw(path, panels, 2, 2, 1300, 860, "0.06, 0.99, 0.08, 0.95", "0.06, 0.13")
+
+
 def way_back(runs, path):
     panels = [Panel("phases since the minimum of f", "ν  [Hz]", "periods", ["set key off"]),
               Panel("force when the wall is fastest", "ν  [Hz]", "f / fmax", ["set key off"]),
@@ -758,3 +785,5 @@ FIGURES = (
     ("set_aside", set_aside),
     ("long_course", long_course),
 )
+# The same of the runs of the plan `controls`.
+CONTROL_FIGURES = (("equal_length", equal_length),)

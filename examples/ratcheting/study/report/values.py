@@ -14,6 +14,7 @@ import math
 
 import claims as ten
 import compaction
+import controls
 import excursion
 import figures
 import tables
@@ -71,7 +72,8 @@ class Values:
     """Called with a name, gives its text."""
 
     def __init__(self, runs, folder):
-        self.runs, self.folder, self.known = runs, folder, {}
+        self.runs, self.folder, self.known = controls.split(runs)[0], folder, {}
+        self.controls = runs
         self.predictions = {}
 
     def __call__(self, name):
@@ -125,6 +127,43 @@ class Values:
         """A mean alone."""
         value, factor = OBSERVABLES[word]
         return f"{factor * self.means(rest, value).mean:.3g}"
+
+    # Controls.
+
+    def of_control(self, quantity, *words):
+        """A mean of controls.QUANTITIES, or of two selections with / between them their ratio."""
+        if "/" not in words:
+            return with_samples(controls.mean(controls.selection(self.controls, words), quantity), controls.QUANTITIES[quantity][1])
+        cut = words.index("/")
+        above, below = (controls.selection(self.controls, part) for part in (words[:cut], words[cut + 1:]))
+        *value, over, under = controls.compare(above, below, quantity)
+        return f"{interval(*value)} ({over} and {under})" if over and under else "–"
+
+    def of_same_samples(self, quantity, *words):
+        """The ratio of two selections, sample by sample."""
+        cut = words.index("/")
+        above, below = (controls.selection(self.controls, part) for part in (words[:cut], words[cut + 1:]))
+        logs = Estimate([math.log(a / b) for a, b in controls.paired(above, below, quantity) if a / b > 0])
+        return f"{interval(*(math.exp(v) for v in (logs.mean, logs.mean - logs.half, logs.mean + logs.half)))} ({logs.n})" if logs.n else "–"
+
+    def of_control_power(self, shape, stiffness, low, high, displacement="dx_active"):
+        """Power of the excursion over the frequency for a stiffness over 1e8 N/m, no run left out."""
+        return with_samples(controls.exponent(self.controls, shape, float(stiffness), float(low), float(high), displacement))
+
+    def of_length_power(self, quantity, *words):
+        """Power of the mean of a quantity over L/d at one load."""
+        value, low, high, counts = controls.power_over_length(self.controls, *words, quantity)
+        return f"{interval(value, low, high)} ({', '.join(map(str, counts))})"
+
+    def of_load_power(self, quantity, shape, contacts, start, length="10.7"):
+        return with_samples(controls.power_over_force(self.controls, shape, contacts, start, quantity, float(length)))
+
+    def of_control_table(self, name):
+        rows = getattr(controls, "rows_of_" + name)(self.controls)
+        return "\n".join(template.row(cells) for cells in rows)
+
+    def of_control_runs(self):
+        return f"{len(controls.split(self.controls)[1]):,}"
 
     # Exponents.
 
@@ -293,8 +332,8 @@ class Values:
         return "\n".join(template.row(cells) for cells in rows)
 
     def of_not_run(self):
-        """Rows of the runs of both plans that are not done."""
-        return "\n".join(template.row([name, *cells[1:]]) for name in ("settled", "paper")
+        """Rows of the runs of the plans that are not done."""
+        return "\n".join(template.row([name, *cells[1:]]) for name in ("settled", "paper", "controls")
                          for cells in tables.remaining(self.folder, name) if cells[0].startswith("all"))
 
     # Others.

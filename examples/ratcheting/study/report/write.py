@@ -12,7 +12,8 @@ import pathlib
 import drawings
 import plots
 import template
-from figures import FIGURES, Missing
+from controls import split
+from figures import CONTROL_FIGURES, FIGURES, Missing
 from runs import read
 from values import Values
 
@@ -30,9 +31,10 @@ def draw_all(runs, results):
         drawings.grain_shapes(grains, folder / "grain_shapes.png")
         drawings.snapshot(PICTURE, folder / "snapshot.png")
         drawn = 3
-    for name, function in FIGURES:
+    study, _ = split(runs)
+    for name, function, shown in [(*f, study) for f in FIGURES] + [(*f, runs) for f in CONTROL_FIGURES]:
         try:
-            function(runs, folder / f"{name}.png")
+            function(shown, folder / f"{name}.png")
             drawn += 1
         except Missing:
             continue
@@ -57,7 +59,7 @@ def main():
     parser.add_argument("--figure", action="append", default=[],
                         help="draw only this figure; may be given more than once")
     options = parser.parse_args()
-    names = [name for name, _ in FIGURES] + ["contact_types", "grain_shapes", "snapshot"]
+    names = [name for name, _ in FIGURES + CONTROL_FIGURES] + ["contact_types", "grain_shapes", "snapshot"]
     for name in options.figure:
         if name not in names:
             parser.error(f"--figure {name}: there are {', '.join(names)}")

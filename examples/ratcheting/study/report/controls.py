@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: MIT
+"""The runs of the plan `controls`: causes that the other plans change together, changed one at a time. Its samples are those from 31
+on, which no other plan has. With 1200 grains in space the runs of the other plans with the same parameters count, too.
+
+A selection is SHAPE CONTACTS START and options: `rigid` or `compliant` contacts, from the `filling` on or from a `jammed` state, which
+compliant contacts made. Options: L, the length of the box over d (10.7 unless it is said); nu [Hz]; force, over 5 N for each grain; W, the
+width of the box over its length; walls, those beside the grains; k, the stiffness over 1e8 N/m. `thousand`: 1200 grains in the box of
+the other plans."""
+import math
+import random
+
+from interval import interval, ratio, ratio_of_means
+from runs import TITLE, constant, exponent_of_samples, judged, line, over_samples, scaled_load, strain
+
+FIRST_SAMPLE = 31
+LENGTHS = (8.0, 10.7, 16.0, 24.0)  # of boxes, over d; the third one of round grains is 15.1
+# Grains in a box as long as it is high, W/L = 1.
+GRAINS = {"polygon": (49, 91, 209, 480), "disk": (29, 54, 112, 291), "polyhedron": (493, 1200, 4063, 13850), "sphere": (174, 424, 1200, 4876)}
+# What both contacts have.
+SOLVED = {"compliant": {"method": "compliant", "tolerance": 1e-5}, "rigid": {"method": "contact-dynamics", "tolerance": 1e-4, "max_sweeps": 5000, "overlap_correction": True}}
+USUAL = {"gravity": 9.81, "wall_mass_ratio": 0.5, "size_scale": 1.0, "friction": 0.4, "fmin": 0.0, "step": 2e-4, "lid_force_weights": 10.0,
+         "size_reading": "circumdiameter"}
+PAIRS = (("polygon", "polyhedron"), ("disk", "sphere"))
+CONTACTS_AND_STARTS = (("rigid", "filling"), ("rigid", "jammed"), ("compliant", "filling"), ("compliant", "jammed"))
+FORCE = 5.0  # largest force for each grain [N]
+
+
+def split(runs):
+    """The runs of the other plans, and those of the controls."""
+    def is_control(run):
+        return run["parameters"]["seed"] >= FIRST_SAMPLE
+    return [r for r in runs if not is_control(r)], [r for r in runs if is_control(r)]
+
+
+def strain_of(run):
+    return strain(run, 0, 4)
+
+
+def select(controls, shape, contacts, start, length=10.7, nu=5.0, force=1.0, width=1.0, walls="frictionless", stiffness=1.0, grains=None):
+    """One run of each sample. Those that only make a jammed state are left out."""
+    count = grains or round(width * GRAINS[shape][LENGTHS.index(length)])
+
+    def fits(run):
+        p = run["parameters"]
+        return (p["shape"] == shape and p["grains"] == count and p["frequency"] == nu and ("from" in p) == (start == "jammed") and
+                all(p[key] == value for key, value in (SOLVED[contacts] | USUAL).items()) and "wall_speed" not in p and
+                not any(key in p for key in ("flatness", "fewest_vertices", "most_vertices")) and
+                math.isclose(p["fmax"], force * FORCE * count) and p.get("width_ratio", 1.0) == width and
+                p.get("side_walls", "frictionless") == walls and (count != 1200 or p["box_ratio"] == 1.0) and
+                (4 <= len(run["periods"]["x_j"]) <= 5 if start == "jammed" else p["duration"] == 1) and
+                (contacts == "rigid" or math.isclose(p["stiffness"], stiffness * 1e8)))
+    return [r for r in controls if fits(r)]
+
+
+OPTIONS = {"L": "length", "nu": "nu", "force": "force", "W": "width", "walls": "walls", "k": "stiffness"}
+
+
+def selection(controls, words):
+    """The runs of a selection in words."""
+    shape, contacts, start, *more = words
+    if contacts not in ("rigid", "compliant") or start not in ("filling", "jammed") or shape not in GRAINS:
+        raise KeyError(f"no selection: {' '.join(words)}")
+    wanted = {}
+    for option in more:
+        if option == "thousand":
+            wanted["grains"] = 1200
+            continue
+        key, value = option.split("=")
+        wanted[OPTIONS[key]] = value if key == "walls" else float(value)
+    return select(controls, shape, contacts, start, **wanted)
+
+
+# Function of a run, factor, whether it may be negative.
+QUANTITIES = {"C": (constant, 1, False), "C_drift": (lambda r: constant(r, "dx_max"), 1, False), "strain": (strain_of, 1e4, True),
+              "dx": (lambda r: r["dx_active"], 1e3, False), "drift_share": (lambda r: r["drift"] / r["dx_max"], 100, True),
+              "length": (lambda r: r["length"] / 0.025, 1, False), "height": (lambda r: r["height"] / r["length"], 1, False)}
+
+
+def mean(found, quantity):
+    return over_samples(found, QUANTITIES[quantity][0])
+
+
+def compare(above, below, quantity):
+    """Ratio of two selections: value, low and high end of its interval, and the numbers of samples. Quantities that may be negative:
+    of the means."""
+    a, b = mean(above, quantity), mean(below, quantity)
+    if not a.n or not b.n:
+        return (math.nan,) * 3 + (a.n, b.n)
+    return (*(ratio_of_means if QUANTITIES[quantity][2] else ratio)(a.values, b.values), a.n, b.n)
+
+
+def paired(above, below, quantity):
+    """Ratios of the same samples in both selections."""
+    value = QUANTITIES[quantity][0]
+    seeds = {r["parameters"]["seed"]: value(r) for r in below}
+    return [(value(r), seeds[r["parameters"]["seed"]]) for r in above if r["parameters"]["seed"] in seeds]
+
+
+def exponent(controls, shape, stiffness, low, high, displacement="dx_active"):
+    """Power of the excursion over the frequency, from jammed states of 1200 grains, no run left out."""
+    found = [r for nu in (10.0, 15.0, 20.0, 35.0, 60.0) if low <= nu <= high
+             for r in select(controls, shape, "compliant", "jammed", nu=nu, stiffness=stiffness, grains=1200)]
+    return exponent_of_samples(found, lambda r: r["parameters"]["frequency"], lambda r: r[displacement])
+
+
+def power_over_length(controls, shape, contacts, start, quantity, draws=2000):
+    """Power of the mean of a quantity over L/d at one load ℓ, weighted equally for each length of box: value, low and high end of its
+    95 % interval by the bootstrap over the samples of each box, and the numbers of samples."""
+    value = QUANTITIES[quantity][0]
+    boxes = [[(r["length"], value(r)) for r in select(controls, shape, contacts, start, length)] for length in LENGTHS]
+    boxes = [box for box in boxes if len(box) > 2]
+
+    def slope(of_boxes):
+        points = [(math.log(sum(p[0] for p in box) / len(box)), sum(p[1] for p in box) / len(box)) for box in of_boxes]
+        if min(p[1] for p in points) <= 0:
+            return math.nan
+        return line([p[0] for p in points], [math.log(p[1]) for p in points])[1]
+    if len(boxes) < 3:
+        return math.nan, math.nan, math.nan, [len(box) for box in boxes]
+    random_of = random.Random(1)
+    slopes = sorted(s for s in (slope([random_of.choices(box, k=len(box)) for box in boxes]) for _ in range(draws)) if math.isfinite(s))
+    return slope(boxes), slopes[len(slopes) // 40], slopes[-1 - len(slopes) // 40], [len(box) for box in boxes]
+
+
+def power_over_force(controls, shape, contacts, start, quantity, length=10.7):
+    """Power of a quantity over the load ℓ at one length of the box, over the forces and frequencies that are run, in the same samples."""
+    found = [r for force in (1.0, 1 / 3, 5 / 3) for nu in (5.0, 2.0)
+             for r in select(controls, shape, contacts, start, length, nu=nu, force=force)]
+    return exponent_of_samples(found, lambda r: round(scaled_load(r) / r["length"], 9), QUANTITIES[quantity][0])
+
+
+# Rows of the tables of the supplement.
+
+def rows_of_equal_length(controls):
+    """Plane over space in boxes of equal length."""
+    rows = []
+    for plane, space in PAIRS:
+        for length in LENGTHS:
+            for contacts, start in CONTACTS_AND_STARTS:
+                both = [select(controls, shape, contacts, start, length) for shape in (plane, space)]
+                if min(map(len, both)) < 2:
+                    continue
+                cells = [interval(*compare(*both, quantity)[:3]) for quantity in ("C", "C_drift", "strain")]
+                means = [mean(found, quantity).text(factor=QUANTITIES[quantity][1]) for quantity in ("C", "strain") for found in both]
+                rows.append([f"{TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}", f"{length:g}", f"{contacts}, {start}",
+                             *(f"{len(found)}; {sum(judged(r) for r in found)}" for found in both), *means, *cells])
+    return rows
+
+
+def rows_of_boxes(controls):
+    """The boxes: what was aimed at and what came out, compliant contacts from jammed states."""
+    rows = []
+    for shape in GRAINS:
+        for length, grains in zip(LENGTHS, GRAINS[shape]):
+            found = select(controls, shape, "compliant", "jammed", length)
+            if found:
+                rows.append([TITLE[shape], f"{length:g}", grains, len({r["parameters"]["seed"] for r in found}), mean(found, "length").text(),
+                             mean(found, "height").text(), over_samples(found, lambda r: scaled_load(r) / r["length"]).text()])
+    return rows
+
+
+def rows_of_starts(controls):
+    """Contacts and start, sample by sample: ratios to compliant contacts from jammed states."""
+    rows = []
+    for shape in GRAINS:
+        for length in LENGTHS:
+            usual = select(controls, shape, "compliant", "jammed", length)
+            if len(usual) < 3:
+                continue
+            cells = []
+            for quantity in ("C", "strain"):
+                for contacts, start in CONTACTS_AND_STARTS[:3]:
+                    value, low, high, above, _ = compare(select(controls, shape, contacts, start, length), usual, quantity)
+                    cells.append(interval(value, low, high) if above > 1 else "–")
+            rows.append([TITLE[shape], f"{length:g}", len(usual), *cells])
+    return rows
+
+
+def rows_of_depth(controls):
+    """Width and side walls: ratios to the box with W/L = 1 and walls without friction."""
+    rows = []
+    for shape in ("sphere", "polyhedron"):
+        usual = select(controls, shape, "compliant", "jammed")
+        for name, width, walls in (("W/L = 0.5", 0.5, "frictionless"), ("W/L = 2", 2.0, "frictionless"), ("periodic", 1.0, "periodic"),
+                                   ("walls with friction 0.4", 1.0, "frictional")):
+            found = select(controls, shape, "compliant", "jammed", width=width, walls=walls)
+            if len(found) > 1 and len(usual) > 1:
+                rows.append([TITLE[shape], name, len(found), *(interval(*compare(found, usual, quantity)[:3]) for quantity in ("C", "strain"))])
+    return rows
+
+
+def rows_of_states(controls):
+    """One jammed state of each sample: means at three frequencies, and the spread of a sample."""
+    rows = []
+    for shape in GRAINS:
+        for nu in (5.0, 10.0, 2.0):
+            found = split(select(controls, shape, "compliant", "jammed", nu=nu, grains=1200))[1]
+            if len(found) > 2:
+                cells = []
+                for quantity in ("C", "strain"):
+                    e = mean(found, quantity)
+                    cells += [e.text(factor=QUANTITIES[quantity][1]), f"{100 * e.error * math.sqrt(e.n) / e.mean:.0f} %"]
+                rows.append([TITLE[shape], f"{nu:g}", f"{len(found)}; {sum(judged(r) for r in found)}", *cells])
+    return rows
+
+
+def rows_of_stiffness(controls):
+    """Power of the excursion over the frequency, 10 to 60 Hz, no run left out."""
+    rows = []
+    for shape in GRAINS:
+        for stiffness in (0.1, 1.0, 10.0):
+            found = [r for nu in (10.0, 15.0, 20.0, 35.0, 60.0)
+                     for r in select(controls, shape, "compliant", "jammed", nu=nu, stiffness=stiffness, grains=1200)]
+            e = exponent(controls, shape, stiffness, 10, 60)
+            if e.n:
+                rows.append([TITLE[shape], f"1e{8 + round(math.log10(stiffness))}", e.n, f"{len(found)}; {sum(judged(r) for r in found)}", e.text(),
+                             exponent(controls, shape, stiffness, 10, 60, "dx_max").text()])
+    return rows
