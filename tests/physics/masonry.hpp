@@ -17,7 +17,6 @@
 
 namespace masonry {
 
-using Law = moreau::SignoriniCoulomb<double>;
 using Point = std::array<double, 2>;  ///< horizontal and vertical coordinate [m]
 
 constexpr double gravity = 9.81, density = 1000, tolerance = 1e-8;
@@ -33,6 +32,8 @@ inline moreau::ColouredOptions tight(int max_sweeps = 10000) {
 template <class ShapeT, class Solver = moreau::ColouredGaussSeidel>
 struct Structure {
   using S = moreau::SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  using Law = moreau::SignoriniCoulomb<Scalar>;
   using Vector = typename S::Vector;
   static constexpr int up = S::dim - 1;
 
@@ -47,14 +48,14 @@ struct Structure {
   /// @param prism_depth extent of the blocks perpendicular to the plane [m]
   /// @param tilt        angle of the floor to the horizontal [rad]
   Structure(double size, double friction, double prism_depth, double tilt = 0)
-      : simulation(size, moreau::Materials<Law>(1, Law(friction)), Solver(tight())),
+      : simulation(Scalar(size), moreau::Materials<Law>(1, Law(Scalar(friction))), Solver(tight())),
         depth(prism_depth) {
     // With three of the four contact points of a rectangle, the centre of pressure would lie on a
     // side of their triangle, and the block would rock.
     simulation.set_contact_points(moreau::ContactPoints::all);
     simulation.add_wall(Vector::Unit(up), Vector::Zero());
-    simulation.set_gravity(gravity *
-                           (std::sin(tilt) * Vector::UnitX() - std::cos(tilt) * Vector::Unit(up)));
+    simulation.set_gravity(Scalar(gravity * std::sin(tilt)) * Vector::UnitX() -
+                           Scalar(gravity * std::cos(tilt)) * Vector::Unit(up));
   }
 
   /// Adds a block with the given corners in the plane, in any order.
@@ -63,15 +64,15 @@ struct Structure {
     for (const auto& [across, height] : corners)
       for (const double side : {-depth / 2, depth / 2}) {
         Vector x = Vector::Zero();
-        x[1] = side;
-        x[0] = across;
-        x[up] = height;
+        x[1] = Scalar(side);
+        x[0] = Scalar(across);
+        x[up] = Scalar(height);
         if (S::dim == 3 || side > 0) vertices.push_back(x);
       }
     const ShapeT shape(vertices);
     moreau::Pose<S> pose;
     pose.position = shape.centroid_of_input();
-    simulation.add_grain(simulation.add_shape(shape), pose, density);
+    simulation.add_grain(simulation.add_shape(shape), pose, Scalar(density));
   }
   void add_box(double left, double bottom, double width, double height) {
     add({{left, bottom},
@@ -133,16 +134,17 @@ Structure<ShapeT, Solver> column(int count) {
 template <class ShapeT>
 Structure<ShapeT> stack(int count, double friction, double jitter = 0, double ratio = 1) {
   constexpr double size = 0.01;
+  using Scalar = typename Structure<ShapeT>::Scalar;
   using Vector = typename Structure<ShapeT>::Vector;
   Structure<ShapeT> structure(size, friction, size);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> aside(-jitter, jitter);
-  const auto cube = structure.simulation.add_shape(moreau::regular_shape<ShapeT>(size));
+  const auto cube = structure.simulation.add_shape(moreau::regular_shape<ShapeT>(Scalar(size)));
   for (int k = 0; k < count; ++k) {
     moreau::Pose<typename Structure<ShapeT>::S> pose;
-    pose.position = size * Vector::NullaryExpr([&] { return aside(random); });
-    pose.position[structure.up] = size * (k + 0.5);
-    structure.simulation.add_grain(cube, pose, k % 2 == 1 ? ratio * density : density);
+    pose.position = Vector::NullaryExpr([&] { return Scalar(size * aside(random)); });
+    pose.position[structure.up] = Scalar(size * (k + 0.5));
+    structure.simulation.add_grain(cube, pose, Scalar(k % 2 == 1 ? ratio * density : density));
   }
   structure.joint = size;
   structure.diameter = size * count;

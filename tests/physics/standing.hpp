@@ -61,13 +61,14 @@ void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle,
 /// velocities is within its tolerance.
 template <class ShapeT>
 void check_stands_by_default(Structure<ShapeT> structure, double step, int count) {
+  using Scalar = typename Structure<ShapeT>::Scalar;
   const moreau::ColouredOptions options;
   structure.simulation.set_solver(moreau::ColouredGaussSeidel(options));
   const auto start = structure.vertices();
   int islands = 0, unsolved = 0;
   double error = 0;
   for (int k = 0; k < count; ++k) {
-    const moreau::SolveReport report = structure.simulation.step(step).solve;
+    const moreau::SolveReport report = structure.simulation.step(Scalar(step)).solve;
     CHECK(report.converged == !report.capped);
     islands = std::max(islands, report.islands);
     unsolved += !report.converged;
@@ -75,7 +76,8 @@ void check_stands_by_default(Structure<ShapeT> structure, double step, int count
   }
   double moved = 0;
   const auto end = structure.vertices();
-  for (std::size_t i = 0; i < end.size(); ++i) moved = std::max(moved, (end[i] - start[i]).norm());
+  for (std::size_t i = 0; i < end.size(); ++i)
+    moved = std::max(moved, double((end[i] - start[i]).norm()));
   CAPTURE(step);
   CAPTURE(structure.simulation.grain_count());
   CHECK(islands == 1);

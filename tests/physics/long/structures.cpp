@@ -39,20 +39,40 @@ TEST_CASE_TEMPLATE("an arch of 41 voussoirs stands for ten seconds", ShapeT, Pol
   masonry::check_stands(structure, step, settle, ten_seconds);
 }
 
+// Without friction nothing resists a light cube under one that is a thousand times heavier: errors of rounding tilt it,
+// and the load accelerates it. It moves by 1 % of its size in half a minute at 1 ms, in 5 s at 1/60 s.
 TEST_CASE_TEMPLATE("structures stand for a minute with the default options", ShapeT, Polyhedron<>,
                    Polygon<>) {
   for (const double h : {1e-3, 1.0 / 60}) {
-    const int minute = static_cast<int>(60 / h);
+    const auto steps = [h](double time) { return static_cast<int>(time / h); };
     for (const int cubes : {10, 20, 30, 50})
       for (const double jitter : {0.0, 0.005})
-        masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, minute);
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, steps(60));
     for (const double ratio : {1e3, 1e-3})
       for (const double friction : {0.0, 0.5})
-        masonry::check_stands_by_default(masonry::stack<ShapeT>(2, friction, 0, ratio), h, minute);
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(2, friction, 0, ratio), h,
+                                         steps(ratio > 1 && friction == 0 ? 4 : 60));
     for (const int stones : {11, 21, 31, 51})
-      masonry::check_stands_by_default(masonry::arch<ShapeT>(stones, 0.2), h, minute);
-    masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, minute);
+      masonry::check_stands_by_default(masonry::arch<ShapeT>(stones, 0.2), h, steps(60));
+    masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, steps(60));
     masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
-                                     minute);
+                                     steps(60));
+  }
+}
+
+TEST_CASE_TEMPLATE("structures stand with the default options in single precision", ShapeT,
+                   Polyhedron<float>, Polygon<float>) {
+  for (const double h : {1e-3, 1.0 / 60}) {
+    const int count = static_cast<int>(5 / h);
+    for (const int cubes : {2, 10, 20})
+      for (const double jitter : {0.0, 0.005})
+        masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, count);
+    for (const double ratio : {1e3, 1e-3})
+      masonry::check_stands_by_default(masonry::stack<ShapeT>(2, 0.5, 0, ratio), h, count);
+    for (const int stones : {11, 17})
+      masonry::check_stands_by_default(masonry::arch<ShapeT>(stones, 0.2), h, count);
+    masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, count);
+    masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
+                                     count);
   }
 }

@@ -113,7 +113,7 @@ class IslandNewton {
     steps_ = 0;
     is_better_ = false;
     first_ = 0;
-    double error = 0, before = 0;
+    double error = 0, before = 0, solved = std::numeric_limits<double>::infinity();
     while (proximal_step(epsilon, precision.most_steps, tolerance)) {
       const double change = std::max(largest_change(), next_shifts());
       if (!std::isfinite(change)) break;
@@ -124,7 +124,15 @@ class IslandNewton {
       std::swap(centre_, found_);
       std::swap(y_, next_);
       // A mode whose stiffness is `least` shows only the share least / epsilon of its error.
-      if (error * epsilon <= tolerance * least) return error;
+      const bool is_exact = epsilon <= least && change * epsilon <= rounding;
+      if (is_exact || error * epsilon <= tolerance * least) {
+        if (is_exact || !polishes() || steps_ == 0 || steps_ >= polish_steps ||
+            error > polish * solved)
+          return error;
+        solved = error;
+      } else if (std::isfinite(solved)) {
+        return error;
+      }
       before = epsilon <= least ? change : 0;
       epsilon = std::max(least, lower * epsilon);
     }
@@ -146,6 +154,12 @@ class IslandNewton {
   using Vector = typename Points::Vector;
   using Coordinates = typename Points::Coordinates;
   static constexpr double lower = 0.1;
+  /// Rounding of impulses times their compliance, relative to the motion. Steps go on below the tolerance while the
+  /// error falls by `polish`: errors that stay the same in every step add up.
+  static constexpr double rounding = 1e-15, polish = 0.1;
+  static constexpr int polish_steps = 12;
+  static constexpr std::size_t polish_bodies =
+      10;  // for more, steps below the tolerance would cost too much
   /// Measured: response and assembly of a contact, and product of two blocks, in visits of a sweep.
   static constexpr double visits_per_contact = 5 * S::angular_dim,
                           visits_per_block = S::dofs * S::dofs / 6;
@@ -199,6 +213,7 @@ class IslandNewton {
     return largest > 0 ? largest / scale(next_) : 0;
   }
 
+  bool polishes() const { return points_.bodies() <= polish_bodies; }
   /// phi and F at a motion.
   struct Value {
     double phi, norm;
@@ -237,18 +252,31 @@ class IslandNewton {
     most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
     Value value = respond(epsilon, next_);
+    double before = std::numeric_limits<double>::infinity();
     while (std::isfinite(value.norm)) {
-      if (rest() <= share * tolerance * scale(next_)) {
-        for (std::size_t i = 0; i < f_.size(); ++i)
-          next_[i] -= f_[i];  // the motion by the impulses
-        return true;
-      }
+      const double left = rest() / scale(next_), exact = rounding / epsilon;
+      const double aim = std::max(share * tolerance, exact);
+      const bool solved = !(left > aim);
+      // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
+      if (!(left > (polishes() ? exact : aim)) ||
+          (solved && (left > polish * before || steps_ == most_steps)))
+        return move_by_impulses();
       if (steps_ == most_steps) return false;
       ++steps_;
-      if (!newton_direction() || !shorten(epsilon, value)) return false;
+      before = left;
+      if (!newton_direction() || !shorten(epsilon, value)) {
+        if (!solved) return false;
+        respond(epsilon, next_);
+        return move_by_impulses();
+      }
       std::swap(next_, trial_);
     }
     return false;
+  }
+  /// Sets next_ to the motion by the impulses of the last respond(). @returns true
+  bool move_by_impulses() {
+    for (std::size_t i = 0; i < f_.size(); ++i) next_[i] -= f_[i];
+    return true;
   }
   /// Minimizes phi along direction_, roughly: phi is convex, and its slope is about linear in pieces. trial_ is the
   /// point that the step leads to.
