@@ -2,6 +2,7 @@
 """Numbers of the first pages and of the report of the study, computed again from the table of the runs by another way: own selection
 of the runs, own statistics (Student's t by integration of its density, medians by the bootstrap beside Welch's intervals). Shares no code
 with the scripts that write the pages. Argument: the top folder."""
+import functools
 import json
 import math
 import pathlib
@@ -57,11 +58,12 @@ def period_strain(line):
     return sum(a - b for a, b in zip(x["x_j"][:4], x["x_j_after"][:4])) / (4 * line["length"])
 
 
+@functools.cache
 def t_quantile(freedom):
     """t with 95 % of Student's density between -t and t, by Simpson's rule."""
     scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
 
-    def half_mass(t, n=4000):
+    def half_mass(t, n=600):
         h = t / n
         f = [(1 + (k * h) ** 2 / freedom) ** (-(freedom + 1) / 2) for k in range(n + 1)]
         return scale * h / 3 * (f[0] + f[-1] + 4 * sum(f[1:-1:2]) + 2 * sum(f[2:-1:2]))
@@ -156,9 +158,44 @@ def of_samples(found, value):
     return [sum(v) / len(v) for v in samples.values() if all(x is not None and math.isfinite(x) for x in v)]
 
 
+def of_the_same_samples(word, *words):
+    """Ratio of the means of the samples that both selections have; its interval by the propagation of variances and covariance."""
+    value, cut = MEASURED[word][0], words.index("/")
+    first, second = ({line["parameters"]["seed"]: value(line) for line in chosen(part)} for part in (words[:cut], words[cut + 1:]))
+    pairs = [(first[seed], second[seed]) for seed in sorted(first.keys() & second.keys())]
+    n = len(pairs)
+    if n < 2:
+        return None
+    (a, va), (b, vb) = (mean_and_variance([pair[k] for pair in pairs]) for k in (0, 1))
+    cov = sum((x - a) * (y - b) for x, y in pairs) / (n - 1) / n
+    half = t_quantile(n - 1) / abs(b) * math.sqrt(va - 2 * a / b * cov + (a / b) ** 2 * vb)
+    return a / b, a / b - half, a / b + half, n
+
+
+def of_all_lengths(word, plane, space, contacts, start):
+    """Geometric mean of the ratios in boxes of equal length, and its interval, from the ratio and the degrees of freedom of each length."""
+    value, _, of_means = MEASURED[word]
+    logs, terms = [], []
+    for length in sorted(BOXES[plane].keys() & BOXES[space].keys()):
+        both = [of_samples(chosen([shape, contacts, start, f"L={length}"]), value) for shape in (plane, space)]
+        if min(map(len, both)) < 2:
+            continue
+        sides = [mean_and_variance(v if of_means else [math.log(x) for x in v]) for v in both]
+        logs.append(math.log(sides[0][0] / sides[1][0]) if of_means else sides[0][0] - sides[1][0])
+        terms += [(v / m ** 2 if of_means else v, len(b) - 1) for (m, v), b in zip(sides, both)]
+    variance = sum(v for v, _ in terms)
+    half = t_quantile(variance ** 2 / sum(v * v / n for v, n in terms)) * math.sqrt(variance) / len(logs)
+    centre = sum(logs) / len(logs)
+    return math.exp(centre), math.exp(centre - half), math.exp(centre + half), len(logs)
+
+
 def expected(name):
     """Value, low and high end of the interval, numbers of samples; None for a name that is not known here."""
     word, *rest = name.split()
+    if word == "same_samples":
+        return of_the_same_samples(*rest)
+    if word == "pooled":
+        return of_all_lengths(*rest)
     if word == "control":
         word, *rest = rest
     if word not in MEASURED or not rest:

@@ -9,7 +9,7 @@ the other plans."""
 import math
 import random
 
-from interval import interval, ratio, ratio_of_means
+from interval import Estimate, interval, ratio, ratio_of_means, student
 from runs import TITLE, constant, exponent_of_samples, judged, line, over_samples, scaled_load, strain
 
 FIRST_SAMPLE = 31
@@ -89,11 +89,42 @@ def compare(above, below, quantity):
     return (*(ratio_of_means if QUANTITIES[quantity][2] else ratio)(a.values, b.values), a.n, b.n)
 
 
-def paired(above, below, quantity):
-    """Ratios of the same samples in both selections."""
+def pooled(controls, plane, space, contacts, start, quantity):
+    """Plane over space, geometric mean of the ratios at all lengths that both have, each with the same weight: value, low and high end of
+    its interval by Welch's degrees of freedom, and the number of lengths."""
+    logs, parts = [], []
+    for length in LENGTHS:
+        both = [mean(select(controls, shape, contacts, start, length), quantity) for shape in (plane, space)]
+        if min(e.n for e in both) < 2:
+            continue
+        if not QUANTITIES[quantity][2]:
+            both = [Estimate([math.log(v) for v in e.values]) for e in both]
+            logs.append(both[0].mean - both[1].mean)
+            parts += [(e.error ** 2, e.freedom) for e in both]
+        else:
+            logs.append(math.log(both[0].mean / both[1].mean))
+            parts += [((e.error / e.mean) ** 2, e.freedom) for e in both]
+    count = len(logs)
+    if not count:
+        return math.nan, math.nan, math.nan, 0
+    variance = sum(v for v, _ in parts)
+    half = student(variance ** 2 / sum(v ** 2 / n for v, n in parts)) * math.sqrt(variance) / count
+    value = sum(logs) / count
+    return math.exp(value), math.exp(value - half), math.exp(value + half), count
+
+
+def compare_samples(above, below, quantity):
+    """Ratio of the means of the samples that both selections have: value, low and high end of its interval, number of samples. The
+    interval is that of the mean of a - R b, Student's."""
     value = QUANTITIES[quantity][0]
     seeds = {r["parameters"]["seed"]: value(r) for r in below}
-    return [(value(r), seeds[r["parameters"]["seed"]]) for r in above if r["parameters"]["seed"] in seeds]
+    pairs = [(value(r), seeds[r["parameters"]["seed"]]) for r in above if r["parameters"]["seed"] in seeds]
+    if len(pairs) < 2:
+        return (math.nan,) * 3 + (len(pairs),)
+    base = sum(b for _, b in pairs) / len(pairs)
+    share = sum(a for a, _ in pairs) / len(pairs) / base
+    half = Estimate([a - share * b for a, b in pairs]).half / abs(base)
+    return share, share - half, share + half, len(pairs)
 
 
 def exponent(controls, shape, stiffness, low, high, displacement="dx_active"):
@@ -160,19 +191,18 @@ def rows_of_boxes(controls):
 
 
 def rows_of_starts(controls):
-    """Contacts and start, sample by sample: ratios to compliant contacts from jammed states."""
+    """Contacts and start, in the same samples: ratios to compliant contacts from jammed states."""
     rows = []
     for shape in GRAINS:
         for length in LENGTHS:
             usual = select(controls, shape, "compliant", "jammed", length)
-            if len(usual) < 3:
-                continue
             cells = []
             for quantity in ("C", "strain"):
                 for contacts, start in CONTACTS_AND_STARTS[:3]:
-                    value, low, high, above, _ = compare(select(controls, shape, contacts, start, length), usual, quantity)
-                    cells.append(interval(value, low, high) if above > 1 else "–")
-            rows.append([TITLE[shape], f"{length:g}", len(usual), *cells])
+                    *value, both = compare_samples(select(controls, shape, contacts, start, length), usual, quantity)
+                    cells.append(f"{interval(*value)} ({both})" if both > 1 else "–")
+            if any(cell != "–" for cell in cells):
+                rows.append([TITLE[shape], f"{length:g}", *cells])
     return rows
 
 

@@ -697,17 +697,18 @@ def equal_length(runs, path):
     colors = {"rigid": "#b3261e", "compliant": "#1f5fa8"}
     for quantity, name, limits in (("C", "C", "[0.4:2.5]"), ("strain", "strain of a period", "[0.15:4]")):
         for plane, space in controls.PAIRS:
-            first = not panels
+            has_key = len(panels) == 1
             panel = Panel(f"{name}: {TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}", "L / d",
-                          "plane / space" if plane == "polygon" else "", ["set key top left" if first else "set key off"])
-            panel.commands += ["set logscale xy", "set xrange [7:28]", f"set yrange {limits}", "set xtics (8, 10.7, 16, 24)",
+                          "plane / space" if plane == "polygon" else "", ["set key top right" if has_key else "set key off"])
+            panel.commands += ["set logscale xy", "set xrange [7:20]", f"set yrange {limits}", "set xtics (8, 10.7, 15.1)",
                                "set ytics (0.25, 0.5, 0.75, 1, 1.5, 2, 3)"]
             for k, (contacts, start) in enumerate(controls.CONTACTS_AND_STARTS):
                 rows = []
                 for length in controls.LENGTHS:
                     above, below = (controls.select(runs, shape, contacts, start, length) for shape in (plane, space))
                     value, low, high, *_ = controls.compare(above, below, quantity)
-                    rows.append((length * 1.025 ** (k - 1.5), value, low, high))
+                    if math.isfinite(value):
+                        rows.append((controls.mean(above, "length").mean * 1.025 ** (k - 1.5), value, low, high))
                 panel.ranges(rows, colors[contacts], (6 if start == "filling" else 7) - 2 * (contacts == "rigid"), f"{contacts}, {start}")
             panels.append(panel)
     if not any(panel.curves for panel in panels):

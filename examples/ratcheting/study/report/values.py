@@ -73,7 +73,7 @@ class Values:
 
     def __init__(self, runs, folder):
         self.runs, self.folder, self.known = controls.split(runs)[0], folder, {}
-        self.controls = runs
+        self.every = runs
         self.predictions = {}
 
     def __call__(self, name):
@@ -133,37 +133,41 @@ class Values:
     def of_control(self, quantity, *words):
         """A mean of controls.QUANTITIES, or of two selections with / between them their ratio."""
         if "/" not in words:
-            return with_samples(controls.mean(controls.selection(self.controls, words), quantity), controls.QUANTITIES[quantity][1])
+            return with_samples(controls.mean(controls.selection(self.every, words), quantity), controls.QUANTITIES[quantity][1])
         cut = words.index("/")
-        above, below = (controls.selection(self.controls, part) for part in (words[:cut], words[cut + 1:]))
+        above, below = (controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:]))
         *value, over, under = controls.compare(above, below, quantity)
         return f"{interval(*value)} ({over} and {under})" if over and under else "–"
 
     def of_same_samples(self, quantity, *words):
-        """The ratio of two selections, sample by sample."""
+        """The ratio of two selections in the samples that both have."""
         cut = words.index("/")
-        above, below = (controls.selection(self.controls, part) for part in (words[:cut], words[cut + 1:]))
-        logs = Estimate([math.log(a / b) for a, b in controls.paired(above, below, quantity) if a / b > 0])
-        return f"{interval(*(math.exp(v) for v in (logs.mean, logs.mean - logs.half, logs.mean + logs.half)))} ({logs.n})" if logs.n else "–"
+        *value, both = controls.compare_samples(*(controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:])), quantity)
+        return f"{interval(*value)} ({both})" if both > 1 else "–"
+
+    def of_pooled(self, quantity, plane, space, contacts, start):
+        """Plane over space over all lengths that both have; in round brackets the number of lengths."""
+        *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity)
+        return f"{interval(*value)} ({lengths})" if lengths else "–"
 
     def of_control_power(self, shape, stiffness, low, high, displacement="dx_active"):
         """Power of the excursion over the frequency for a stiffness over 1e8 N/m, no run left out."""
-        return with_samples(controls.exponent(self.controls, shape, float(stiffness), float(low), float(high), displacement))
+        return with_samples(controls.exponent(self.every, shape, float(stiffness), float(low), float(high), displacement))
 
     def of_length_power(self, quantity, *words):
         """Power of the mean of a quantity over L/d at one load."""
-        value, low, high, counts = controls.power_over_length(self.controls, *words, quantity)
+        value, low, high, counts = controls.power_over_length(self.every, *words, quantity)
         return f"{interval(value, low, high)} ({', '.join(map(str, counts))})"
 
     def of_load_power(self, quantity, shape, contacts, start, length="10.7"):
-        return with_samples(controls.power_over_force(self.controls, shape, contacts, start, quantity, float(length)))
+        return with_samples(controls.power_over_force(self.every, shape, contacts, start, quantity, float(length)))
 
     def of_control_table(self, name):
-        rows = getattr(controls, "rows_of_" + name)(self.controls)
+        rows = getattr(controls, "rows_of_" + name)(self.every)
         return "\n".join(template.row(cells) for cells in rows)
 
     def of_control_runs(self):
-        return f"{len(controls.split(self.controls)[1]):,}"
+        return f"{len(controls.split(self.every)[1]):,}"
 
     # Exponents.
 
@@ -339,16 +343,16 @@ class Values:
     # Others.
 
     def of_runs(self, kind="all"):
-        found = {"all": self.runs, "compliant": [r for r in self.runs if r["parameters"]["method"] == "compliant"]}[kind]
+        found = {"all": self.every, "compliant": [r for r in self.every if r["parameters"]["method"] == "compliant"]}[kind]
         return f"{len(found):,}"
 
     def of_steps(self, what, kind):
         """Steps, and steps that are not solved, of the rigid or the compliant runs."""
-        found = {"compliant": [r for r in self.runs if r["parameters"]["method"] == "compliant"],
-                 "friction": [r for r in self.runs if r["parameters"]["method"] == "compliant" and r["parameters"]["friction"] > 0.5],
-                 "rigid": [r for r in self.runs if r["parameters"]["method"] != "compliant" and r["parameters"]["tolerance"] == 1e-4],
-                 "tight": [r for r in self.runs if r["parameters"]["method"] != "compliant" and r["parameters"]["tolerance"] == 1e-5],
-                 "2008": [r for r in self.runs if r["parameters"]["tolerance"] == 1e-3]}[kind]
+        found = {"compliant": [r for r in self.every if r["parameters"]["method"] == "compliant"],
+                 "friction": [r for r in self.every if r["parameters"]["method"] == "compliant" and r["parameters"]["friction"] > 0.5],
+                 "rigid": [r for r in self.every if r["parameters"]["method"] != "compliant" and r["parameters"]["tolerance"] == 1e-4],
+                 "tight": [r for r in self.every if r["parameters"]["method"] != "compliant" and r["parameters"]["tolerance"] == 1e-5],
+                 "2008": [r for r in self.every if r["parameters"]["tolerance"] == 1e-3]}[kind]
         return f"{sum(r['facts']['steps' if what == 'all' else 'capped_steps'] for r in found):,}"
 
     def of_contracting(self):
@@ -381,9 +385,10 @@ class Values:
     def clock(self):
         return [line.split(",") for line in (self.folder / "wall_clock.csv").read_text(encoding="utf8").splitlines()[1:]]
 
-    def of_hours(self):
-        """Core-hours of preparation and shaking."""
-        return f"{sum(float(v) for row in self.clock() for v in row[2:4] if v) / 3600:.0f}"
+    def of_hours(self, plan="all"):
+        """Hours of preparation and shaking of one process each, of all runs or of the `controls`."""
+        rows = [row for row in self.clock() if plan == "all" or int(row[1].split("-s")[1].split("-")[0]) >= controls.FIRST_SAMPLE]
+        return f"{sum(float(v) for row in rows for v in row[2:4] if v) / 3600:.{0 if plan == 'all' else 1}f}"
 
     def of_timed(self):
         return f"{len(self.clock()):,}"
