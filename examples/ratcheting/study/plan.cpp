@@ -719,7 +719,9 @@ std::vector<std::string> arguments(const Parameters& p) {
   const Parameters usual;
   std::vector<std::string> list{"--shape", p.shape, "--seed", std::to_string(p.seed)};
   for (const Option& option : options())
-    if (option.value(p) != option.value(usual)) {
+    // The stiffness of compliant contacts has a default of its own.
+    if (option.value(p) != option.value(usual) ||
+        (option.flag == "--stiffness" && p.method == "compliant")) {
       list.emplace_back(option.flag);
       list.push_back(text(option.value(p)));
     }
