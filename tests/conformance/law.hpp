@@ -233,7 +233,7 @@ void lane_law(const Law& law, int visits = 50) {
   using T = typename S::Scalar;
   using Block = moreau::LaneBlockOf<Law, S>;
   using Vector = typename LocalProblem<S, Law>::Vector;
-  constexpr std::size_t lanes = moreau::LaneBlock<S>::W::lanes;
+  constexpr std::size_t lanes = moreau::LaneBlock<S>::Number::lanes;
   std::mt19937_64 random(3);
   double worst = 0;
   for (int i = 0; i < 300; ++i) {
@@ -249,7 +249,7 @@ void lane_law(const Law& law, int visits = 50) {
     const auto parameters = law.lane_parameters();
     std::array<typename Block::Values, std::tuple_size_v<decltype(law.lane_parameters())>> wide{};
     for (std::size_t k = 0; k < parameters.size(); ++k)
-      wide[k] = Block::W::broadcast(parameters[k]);
+      wide[k] = Block::Number::broadcast(parameters[k]);
     typename Block::Memory memory{};
     for (int visit = 1; visit <= visits; ++visit) {
       typename Block::Vector b = block * r;

@@ -25,7 +25,7 @@ template <class S>
 struct Lanes {
   using T = typename S::Scalar;
   using Block = LaneBlock<S>;
-  using W = typename Block::W;
+  using W = typename Block::Number;
   static constexpr std::size_t count = std::size_t{W::lanes};
 
   std::array<LocalBlock<S>, count> blocks;
@@ -123,7 +123,7 @@ TEST_CASE_TEMPLATE("loads of any size have finite impulses in the cone", S,
                    MOREAU_TYPES((Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   using Block = LaneBlock<S>;
-  using W = typename Block::W;
+  using W = typename Block::Number;
   const Block block = Block::unit();
   const auto friction = W::broadcast(T(0.5));
   for (const double speed : {0.0, 1e-9, 1e-3, 1.0})

@@ -87,7 +87,7 @@ TEST_CASE_TEMPLATE("round contacts: lanes visited again and again have the scala
   using Block = LaneRollingBlock<Any>;
   using Values = typename Block::Values;
   using Problem = RollingBlock<Any>;
-  constexpr std::size_t lanes = Block::W::lanes;
+  constexpr std::size_t lanes = Block::Number::lanes;
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> part(0, 1);
   std::normal_distribution<double> normal;
@@ -151,7 +151,8 @@ TEST_CASE("a contact that does not roll is solved by one visit") {
     }
     Block::Memory memory{};
     const auto r = RollingResistance<>::solve_lanes<S>(
-        block, lanes, guess, {Block::W::broadcast(0.5), Block::W::broadcast(3)}, memory, false);
+        block, lanes, guess, {Block::Number::broadcast(0.5), Block::Number::broadcast(3)}, memory,
+        false);
     for (std::size_t d = 0; d < Block::rows; ++d)
       CHECK(std::abs(r[d][0] - exact[Eigen::Index(d)]) <= 1e-13 * (1 + exact.norm()));
   }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The Delassus blocks of several independent contacts, one per SIMD lane, or of one contact, for local
-// solutions that are written once for both.
+// The Delassus blocks of several independent contacts, one per SIMD lane, as local solutions need them.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "moreau/contact/local_block.hpp"
@@ -12,63 +10,37 @@
 namespace moreau {
 
 /// LocalBlock of one contact per lane, with the reciprocals that local solutions need.
-/// @tparam Number detail::Wide, or detail::OneNumber for a single contact
-template <class S, class Number = detail::Wide<typename S::Scalar, detail::widest_bytes>>
-struct LaneBlock {
-  static constexpr std::size_t dim = S::dim;        ///< D
-  static constexpr std::size_t rows = dim;          ///< rows of a contact
-  static constexpr std::size_t tangents = dim - 1;  ///< D - 1
-  using W = Number;
-  using Values = typename W::Values;
-  using Vector = std::array<Values, dim>;
-  using Tangent = std::array<Values, tangents>;
+/// @tparam NumberT detail::Wide, or detail::OneNumber for a single contact
+template <class S, class NumberT = detail::Wide<typename S::Scalar, detail::widest_bytes>>
+struct LaneBlock : LocalBlock<S, NumberT> {
+  using Block = LocalBlock<S, NumberT>;  ///< without the reciprocals
+  using typename Block::Index, typename Block::Number, typename Block::Tangent,
+      typename Block::Values;
   using Memory = Values;  ///< of a local solution, see LaneLaw
+  using Block::tangents;
 
-  Values normal;          ///< as in LocalBlock [1/kg]
   Values inverse_normal;  ///< 1 / normal [kg]
-  Tangent coupling;       ///< as in LocalBlock [-]
-  Tangent slip;           ///< as in LocalBlock [1/kg]
   Tangent inverse_slip;   ///< 1 / slip [kg]
 
   /// W = 1 in every lane, for lanes without a contact.
   static LaneBlock unit() {
     LaneBlock block{};
-    block.normal = block.inverse_normal = W::broadcast(1);
-    for (std::size_t t = 0; t < tangents; ++t)
-      block.slip[t] = block.inverse_slip[t] = W::broadcast(1);
+    block.normal = block.inverse_normal = Number::broadcast(1);
+    for (Index t = 0; t < tangents; ++t) {
+      block.coupling[t] = Values{};
+      block.slip[t] = block.inverse_slip[t] = Number::broadcast(1);
+    }
     return block;
   }
-  /// Sets the block of a lane, lane < W::lanes.
+  /// Sets the block of a lane, lane < Number::lanes.
   void set(std::size_t lane, const LocalBlock<S>& block) {
-    W::set(normal, lane, block.normal);
-    W::set(inverse_normal, lane, 1 / block.normal);
-    for (std::size_t t = 0; t < tangents; ++t) {
-      W::set(coupling[t], lane, block.coupling[Eigen::Index(t)]);
-      W::set(slip[t], lane, block.slip[Eigen::Index(t)]);
-      W::set(inverse_slip[t], lane, 1 / block.slip[Eigen::Index(t)]);
-    }
+    Block::set(lane, block);
+    Number::set(inverse_normal, lane, 1 / block.normal);
+    for (int t = 0; t < S::dim - 1; ++t)
+      Number::set(inverse_slip[Index(t)], lane, 1 / block.slip[t]);
   }
   /// Sets the memory of a lane to 0.
-  static void forget(Memory& memory, std::size_t lane) { W::set(memory, lane, 0); }
-  /// The block of a lane, lane < W::lanes.
-  LocalBlock<S> operator[](std::size_t lane) const {
-    LocalBlock<S> block;
-    block.normal = W::get(normal, lane);
-    for (std::size_t t = 0; t < tangents; ++t) {
-      block.coupling[Eigen::Index(t)] = W::get(coupling[t], lane);
-      block.slip[Eigen::Index(t)] = W::get(slip[t], lane);
-    }
-    return block;
-  }
-  /// W r [m/s] in every lane, of impulses r [N s], normal first.
-  Vector operator*(const Vector& r) const {
-    Values sum = r[0];
-    for (std::size_t t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];
-    Vector u;
-    u[0] = normal * sum;
-    for (std::size_t t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
-    return u;
-  }
+  static void forget(Memory& memory, std::size_t lane) { Number::set(memory, lane, 0); }
 };
 
 }  // namespace moreau

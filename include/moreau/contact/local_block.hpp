@@ -16,102 +16,140 @@
 #include <cmath>
 #include <cstddef>
 
+#include "moreau/core/detail/wide.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
 
-/// W of one contact in its own frame, normal first; tangents aligned as above [1/kg].
-template <class S>
+/// W of one contact in its own frame, normal first; tangents aligned as above [1/kg]. Or W of one contact per SIMD
+/// lane.
+/// @tparam NumberT detail::OneNumber: one contact, vectors of Eigen; detail::Wide: a contact per lane, arrays of
+///                 registers
+template <class S, class NumberT = detail::OneNumber<typename S::Scalar>>
 struct LocalBlock {
-  using Scalar = typename S::Scalar;
-  using Vector = typename S::Vector;
-  static constexpr int tangents = S::dim - 1;  ///< D - 1
-  using Tangent = Eigen::Matrix<Scalar, tangents, 1>;
+  using Number = NumberT;                     ///< OneNumber or Wide
+  using Scalar = typename S::Scalar;          ///< double or float
+  using Values = typename Number::Values;     ///< an entry: a number, or one number per lane
+  using Index = typename Number::Index;       ///< of the entries of a vector
+  static constexpr Index dim = S::dim;        ///< D
+  static constexpr Index rows = dim;          ///< rows of a contact
+  static constexpr Index tangents = dim - 1;  ///< D - 1
+  using Vector = typename detail::RowsOf<Number, S::dim>::Type;       ///< D entries, normal first
+  using Tangent = typename detail::RowsOf<Number, S::dim - 1>::Type;  ///< D - 1 entries
 
-  Scalar normal;     ///< w_nn [1/kg]
+  Values normal;     ///< w_nn [1/kg]
   Tangent coupling;  ///< k = w_tn / w_nn [-]
   Tangent slip;      ///< eigenvalues of the Schur complement [1/kg]
 
   /// W r [m/s] of an impulse r [N s], both in the frame, normal first.
   Vector operator*(const Vector& r) const {
-    Scalar sum = r[0];
-    for (int t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];
+    Values sum = r[0];
+    for (Index t = 0; t < tangents; ++t) sum += coupling[t] * r[t + 1];
     Vector u;
     u[0] = normal * sum;
-    for (int t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
+    for (Index t = 0; t < tangents; ++t) u[t + 1] = u[0] * coupling[t] + slip[t] * r[t + 1];
     return u;
   }
   /// Makes the block that of W times a factor > 0 [-].
   LocalBlock& operator*=(Scalar factor) {
     normal *= factor;
-    slip *= factor;
+    for (Index t = 0; t < tangents; ++t) slip[t] *= factor;
     return *this;
   }
   /// Trace of W [1/kg].
-  Scalar trace() const { return normal * (1 + coupling.squaredNorm()) + slip.sum(); }
-  /// W, D x D, normal first [1/kg].
+  Values trace() const {
+    Values squares = 1 + coupling[0] * coupling[0], slips = slip[0];
+    for (Index t = 1; t < tangents; ++t) {
+      squares += coupling[t] * coupling[t];
+      slips += slip[t];
+    }
+    return normal * squares + slips;
+  }
+  /// W, D x D, normal first [1/kg]; of one contact.
   typename S::Matrix matrix() const {
     typename S::Matrix w;
     for (int k = 0; k < S::dim; ++k) w.col(k) = *this * Vector(Vector::Unit(k));
     return w;
   }
+
+  /// Sets the block of a lane, lane < Number::lanes.
+  void set(std::size_t lane, const LocalBlock<S>& block) {
+    Number::set(normal, lane, block.normal);
+    for (int t = 0; t < S::dim - 1; ++t) {
+      Number::set(coupling[Index(t)], lane, block.coupling[t]);
+      Number::set(slip[Index(t)], lane, block.slip[t]);
+    }
+  }
+  /// The block of a lane, lane < Number::lanes.
+  LocalBlock<S> operator[](std::size_t lane) const {
+    LocalBlock<S> block;
+    block.normal = Number::get(normal, lane);
+    for (int t = 0; t < S::dim - 1; ++t) {
+      block.coupling[t] = Number::get(coupling[Index(t)], lane);
+      block.slip[t] = Number::get(slip[Index(t)], lane);
+    }
+    return block;
+  }
 };
 
 namespace detail {
 
-/// W of a contact after its tangents are turned, for entries that are numbers or one contact per SIMD
-/// lane. new tangents = old tangents * turn
-template <std::size_t Tangents, class Values>
+/// W after its tangents are turned. new tangents = old tangents * turn
+template <class S, class Number>
 struct AlignedBlock {
-  Values normal;
-  std::array<Values, Tangents> coupling, slip;
-  std::array<std::array<Values, Tangents>, Tangents> turn;
+  static constexpr std::size_t tangents = S::dim - 1;
+  using Values = typename Number::Values;
+  LocalBlock<S, Number> block;
+  std::array<std::array<Values, tangents>, tangents> turn;
 };
 
-/// @param w           lower triangle of W, row after row
-/// @param square_root function of Values
-template <std::size_t Tangents, class Values>
-AlignedBlock<Tangents, Values> aligned_block(
-    const std::array<Values, (Tangents + 1) * (Tangents + 2) / 2>& w, const auto& square_root) {
-  static_assert(Tangents <= 2, "of three rows one rotation for each pair is not enough");
+/// @param w lower triangle of W, row after row
+template <class S, class Number>
+AlignedBlock<S, Number> aligned_block(
+    const std::array<typename Number::Values, std::size_t{S::dim * (S::dim + 1) / 2}>& w) {
+  using Values = typename Number::Values;
+  using Index = typename Number::Index;
+  constexpr std::size_t turned = S::dim - 1;
+  static_assert(turned <= 2, "of three rows one rotation for each pair is not enough");
   const auto entry = [&](std::size_t i, std::size_t k) -> const Values& {
     return w[i < k ? k * (k + 1) / 2 + i : i * (i + 1) / 2 + k];
   };
   const Values zero{}, one = zero + 1;
-  AlignedBlock<Tangents, Values> block;
+  AlignedBlock<S, Number> aligned;
+  auto& [block, turn] = aligned;
   // No impulse changes the normal velocity: the contact cannot act (ContactLanes), any value will do.
   block.normal = entry(0, 0) == zero ? (entry(1, 1) == zero ? one : entry(1, 1)) : entry(0, 0);
   const Values inverse = one / block.normal;
-  std::array<Values, Tangents> k;  // before the turn
-  for (std::size_t t = 0; t < Tangents; ++t) k[t] = entry(t + 1, 0) * inverse;
-  std::array<std::array<Values, Tangents>, Tangents> schur;
-  for (std::size_t i = 0; i < Tangents; ++i)
-    for (std::size_t j = 0; j < Tangents; ++j) {
+  std::array<Values, turned> k;  // before the turn
+  for (std::size_t t = 0; t < turned; ++t) k[t] = entry(t + 1, 0) * inverse;
+  std::array<std::array<Values, turned>, turned> schur;
+  for (std::size_t i = 0; i < turned; ++i)
+    for (std::size_t j = 0; j < turned; ++j) {
       schur[i][j] = entry(i + 1, j + 1) - entry(i + 1, 0) * k[j];
-      block.turn[i][j] = i == j ? one : zero;
+      turn[i][j] = i == j ? one : zero;
     }
-  if constexpr (Tangents == 2) {
+  if constexpr (turned == 2) {
     // One Jacobi rotation by the smaller angle.
     const Values mixed = schur[1][0] + schur[1][0];
     const Values theta = (schur[1][1] - schur[0][0]) / (mixed == zero ? one : mixed);
     const Values size = theta < zero ? -theta : theta;
-    const Values least = one / (size + square_root(theta * theta + one));
+    const Values least = one / (size + Number::square_root(theta * theta + one));
     const Values signed_least = theta < zero ? -least : least;
     const Values tangent = mixed == zero ? zero : signed_least;
-    const Values cosine = one / square_root(tangent * tangent + one);
-    block.turn[0][0] = block.turn[1][1] = cosine;
-    block.turn[0][1] = tangent * cosine;
-    block.turn[1][0] = -(tangent * cosine);
+    const Values cosine = one / Number::square_root(tangent * tangent + one);
+    turn[0][0] = turn[1][1] = cosine;
+    turn[0][1] = tangent * cosine;
+    turn[1][0] = -(tangent * cosine);
   }
-  for (std::size_t t = 0; t < Tangents; ++t) {
-    block.coupling[t] = block.slip[t] = zero;
-    for (std::size_t i = 0; i < Tangents; ++i) {
-      block.coupling[t] += block.turn[i][t] * k[i];
-      for (std::size_t j = 0; j < Tangents; ++j)
-        block.slip[t] += block.turn[i][t] * schur[i][j] * block.turn[j][t];
+  for (std::size_t t = 0; t < turned; ++t) {
+    Values &coupling = block.coupling[Index(t)], &slip = block.slip[Index(t)];
+    coupling = slip = zero;
+    for (std::size_t i = 0; i < turned; ++i) {
+      coupling += turn[i][t] * k[i];
+      for (std::size_t j = 0; j < turned; ++j) slip += turn[i][t] * schur[i][j] * turn[j][t];
     }
   }
-  return block;
+  return aligned;
 }
 
 }  // namespace detail
@@ -128,17 +166,11 @@ LocalBlock<S> align_tangents(const typename S::Matrix& w,
   std::array<T, (tangents + 1) * (tangents + 2) / 2> lower;
   for (int i = 0, e = 0; i < S::dim; ++i)
     for (int k = 0; k <= i; ++k) lower[std::size_t(e++)] = w(i, k);
-  const auto aligned =
-      detail::aligned_block<tangents, T>(lower, [](const T& x) { return std::sqrt(x); });
-  LocalBlock<S> block;
-  block.normal = aligned.normal;
-  for (std::size_t t = 0; t < tangents; ++t) {
-    block.coupling[Eigen::Index(t)] = aligned.coupling[t];
-    block.slip[Eigen::Index(t)] = aligned.slip[t];
+  const auto aligned = detail::aligned_block<S, detail::OneNumber<T>>(lower);
+  for (std::size_t t = 0; t < tangents; ++t)
     for (std::size_t i = 0; i < tangents; ++i)
       turn(Eigen::Index(i), Eigen::Index(t)) = aligned.turn[i][t];
-  }
-  return block;
+  return aligned.block;
 }
 
 }  // namespace moreau

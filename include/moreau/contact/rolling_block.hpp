@@ -106,7 +106,7 @@ template <class S>
 struct LaneRollingBlock {
   static constexpr std::size_t rows = S::dofs;  ///< D + A, rows of a contact
   using Point = LaneBlock<S>;                   ///< the block of the point alone
-  using W = typename Point::W;
+  using Number = typename Point::Number;
   using Values = typename Point::Values;
   using Algebra = detail::LaneAlgebra<S, Values>;  ///< products in every lane
   using Vector = std::array<Values, rows>;
@@ -125,11 +125,11 @@ struct LaneRollingBlock {
   static LaneRollingBlock unit() {
     LaneRollingBlock block{};
     block.point = Point::unit();
-    block.spin = block.inverse_spin = W::broadcast(1);
+    block.spin = block.inverse_spin = Number::broadcast(1);
     block.resting_slip = block.inverse_resting_slip = block.point.slip;
     return block;
   }
-  /// Sets the block of a lane, lane < W::lanes, to the round block that stands for w.
+  /// Sets the block of a lane, lane < Number::lanes, to the round block that stands for w.
   void set(std::size_t lane, const RollingBlock<S>& w) {
     const RoundBlock<S> block(w);
     point.set(lane, block.point);
@@ -147,7 +147,7 @@ struct LaneRollingBlock {
   static void forget(Memory& memory, std::size_t lane) {
     for (Values& one : memory) one[lane] = 0;
   }
-  /// The block of a lane, lane < W::lanes.
+  /// The block of a lane, lane < Number::lanes.
   RollingBlock<S> operator[](std::size_t lane) const {
     RollingBlock<S> block;
     block.point = point[lane];

@@ -70,27 +70,22 @@ class SignoriniCoulomb {
   template <class S>
   typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
                            const typename S::Vector& guess) const {
-    using Block = LaneBlock<S, detail::OneNumber<T>>;
     if (b[0] >= T(0)) return S::Vector::Zero();
+    using Block = LaneBlock<S, detail::OneNumber<T>>;
     // In units of the velocity: squares of small impulses would underflow.
     const T unit = b.cwiseAbs().maxCoeff();
-    Block lane;
-    lane.set(0, block);
-    typename Block::Vector velocity;
+    const typename S::Vector velocity = b / unit;
     T squared = 0, opposed = 0;  // |r_t|^2 and -r_t . u_t of the guess, without its normal impulse
-    for (std::size_t d = 0; d < Block::dim; ++d) velocity[d] = b[Eigen::Index(d)] / unit;
-    for (std::size_t t = 0; t < Block::tangents; ++t) {
-      const T r = guess[Eigen::Index(t) + 1] / unit;
+    for (int t = 0; t < S::dim - 1; ++t) {
+      const T r = guess[t + 1] / unit;
       squared += r * r;
-      opposed -= (velocity[t + 1] - velocity[0] * lane.coupling[t] + lane.slip[t] * r) * r;
+      opposed -= (velocity[t + 1] - velocity[0] * block.coupling[t] + block.slip[t] * r) * r;
     }
     T alpha = squared > T(0) && opposed > T(0) ? opposed / squared : T(0);
     if (!std::isfinite(alpha)) alpha = 0;
-    const auto impulse =
-        detail::CoulombLanes<S, Block>::solve(lane, velocity, friction_, alpha, true);
-    typename S::Vector r;
-    for (std::size_t d = 0; d < Block::dim; ++d) r[Eigen::Index(d)] = unit * impulse[d];
-    return r;
+    Block divided;
+    divided.set(0, block);
+    return unit * detail::CoulombLanes<S, Block>::solve(divided, velocity, friction_, alpha, true);
   }
 
   /// See StatefulLaw: static friction, friction in slip.

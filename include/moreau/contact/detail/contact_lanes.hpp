@@ -9,6 +9,7 @@
 #include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/lane_block.hpp"
+#include "moreau/contact/local_block.hpp"
 #include "moreau/core/detail/lane_algebra.hpp"
 
 namespace moreau::detail {
@@ -17,7 +18,7 @@ namespace moreau::detail {
 template <class S>
 class ContactLanes {
  public:
-  using W = typename LaneBlock<S>::W;
+  using W = typename LaneBlock<S>::Number;
   using Values = typename W::Values;
   using Algebra = LaneAlgebra<S, Values>;
   using Vector = typename Algebra::Vector;
@@ -53,7 +54,7 @@ class ContactLanes {
     for (std::size_t d = 0; d < dim; ++d) w[Algebra::entry(d, d)] = compliance[d];
     add_inertia(a, w);
     add_inertia(b, w);
-    block_ = aligned_block<tangents, Values>(w, W::square_root);
+    aligned_ = aligned_block<S, W>(w);
     make_regular();
     turn_tangents();
     const Vector of_a = Algebra::point_velocity(a.velocity, a.lever);
@@ -66,12 +67,7 @@ class ContactLanes {
     // prescribed motion: the contact does not act.
     constexpr T never = std::numeric_limits<T>::infinity();
     free_[0] = w[0] == Values{} ? W::broadcast(never) : free_[0];
-    Values squares = W::broadcast(1), slips{};
-    for (std::size_t t = 0; t < tangents; ++t) {
-      squares += block_.coupling[t] * block_.coupling[t];
-      slips += block_.slip[t];
-    }
-    trace_ = block_.normal * squares + slips;
+    trace_ = aligned_.block.trace();
   }
 
   // Results of assemble().
@@ -80,15 +76,7 @@ class ContactLanes {
       for (std::size_t k = 0; k < dim; ++k)
         frame(Eigen::Index(k), Eigen::Index(d)) = axes_[d][k][lane];
   }
-  LocalBlock<S> block(std::size_t lane) const {
-    LocalBlock<S> block;
-    block.normal = block_.normal[lane];
-    for (std::size_t t = 0; t < tangents; ++t) {
-      block.coupling[Eigen::Index(t)] = block_.coupling[t][lane];
-      block.slip[Eigen::Index(t)] = block_.slip[t][lane];
-    }
-    return block;
-  }
+  LocalBlock<S> block(std::size_t lane) const { return aligned_.block[lane]; }
   typename S::Vector free_velocity(std::size_t lane) const {
     typename S::Vector free;
     for (std::size_t d = 0; d < dim; ++d) free[Eigen::Index(d)] = free_[d][lane];
@@ -119,18 +107,19 @@ class ContactLanes {
   /// with the same W_cc. Of other contacts the slip is of the order of w_nn.
   void make_regular() {
     constexpr T rounding = 64 * std::numeric_limits<T>::epsilon();
-    for (Values& slip : block_.slip) slip = slip <= rounding * block_.normal ? block_.normal : slip;
+    const Values& normal = aligned_.block.normal;
+    for (Values& slip : aligned_.block.slip) slip = slip <= rounding * normal ? normal : slip;
   }
   void turn_tangents() {
     std::array<Vector, tangents> turned{};
     for (std::size_t t = 0; t < tangents; ++t)
       for (std::size_t s = 0; s < tangents; ++s)
-        for (std::size_t k = 0; k < dim; ++k) turned[t][k] += axes_[1 + s][k] * block_.turn[s][t];
+        for (std::size_t k = 0; k < dim; ++k) turned[t][k] += axes_[1 + s][k] * aligned_.turn[s][t];
     for (std::size_t t = 0; t < tangents; ++t) axes_[1 + t] = turned[t];
   }
 
   std::array<Vector, dim> axes_;  // of the frame, in world axes
-  AlignedBlock<tangents, Values> block_;
+  AlignedBlock<S, W> aligned_;
   Vector free_;
   Values trace_;
 };

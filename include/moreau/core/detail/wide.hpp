@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -36,6 +37,7 @@ struct Wide {
   using Lane = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
   typedef T Values __attribute__((vector_size(Bytes)));
   typedef Lane Indices __attribute__((vector_size(Bytes)));
+  using Index = std::size_t;  ///< of the entries of RowsOf
 
   static Values load(const T* from) {
     Values v;
@@ -176,7 +178,8 @@ template <std::floating_point T>
 struct OneNumber {
   static constexpr int lanes = 1;
   using Values = T;
-  using Indices = int;  ///< 0 or 1: what a comparison gives
+  using Indices = int;         ///< 0 or 1: what a comparison gives
+  using Index = Eigen::Index;  ///< of the entries of RowsOf
 
   static Values broadcast(T x) { return x; }
   static bool any(Indices mask) { return mask != 0; }
@@ -184,6 +187,16 @@ struct OneNumber {
   static Values absolute(Values v) { return std::abs(v); }
   static void set(Values& v, std::size_t, T x) { v = x; }
   static T get(const Values& v, std::size_t) { return v; }
+};
+
+/// A vector with N entries: of Wide an array of registers, of OneNumber a vector of Eigen.
+template <class Number, int N>
+struct RowsOf {
+  using Type = std::array<typename Number::Values, std::size_t{N}>;
+};
+template <class T, int N>
+struct RowsOf<OneNumber<T>, N> {
+  using Type = Eigen::Matrix<T, N, 1>;
 };
 
 /// The largest (or smallest) of many numbers, and its index. Of equal numbers, the first.

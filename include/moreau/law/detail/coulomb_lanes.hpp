@@ -31,12 +31,13 @@ template <class S, class Block = LaneBlock<S>>
 class CoulombLanes {
  public:
   using T = typename S::Scalar;
-  using W = typename Block::W;
+  using W = typename Block::Number;
+  using Index = typename Block::Index;
   using Values = typename W::Values;
   using Indices = typename W::Indices;
   using Vector = typename Block::Vector;
   using Tangent = typename Block::Tangent;
-  static constexpr std::size_t tangents = Block::tangents;
+  static constexpr Index tangents = Block::tangents;
 
   /// @param alpha  in: alpha of u_t = -alpha r_t from the last visit, or 0; out: the new alpha
   /// @param polish projects slipping impulses onto the cone
@@ -47,7 +48,7 @@ class CoulombLanes {
     const Values free = -b[0] * block.inverse_normal;
     Tangent c, tangent;
     Values normal = free;
-    for (std::size_t t = 0; t < tangents; ++t) {
+    for (Index t = 0; t < tangents; ++t) {
       c[t] = b[t + 1] - b[0] * block.coupling[t];
       tangent[t] = -c[t] * block.inverse_slip[t];
       normal -= block.coupling[t] * tangent[t];
@@ -60,19 +61,19 @@ class CoulombLanes {
       Tangent sliding = problem.slide(slips & (friction > zero), alpha);
       if (polish) sliding = problem.onto_cone(sliding);
       normal = slips ? free : normal;
-      for (std::size_t t = 0; t < tangents; ++t) {
+      for (Index t = 0; t < tangents; ++t) {
         tangent[t] = slips ? sliding[t] : tangent[t];
         normal = slips ? normal - block.coupling[t] * tangent[t] : normal;
       }
     }
     Vector r;
     r[0] = acts ? normal : zero;
-    for (std::size_t t = 0; t < tangents; ++t) r[t + 1] = acts ? tangent[t] : zero;
+    for (Index t = 0; t < tangents; ++t) r[t + 1] = acts ? tangent[t] : zero;
     return r;
   }
 
  private:
-  static constexpr bool exact = std::same_as<typename Block::W, OneNumber<T>>;
+  static constexpr bool exact = std::same_as<W, OneNumber<T>>;
   static constexpr bool fine = std::numeric_limits<T>::epsilon() < T(1e-10);
   /// The iteration ends after a Newton step shorter than this, relative to slip + alpha, if
   /// | |r_t| - mu r_n | is as small relative to |r_t| + mu r_n.
@@ -88,20 +89,22 @@ class CoulombLanes {
 
   static Values squared(const Tangent& r) {
     Values sum{};
-    for (std::size_t t = 0; t < tangents; ++t) sum += r[t] * r[t];
+    for (Index t = 0; t < tangents; ++t) sum += r[t] * r[t];
     return sum;
   }
   /// mu r_n.
   Values limit(const Tangent& r) const {
     Values sum = free_;
-    for (std::size_t t = 0; t < tangents; ++t) sum -= coupling_[t] * r[t];
+    for (Index t = 0; t < tangents; ++t) sum -= coupling_[t] * r[t];
     return friction_ * sum;
   }
 
   /// Tangential impulse of the lanes that slip in the plane: r_t = s mu r_n with a constant sign s.
   Tangent slide(const Indices&, const Values&) const requires(tangents == 1) {
     const Values s = c_[0] > Values{} ? -friction_ : friction_;
-    return {s * free_ / (T(1) + s * coupling_[0])};
+    Tangent r;
+    r[0] = s * free_ / (T(1) + s * coupling_[0]);
+    return r;
   }
 
   /// r_t at an alpha, and its derivatives.
@@ -113,7 +116,7 @@ class CoulombLanes {
   /// @param unit by which impulses are multiplied
   Point at(const Values& alpha, const Values& unit) const {
     Point p{};
-    for (std::size_t t = 0; t < tangents; ++t) {
+    for (Index t = 0; t < tangents; ++t) {
       const Values inverse = T(1) / (slip_[t] + alpha);
       p.r[t] = -unit * c_[t] * inverse;
       p.fall[t] = p.r[t] * inverse;
@@ -123,14 +126,14 @@ class CoulombLanes {
     p.limit_slope *= friction_;
     p.length2 = squared(p.r);
     Values normal = unit * free_;
-    for (std::size_t t = 0; t < tangents; ++t) normal -= coupling_[t] * p.r[t];
+    for (Index t = 0; t < tangents; ++t) normal -= coupling_[t] * p.r[t];
     p.limit = friction_ * normal;
     return p;
   }
 
   Indices is_short(const Values& change, const Values& alpha) const {
     Values least = slip_[0];
-    for (std::size_t t = 1; t < tangents; ++t) least = slip_[t] < least ? slip_[t] : least;
+    for (Index t = 1; t < tangents; ++t) least = slip_[t] < least ? slip_[t] : least;
     return W::absolute(change) <= close * (least + alpha);
   }
 
@@ -148,20 +151,20 @@ class CoulombLanes {
     if (W::any(open & ~near)) return search(open, alpha);
     alpha = open ? next : alpha;
     Tangent r;
-    for (std::size_t t = 0; t < tangents; ++t) r[t] = open ? p.r[t] - change * p.fall[t] : zero;
+    for (Index t = 0; t < tangents; ++t) r[t] = open ? p.r[t] - change * p.fall[t] : zero;
     return r;
   }
 
   /// Where alpha is so large that the slip of the block does not matter: r_t has the direction of -c.
   Tangent far_tangent() const {
     Values size{};
-    for (std::size_t t = 0; t < tangents; ++t) {
+    for (Index t = 0; t < tangents; ++t) {
       const Values one = W::absolute(c_[t]);
       size = one > size ? one : size;
     }
     Tangent r;
     Values length2{}, along{};
-    for (std::size_t t = 0; t < tangents; ++t) {
+    for (Index t = 0; t < tangents; ++t) {
       r[t] = -c_[t] / size;
       length2 += r[t] * r[t];
       along += coupling_[t] * r[t];
@@ -169,13 +172,13 @@ class CoulombLanes {
     const Values length = W::square_root(length2), share = length + friction_ * along;
     // If the share is negative there is no such impulse; if size is 0, it is not a number.
     const Values normal = share > Values{} ? free_ / share : Values{};
-    for (std::size_t t = 0; t < tangents; ++t)
+    for (Index t = 0; t < tangents; ++t)
       r[t] = normal > Values{} ? friction_ * normal * r[t] : Values{};
     return r;
   }
   Indices is_far() const {
     Values size{}, slip{};
-    for (std::size_t t = 0; t < tangents; ++t) {
+    for (Index t = 0; t < tangents; ++t) {
       const Values one = W::absolute(c_[t]);
       size = one > size ? one : size;
       slip += slip_[t];
@@ -191,7 +194,8 @@ class CoulombLanes {
     Indices direct = open & is_far();
     open = open & ~direct;
     Values lower{}, upper = most, trial = alpha;
-    Tangent result{};
+    Tangent result;
+    for (Index t = 0; t < tangents; ++t) result[t] = zero;
     for (int iteration = 0; iteration < 100; ++iteration) {
       const Point p = at(trial, unit);
       const Values length = W::square_root(p.length2), phi = length - p.limit;
@@ -208,24 +212,24 @@ class CoulombLanes {
                            (W::absolute(phi) <= close * (length + p.limit));
       const Indices narrow = (upper < most) & (upper - lower <= close * close * upper);
       alpha = open ? (near ? next : trial) : alpha;
-      for (std::size_t t = 0; t < tangents; ++t)
+      for (Index t = 0; t < tangents; ++t)
         result[t] = open ? free_ * (p.r[t] - (near ? change * p.fall[t] : zero)) : result[t];
       open = open & ~near & ~narrow;
       if (!W::any(open)) break;
       Values fallback = (lower + upper) / T(2);
       Values beyond = T(2) * lower;
-      for (std::size_t t = 0; t < tangents; ++t) beyond += slip_[t];
+      for (Index t = 0; t < tangents; ++t) beyond += slip_[t];
       fallback = upper < most ? fallback : beyond;
       trial = ((next > lower) & (next < upper)) ? next : fallback;
     }
     // A load at the limit of the numbers.
     Indices finite = W::absolute(alpha) <= most;
-    for (std::size_t t = 0; t < tangents; ++t) finite = finite & (W::absolute(result[t]) <= most);
+    for (Index t = 0; t < tangents; ++t) finite = finite & (W::absolute(result[t]) <= most);
     alpha = finite ? alpha : zero;
     direct = direct | (all & ~finite);
     if (!W::any(direct)) return result;
     const Tangent far = far_tangent();
-    for (std::size_t t = 0; t < tangents; ++t) result[t] = direct ? far[t] : result[t];
+    for (Index t = 0; t < tangents; ++t) result[t] = direct ? far[t] : result[t];
     return result;
   }
 
@@ -235,7 +239,7 @@ class CoulombLanes {
     const Values length2 = squared(r), least = W::broadcast(std::numeric_limits<T>::min());
     const Values scale = length2 >= least ? limit(r) / W::square_root(length2) : W::broadcast(1);
     Tangent on;
-    for (std::size_t t = 0; t < tangents; ++t) on[t] = scale * r[t];
+    for (Index t = 0; t < tangents; ++t) on[t] = scale * r[t];
     return on;
   }
 

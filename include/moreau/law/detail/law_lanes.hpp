@@ -36,7 +36,7 @@ class LawLanes {
   }
 
  private:
-  std::array<const Law*, std::size_t{Block::W::lanes}>
+  std::array<const Law*, std::size_t{Block::Number::lanes}>
       law_{};  // in the table of laws, which outlives the solve
 };
 

@@ -33,7 +33,7 @@ template <class S>
 class RollingLanes {
  public:
   using Block = LaneRollingBlock<S>;
-  using W = typename Block::W;
+  using W = typename Block::Number;
   using Values = typename W::Values;
   using Indices = typename W::Indices;
   using Vector = typename Block::Vector;

@@ -4,15 +4,9 @@
 // that the velocities of its bodies are loaded once for all of them.
 //
 // A hub, a body with many partners such as a moving wall, would need one group for each of its
-// pairs. If it is much heavier than its partners, its pairs share groups: all lanes read its
-// velocity before the group, and their changes of it are added up. A heavier block makes up for the
-// impulses of the other lanes,
-//
-//     W' = (1 + (n - 1) tr(W^-1 W_hub)) W  >=  W + (n - 1) W_hub,        n points in the group,
-//
-// as if each point had an n-th of the mass of the hub (mass splitting: R. Tonge, F. Benevolenski
-// and A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). The fixed point does not change. The pairs
-// of a hub as light as its partners are not grouped: shared groups would take n times the sweeps.
+// pairs. If it is much heavier than its partners, its pairs share groups: n is the number of points of a group
+// (solve/coloured/hub_share.hpp). The pairs of a hub as light as its partners are not grouped: shared groups would take
+// n times the sweeps.
 // The groups of a hub that is heavier still form phases of their own: all groups of such a phase read
 // the velocity of the hub before the phase, so that the members of a team divide them, and n is the
 // number of points in the phase. All pairs of one hub have different partners.
@@ -21,8 +15,6 @@
 // works on blocks of its own: between two barriers it visits all colours of a block, and the velocities
 // of the bodies stay in the cache of its core.
 #pragma once
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -33,10 +25,10 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/local_block.hpp"
 #include "moreau/core/detail/sort_by_key.hpp"
 #include "moreau/core/team.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/packs.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
@@ -51,7 +43,7 @@ class ContactGroups {
  public:
   using S = typename Operator::Space;
   using Points = PointPack<S, Law>;
-  using W = typename LaneBlock<S>::W;
+  using W = typename LaneBlock<S>::Number;
   using Pairs = PairPack<W::lanes>;
   using Impulse = typename Operator::Vector;
   using Block = BlockOf<Law, S>;
@@ -232,19 +224,11 @@ class ContactGroups {
       if (hub == Hub::none) continue;
       auto& share = share_[bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}]];
       for (std::uint32_t c = first_[k]; c < first_[k + 1] && share <= largest_share; ++c) {
-        const typename S::Scalar own = share_of_hub(op, c, hub);
+        const typename S::Scalar own = share_of_hub(op, c, hub == Hub::a);
         if (!(own <= share)) share = own;
       }
     }
   }
-  /// tr(W^-1 W_hub), the share of the hub in W.
-  static typename S::Scalar share_of_hub(const Operator& op, std::uint32_t c, Hub hub) {
-    using Matrix = typename Operator::Matrix;
-    const Matrix of_hub = hub == Hub::a ? op.block_of_a(c) : op.block_of_b(c);
-    const Matrix inverse = op.block(c).matrix().inverse();
-    return inverse.cwiseProduct(of_hub).sum();
-  }
-
   static bool likely(const Operator& op, std::span<const Impulse> impulses, std::uint32_t c) {
     return impulses[c][0] > 0 || op.free_velocity(c)[0] < 0;
   }
@@ -339,17 +323,10 @@ class ContactGroups {
           if (likely(op, impulses, c) != acts) continue;
           contact_of_[p * lanes + lane] = c;
           Block block = op.block(c);
-          if (group.hub != Hub::none) make_heavier(block, op, c, group.hub, with_hub);
+          if (group.hub != Hub::none) block *= heavier_by_hub(op, c, group.hub == Hub::a, with_hub);
           set(points[p++], lane, op, block, problem.law(c), impulses[c], c);
         }
     }
-  }
-
-  /// Replaces W by W' of the head of this file.
-  static void make_heavier(Block& block, const Operator& op, std::uint32_t c, Hub hub,
-                           std::uint32_t together) {
-    using T = typename S::Scalar;
-    block *= 1 + static_cast<T>(together - 1) * share_of_hub(op, c, hub);
   }
 
   static void set(Points& point, std::size_t lane, const Operator& op, const Block& block,
