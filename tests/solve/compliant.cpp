@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/compliant_delassus.hpp"
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/solve/gathered_problem.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
 
@@ -27,7 +27,7 @@ struct CompliantAssembly {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
   using Law = Compliant<SignoriniCoulomb<T>>;
-  using Operator = CompliantDelassus<BodyDelassus<S>>;
+  using Operator = BodyDelassus<S, false, true>;
 
   ContactProblem<Operator, Law> problem;
 

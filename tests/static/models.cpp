@@ -105,9 +105,9 @@ static_assert(ContactSolver<ColouredGaussSeidel, SignoriniCoulomb<>, S>);
 static_assert(ContactSolver<ColouredGaussSeidel, RollingResistance<>, S>);
 static_assert(ContactSolver<NonlinearGaussSeidel, RollingResistance<>, S>);
 static_assert(std::same_as<OperatorOf<SignoriniCoulomb<>, S>, BodyDelassus<S>>);
-static_assert(std::same_as<OperatorOf<RollingResistance<>, S>, RollingDelassus<S>>);
-static_assert(std::same_as<OperatorOf<Compliant<SignoriniCoulomb<>>, S>,
-                           CompliantDelassus<RigidOperatorOf<SignoriniCoulomb<>, S>>>);
+static_assert(std::same_as<OperatorOf<RollingResistance<>, S>, BodyDelassus<S, true>>);
+static_assert(
+    std::same_as<OperatorOf<Compliant<SignoriniCoulomb<>>, S>, BodyDelassus<S, false, true>>);
 }  // namespace solve
 
 namespace world {

@@ -8,22 +8,28 @@
 //
 // so that one sweep is one pass over the contacts. An axis along which a body cannot move has a zero in
 // M^-1; the prescribed velocity is in the free velocity.
+//
+// With couples a contact has A more rows, the relative spin times its effective radius R (rolling_block.hpp). With
+// springs in series (law/compliant.hpp) the operator is W + D with a diagonal matrix D, the compliance of the springs
+// over the square of the time step.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/contact_lanes.hpp"
+#include "moreau/contact/detail/effective_radius.hpp"
 #include "moreau/contact/local_block.hpp"
+#include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -34,19 +40,38 @@ namespace moreau {
 
 namespace detail {
 
-/// In place of a function that returns the compliance of a contact: all contacts are rigid.
-struct RigidContacts {};
+/// What a contact with a couple has beside its point; nothing without couples.
+template <class S, bool Couples>
+struct CoupleArm {};
+template <class S>
+struct CoupleArm<S, true> {
+  typename S::Inertia axes;   ///< R times the axes of rotation of the frame, world axes [m]
+  typename S::Scalar radius;  ///< R [m]
+};
+
+/// D of the contacts with springs, and what their impulses have stretched; nothing without springs.
+template <class Vector, bool Springs>
+struct SpringRows {};
+template <class Vector>
+struct SpringRows<Vector, true> {
+  std::vector<Vector> compliance;  ///< diagonal of D_cc [1/kg]
+  std::vector<Vector> stretch;     ///< D_cc r_c [m/s]
+};
 
 }  // namespace detail
 
-/// The operator of contacts at points, without couples.
-template <class S>
+/// The operator of a set of contacts.
+/// @tparam Couples whether a contact has D + A rows, (velocity, R spin) and (impulse, couple / R), or D
+/// @tparam Springs whether springs are in series with the contacts
+template <class S, bool Couples = false, bool Springs = false>
 class BodyDelassus {
  public:
   using Space = S;
   using Scalar = typename S::Scalar;
-  using Vector = typename S::Vector;
-  using Matrix = typename S::Matrix;
+  /// W_cc.
+  using Block = std::conditional_t<Couples, RollingBlock<S>, LocalBlock<S>>;
+  using Vector = typename Block::Vector;  ///< the rows of a contact
+  using Matrix = Eigen::Matrix<Scalar, Vector::RowsAtCompileTime, Vector::RowsAtCompileTime>;
   /// Generalized velocity padded to whole SIMD lanes; the padding stays zero.
   static constexpr int width = (S::dofs + 3) / 4 * 4;
   using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
@@ -55,54 +80,69 @@ class BodyDelassus {
   /// @param contacts in: bodies, frames, levers; out: frames with turned tangents, see LocalBlock
   /// @param roots    M^-1/2 of every body
   /// @param free     velocity of every body without contacts, (v, w) in world axes [m/s, rad/s]
-  /// @param compliance function: contact c -> compliance of the springs in series with it, which is
-  ///                 added to the diagonal of W_cc: D entries, normal first [1/kg]. The entries of
-  ///                 the tangents must be equal, because the tangents are turned. Without this
-  ///                 argument the contacts are rigid.
+  /// @param compliance of the springs in series with the contacts, the diagonal of D [1/kg]: one row per
+  ///                 contact, normal first. The entries of the tangents must be equal, because the tangents
+  ///                 are turned, and those of the couple / R. Empty without springs
   /// @param team     threads that share the work
-  template <class Compliance = detail::RigidContacts>
   void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
-                std::span<const typename S::Twist> free, const Compliance& compliance = {},
+                std::span<const typename S::Twist> free, std::span<const Vector> compliance = {},
                 const Team& team = {}) {
     points_.resize(contacts.size());
     heads_.resize(contacts.size());
     masses_.resize(roots.size());
     changes_.assign(roots.size(), PaddedTwist::Zero());
+    if constexpr (Springs) {
+      springs_.compliance.assign(compliance.begin(), compliance.end());
+      springs_.stretch.assign(compliance.size(), Vector::Zero());
+    }
     team.share_each(roots.size(), 128,
                     [&](std::size_t i) { masses_[i] = InverseMass<S>(roots[i]); });
     team.share(contacts.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; c += Lanes::lanes)
-        assemble_some(c, std::min(end, c + Lanes::lanes), contacts, free, compliance);
+        assemble_some(c, std::min(end, c + Lanes::lanes), contacts, free);
     });
+    if constexpr (Couples)
+      team.share_each(contacts.size(), 64,
+                      [&](std::size_t c) { assemble_couple(c, contacts[c], roots, free); });
   }
 
   std::size_t size() const { return points_.size(); }        ///< contacts
   std::size_t body_count() const { return masses_.size(); }  ///< bodies, walls included
 
-  /// W_cc in the contact's frame [1/kg].
-  const LocalBlock<S>& block(std::size_t c) const { return points_[c].block; }
+  /// W_cc + D_cc in the contact's frame [1/kg].
+  const Block& block(std::size_t c) const { return points_[c].block; }
+  /// w_nn of a contact, with the compliance of its normal spring [1/kg].
+  Scalar normal(std::size_t c) const {
+    if constexpr (Couples)
+      return points_[c].block.point.normal;
+    else
+      return points_[c].block.normal;
+  }
+  /// Diagonal of D of a contact [1/kg].
+  const Vector& compliance(std::size_t c) const requires Springs { return springs_.compliance[c]; }
+  /// R of a contact [m].
+  Scalar radius(std::size_t c) const requires Couples { return points_[c].radius; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
   /// Frame of a contact as assemble() left it, columns n, t[, s], world axes.
-  const Matrix& frame(std::size_t c) const { return points_[c].frame; }
+  const typename S::Matrix& frame(std::size_t c) const { return points_[c].frame; }
   /// From the centre of body a to the contact point, world axes [m].
-  const Vector& lever_a(std::size_t c) const { return points_[c].lever_a; }
+  const typename S::Vector& lever_a(std::size_t c) const { return points_[c].lever_a; }
   /// From the centre of body b to the contact point, world axes [m].
-  const Vector& lever_b(std::size_t c) const { return points_[c].lever_b; }
+  const typename S::Vector& lever_b(std::size_t c) const { return points_[c].lever_b; }
   /// M^-1 of a body.
   const InverseMass<S>& inverse_mass(std::size_t body) const { return masses_[body]; }
-  /// Trace of W_cc [1/kg].
+  /// M^-1 of all bodies.
+  std::span<const InverseMass<S>> inverse_masses() const { return masses_; }
+  /// Trace of W_cc + D_cc [1/kg].
   Scalar trace(std::size_t c) const { return heads_[c].trace; }
-  /// The part of W_cc that belongs to body a: what the impulse at c does to the velocity of a, D x D
-  /// [1/kg].
+  /// The part of W_cc that belongs to body a: what the impulse at c does to the velocity of a [1/kg].
   Matrix block_of_a(std::size_t c) const {
-    const Point& point = points_[c];
-    return block_of(point.frame, point.lever_a, masses_[point.a]);
+    return block_of(points_[c], points_[c].lever_a, masses_[points_[c].a]);
   }
   /// The part of W_cc that belongs to body b.
   Matrix block_of_b(std::size_t c) const {
-    const Point& point = points_[c];
-    return block_of(point.frame, point.lever_b, masses_[point.b]);
+    return block_of(points_[c], points_[c].lever_b, masses_[points_[c].b]);
   }
   /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
   /// [m/s].
@@ -113,27 +153,50 @@ class BodyDelassus {
   void offset(std::size_t c, const Vector& offset) { points_[c].free += offset; }
 
   /// Relative velocity u under the impulses applied so far, in the contact's frame [m/s]; u_n > 0
-  /// separates.
+  /// separates. With springs it has D_cc r_c.
   Vector velocity(std::size_t c) const {
+    Vector u = velocity_of_bodies(c);
+    if constexpr (Springs) u += springs_.stretch[c];
+    return u;
+  }
+  /// The same without D_cc r_c.
+  Vector velocity_of_bodies(std::size_t c) const {
     const Point& point = points_[c];
-    Vector u = transposed_product(point.frame, change_between(point));
-    for (int k = 0; k < S::dim; ++k) u[k] = point.free[k] + u[k];
+    const typename S::Vector change = transposed_product(point.frame, change_between(point));
+    Vector u;
+    for (int k = 0; k < S::dim; ++k) u[k] = point.free[k] + change[k];
+    if constexpr (Couples) {
+      const typename S::Angular free = angular<S>(point.free),
+                                spin = angular<S>(velocity_change(point.b)) -
+                                       angular<S>(velocity_change(point.a));
+      angular<S>(u) = free + point.axes.transpose() * spin;
+    }
     return u;
   }
   /// The normal component of velocity(c) alone [m/s].
   Scalar normal_velocity(std::size_t c) const {
-    return points_[c].free[0] + points_[c].frame.col(0).dot(change_between(points_[c]));
+    const Scalar u = points_[c].free[0] + points_[c].frame.col(0).dot(change_between(points_[c]));
+    if constexpr (Springs)
+      return u + springs_.stretch[c][0];
+    else
+      return u;
   }
-  /// Applies an impulse, in the contact's frame, to b and its opposite to a [N s].
+  /// Applies an impulse, in the contact's frame, to b, its opposite to a, and to the springs [N s].
   void apply(std::size_t c, const Vector& impulse) {
+    apply_to_bodies(c, impulse);
+    stretch(c, impulse);
+  }
+  /// The same without the springs.
+  void apply_to_bodies(std::size_t c, const Vector& impulse) {
     const Point& point = points_[c];
-    const Vector push = product(point.frame, impulse), opposite = -push;
+    const typename S::Vector push = product(point.frame, part_of_point(impulse)), opposite = -push;
     add_change(point.b, push, S::moment(point.lever_b, push));
     add_change(point.a, opposite, S::moment(point.lever_a, opposite));
-  }
-  /// Applies an angular impulse to a body [N m s], world axes.
-  void apply_spin(std::size_t body, const typename S::Angular& impulse) {
-    angular<S>(changes_[body]) += masses_[body].spin_of(impulse);
+    if constexpr (Couples) {
+      const typename S::Angular couple = couple_of(point, impulse);
+      angular<S>(changes_[point.b]) += masses_[point.b].spin_of(couple);
+      angular<S>(changes_[point.a]) += masses_[point.a].spin_of(-couple);
+    }
   }
 
   /// @name All impulses at once
@@ -142,25 +205,29 @@ class BodyDelassus {
   /// @{
 
   /// Removes all impulses: every body has its free velocity.
-  void clear() { changes_.assign(changes_.size(), PaddedTwist::Zero()); }
-  /// Gives both bodies the momentum of an impulse at contact c, in its frame [N s].
+  void clear() {
+    changes_.assign(changes_.size(), PaddedTwist::Zero());
+    if constexpr (Springs) springs_.stretch.assign(springs_.stretch.size(), Vector::Zero());
+  }
+  /// Gives both bodies the momentum of an impulse at contact c, in its frame [N s], and stretches its
+  /// springs.
   void push(std::size_t c, const Vector& impulse) {
     const Momentum momentum = momentum_of(c, impulse);
     take(points_[c].b, momentum);
     give(points_[c].a, momentum);
+    stretch(c, impulse);
   }
   /// Gives body a the momentum of an impulse, with the bits of push().
   void push_a(std::size_t c, const Vector& impulse) { give(points_[c].a, momentum_of(c, impulse)); }
-  /// Gives body b the momentum of an impulse, with the bits of push().
-  void push_b(std::size_t c, const Vector& impulse) { take(points_[c].b, momentum_of(c, impulse)); }
-  /// Gives a body an angular momentum, world axes [N m s].
-  void push_spin(std::size_t body, const typename S::Angular& impulse) {
-    angular<S>(changes_[body]) += impulse;
+  /// Gives body b the momentum of an impulse, with the bits of push(), and stretches the springs.
+  void push_b(std::size_t c, const Vector& impulse) {
+    take(points_[c].b, momentum_of(c, impulse));
+    stretch(c, impulse);
   }
   /// Makes velocities of the momenta.
   void move(const Team& team = {}) {
     team.share_each(changes_.size(), 256, [&](std::size_t i) {
-      const Vector momentum = linear<S>(changes_[i]);
+      const typename S::Vector momentum = linear<S>(changes_[i]);
       const typename S::Angular spin = angular<S>(changes_[i]);
       linear<S>(changes_[i]) = masses_[i].velocity_of(momentum);
       angular<S>(changes_[i]) = masses_[i].spin_of(spin);
@@ -182,19 +249,19 @@ class BodyDelassus {
   }
 
   /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
-  static Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
-                                  const typename S::Twist& b) {
-    Vector difference = point_velocity(b, contact.lever_b);
+  static typename S::Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
+                                              const typename S::Twist& b) {
+    typename S::Vector difference = point_velocity(b, contact.lever_b);
     difference -= point_velocity(a, contact.lever_a);
     return transposed_product(contact.frame, difference);
   }
 
  private:
   using Lanes = detail::ContactLanes<S>;
-  struct Point {
-    Matrix frame;
-    Vector lever_a, lever_b;
-    LocalBlock<S> block;
+  struct Point : detail::CoupleArm<S, Couples> {
+    typename S::Matrix frame;
+    typename S::Vector lever_a, lever_b;
+    Block block;
     Vector free;
     std::uint32_t a, b;
   };
@@ -206,30 +273,53 @@ class BodyDelassus {
 
   /// What an impulse at a contact gives body b, and takes from body a, world axes.
   struct Momentum {
-    Vector push;                             // [N s]
-    typename S::Angular moment_a, moment_b;  // about their centres [N m s]
+    typename S::Vector push;  // [N s]
+    typename S::Angular moment_a, moment_b,
+        couple;  // about their centres [N m s]; couple: if Couples
   };
   /// One thread adds the momenta up contact by contact, several body by body.
   MOREAU_COMPILED_ONCE Momentum momentum_of(std::size_t c, const Vector& impulse) const {
     const Point& point = points_[c];
-    const Vector push = product(point.frame, impulse);
-    return {push, S::moment(point.lever_a, push), S::moment(point.lever_b, push)};
+    Momentum momentum;
+    momentum.push = product(point.frame, part_of_point(impulse));
+    momentum.moment_a = S::moment(point.lever_a, momentum.push);
+    momentum.moment_b = S::moment(point.lever_b, momentum.push);
+    if constexpr (Couples) momentum.couple = couple_of(point, impulse);
+    return momentum;
   }
   void give(std::uint32_t a, const Momentum& momentum) {
     linear<S>(changes_[a]) -= momentum.push;
     angular<S>(changes_[a]) -= momentum.moment_a;
+    if constexpr (Couples) angular<S>(changes_[a]) -= momentum.couple;
   }
   void take(std::uint32_t b, const Momentum& momentum) {
     linear<S>(changes_[b]) += momentum.push;
     angular<S>(changes_[b]) += momentum.moment_b;
+    if constexpr (Couples) angular<S>(changes_[b]) += momentum.couple;
+  }
+  /// The impulse at the point.
+  static decltype(auto) part_of_point(const Vector& impulse) {
+    if constexpr (Couples)
+      return typename S::Vector(linear<S>(impulse));
+    else
+      return (impulse);
+  }
+  /// The couple of an impulse on b, world axes [N m s].
+  static typename S::Angular couple_of(const Point& point, const Vector& impulse) {
+    return point.axes * angular<S>(impulse);
+  }
+  void stretch([[maybe_unused]] std::size_t c, [[maybe_unused]] const Vector& impulse) {
+    if constexpr (Springs) stretch_spring(springs_.stretch[c], springs_.compliance[c], impulse);
+  }
+  MOREAU_COMPILED_ONCE static void stretch_spring(Vector& stretch, const Vector& compliance,
+                                                  const Vector& impulse) {
+    stretch += compliance.cwiseProduct(impulse);
   }
 
   /// @param end at most as many contacts as there are lanes
-  template <class Compliance>
   MOREAU_COMPILED_ONCE void assemble_some(std::size_t begin, std::size_t end,
                                           std::span<Contact<S>> contacts,
-                                          std::span<const typename S::Twist> free,
-                                          const Compliance& compliance) {
+                                          std::span<const typename S::Twist> free) {
     Lanes some;
     for (std::size_t lane = 0; lane < Lanes::lanes; ++lane) {
       const std::size_t c = std::min(begin + lane, end - 1);
@@ -237,46 +327,92 @@ class BodyDelassus {
       some.set_frame(lane, contact.frame);
       some.a.set(lane, contact.lever_a, masses_[contact.a], free[contact.a]);
       some.b.set(lane, contact.lever_b, masses_[contact.b], free[contact.b]);
-      if constexpr (!std::same_as<Compliance, detail::RigidContacts>)
+      if constexpr (Springs)
         for (std::size_t d = 0; d < S::dim; ++d)
-          some.compliance[d][lane] = compliance(c)[Eigen::Index(d)];
+          some.compliance[d][lane] = springs_.compliance[c][Eigen::Index(d)];
     }
     some.assemble();
     for (std::size_t c = begin; c < end; ++c) {
       const std::size_t lane = c - begin;
       Contact<S>& contact = contacts[c];
       some.get_frame(lane, contact.frame);
-      points_[c] = {contact.frame,    contact.lever_a,          contact.lever_b,
-                    some.block(lane), some.free_velocity(lane), contact.a,
-                    contact.b};
+      Point& point = points_[c];
+      point.frame = contact.frame;
+      point.lever_a = contact.lever_a;
+      point.lever_b = contact.lever_b;
+      point.a = contact.a;
+      point.b = contact.b;
       heads_[c] = {{contact.a, contact.b}, some.trace(lane)};
+      if constexpr (Couples) {
+        point.block.point = some.block(lane);
+        linear<S>(point.free) = some.free_velocity(lane);
+      } else {
+        point.block = some.block(lane);
+        point.free = some.free_velocity(lane);
+      }
     }
   }
-
-  /// Velocity of a point of a body by unit impulses at the point along the axes of a frame, in the frame.
-  static Matrix block_of(const Matrix& frame, const Vector& lever, const InverseMass<S>& mass) {
-    Matrix block;
-    for (int k = 0; k < S::dim; ++k) {
-      const Vector push = frame.col(k);
-      const Vector velocity =
-          mass.velocity_of(push) + S::spin(mass.spin_of(S::moment(lever, push)), lever);
-      block.col(k) = transposed_product(frame, velocity);
+  /// The rows of the couple, after those of the point.
+  void assemble_couple(std::size_t c, const Contact<S>& contact,
+                       std::span<const MobilityRoot<S>> roots,
+                       std::span<const typename S::Twist> free) {
+    Point& point = points_[c];
+    Block& block = point.block;
+    const auto is_round = [&](std::uint32_t body) {
+      return roots[body].grain || !roots[body].angular.isZero(0);
+    };
+    point.radius = effective_radius(contact, is_round(contact.a), is_round(contact.b));
+    point.axes = point.radius * S::angular_frame(contact.frame);
+    angular<S>(point.free) =
+        point.axes.transpose() * (angular<S>(free[contact.b]) - angular<S>(free[contact.a]));
+    for (int k = 0; k < S::angular_dim; ++k) {
+      const typename S::Angular spin_a = masses_[point.a].spin_of(point.axes.col(k)),
+                                spin_b = masses_[point.b].spin_of(point.axes.col(k));
+      block.spin.col(k) = point.axes.transpose() * (spin_a + spin_b);
+      block.coupling.col(k) = point.frame.transpose() *
+                              (S::spin(spin_a, point.lever_a) + S::spin(spin_b, point.lever_b));
     }
+    if constexpr (Springs) block.spin.diagonal() += angular<S>(springs_.compliance[c]);
+    // Two bodies whose rotation is prescribed: any positive value will do, see ContactLanes.
+    if (block.spin.isZero(0)) block.spin.diagonal().setConstant(block.point.normal);
+    heads_[c].trace = block.trace();
+  }
+
+  /// The rows of a contact by unit impulses at the point of a body along the axes of the frame, and by unit
+  /// couples / R.
+  static Matrix block_of(const Point& point, const typename S::Vector& lever,
+                         const InverseMass<S>& mass) {
+    Matrix block;
+    const auto set_column = [&](int k, const typename S::Vector& centre,
+                                const typename S::Angular& spin) {
+      const typename S::Vector velocity = centre + S::spin(spin, lever);
+      block.col(k).template head<S::dim>() = transposed_product(point.frame, velocity);
+      if constexpr (Couples)
+        block.col(k).template tail<S::angular_dim>() = point.axes.transpose() * spin;
+    };
+    for (int k = 0; k < S::dim; ++k) {
+      const typename S::Vector push = point.frame.col(k);
+      set_column(k, mass.velocity_of(push), mass.spin_of(S::moment(lever, push)));
+    }
+    if constexpr (Couples)
+      for (int k = 0; k < S::angular_dim; ++k)
+        set_column(S::dim + k, S::Vector::Zero(), mass.spin_of(point.axes.col(k)));
     return block;
   }
   /// @param twist (v, w), or a longer vector that begins with it
-  static Vector point_velocity(const auto& twist, const Vector& lever) {
-    Vector velocity = S::spin(angular<S>(twist), lever);
+  static typename S::Vector point_velocity(const auto& twist, const typename S::Vector& lever) {
+    typename S::Vector velocity = S::spin(angular<S>(twist), lever);
     for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
     return velocity;
   }
   /// Change of the relative velocity by the impulses, world axes [m/s].
-  Vector change_between(const Point& point) const {
-    Vector difference = point_velocity(changes_[point.b], point.lever_b);
+  typename S::Vector change_between(const Point& point) const {
+    typename S::Vector difference = point_velocity(changes_[point.b], point.lever_b);
     difference -= point_velocity(changes_[point.a], point.lever_a);
     return difference;
   }
-  void add_change(std::size_t body, const Vector& push, const typename S::Angular& moment) {
+  void add_change(std::size_t body, const typename S::Vector& push,
+                  const typename S::Angular& moment) {
     linear<S>(changes_[body]) += masses_[body].velocity_of(push);
     angular<S>(changes_[body]) += masses_[body].spin_of(moment);
   }
@@ -285,6 +421,7 @@ class BodyDelassus {
   std::vector<Head> heads_;
   std::vector<InverseMass<S>> masses_;
   std::vector<PaddedTwist> changes_;
+  [[no_unique_address]] detail::SpringRows<Vector, Springs> springs_;
 };
 
 }  // namespace moreau

@@ -9,9 +9,8 @@
 //    P. E. Plassmann, SIAM J. Sci. Comput. 14 (1993) 654). Pairs of one colour share no grain that
 //    moves.
 //  - A wall that moves under contacts is in many pairs of one colour. They all see its velocity before
-//    the colour, and the local blocks make up for the others, as in solve/coloured/contact_groups.hpp:
-//
-//        W' = (1 + (n - 1) tr(W^-1 W_wall)) W,       n points of the colour at the wall.
+//    the colour, and the local blocks make up for the others (solve/coloured/hub_share.hpp); n is the number
+//    of points of the colour at the wall.
 //
 //  - Sums over contacts are exact until they are rounded once (detail/exact_sum.hpp).
 //  - What belongs to a contact or a body is computed by functions that are compiled once
@@ -19,8 +18,6 @@
 //
 // The sweeps have Nesterov's momentum.
 #pragma once
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +36,7 @@
 #include "moreau/distributed/detail/ordered_sharing.hpp"
 #include "moreau/distributed/detail/pair_colours.hpp"
 #include "moreau/law/concepts.hpp"
-#include "moreau/solve/concepts.hpp"
+#include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/measure_residual.hpp"
@@ -67,15 +64,15 @@ class OrderedSweeps {
   using Vector = typename Operator::Vector;
 
   OrderedSweeps(Problem& problem, std::span<Vector> impulses, OrderedSharing* sharing)
-      : problem_(problem), base_(problem.delassus), impulses_(impulses), sharing_(sharing) {
-    colours_.find(points(base_), sharing);
+      : problem_(problem), op_(problem.delassus), impulses_(impulses), sharing_(sharing) {
+    colours_.find(op_, sharing);
     before_.assign(impulses.begin(), impulses.end());
     count_points_at_walls();
   }
 
   /// Computes the velocities of the bodies from the impulses alone, in the order of the colours.
   void load_velocities() {
-    base_.clear();
+    op_.clear();
     in_order([&](std::size_t c, T) { apply_impulse(c, impulses_[c]); });
     settle();
   }
@@ -126,15 +123,8 @@ class OrderedSweeps {
   double count() const { return sum_over(sharing_, double(problem_.size())); }
 
  private:
-  using Rigid = RigidOperatorOf<Law, S>;
-  static constexpr std::size_t width = BodyDelassus<S>::width;
-  static const BodyDelassus<S>& points(const Rigid& op) {
-    if constexpr (Rolls<Law>)
-      return op.points();
-    else
-      return op;
-  }
-  std::span<T> velocities() { return base_.velocity_changes(); }
+  static constexpr std::size_t width = Operator::width;
+  std::span<T> velocities() { return op_.velocity_changes(); }
   MOREAU_COMPILED_ONCE static void extrapolate(T* now, T* before, T beta) {
     for (std::size_t k = 0; k < width; ++k) {
       const T old = now[k];
@@ -167,19 +157,19 @@ class OrderedSweeps {
         for (std::uint32_t c = pair.first; c < pair.last; ++c)
           visit(c, pair.wall == ColouredPair::none ? T(1) : heavier(c, pair, colour));
       }
-      if (sharing_) sharing_->pass_on(colour, velocities(), BodyDelassus<S>::width);
+      if (sharing_) sharing_->pass_on(colour, velocities(), width);
       move_walls(colour);
     }
   }
   /// Applies an impulse. What it does to a moving wall is kept until the end of the colour.
   MOREAU_COMPILED_ONCE void apply_impulse(std::size_t c, const Vector& impulse) {
     const std::uint32_t wall = colours_.wall_of(c);
-    if (wall == ColouredPair::none) return base_.apply(c, impulse);
+    if (wall == ColouredPair::none) return op_.apply_to_bodies(c, impulse);
     const std::uint32_t body = colours_.walls()[wall];
-    T* const now = &velocities()[body * std::size_t(BodyDelassus<S>::width)];
+    T* const now = &velocities()[body * width];
     T saved[S::dofs];
     std::copy_n(now, S::dofs, saved);
-    base_.apply(c, impulse);
+    op_.apply_to_bodies(c, impulse);
     for (std::size_t e = 0; e < S::dofs; ++e) {
       wall_changes_[wall * S::dofs + e].add(double(now[e] - saved[e]));
       now[e] = saved[e];
@@ -193,7 +183,7 @@ class OrderedSweeps {
     if (points == 0) return;
     if (sharing_) sharing_->add(ExactSum::parts_of(wall_changes_));
     for (std::size_t wall = 0; wall < walls; ++wall) {
-      T* const now = &velocities()[colours_.walls()[wall] * std::size_t(BodyDelassus<S>::width)];
+      T* const now = &velocities()[colours_.walls()[wall] * width];
       for (std::size_t e = 0; e < S::dofs; ++e)
         now[e] += static_cast<T>(wall_changes_[wall * S::dofs + e].value());
     }
@@ -210,28 +200,25 @@ class OrderedSweeps {
   /// The factor of W' for a contact with a moving wall.
   MOREAU_COMPILED_ONCE T heavier(std::uint32_t c, const ColouredPair& pair,
                                  std::size_t colour) const {
-    const auto [a, b] = base_.bodies(c);
-    const typename Rigid::Matrix of_wall =
-        a == colours_.walls()[pair.wall] ? base_.block_of_a(c) : base_.block_of_b(c);
-    const T share = base_.block(c).matrix().inverse().cwiseProduct(of_wall).sum();
-    const std::int64_t points = points_at_walls_[colour * colours_.walls().size() + pair.wall];
-    return 1 + static_cast<T>(points - 1) * share;
+    const bool wall_is_a = op_.bodies(c)[0] == colours_.walls()[pair.wall];
+    return heavier_by_hub(op_, c, wall_is_a,
+                          points_at_walls_[colour * colours_.walls().size() + pair.wall]);
   }
   /// The impulse of a contact whose impulse is `guess`.
   Vector solved(std::size_t c, const Vector& guess, T heavier) const {
-    Vector u = base_.velocity(c);
-    if constexpr (CompliantLaw<Law, S>) u += problem_.delassus.compliance(c).cwiseProduct(guess);
+    Vector u = op_.velocity_of_bodies(c);
+    if constexpr (CompliantLaw<Law, S>) u += op_.compliance(c).cwiseProduct(guess);
     if (guess[0] == 0 && u[0] >= 0) return Vector::Zero();
-    BlockOf<Law, S> block = base_.block(c);
+    BlockOf<Law, S> block = op_.block(c);
     block *= heavier;
     return problem_.law(c).solve(block, Vector(u - block * guess), guess);
   }
 
   Problem& problem_;
-  Rigid& base_;  // without the springs of compliant contacts
+  Operator& op_;  // its springs are stretched when the residual is measured
   std::span<Vector> impulses_;
   OrderedSharing* sharing_;
-  PairColours<S> colours_;
+  PairColours<Operator> colours_;
   std::vector<Vector> before_;                 // impulses of the sweep before
   std::vector<T> velocities_before_;           // of all bodies
   std::vector<std::int64_t> points_at_walls_;  // of all processes, one per colour and wall

@@ -4,26 +4,18 @@
 
 #include <concepts>
 #include <span>
-#include <type_traits>
 
 #include "moreau/contact/body_delassus.hpp"
-#include "moreau/contact/compliant_delassus.hpp"
-#include "moreau/contact/rolling_delassus.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau {
 
-/// The operator u = W r + b of the contacts of a step: one row of r is an impulse, or an impulse
-/// and a couple for a law that rolls.
+/// The operator u = W r + b of the contacts of a step: with couples for a law that rolls, and with W + D in
+/// place of W for a law with springs in series.
 template <class Law, class S>
-using RigidOperatorOf = std::conditional_t<RollingLaw<Law, S>, RollingDelassus<S>, BodyDelassus<S>>;
-/// The same, with W + D in place of W for a law with springs in series.
-template <class Law, class S>
-using OperatorOf =
-    std::conditional_t<CompliantLaw<Law, S>, CompliantDelassus<RigidOperatorOf<Law, S>>,
-                       RigidOperatorOf<Law, S>>;
+using OperatorOf = BodyDelassus<S, RollingLaw<Law, S>, CompliantLaw<Law, S>>;
 
 /// Finds the impulses of all contacts.
 ///

@@ -32,6 +32,7 @@
 #include "moreau/solve/detail/contact_islands.hpp"
 #include "moreau/solve/detail/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
+#include "moreau/world/detail/point_geometry.hpp"
 
 namespace moreau {
 
@@ -84,7 +85,8 @@ class OverlapCorrection {
   /// @param shared     bodies that other processes share; null: none
   /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are
   ///          zero. Its work and largest_shift are 0: they need the forces
-  OverlapCorrectionReport solve(const BodyDelassus<S>& op, std::span<Contact<S>> contacts,
+  template <class Operator>
+  OverlapCorrectionReport solve(const Operator& op, std::span<Contact<S>> contacts,
                                 Scalar grain_size, const Team& team = {},
                                 SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
@@ -136,7 +138,8 @@ class OverlapCorrection {
   /// Pushes a body at a point.
   /// @param push  mass times displacement, world axes [kg m]
   /// @param lever from the centre of the body to the point [m]
-  void shift(const BodyDelassus<S>& op, std::uint32_t body, const typename S::Vector& push,
+  template <class Operator>
+  void shift(const Operator& op, std::uint32_t body, const typename S::Vector& push,
              const typename S::Vector& lever) {
     const InverseMass<S>& mass = op.inverse_mass(body);
     linear<S>(shifts_[body]) += mass.velocity_of(push);
@@ -152,12 +155,13 @@ class OverlapCorrection {
   }
 
   /// Corrects the small islands by the direct method, as far as it succeeds.
-  void correct_islands(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts,
-                       Scalar largest) {
+  template <class Operator>
+  void correct_islands(const Operator& op, std::span<const Contact<S>> contacts, Scalar largest) {
     constexpr std::size_t most_bodies = 200;
     constexpr double first_epsilon = 1e-4;
     constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
-    islands_.find(op);
+    const detail::PointGeometry<S> points{contacts, op.inverse_masses()};
+    islands_.find(points);
     pushes_.assign(contacts.size(), S::Vector::Zero());
     const auto is_deep = [&](std::uint32_t c) { return rows_[c].depth > 0; };
     const auto free = [&](std::size_t c) {
@@ -170,7 +174,7 @@ class OverlapCorrection {
           std::none_of(own.begin(), own.end(), is_deep))
         continue;
       newton_.assign(
-          op, own, [&](std::size_t body) { return islands_.moves(body); }, free, frictionless);
+          points, own, [&](std::size_t body) { return islands_.moves(body); }, free, frictionless);
       if (!newton_.is_chain()) continue;
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
@@ -186,7 +190,8 @@ class OverlapCorrection {
   }
 
   /// @param largest displacement that one contact asks for at most [m]
-  void sweep(const BodyDelassus<S>& op, std::span<const Contact<S>> contacts, Scalar largest,
+  template <class Operator>
+  void sweep(const Operator& op, std::span<const Contact<S>> contacts, Scalar largest,
              SharedBodies* shared) {
     moved_.assign(op.body_count(), 0);
     if (options_.islands && !shared) correct_islands(op, contacts, largest);
@@ -197,7 +202,7 @@ class OverlapCorrection {
         if (row.done || (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b])) continue;
         const Contact<S>& contact = contacts[c];
         const Scalar missing = target(row, largest) - closing(contact);
-        const Scalar push = std::max(Scalar(0), row.push + missing / op.block(c).normal);
+        const Scalar push = std::max(Scalar(0), row.push + missing / op.normal(c));
         const Scalar change = push - row.push;
         if (change == Scalar(0)) continue;
         row.push = push;
@@ -225,7 +230,7 @@ class OverlapCorrection {
     for (std::size_t i = 0; i < shifts_.size(); ++i) moved_[i] = !shifts_[i].isZero(0);
   }
 
-  using Newton = detail::IslandNewton<BodyDelassus<S>>;
+  using Newton = detail::IslandNewton<detail::PointGeometry<S>>;
 
   Options options_;
   detail::ContactIslands islands_;

@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "moreau/contact/body_delassus.hpp"
 #include "moreau/distributed/detail/ordered_sharing.hpp"
 
 namespace moreau::detail {
@@ -26,12 +25,12 @@ struct ColouredPair {
 
 /// Colours of the pairs of bodies that do not depend on the process that has them;
 /// reproducible_gauss_seidel.hpp explains them.
-template <class S>
+template <class Operator>
 class PairColours {
  public:
   /// @param op      contacts of one pair of bodies follow one another
   /// @param sharing null: all bodies are in this process
-  void find(const BodyDelassus<S>& op, OrderedSharing* sharing) {
+  void find(const Operator& op, OrderedSharing* sharing) {
     find_pairs(op, sharing);
     std::vector<std::uint64_t> used(words * op.body_count()), best(op.body_count());
     std::vector<std::uint32_t> left(pairs_.size());
@@ -69,7 +68,7 @@ class PairColours {
   static constexpr std::size_t words = 4, colours = 64 * words;
 
   /// The walls that move under contacts, ascending: the bodies that do not move alike along all axes.
-  static std::vector<std::uint32_t> moving_walls(const BodyDelassus<S>& op) {
+  static std::vector<std::uint32_t> moving_walls(const Operator& op) {
     std::vector<std::uint32_t> walls;
     for (std::uint32_t c = 0; c < op.size(); ++c)
       for (const std::uint32_t body : op.bodies(c))
@@ -79,7 +78,7 @@ class PairColours {
     walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
     return walls;
   }
-  void find_pairs(const BodyDelassus<S>& op, OrderedSharing* sharing) {
+  void find_pairs(const Operator& op, OrderedSharing* sharing) {
     walls_ = sharing ? sharing->moving_walls() : moving_walls(op);
     pairs_.clear();
     bodies_.clear();

@@ -18,7 +18,7 @@ template <class Vector, bool Compliant>
 struct PackedCompliance {};
 template <class Vector>
 struct PackedCompliance<Vector, true> {
-  Vector compliance{};  ///< diagonal of D, see CompliantDelassus
+  Vector compliance{};  ///< diagonal of D, see BodyDelassus
 };
 
 /// The effective radius of one contact per lane, see effective_radius(); nothing for contacts without

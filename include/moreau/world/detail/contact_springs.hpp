@@ -37,6 +37,17 @@ struct NoSprings {
   };
   static Zero relaxation(std::size_t) { return {}; }
   static double energy_before(std::size_t) { return 0; }
+  /// An empty span of any rows.
+  struct NoRows {
+    template <class Row>
+    operator std::span<const Row>() const {
+      return {};
+    }
+  };
+  template <class S, class Law>
+  static NoRows compliances(const StepContext<S, Law>&) {
+    return {};
+  }
   template <class S, class Law>
   static SpringTurn<S> turn(const StepContext<S, Law>&, const auto&) {
     return {};
@@ -142,7 +153,7 @@ class ContactSprings {
       if (!std::isfinite(u[0])) continue;
       if (r[0] > 0) {
         const Scalar own = compliance_[c][0];
-        stiffest = std::min(stiffest, double(own / (normal_of(problem.delassus.block(c)) - own)));
+        stiffest = std::min(stiffest, double(own / (problem.delassus.normal(c) - own)));
       }
       const Contact<S>& point = context.contacts.points[c];
       if (!problem.law(c).keeps_normal_impulse())
@@ -197,14 +208,6 @@ class ContactSprings {
   MOREAU_COMPILED_ONCE static Row relaxation_of(const Row& compliance, const Row& impulse) {
     return -compliance.cwiseProduct(impulse);
   }
-  /// w_nn of a contact [1/kg].
-  static Scalar normal_of(const auto& block) {
-    if constexpr (RollingLaw<Law, S>)
-      return block.point.normal;
-    else
-      return block.normal;
-  }
-
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(last_step_, energies_); }
   void deserialized() { sum_energies(); }

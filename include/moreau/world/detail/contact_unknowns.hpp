@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The unknowns r of the contact problem, one row per contact, and the impulses and couples of
-// Contacts, from which they start and to which they return.
+// The unknowns r of the contact problem, from the impulses and couples of the step before to those of this step.
 #pragma once
 
 #include <cstddef>
@@ -35,66 +34,55 @@ std::size_t start(const Contacts<S>& previous, Contacts<S>& contacts,
   }
 }
 
-/// The unknowns of a law that acts at points: the impulses of the contacts themselves.
+/// The rows r of the contact problem, one per contact.
 template <class S, class Law>
-class PointUnknowns {
+class ContactUnknowns {
  public:
   using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
 
-  static const BodyDelassus<S>& points(const Operator& op) { return op; }
-  std::size_t start(const Operator&, const Contacts<S>& previous, Contacts<S>& contacts,
-                    const SpringTurn<S>& turn, const Team& team) {
-    return detail::start<Law>(previous, contacts, turn, team);
-  }
-  static std::span<typename S::Vector> impulses(Contacts<S>& contacts) { return contacts.impulses; }
-  static void finish(const Operator&, Contacts<S>&) {}
-};
-
-/// The unknowns of a law with couples: (impulse, couple / R) of every contact in one vector.
-template <class S, class Law>
-class RollingUnknowns {
- public:
-  using Operator = OperatorOf<Law, S>;
-
-  static const BodyDelassus<S>& points(const Operator& op) { return op.points(); }
-  std::size_t start(const Operator& op, const Contacts<S>& previous, Contacts<S>& contacts,
-                    const SpringTurn<S>& turn, const Team& team) {
+  /// Warm start.
+  /// @returns how many contacts have a predecessor
+  std::size_t start([[maybe_unused]] const Operator& op, const Contacts<S>& previous,
+                    Contacts<S>& contacts, const SpringTurn<S>& turn, const Team& team) {
     const std::size_t found = detail::start<Law>(previous, contacts, turn, team);
-    carry_couples(previous, contacts, previous.couples, contacts.couples,
-                  [&](const Contact<S>& before, const Contact<S>& now) -> typename S::Matrix {
-                    if constexpr (CompliantLaw<Law, S>)
-                      return turn.axes(before, now);
-                    else
-                      return before.frame;
-                  });
-    unknowns_.resize(contacts.size());
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      linear<S>(unknowns_[c]) = contacts.impulses[c];
-      angular<S>(unknowns_[c]) = contacts.couples[c] / op.radius(c);
+    if constexpr (couples) {
+      carry_couples(previous, contacts, previous.couples, contacts.couples,
+                    [&](const Contact<S>& before, const Contact<S>& now) -> typename S::Matrix {
+                      if constexpr (CompliantLaw<Law, S>)
+                        return turn.axes(before, now);
+                      else
+                        return before.frame;
+                    });
+      rows_.resize(contacts.size());
+      team.share_each(contacts.size(), 256, [&](std::size_t c) {
+        linear<S>(rows_[c]) = contacts.impulses[c];
+        angular<S>(rows_[c]) = contacts.couples[c] / op.radius(c);
+      });
     }
     return found;
   }
-  std::span<typename Operator::Vector> impulses(Contacts<S>&) { return unknowns_; }
-  void finish(const Operator& op, Contacts<S>& contacts) {
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      contacts.impulses[c] = linear<S>(unknowns_[c]);
-      contacts.couples[c] = op.radius(c) * angular<S>(unknowns_[c]);
-    }
+  /// r: the impulses of the contacts themselves, or with couples (impulse, couple / R).
+  std::span<Row> impulses([[maybe_unused]] Contacts<S>& contacts) {
+    if constexpr (couples)
+      return rows_;
+    else
+      return contacts.impulses;
+  }
+  /// Writes r to the impulses and couples of the contacts.
+  void finish([[maybe_unused]] const Operator& op, [[maybe_unused]] Contacts<S>& contacts,
+              [[maybe_unused]] const Team& team) const {
+    if constexpr (couples)
+      team.share_each(contacts.size(), 256, [&](std::size_t c) {
+        contacts.impulses[c] = linear<S>(rows_[c]);
+        contacts.couples[c] = op.radius(c) * angular<S>(rows_[c]);
+      });
   }
 
  private:
-  std::vector<typename Operator::Vector> unknowns_;
+  static constexpr bool couples = RollingLaw<Law, S>;
+  struct None {};
+  [[no_unique_address]] std::conditional_t<couples, std::vector<Row>, None> rows_;
 };
-
-/// The unknowns of a law:
-///
-/// - points(operator): the part of the operator that acts at points
-/// - start(operator, previous, contacts, turn, team): warm start; returns how many contacts have a
-///   predecessor
-/// - impulses(contacts): the unknowns r, one per contact
-/// - finish(operator, contacts): writes r to the impulses and couples of the contacts
-template <class S, class Law>
-using ContactUnknowns =
-    std::conditional_t<RollingLaw<Law, S>, RollingUnknowns<S, Law>, PointUnknowns<S, Law>>;
 
 }  // namespace moreau::detail

@@ -162,11 +162,8 @@ class ImpulseDynamics {
   }
 
   void assemble(const Context& context) {
-    if constexpr (compliant)
-      problem_.delassus.assemble(context.contacts.points, roots_, free_,
-                                 springs_.compliances(context), team_);
-    else
-      problem_.delassus.assemble(context.contacts.points, roots_, free_, RigidContacts{}, team_);
+    problem_.delassus.assemble(context.contacts.points, roots_, free_,
+                               springs_.compliances(context), team_);
   }
 
   void free_velocities(const Context& context) {
@@ -271,9 +268,8 @@ class ImpulseDynamics {
   }
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
-    OverlapCorrectionReport report =
-        correction_.solve(Unknowns::points(problem_.delassus), context.contacts.points,
-                          context.grain_size, team_, shared_.get());
+    OverlapCorrectionReport report = correction_.solve(problem_.delassus, context.contacts.points,
+                                                       context.grain_size, team_, shared_.get());
     if (shared_ || report.corrected > 0) shift_bodies(context.bodies, context.gravity, report);
     return report;
   }
@@ -332,7 +328,7 @@ class ImpulseDynamics {
     if constexpr (compliant) springs_.measure(context, problem_, impulses, report, shared_.get());
     if constexpr (stateful) choose_variants(context.materials, context.contacts);
     if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, -1);
-    unknowns_.finish(problem_.delassus, context.contacts);
+    unknowns_.finish(problem_.delassus, context.contacts, team_);
   }
 
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
