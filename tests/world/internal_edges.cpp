@@ -12,6 +12,7 @@
 
 #include "types.hpp"
 #include "world/assemblies.hpp"
+#include "world/tiles.hpp"
 #include "worlds/compound.hpp"
 
 using namespace moreau;
@@ -184,6 +185,16 @@ TEST_CASE("a cube slides over flush blocks in any direction of its edges") {
   const ShapeT prism(hexagon);
   check<ShapeT>({.grain = 0.024}, box<ShapeT>(0.05, 0.05), prism);
   check<ShapeT>({.grain = 0.024, .turn = 0.3}, box<ShapeT>(0.05, 0.05), prism);
+}
+
+// Where four tiles meet, the tile diagonal to that below a cube turned it over.
+TEST_CASE("polyhedra slide over floors of tiles in 100 directions") {
+  using P = Polyhedron<>;
+  tiles::check_directions<scenes::World<P>, P>(tiles::polytopes<P, P>(), 100, 1e-6);
+}
+TEST_CASE("polygons slide over blocks of different sizes") {
+  using P = Polygon<>;
+  tiles::check_directions<scenes::World<P>, P>(tiles::polytopes<P, P>(), 40, 1e-6);
 }
 
 TEST_CASE_TEMPLATE("a compound grain slides over flush parts and flush obstacles", Part,

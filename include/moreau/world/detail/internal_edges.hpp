@@ -24,6 +24,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "moreau/body/bodies.hpp"
@@ -187,7 +188,7 @@ class InternalEdges {
   /// of polytopes, not that of a face.
   static bool is_candidate(const View& view, Scalar cosine, const Contacts<S>& contacts) {
     if (cosine < Scalar(0.7)) return true;
-    if (!Polytope<PartOf<ShapeT>> || cosine > Scalar(1 - 1e-6)) return false;
+    if (cosine > Scalar(1 - 1e-6)) return false;
     const ContactClass found = contacts.classes[view.first];
     if (vertex_on_face(S{}) == FeatureKey::Kind::vertex_edge)  // the faces are the edges
       return found == ContactClass::vertex_vertex;
@@ -206,28 +207,48 @@ class InternalEdges {
            found.x >= surface.height + std::min(surface.gap, Scalar(0)) - flush;
   }
 
-  /// Finds the contacts to replace among those of one part of X with one group.
+  /// The contact to replace if another one's surface separates X from the other body, or nothing.
+  /// @param t         index of the view, from begin to end
+  /// @param kept_only whether surfaces of contacts that are replaced themselves do not count
+  [[gnu::cold, gnu::noinline]] std::optional<Found> separating(std::size_t t, std::size_t begin,
+                                                               std::size_t end, bool kept_only,
+                                                               Scalar flush, const auto& placed_of,
+                                                               const Contacts<S>& contacts) const {
+    const View& view = views_[t];
+    const Vector normal = outward(view, contacts);
+    std::optional<Found> best;
+    for (std::size_t s = begin; s < end; ++s) {
+      if (s == t || (kept_only && is_replaced_[s - begin])) continue;
+      const Scalar cosine = normal.dot(outward(views_[s], contacts));
+      if (!is_candidate(view, cosine, contacts)) continue;
+      const Surface surface = surface_of(views_[s], contacts);
+      Heights found, of_other;
+      if (!is_separated(view, surface, flush, placed_of, contacts, found) ||
+          is_separated(views_[s], surface_of(view, contacts), flush, placed_of, contacts, of_other))
+        continue;
+      const Scalar separation = found.x - found.other;
+      if (!best || separation > best->separation) best = {view, surface.normal, separation};
+    }
+    return best;
+  }
+  /// Finds the contacts to replace among those of one part of X with one group. Where four blocks meet,
+  /// the side of a block can separate X from the block diagonal to it, but the contact with this side is
+  /// replaced as well: surfaces of contacts that stay have precedence.
   [[gnu::cold, gnu::noinline]] void compare(std::size_t begin, std::size_t end, Scalar flush,
                                             const auto& placed_of, const Contacts<S>& contacts) {
+    is_replaced_.assign(end - begin, 0);
+    const auto find = [&](std::size_t t, bool kept_only) {
+      return separating(t, begin, end, kept_only, flush, placed_of, contacts);
+    };
+    for (std::size_t t = begin; t < end; ++t) found_of_.push_back(find(t, false));
+    for (std::size_t t = begin; t < end; ++t)
+      is_replaced_[t - begin] = found_of_[t - begin].has_value();
     for (std::size_t t = begin; t < end; ++t) {
-      const View& view = views_[t];
-      const Vector normal = outward(view, contacts);
-      Found best{view, Vector::Zero(), 0};
-      for (std::size_t s = begin; s < end; ++s) {
-        const Scalar cosine = normal.dot(outward(views_[s], contacts));
-        if (s == t || !is_candidate(view, cosine, contacts)) continue;
-        const Surface surface = surface_of(views_[s], contacts);
-        Heights found, of_other;
-        if (!is_separated(view, surface, flush, placed_of, contacts, found) ||
-            is_separated(views_[s], surface_of(view, contacts), flush, placed_of, contacts,
-                         of_other))
-          continue;
-        const Scalar separation = found.x - found.other;
-        if (best.normal.isZero(0) || separation > best.separation)
-          best = {view, surface.normal, separation};
-      }
-      if (!best.normal.isZero(0)) found_.push_back(best);
+      if (!is_replaced_[t - begin]) continue;
+      const std::optional<Found> kept = find(t, true);
+      found_.push_back(kept ? *kept : *found_of_[t - begin]);
     }
+    found_of_.clear();
   }
 
   /// Gives a contact the normal m; of points that then coincide only the first stays.
@@ -249,7 +270,9 @@ class InternalEdges {
 
   std::vector<View> views_;
   std::vector<Found> found_;
-  std::vector<unsigned char> gone_;  // one per contact
+  std::vector<std::optional<Found>> found_of_;  // one per view of the group that is compared
+  std::vector<unsigned char> is_replaced_;      // the same
+  std::vector<unsigned char> gone_;             // one per contact
 };
 
 }  // namespace moreau::detail
