@@ -153,6 +153,15 @@ for signal in TERM INT; do
   [ "$(wc -l <"$folder/$signal/results/runs.jsonl")" = "$ended" ] || fail "kept after SIG$signal"
 done
 
+# A stiffness that is the default of springs is told to compliant contacts, which have another one.
+printf '#!/bin/bash\necho "$*" >"%s"\nexit 1\n' "$folder/told" >"$folder/stub"
+chmod +x "$folder/stub"
+mkdir -p "$folder/k/cases/disk-s31-5Hz-T0.35s-compliant"
+touch "$folder/k/cases/disk-s31-5Hz-T0.35s-compliant/checkpoint.snapshot"
+number=$("$program" --plan controls --list --output "$folder/k" | awk '/ disk-s31-60Hz-k1e\+07-/ {print $1}')
+"$program" --plan controls --case "$number" --program "$folder/stub" --output "$folder/k" >"$folder/k.log" 2>&1
+grep -q -e "--stiffness 1e+07" "$folder/told" || fail "stiffness of a case: $(cat "$folder/told" "$folder/k.log")"
+
 # The results of the repository are those of its table; the report is compared in tests/study/report.py.
 results=$sources/results
 mkdir -p "$folder/study"

@@ -718,13 +718,14 @@ double seconds_of(const Parameters& p) {
 std::vector<std::string> arguments(const Parameters& p) {
   const Parameters usual;
   std::vector<std::string> list{"--shape", p.shape, "--seed", std::to_string(p.seed)};
-  for (const Option& option : options())
-    // The stiffness of compliant contacts has a default of its own.
-    if (option.value(p) != option.value(usual) ||
-        (option.flag == "--stiffness" && p.method == "compliant")) {
+  for (const Option& option : options()) {
+    // Stiffness and tolerance of compliant contacts have defaults of their own.
+    const bool has_other_default = option.flag == "--stiffness" || option.flag == "--tolerance";
+    if (option.value(p) != option.value(usual) || (has_other_default && p.method == "compliant")) {
       list.emplace_back(option.flag);
       list.push_back(text(option.value(p)));
     }
+  }
   if (p.size_reading != usual.size_reading)
     list.insert(list.end(), {"--size-reading", "circumradius"});
   if (p.method != usual.method) list.insert(list.end(), {"--method", p.method});
