@@ -74,7 +74,7 @@ for table in cases.csv runs.jsonl; do
 done
 if command -v gnuplot >/dev/null && command -v python3 >/dev/null; then
   for name in x_t one_period velocity_field f_g_x force_chains rho_t rho_x phase_portrait \
-    dx_v_frequency dx_loads master way_back compaction_rate; do
+    dx_v_frequency dx_loads master compaction_rate; do
     [ -s "$folder/a/results/figures/$name.png" ] || fail "no figure $name"
   done
   [ -e "$folder/a/results/figures/long_course.png" ] && fail "a figure of runs that the plan has not"
