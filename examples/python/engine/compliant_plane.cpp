@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "engine.hpp"
+
+namespace moreau {
+MOREAU_PYTHON_WORLDS(template, Space<2>, Polygon<double>, moreau_python::Compliant)
+}  // namespace moreau

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#include "digits.hpp"
+#include "plane_and_space/plane_and_space.cpp"

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "hello/hello.cpp"
+
+#include "digits.hpp"

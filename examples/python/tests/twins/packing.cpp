@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "packing/packing.cpp"
+
+#include "digits.hpp"
