@@ -170,6 +170,7 @@ class ContactDetector {
 
  private:
   friend struct SerializationAccess;
+  friend struct detail::StateAccess;
   auto serialized_members() {
     return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_);
   }

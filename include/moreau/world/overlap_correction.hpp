@@ -121,6 +121,7 @@ class OverlapCorrection {
 
  private:
   friend struct SerializationAccess;
+  friend struct detail::StateAccess;
   auto serialized_members() { return std::tie(options_, shifts_); }
 
   /// A contact in the sweeps.

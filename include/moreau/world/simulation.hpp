@@ -298,6 +298,7 @@ class Simulation : public BodyControl<ShapeT> {
     return body;
   }
   friend struct SerializationAccess;
+  friend struct detail::StateAccess;
   auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
                     contacts_, detector_);

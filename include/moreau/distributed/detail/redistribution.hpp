@@ -196,7 +196,7 @@ void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
   std::vector<Grains> ghosts = lend(grains, slack, lent);
   assemble(grains, ghosts, walls, lent);
   take_contacts(contacts);
-  parts.finish(world_);
+  parts.finish();
   slack_ = slack;
 }
 

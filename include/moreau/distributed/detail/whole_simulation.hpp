@@ -137,7 +137,7 @@ std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& 
   set_bodies(whole, list, grains);
   whole.contacts() = std::move(contacts.contacts);
   if constexpr (Parts::has_springs) whole.spring_energies() = std::move(contacts.energies);
-  whole.finish(result);
+  whole.finish();
   return result;
 }
 

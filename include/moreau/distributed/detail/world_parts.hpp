@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a simulation consists of, as its snapshot stores it, and what goes from process to process.
+// What a simulation consists of, and what goes from process to process.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,26 +36,61 @@ void unpack(std::string_view bytes, Objects&... objects) {
   (transfer(archive, objects), ...);
 }
 
-/// References to the members of a simulation that snapshots store.
+/// The members of a simulation and of its parts that a simulation in several processes reads and sets.
+struct StateAccess {
+  static auto& dynamics(auto& world) { return world.dynamics_; }
+  static auto& time(auto& world) { return world.time_; }
+  static auto& assembly(auto& world) { return world.assembly_; }
+  static auto& contacts(auto& world) { return world.contacts_; }
+  static auto& detector(auto& world) { return world.detector_; }
+  static const auto& tolerances(auto& world) { return world.tolerances_; }
+
+  static auto& shapes(auto& assembly) { return assembly.shapes_; }
+  static auto& grains(auto& assembly) { return assembly.grains_; }
+  static auto& walls(auto& assembly) { return assembly.walls_; }
+  static auto& cylinders(auto& assembly) { return assembly.cylinders_; }
+  static auto& meshes(auto& assembly) { return assembly.meshes_; }
+  static auto& bodies(auto& assembly) { return assembly.bodies_; }
+
+  /// Whether the contacts have springs.
+  template <class Dynamics>
+  static constexpr bool has_springs() {
+    return Dynamics::compliant;
+  }
+  static auto& springs(auto& dynamics) { return dynamics.springs_; }
+  static auto& energies(auto& springs) { return springs.energies_; }
+  static auto& shifts(auto& dynamics) { return dynamics.correction_.shifts_; }
+
+  /// Makes the list of pairs empty, so that the next step finds all pairs.
+  static void forget_pairs(auto& detector) {
+    detector.stale_ = true;
+    detector.fat_.clear();
+    detector.pairs_.clear();
+    detector.shifts_.clear();
+    detector.caches_ = {};
+  }
+};
+
+/// The parts of a simulation.
 template <class World>
 struct WorldParts {
-  decltype(SerializationAccess::serialized_members(std::declval<World&>())) members;
+  World& world;
 
-  explicit WorldParts(World& world) : members(SerializationAccess::serialized_members(world)) {}
+  explicit WorldParts(World& whole) : world(whole) {}
 
-  auto& dynamics() { return std::get<3>(members); }
-  auto& time() { return std::get<5>(members); }
-  auto& assembly() { return std::get<6>(members); }
-  auto& contacts() { return std::get<7>(members); }
-  auto& detector() { return std::get<8>(members); }
-  const auto& tolerances() { return std::get<1>(members); }
+  auto& dynamics() { return StateAccess::dynamics(world); }
+  auto& time() { return StateAccess::time(world); }
+  auto& assembly() { return StateAccess::assembly(world); }
+  auto& contacts() { return StateAccess::contacts(world); }
+  auto& detector() { return StateAccess::detector(world); }
+  const auto& tolerances() { return StateAccess::tolerances(world); }
 
-  auto& shapes() { return std::get<0>(of(assembly())); }
-  auto& grains() { return std::get<1>(of(assembly())); }
-  auto& walls() { return std::get<2>(of(assembly())); }
-  auto& cylinders() { return std::get<3>(of(assembly())); }
-  auto& meshes() { return std::get<4>(of(assembly())); }
-  auto& bodies() { return std::get<5>(of(assembly())); }
+  auto& shapes() { return StateAccess::shapes(assembly()); }
+  auto& grains() { return StateAccess::grains(assembly()); }
+  auto& walls() { return StateAccess::walls(assembly()); }
+  auto& cylinders() { return StateAccess::cylinders(assembly()); }
+  auto& meshes() { return StateAccess::meshes(assembly()); }
+  auto& bodies() { return StateAccess::bodies(assembly()); }
   /// Calls visit(body) with a reference to the body of every wall: of half-spaces, then of cylinders,
   /// then of meshes, each in the order in which they were added.
   void for_each_wall(const auto& visit) {
@@ -64,7 +100,7 @@ struct WorldParts {
   }
 
   /// The energies of the springs, one per contact.
-  auto& spring_energies() { return std::get<1>(of(springs())); }
+  auto& spring_energies() { return StateAccess::energies(springs()); }
   /// The same; none without springs.
   auto energies() {
     if constexpr (has_springs)
@@ -73,36 +109,21 @@ struct WorldParts {
       return std::span<const char>();
   }
   /// The springs of compliant contacts.
-  auto& springs() { return std::get<3>(of(dynamics())); }
-  static constexpr bool has_springs =
-      std::tuple_size_v<decltype(SerializationAccess::serialized_members(
-          std::get<3>(std::declval<decltype(members)&>())))> == 4;
+  auto& springs() { return StateAccess::springs(dynamics()); }
+  static constexpr bool has_springs = StateAccess::has_springs<
+      std::remove_cvref_t<decltype(StateAccess::dynamics(std::declval<World&>()))>>();
 
   /// The shifts of the overlap correction in the last step, which the next step does not need.
-  auto& shifts() { return std::get<1>(of(std::get<1>(of(dynamics())))); }
+  auto& shifts() { return StateAccess::shifts(dynamics()); }
 
-  /// Makes the list of pairs empty, so that the next step finds all pairs.
-  void forget_pairs() {
-    auto [cell, kept_points, stale, fat, pairs, shifts, caches] = of(detector());
-    stale = true;
-    fat.clear();
-    pairs.clear();
-    shifts.clear();
-    caches = {};
-  }
+  void forget_pairs() { StateAccess::forget_pairs(detector()); }
   /// Computes what depends on the members, after they were set.
-  void finish(World& world) {
+  void finish() {
     forget_pairs();
     shifts().assign(bodies().size(), World::S::Twist::Zero());
     SerializationAccess::deserialized(assembly());
     if constexpr (has_springs) SerializationAccess::deserialized(springs());
     SerializationAccess::deserialized(world);
-  }
-
- private:
-  template <class X>
-  static auto of(X& x) {
-    return SerializationAccess::serialized_members(x);
   }
 };
 

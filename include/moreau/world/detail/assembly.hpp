@@ -289,6 +289,7 @@ class Assembly {
   };
 
   friend struct moreau::SerializationAccess;
+  friend struct StateAccess;
   auto serialized_members() {
     return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_, changed_);
   }

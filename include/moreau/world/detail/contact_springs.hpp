@@ -209,6 +209,7 @@ class ContactSprings {
     return -compliance.cwiseProduct(impulse);
   }
   friend struct moreau::SerializationAccess;
+  friend struct StateAccess;
   auto serialized_members() { return std::tie(last_step_, energies_); }
   void deserialized() { sum_energies(); }
 

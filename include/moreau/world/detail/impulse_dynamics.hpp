@@ -142,6 +142,7 @@ class ImpulseDynamics {
 
  private:
   friend struct moreau::SerializationAccess;
+  friend struct StateAccess;
   auto serialized_members() {
     if constexpr (compliant)
       return std::tie(solver_, correction_, integrator_, springs_);
