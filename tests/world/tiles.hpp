@@ -17,6 +17,7 @@
 #include "moreau/shape/compound.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
 namespace tiles {
