@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
@@ -70,18 +71,12 @@ class ContactSprings {
   std::span<const Row> compliances(const StepContext<S, Law>& context) {
     const Contacts<S>& contacts = context.contacts;
     compliance_.resize(contacts.size());
-    const Scalar length = std::min(context.margin, Tolerances{}.lengths(context.grain_size).margin);
+    const Scalar length = open_length(context);
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
       const Contact<S>& point = contacts.points[first];
-      Scalar count = 0;
-      for (last = first; last < contacts.size(); ++last) {
-        const Contact<S>& other = contacts.points[last];
-        if (other.a != point.a || other.b != point.b) break;
-        const Scalar open = std::max(Scalar(0), other.gap) / length;
-        count += std::max(Scalar(0), 1 - open);
-      }
+      const Scalar count = count_pair(contacts, first, last, length);
       const Law& law = context.materials.laws()[point.law];
-      const Scalar share = std::max(Scalar(1), count) / (context.step * context.step);
+      const Scalar share = count / (context.step * context.step);
       Row row = Row::Constant(share * law.tangential_compliance());
       row[0] = share * law.normal_compliance();
       std::fill(compliance_.begin() + std::ptrdiff_t(first),
@@ -102,12 +97,26 @@ class ContactSprings {
     if constexpr (requires { integrator.theta(); }) theta = Scalar(integrator.theta());
     return {context.bodies.velocity, theta * last_step_ + (1 - theta) * context.step};
   }
-  /// Makes the impulses of the step before those of the same forces over this step.
+  /// Makes the impulses of the step before those of the same forces over this step. With restitution, whose
+  /// memory is the impulse, the springs of a pair keep their energy if their number changes, and so their
+  /// stiffness: a force that stayed the same would make energy.
   /// @param impulses in: of the step before; out: s [N s]
   void scale(const StepContext<S, Law>& context, std::span<Row> impulses) {
     const Scalar ratio = last_step_ > 0 ? context.step / last_step_ : Scalar(1);
     last_step_ = context.step;
     for (Row& impulse : impulses) impulse *= ratio;
+    const Contacts<S>&now = context.contacts, &before = context.previous;
+    const Scalar length = open_length(context);
+    const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
+    std::size_t old = 0, end = 0;
+    for (std::size_t first = 0, last; first < now.size(); first = last) {
+      const Scalar count = count_pair(now, first, last, length);
+      while (old < before.size() && pair_of(before.keys[old]) < pair_of(now.keys[first])) ++old;
+      if (old == before.size() || pair_of(before.keys[old]) != pair_of(now.keys[first])) continue;
+      if (!context.materials.laws()[now.points[first].law].keeps_normal_impulse()) continue;
+      const Scalar kept = std::sqrt(count_pair(before, old, end, length) / count);
+      for (std::size_t c = first; c < last; ++c) impulses[c] *= kept;
+    }
   }
   /// Adds the velocity by which the springs relax, -c s, to b.
   /// @param impulses s, attraction included [N s]
@@ -205,6 +214,24 @@ class ContactSprings {
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };
 
+  /// The gap at which a point no longer counts as a spring of its pair [m].
+  static Scalar open_length(const StepContext<S, Law>& context) {
+    return std::min(context.margin, Tolerances{}.lengths(context.grain_size).margin);
+  }
+  /// How many springs a pair has, at least 1; open points count in part.
+  /// @param first its first contact
+  /// @param last  out: the one after its last contact
+  static Scalar count_pair(const Contacts<S>& contacts, std::size_t first, std::size_t& last,
+                           Scalar length) {
+    Scalar count = 0;
+    for (last = first; last < contacts.size(); ++last) {
+      const Contact<S>&point = contacts.points[first], &other = contacts.points[last];
+      if (other.a != point.a || other.b != point.b) break;
+      const Scalar open = std::max(Scalar(0), other.gap) / length;
+      count += std::max(Scalar(0), 1 - open);
+    }
+    return std::max(Scalar(1), count);
+  }
   MOREAU_COMPILED_ONCE static Row relaxation_of(const Row& compliance, const Row& impulse) {
     return -compliance.cwiseProduct(impulse);
   }
