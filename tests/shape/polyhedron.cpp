@@ -403,6 +403,47 @@ TEST_CASE("from_faces refuses coplanar neighbours, dents, two bodies, straight c
         "Polyhedron::from_faces: number of faces at vertices[8] = 2 must be at least 3");
 }
 
+// Its faces join second neighbours of an icosahedron. Every edge is convex, and V - E + F is 2.
+TEST_CASE("from_faces refuses a great icosahedron, which surrounds its centre seven times") {
+  std::vector<Eigen::Vector3d> vertices;
+  const double golden = std::numbers::phi;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-golden, golden})
+      vertices.insert(vertices.end(), {{0, a, b}, {a, b, 0}, {b, 0, a}});
+  FaceLists faces;
+  const auto far = [&](std::uint32_t i, std::uint32_t j) {
+    return std::abs((vertices[i] - vertices[j]).norm() - 2 * golden) < 1e-9;
+  };
+  for (std::uint32_t i = 0; i < 12; ++i)
+    for (std::uint32_t j = 0; j < i; ++j)
+      for (std::uint32_t k = 0; k < j; ++k)
+        if (far(i, j) && far(j, k) && far(k, i)) {
+          const auto normal = (vertices[j] - vertices[i]).cross(vertices[k] - vertices[i]);
+          const bool out = normal.dot(vertices[i]) > 0;
+          faces.push_back({i, out ? j : k, out ? k : j});
+        }
+  REQUIRE(faces.size() == 20);
+  CHECK(message_of([&] { from_faces(vertices, faces); }).find("must be negative: convex") !=
+        std::string::npos);
+}
+
+// 30,000 vertices: all faces against all vertices would be 2e9 heights.
+TEST_CASE("from_faces takes large polyhedra") {
+  std::vector<Eigen::Vector3d> vertices;
+  FaceLists faces(2);
+  const std::uint32_t n = 15000;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * k / n;
+    for (const double z : {-1.0, 1.0}) vertices.emplace_back(std::cos(angle), std::sin(angle), z);
+    const std::uint32_t next = (k + 1) % n;
+    faces[0].push_back(2 * (n - 1 - k));
+    faces[1].push_back(2 * k + 1);
+    faces.push_back({2 * k, 2 * next, 2 * next + 1, 2 * k + 1});
+  }
+  CHECK(from_faces(vertices, faces).volume() ==
+        doctest::Approx(n * std::sin(2 * std::numbers::pi / n)));
+}
+
 TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))) {
   const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
   auto vertices = box_vertices<T>(1, 1, 1);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "moreau/boundary/servo.hpp"
+#include "moreau/contact/detail/warm_start.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
@@ -17,6 +18,7 @@
 #include "moreau/shape/facet_mesh.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
+#include "moreau/world/detail/enlarged_boxes.hpp"
 #include "moreau/world/simulation.hpp"
 
 using namespace moreau;
@@ -274,4 +276,61 @@ TEST_CASE(
       world.allow_overlaps();
       CHECK_NOTHROW(world.step(1e-5));
     }
+}
+
+TEST_CASE_TEMPLATE(
+    "couples and impulses of keys that are gone go to the nearest contact of the pair", T, Space<2>,
+    Space<3>) {
+  Contacts<T> before, now;
+  const auto add = [](Contacts<T>& contacts, std::uint32_t b, std::size_t feature, double x,
+                      double angle) {
+    Contact<T> contact{};
+    contact.a = 0, contact.b = b;
+    contact.lever_a = x * T::Vector::UnitX();
+    typename T::Angular turn = T::Angular::Zero();
+    turn[0] = angle;
+    contact.frame = T::contact_frame(typename T::Vector(T::exp(turn) * T::Vector::Unit(1)));
+    contacts.points.push_back(contact);
+    contacts.keys.push_back({0, b, FeatureKey(FeatureKey::Kind::vertex_edge, feature, 0)});
+    contacts.impulses.push_back(T::Vector::Zero());
+    contacts.couples.push_back(T::Angular::Zero());
+  };
+  for (const double x : {0.0, 1.0, 2.0}) add(before, 1, std::size_t(x), x, 0.1 * x);
+  for (std::size_t c = 0; c < 3; ++c) before.couples[c].setConstant(1 + double(c));
+  add(now, 1, 1, 1, 0.3);     // the same
+  add(now, 1, 5, 0.1, 0.2);   // nearest to the first
+  add(now, 1, 6, 1.9, -0.2);  // nearest to the last
+  add(now, 2, 0, 2, 0);       // another pair
+  carry_couples(before, now, before.couples, now.couples,
+                [](const auto& contact, const auto&) { return contact.frame; });
+  const auto in_world = [](const Contacts<T>& contacts, std::size_t c) {
+    return typename T::Angular(T::angular_frame(contacts.points[c].frame) * contacts.couples[c]);
+  };
+  CHECK((in_world(now, 0) - in_world(before, 1)).norm() < 1e-15);
+  CHECK((in_world(now, 1) - in_world(before, 0)).norm() < 1e-15);
+  CHECK((in_world(now, 2) - in_world(before, 2)).norm() < 1e-15);
+  CHECK(now.couples[3].isZero(0));
+}
+
+TEST_CASE("a grain without a pair makes the list of pairs new some twenty times on its way") {
+  using Boxes = detail::EnlargedBoxes<S>;
+  const double reach = 1e-4, skin = 1e-3;
+  for (const double speed : {0.3 * skin, 2 * skin, 1000 * skin}) {  // per step
+    int renewals = 0;
+    Aabb<S> box(Vector(0, 0), Vector(0.02, 0.02)), old = box.inflated(reach + skin);
+    const Vector move = speed * Vector(0.8, -0.6);
+    for (int k = 0; k < 100000; ++k) {
+      box = {box.lower + move, box.upper + move};
+      if (old.contains(box.inflated(reach))) continue;
+      old = Boxes::next(box, old, reach, skin);
+      REQUIRE(old.contains(box.inflated(reach)));
+      ++renewals;
+    }
+    CHECK(renewals < 22);
+    CHECK(old.lower ==
+          Boxes::next(box, old, reach, skin).lower);  // renewed by others: it keeps its box
+  }
+  Boxes boxes;
+  boxes.find_pairs_of(4, {{0, 2}});
+  CHECK((!boxes.is_alone(0) && boxes.is_alone(1) && !boxes.is_alone(2) && boxes.is_alone(3)));
 }

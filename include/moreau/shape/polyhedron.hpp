@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -171,28 +172,64 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   }
 
   /// Requires that each vertex lies on the planes of its own faces, and strictly below the planes
-  /// of all other faces, within the rounding errors of the input.
+  /// of all other faces, within the rounding errors of the input. All faces are compared with all vertices
+  /// only to name an error.
   void require_convex(std::span<const Vector> input, std::string_view function) const {
     T size = 0;
     for (const Vector& x : input) size = std::max(size, x.cwiseAbs().maxCoeff());
     const T flat = static_cast<T>(HullTolerance{}.flat) * std::numeric_limits<T>::epsilon() * size;
-    const auto own = [&](std::size_t v, std::size_t f) {
-      return std::binary_search(vertex_faces(v).begin(), vertex_faces(v).end(),
-                                static_cast<std::uint32_t>(f));
-    };
+    if (is_locally_convex(flat) && surrounds_origin_once()) return;
     for (std::size_t f = 0; f < face_count(); ++f) {
       std::size_t bad = vertex_count();
       for (const std::uint32_t v : face(f))
         if (!(std::abs(height(v, f)) <= flat)) bad = std::min(bad, std::size_t(v));
       for (std::size_t v = 0; v < bad; ++v)
-        if (!(height(v, f) < -flat) && !own(v, f)) bad = v;
+        if (!(height(v, f) < -flat) && !is_of_face(v, f)) bad = v;
       if (bad == vertex_count()) continue;
       const std::string what =
           "height of vertices[" + std::to_string(bad) + "] above faces[" + std::to_string(f) + "]";
-      require(!own(bad, f), function, what, height(bad, f), "m must be 0: planar faces");
+      require(!is_of_face(bad, f), function, what, height(bad, f), "m must be 0: planar faces");
       require(false, function, what, height(bad, f),
               "m must be negative: convex, coplanar neighbours joined");
     }
+  }
+  bool is_of_face(std::size_t v, std::size_t f) const {
+    return std::binary_search(vertex_faces(v).begin(), vertex_faces(v).end(),
+                              static_cast<std::uint32_t>(f));
+  }
+  /// Whether the vertices of each face lie on its plane, and the vertices that edges join to them
+  /// strictly below it.
+  bool is_locally_convex(T flat) const {
+    for (std::size_t f = 0; f < face_count(); ++f)
+      for (const std::uint32_t v : face(f)) {
+        if (!(std::abs(height(v, f)) <= flat)) return false;
+        for (const std::uint32_t e : vertex_edges(v)) {
+          const auto& ends = edges()[e].vertex;
+          const std::uint32_t other = ends[0] == v ? ends[1] : ends[0];
+          if (!(height(other, f) < -flat) && !is_of_face(other, f)) return false;
+        }
+      }
+    return true;
+  }
+  /// Whether the origin lies below all faces, and the solid angles of the faces, seen from there, have the
+  /// sum 4 pi. A closed surface that is locally convex is then convex (K. Mehlhorn et al., Comput. Geom. 12
+  /// (1999) 85); star polyhedra surround their centre several times. The solid angle of a triangle is that of A. van
+  /// Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125.
+  bool surrounds_origin_once() const {
+    double angle = 0;
+    for (std::size_t f = 0; f < face_count(); ++f) {
+      if (!(face_offsets_[static_cast<Eigen::Index>(f)] > T(0))) return false;
+      const auto loop = face(f);
+      const auto corner = [&](std::size_t k) -> Eigen::Vector3d {
+        return vertex(loop[k]).template cast<double>().normalized();
+      };
+      const Eigen::Vector3d a = corner(0);
+      for (std::size_t k = 2; k < loop.size(); ++k) {
+        const Eigen::Vector3d b = corner(k - 1), c = corner(k);
+        angle += 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+      }
+    }
+    return std::abs(angle / (4 * std::numbers::pi) - 1) < 0.5;
   }
   /// Height of vertex v above the plane of face f [m].
   T height(std::size_t v, std::size_t f) const {

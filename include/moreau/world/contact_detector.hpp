@@ -36,6 +36,7 @@
 #include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/detail/enlarged_boxes.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/detail/internal_edges.hpp"
 #include "moreau/world/detail/mesh_walls.hpp"
@@ -129,7 +130,8 @@ class ContactDetector {
   void set_filter(const auto& keeps) { filter_.set(keeps), stale_ = true; }
   /// Makes the list of the pairs of grains whose boxes are closer than margin + 2 skin along every
   /// axis, sorted by the numbers of the bodies. It keeps the list of an earlier call as long as no
-  /// box has moved by the skin since. Call place() before.
+  /// box has moved by the skin since; grains without a pair may move farther (EnlargedBoxes). Call
+  /// place() before.
   void find_pairs(const DetectionLengths<Scalar>& lengths);
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, feature), with zero
@@ -238,6 +240,7 @@ class ContactDetector {
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> boxes_, fat_;
   BroadPhaseT broad_phase_;
+  detail::EnlargedBoxes<S> enlarged_;
   detail::PairFilter filter_;
   PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
@@ -310,16 +313,24 @@ void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Scalar>& lengths) {
   const Scalar reach = lengths.margin / 2;
-  bool left = stale_ || fat_.size() != boxes_.size();
+  const bool is_new = stale_ || fat_.size() != boxes_.size();
+  bool left = is_new, known = false;
+  const auto is_alone = [&](std::size_t k) {
+    if (!known) enlarged_.find_pairs_of(boxes_.size(), pairs_);
+    known = true;
+    return enlarged_.is_alone(k);
+  };
   for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
-    left =
-        !fat_[k].contains(boxes_[k].inflated(reach)) || !caches_.holds(k, grains_[k].placed, reach);
+    left = !fat_[k].contains(boxes_[k].inflated(reach)) ||
+           (!caches_.holds(k, grains_[k].placed, reach) && !is_alone(k));
   if (!left) return;
   stale_ = false;
   order_.invalidate();
   fat_.resize(boxes_.size());
   for (std::size_t k = 0; k < boxes_.size(); ++k)
-    fat_[k] = boxes_[k].inflated(reach + lengths.skin);
+    fat_[k] = !is_new && cell_.is_open() && is_alone(k)
+                  ? enlarged_.next(boxes_[k], fat_[k], reach, lengths.skin)
+                  : boxes_[k].inflated(reach + lengths.skin);
   old_pairs_.swap(pairs_);
   if (cell_.is_open())
     broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);

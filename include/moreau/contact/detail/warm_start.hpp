@@ -124,11 +124,10 @@ namespace detail {
 /// the nearest contact of the same pair of bodies for which may_receive(key of i). Nothing is called if
 /// there is none.
 /// @param before,now each sorted by its keys
-/// @param memory     one per contact of `before`
+/// @param memory     vectors, one per contact of `before`
 template <class S>
-void for_each_heir(const Contacts<S>& before, const Contacts<S>& now,
-                   const std::vector<typename S::Vector>& memory, const auto& may_receive,
-                   const auto& receive) {
+void for_each_heir(const Contacts<S>& before, const Contacts<S>& now, const auto& memory,
+                   const auto& may_receive, const auto& receive) {
   const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
   const auto begin = now.keys.begin(), end = now.keys.end();
   auto next = begin;  // the first contact whose key is not below
@@ -193,19 +192,23 @@ void hand_over_stretches(const Contacts<S>& before, const Contacts<S>& now,
       });
 }
 
-/// Carries couples [N m s] over, as carry() does impulses: A numbers each, in the angular frame.
+/// Carries couples [N m s] over, as carry() does impulses, and hands those of contacts whose key is gone
+/// over, as hand_over() does: A numbers each, in the angular frame.
 /// @param axes function: contact before, contact now -> the frame of the contact before, turned into
 ///             this step
 template <class S>
 void carry_couples(const Contacts<S>& before, const Contacts<S>& now,
                    const std::vector<typename S::Angular>& old,
                    std::vector<typename S::Angular>& out, const auto& axes) {
-  out.assign(now.size(), S::Angular::Zero());
-  merge_join(now.keys, before.keys, [&](std::size_t i, std::size_t j) {
+  const auto add = [&](std::size_t i, std::size_t j) {
     if (old[j].isZero(0)) return;
-    out[i] = S::angular_frame(now.points[i].frame).transpose() *
-             (S::angular_frame(axes(before.points[j], now.points[i])) * old[j]);
-  });
+    out[i] += S::angular_frame(now.points[i].frame).transpose() *
+              (S::angular_frame(axes(before.points[j], now.points[i])) * old[j]);
+  };
+  out.assign(now.size(), S::Angular::Zero());
+  merge_join(now.keys, before.keys, add);
+  detail::for_each_heir<S>(
+      before, now, old, [](const ContactKey&) { return true; }, add);
 }
 
 }  // namespace moreau

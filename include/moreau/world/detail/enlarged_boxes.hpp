@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/detect/broad_phase.hpp"
+
+namespace moreau::detail {
+
+/// The boxes for which the broad phase lists pairs: those of the grains, enlarged so that the list stays
+/// valid while they move. A grain without a pair is alone. If such a grain leaves its box, its next one is
+/// longer in the direction of its motion, twice as long each time. So a lost grain makes the list new a
+/// number of times that grows as the logarithm of its way, however fast it is.
+template <class S>
+class EnlargedBoxes {
+ public:
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  /// Finds the grains that are alone.
+  void find_pairs_of(std::size_t grains, const std::vector<IndexPair>& pairs) {
+    has_pair_.assign(grains, 0);
+    for (const IndexPair& pair : pairs) has_pair_[pair.first] = has_pair_[pair.second] = 1;
+  }
+  /// Whether grain k has no pair in the list that find_pairs_of() was given.
+  bool is_alone(std::size_t k) const { return has_pair_[k] == 0; }
+
+  /// The next enlarged box of a grain that is alone.
+  /// @param box   of the grain
+  /// @param old   its enlarged box so far
+  /// @param reach by which `box` is enlarged at least [m]
+  /// @param skin  by which it is enlarged in addition [m]
+  static Aabb<S> next(const Aabb<S>& box, const Aabb<S>& old, Scalar reach, Scalar skin) {
+    Aabb<S> plain = box.inflated(reach + skin);
+    const Vector longer = (old.upper - old.lower) - (plain.upper - plain.lower);
+    if (old.contains(box.inflated(reach))) return longer.maxCoeff() > skin ? old : plain;
+    // Four times the way from the middle of the old box: twice as long as before.
+    const Vector way = 2 * (box.lower + box.upper - old.lower - old.upper);
+    plain.lower += way.cwiseMin(Scalar(0));
+    plain.upper += way.cwiseMax(Scalar(0));
+    return plain;
+  }
+
+ private:
+  std::vector<unsigned char> has_pair_;  // one per grain
+};
+
+}  // namespace moreau::detail
