@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Polyhedron against polyhedron, polygon against polygon. The steps, each in a file of polytope/:
-//   1. prove_axis.hpp, facing_faces.hpp or find_axis.hpp
-//                                        the separating axis, its features and the signed gap
+//   1. prove_axis.hpp or find_axis.hpp   the separating axis, its features and the signed gap
 //   2. facing_features.hpp               the two faces, or edges in the plane, that face each other
 //   3. contact_polygon.hpp               the overlap of these faces, with the gap at each corner
 //   4. make_manifold.hpp                 the contact points
@@ -13,7 +12,6 @@
 #include "moreau/detect/convex/gjk.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
-#include "moreau/detect/polytope/facing_faces.hpp"
 #include "moreau/detect/polytope/find_axis.hpp"
 #include "moreau/detect/polytope/make_manifold.hpp"
 #include "moreau/detect/polytope/prove_axis.hpp"
@@ -31,16 +29,10 @@ template <class ShapeT>
 FoundAxis<SpaceOf<ShapeT>> axis_of(const PolytopePair<ShapeT>& pair,
                                    typename SpaceOf<ShapeT>::Scalar margin,
                                    PairCache<SpaceOf<ShapeT>>& cache) {
-  const auto is_usable = [&](const auto& proved) {
-    return proved && std::abs(proved->gap - margin) > pair.rounding();
-  };
-  if (const auto proved = prove_axis(pair, cache); is_usable(proved))
+  const auto proved = prove_axis(pair, cache);
+  if (proved && std::abs(proved->gap - margin) > pair.rounding())
     return {*proved, proved->gap > margin};
-  FoundAxis<SpaceOf<ShapeT>> found;
-  if (const auto facing = prove_facing(pair, cache); is_usable(facing))
-    found.axis = *facing;
-  else
-    found = find_axis(pair, margin);
+  const auto found = find_axis(pair, margin);
   cache.axis = found.axis.normal;
   cache.kind = found.is_beyond ? AxisKind::none : found.axis.kind;
   cache.a = found.axis.a;

@@ -54,12 +54,10 @@ namespace moreau::detail {
 /// The angle theta [rad] from the axis beyond which the proof excludes all other axes, at least `distinct`;
 /// infinite if it excludes none.
 /// @param clearance  the distance r of the projection from the rim of the facet [m]
-/// @param spread     how far points of the facet may lie above the plane of the axis, >= 0 [m]
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pair,
                                                  const Axis<SpaceOf<ShapeT>>& axis,
-                                                 typename SpaceOf<ShapeT>::Scalar clearance,
-                                                 typename SpaceOf<ShapeT>::Scalar spread = 0) {
+                                                 typename SpaceOf<ShapeT>::Scalar clearance) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   constexpr T infinity = std::numeric_limits<T>::infinity();
   const T height = axis.normal.dot(pair.offset), apart2 = pair.offset.squaredNorm();
@@ -71,7 +69,7 @@ typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pai
   const T root = std::sqrt(std::max(apart2 - within * within, T(0)));
   if (!(aside + root < T(100) * (height + within))) return infinity;
   const T spare = clearance - depth * (aside + root) / (height + within);
-  const T below = T(2) * (spread + doubt);
+  const T below = T(2) * doubt;
   return below < T(0.04) * spare ? std::max(DetectionTolerance<T>::distinct, below / spare)
                                  : infinity;
 }

@@ -56,17 +56,6 @@ class FaceEdgeSearch {
     below_a_.update(level());
     prove_face(pair_.a, of_a, pair_.offset, pair_.b, below_a_);
   }
-  /// Instead of both parts: examines one face of each shape, and the edges of these faces.
-  void search_facing(std::uint32_t face_a, const ShortList& edges_a, std::uint32_t face_b,
-                     const ShortList& edges_b) {
-    const auto of_a = measure_face(pair_.a, face_a, pair_.b, pair_.offset);
-    axis_ = {pair_.a.normals()[face_a], of_a.separation, AxisKind::face_a, face_a, of_a.vertex};
-    const auto of_b = measure_face(pair_.b, face_b, pair_.a, Vector(-pair_.offset));
-    if (of_b.separation > axis_.gap + rounding_)
-      axis_ = {-pair_.b.normals()[face_b], of_b.separation, AxisKind::face_b, of_b.vertex, face_b};
-    search_edges(edges_a, edges_b);
-    if (axis_.kind == AxisKind::edges) measure_again();
-  }
   /// Whether the axis is exact or separates the shapes by more than the margin, so that the search
   /// can end.
   bool is_done() const { return is_exact_ || axis_.gap > margin_; }
