@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // ReproducibleGaussSeidel: the same bits for any number of processes.
+#include <cstdint>
 #include <doctest/doctest.h>
+#include <string_view>
 #include <type_traits>
 
 #include "moreau/distributed/reproducible_gauss_seidel.hpp"
@@ -39,7 +41,8 @@ std::uint64_t hash_after(const std::string& start, int count, int steps, bool re
       MPI_Comm_free(&some);
     }
   }
-  return crc64(bytes);
+  // A snapshot ends with its own checksum: with it, the checksum would be the same for every state.
+  return crc64(std::string_view(bytes).substr(0, bytes.size() - sizeof(std::uint64_t)));
 }
 
 template <class World>

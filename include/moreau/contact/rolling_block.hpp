@@ -106,7 +106,7 @@ template <class S>
 struct LaneRollingBlock {
   static constexpr std::size_t rows = S::dofs;  ///< D + A, rows of a contact
   using Point = LaneBlock<S>;                   ///< the block of the point alone
-  using Number = typename Point::Number;
+  using Number = typename Point::Number;        ///< one SIMD register
   using Values = typename Point::Values;
   using Algebra = detail::LaneAlgebra<S, Values>;  ///< products in every lane
   using Vector = std::array<Values, rows>;
