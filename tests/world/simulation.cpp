@@ -30,16 +30,20 @@ TEST_CASE_TEMPLATE("linear momentum of grains and walls balances every step", Sh
   for (const BodyId grain : scene.grains)
     weight += scene.simulation.bodies().grain_mass[grain.index()] * scene.simulation.gravity();
   double worst = 0, reactions = 0;
+  int unsolved =
+      0;  // steps with an island that the direct method attempted, and left to the sweeps
   for (int k = 0; k < rounds(400); ++k) {
     const Vector before = scene.momentum();
     const auto report = scene.simulation.step(h);
-    CHECK(report.solve.converged);
+    CHECK(report.solve.residual <= moreau::ColouredOptions{}.tolerance);
+    unsolved += !report.solve.converged;
     Vector walls = Vector::Zero();
     for (const BodyId wall : scene.walls) walls += scene.simulation.contact_impulse(wall);
     const Vector error = scene.momentum() - before - h * weight + walls;
     worst = std::max(worst, error.norm() / (h * weight.norm()));
     reactions = std::max(reactions, walls.norm());
   }
+  CHECK(unsolved <= rounds(400) / 100);
   CHECK(worst < 1e-10);
   CHECK(reactions > 0.1 * h * weight.norm());
 }

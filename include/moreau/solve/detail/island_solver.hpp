@@ -76,7 +76,7 @@ class IslandSolver {
         for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
       else
         one.error = not_attempted;  // that was the error of the warm start
-      if (is_solved(one) || !is_drawn(one, most_steps * one.cost, sweeps)) continue;
+      if (is_solved(one) || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       take(problem, one.island);
       newton_.start(impulses);
       if (newton_.slip() < 1) improve(one, impulses, late_epsilon, most_steps);
@@ -114,8 +114,8 @@ class IslandSolver {
   static constexpr double solved_defect = 1e-5, largest_defect = 0.01;
   /// Compliances of proximal steps: the least; the first before the sweeps; the first after them.
   static constexpr double least_epsilon = 1e-6, warm_epsilon = 1e-5, late_epsilon = 1e-4;
-  /// Newton steps of an attempt after the sweeps, at most. An attempt that fails takes all of them.
-  static constexpr int most_steps = 40;
+  /// Newton steps of an attempt after the sweeps, at most and as counted in advance: one that fails takes all of them.
+  static constexpr int most_steps = 60, counted_steps = 40;
   /// Multiples of the tolerance: up to the first one impulses are kept, as a better start for the next step; up to the
   /// second one an island counts as solved.
   static constexpr double near = 10, accepted = 100;
