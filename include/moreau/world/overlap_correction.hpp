@@ -231,7 +231,7 @@ class OverlapCorrection {
     for (std::size_t i = 0; i < shifts_.size(); ++i) moved_[i] = !shifts_[i].isZero(0);
   }
 
-  using Newton = detail::IslandNewton<detail::PointGeometry<S>>;
+  using Newton = detail::IslandNewton<S>;
 
   Options options_;
   detail::ContactIslands islands_;

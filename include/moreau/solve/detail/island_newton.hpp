@@ -37,12 +37,12 @@
 namespace moreau::detail {
 
 /// The direct method for one island; the head of this file has the equations. Keeps its memory.
-template <class Operator>
+template <class SpaceT>
 class IslandNewton {
  public:
-  using Points = IslandPoints<Operator>;
+  using Points = IslandPoints<SpaceT>;
   using S = typename Points::S;
-  using Impulse = typename Operator::Vector;
+  using Impulse = typename SpaceT::Vector;
 
   /// How to solve an island.
   struct Precision {
@@ -52,6 +52,7 @@ class IslandNewton {
   };
 
   /// Takes an island; the arguments are those of IslandPoints::assign.
+  template <class Operator>
   void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
               const auto& free_of, const auto& friction_of) {
     points_.assign(op, contacts, moves, free_of, friction_of);
@@ -147,7 +148,7 @@ class IslandNewton {
   /// Writes the impulses that solve() has found [N s].
   void finish(std::span<Impulse> impulses) const {
     for (std::size_t k = 0; k < centre_.size(); ++k)
-      impulses[points_.points()[k].contact] = centre_[k].template cast<typename Operator::Scalar>();
+      impulses[points_.points()[k].contact] = centre_[k].template cast<typename S::Scalar>();
   }
 
  private:

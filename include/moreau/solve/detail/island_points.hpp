@@ -76,10 +76,10 @@ ContactResponse<S> response(double mu, const Eigen::Matrix<double, S::dim, 1>& s
 }
 
 /// The contacts of one island; the head of this file has the coordinates.
-template <class Operator>
+template <class SpaceT>
 class IslandPoints {
  public:
-  using S = typename Operator::Space;
+  using S = SpaceT;
   static constexpr int dim = S::dim, dofs = S::dofs;
   using Vector = Eigen::Matrix<double, dim, 1>;
   using Rows = Eigen::Matrix<double, dim, dofs>;
@@ -101,6 +101,7 @@ class IslandPoints {
   /// @param moves    function: body -> whether impulses move it
   /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
   /// @param friction_of function: contact -> mu [-]
+  template <class Operator>
   void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
               const auto& free_of, const auto& friction_of) {
     number_.resize(op.body_count(), none);
@@ -158,6 +159,7 @@ class IslandPoints {
   using Root = Eigen::Matrix<double, dofs, dofs>;
 
   /// The number of a body in the island.
+  template <class Operator>
   std::uint32_t local(const Operator& op, std::uint32_t body) {
     std::uint32_t& number = number_[body];
     if (number != none) return number;
@@ -182,6 +184,7 @@ class IslandPoints {
     }
     return l;
   }
+  template <class Operator>
   Rows rows(const Operator& op, std::size_t c, std::uint32_t body, const typename S::Vector& lever,
             double sign) const {
     Rows rows = Rows::Zero();

@@ -100,7 +100,7 @@ class IslandSolver {
   }
 
  private:
-  using Newton = IslandNewton<Operator>;
+  using Newton = IslandNewton<typename Operator::Space>;
   struct Small {
     std::size_t island;
     double cost;    // of a Newton step, in visits of its contacts by a sweep
