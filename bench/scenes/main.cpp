@@ -17,6 +17,7 @@
 //   scalar=float   single precision (default double)
 //   points=few     at most D points of a contact between faces (default all)
 //   tolerance=R    of the residual (default 1e-3)
+//   narrows=no     contacts of all pairs within the margin (default: up to the gap that a pair can close in a step)
 //   margin=M       of detection, relative to the grain size (default: that of the scene)
 //   order=O        of the grains: added (default; the order of pouring), curve or random
 //   size=N         grains, or rows of a pyramid
@@ -78,6 +79,8 @@ void set(Options& options, const std::string& argument) {
     options.order = value;
   else if (name == "state")
     options.state = value;
+  else if (name == "narrows")
+    options.narrows = value != "no";
   else if (name == "tolerance")
     options.tolerance = std::stod(value);
   else if (name == "margin")

@@ -31,6 +31,7 @@ struct Options {
   double tolerance = 1e-3;  ///< of the residual
   double margin = 0;        ///< relative to the grain size
   int size = 0, threads = 1, settle = -1, steps = 0;
+  bool narrows = true;  ///< Tolerances::narrows
 };
 
 /// A simulation and its time loop. Grains are numbered in the order in which they were added.
@@ -74,11 +75,12 @@ struct Grains {
   }
 };
 
-/// The tolerances of a scene: the defaults, but for the margin.
+/// The tolerances of a scene: the defaults, but for the margin and `narrows`.
 /// @param margin of the scene, relative to the grain size
 inline Tolerances tolerances(double margin, const Options& options) {
   Tolerances tolerances;
   tolerances.margin = options.margin > 0 ? options.margin : margin;
+  tolerances.narrows = options.narrows;
   return tolerances;
 }
 inline ColouredGaussSeidel solver(const Options& options) {

@@ -84,7 +84,9 @@ World empty_world(double tolerance = 1e-6) {
     else
       return Rigid(0.4);
   }();
-  World world(size, Materials<Law>(1, law), SolverIn<World>(options));
+  Tolerances tolerances;
+  tolerances.narrows = false;  // as in several processes, whose contacts are compared with those of one
+  World world(size, Materials<Law>(1, law), SolverIn<World>(options), tolerances);
   OverlapCorrectionOptions correction;
   correction.enabled = false;
   world.set_correction(correction);

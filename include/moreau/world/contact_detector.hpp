@@ -42,6 +42,7 @@
 #include "moreau/world/detail/mesh_walls.hpp"
 #include "moreau/world/detail/pair_caches.hpp"
 #include "moreau/world/detail/pair_filter.hpp"
+#include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/detail/visit_order.hpp"
 #include "moreau/world/tolerances.hpp"
 
@@ -133,6 +134,18 @@ class ContactDetector {
   /// box has moved by the skin since; grains without a pair may move farther (EnlargedBoxes). Call
   /// place() before.
   void find_pairs(const DetectionLengths<Scalar>& lengths);
+
+  /// Chooses the margin of each pair for the next detect(): the gap that it can close in a step, by the velocities
+  /// of the bodies (detail/step_margins.hpp). Call find_pairs() before.
+  /// @param step h [s]
+  void fit_margins(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies, Scalar step);
+  /// Gives all pairs the margin of the lengths, from the next detect() on; so it is unless fit_margins() is called.
+  void use_whole_margin() { margins_.use_whole(); }
+  bool has_fitted_margins() const { return margins_.are_fitted(); }  ///< of the last detect()
+  /// Whether no pair approaches in a step by more than the margin of the last detect() for it, unless that is the
+  /// margin of the lengths. Call it only if has_fitted_margins().
+  bool margins_suffice(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+                       const detail::StepMotion<S>& motion) const;
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, feature), with zero
   /// impulse and law 0. Pairs of two bodies whose motion is prescribed have none: no impulse could
@@ -227,6 +240,12 @@ class ContactDetector {
     grain.placed.update(shape, poses[grain.body.index()]);
     box = grain.placed.bounding_box();
   }
+  /// Calls use(approach, to_walls) with the functions of these names of StepMargins::fit().
+  auto with_bounds(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+                   const detail::StepMotion<S>& motion, const auto& use) const;
+  /// The largest bound on the approach of grain k and a wall within the margin [m].
+  Scalar approach_to_walls(std::size_t k, Scalar margin, const Bodies<S>& bodies,
+                           const detail::StepMotion<S>& motion) const;
   /// Finds the contacts of grain k with later grains and with walls.
   MOREAU_COMPILED_ONCE void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies,
                                       const Contacts<S>& previous, Member& found);
@@ -249,6 +268,7 @@ class ContactDetector {
   ContactPoints kept_points_ = ContactPoints::all;
   Team team_;
   detail::VisitOrder<S> order_;
+  detail::StepMargins<S> margins_;
   detail::InternalEdges<ShapeT> internal_edges_;
   std::vector<Member> members_;             // of the team
   std::vector<typename Member::Run> runs_;  // of each grain
@@ -356,7 +376,8 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
   team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {
     Member& member = members_[std::size_t(rank)];
     order_.for_each(rank, size, [&](std::size_t k, const auto& later) {
-      if constexpr (prefetches) order_.prefetch(later, grains_, pairs_);
+      if constexpr (prefetches)
+        order_.prefetch(later, grains_, pairs_, [&](std::size_t p) { return margins_.is_near(p); });
       member.begin_run(k < place_.size() ? place_[k] : 0);
       detect_of(k, lengths.margin, bodies, previous, member);
       runs_[k] = member.end_run(std::uint32_t(rank));
@@ -371,19 +392,83 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
 }
 
 template <class ShapeT, class BroadPhaseT>
+auto ContactDetector<ShapeT, BroadPhaseT>::approach_to_walls(
+    std::size_t k, Scalar margin, const Bodies<S>& bodies,
+    const detail::StepMotion<S>& motion) const -> Scalar {
+  Scalar largest = 0;
+  const Grain& grain = grains_[k];
+  const std::size_t i = grain.body.index();
+  const auto take = [&](BodyId wall) {
+    const Vector to_grain = bodies.pose[i].position - bodies.pose[wall.index()].position;
+    largest =
+        std::max(largest, motion.approach(i, wall.index(), to_grain, grain.width / 2 + margin));
+  };
+  for (const auto& wall : walls_)
+    if (wall.placed.reaches(boxes_[k], margin)) take(wall.body);
+  for (const auto& wall : cylinders_)
+    if (wall.placed.reaches(boxes_[k], margin)) take(wall.body);
+  meshes_.for_each_near(boxes_[k], margin, take);
+  return largest;
+}
+
+template <class ShapeT, class BroadPhaseT>
+auto ContactDetector<ShapeT, BroadPhaseT>::with_bounds(const DetectionLengths<Scalar>& lengths,
+                                                       const Bodies<S>& bodies,
+                                                       const detail::StepMotion<S>& motion,
+                                                       const auto& use) const {
+  const Scalar margin = lengths.margin;
+  const auto approach = [&](std::size_t p, std::size_t first, std::size_t second) {
+    const Grain &a = grains_[first], &b = grains_[second];
+    const bool shifted = !shifts_.empty();
+    const Aabb<S> reach = boxes_[first].inflated(margin);
+    if (!reach.overlaps(shifted ? moved(boxes_[second], shifts_[p]) : boxes_[second]))
+      return Scalar(-1);
+    const std::size_t i = a.body.index(), j = b.body.index();
+    if (bodies.is_prescribed(i) && bodies.is_prescribed(j)) return Scalar(-1);
+    Vector to_b = bodies.pose[j].position - bodies.pose[i].position;
+    if (shifted) to_b += shifts_[p];
+    return a.width < b.width ? motion.approach(i, j, -to_b, a.width / 2 + margin)
+                             : motion.approach(j, i, to_b, b.width / 2 + margin);
+  };
+  const auto to_walls = [&](std::size_t k) { return approach_to_walls(k, margin, bodies, motion); };
+  return use(approach, to_walls);
+}
+
+template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::fit_margins(const DetectionLengths<Scalar>& lengths,
+                                                       const Bodies<S>& bodies, Scalar step) {
+  const detail::StepMotion<S> motion{bodies.velocity, {}, step};
+  with_bounds(lengths, bodies, motion, [&](const auto& approach, const auto& to_walls) {
+    margins_.fit(team_, grains_.size(), pairs_, approach, to_walls,
+                 [&](std::size_t k) { return bodies.is_prescribed(grains_[k].body.index()); });
+  });
+}
+
+template <class ShapeT, class BroadPhaseT>
+bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(
+    const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+    const detail::StepMotion<S>& motion) const {
+  return with_bounds(lengths, bodies, motion, [&](const auto& approach, const auto& to_walls) {
+    return margins_.suffice(team_, lengths.margin, pairs_, approach, to_walls);
+  });
+}
+
+template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margin,
                                                      const Bodies<S>& bodies,
                                                      const Contacts<S>& previous, Member& found) {
   Manifold<S>& manifold = found.manifold();
   const std::span<const Pose<S>> poses(bodies.pose);
   const Grain& a = grains_[k];
-  const Aabb<S> reach = boxes_[k].inflated(margin);
   const bool prescribed = bodies.is_prescribed(a.body.index());
   const auto ignores = [&](BodyId b) {
     return (prescribed && bodies.is_prescribed(b.index())) || filter_.leaves_out(a.body, b);
   };
   for (std::size_t p = order_.first_pair(k); p < order_.first_pair(k + 1); ++p) {
+    if (!margins_.is_near(p)) continue;
     const std::size_t second = pairs_[p].second;
+    const Scalar of_pair = margins_.of_pair(k, second, margin);
+    const Aabb<S> reach = boxes_[k].inflated(of_pair);
     const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
     if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
                   : reach.overlaps(boxes_[second])) ||
@@ -392,21 +477,22 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margi
     const Grain& b =
         crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
     found.add(a, b, previous, [&](auto&& add) {
-      return caches_.collide_parts(p, a.placed, b.placed, margin, manifold, add);
+      return caches_.collide_parts(p, a.placed, b.placed, of_pair, manifold, add);
     });
   }
+  const Scalar of_walls = margins_.of_walls(k, margin);
   for (const auto& wall : walls_) {
-    if (!wall.placed.reaches(boxes_[k], margin) || ignores(wall.body)) continue;
+    if (!wall.placed.reaches(boxes_[k], of_walls) || ignores(wall.body)) continue;
     found.add(a, wall, previous, [&](auto&& add) {
-      return collide_parts(a.placed, wall.placed, margin, manifold, add);
+      return collide_parts(a.placed, wall.placed, of_walls, manifold, add);
     });
   }
   for (const auto& wall : cylinders_)
-    if (!ignores(wall.body) && wall.placed.reaches(boxes_[k], margin))
+    if (!ignores(wall.body) && wall.placed.reaches(boxes_[k], of_walls))
       found.add_each(a, wall, [&](auto&& add) {
-        return collide_each(a.placed, wall.placed, margin, manifold, add);
+        return collide_each(a.placed, wall.placed, of_walls, manifold, add);
       });
-  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, filter_, previous,
+  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, of_walls, bodies, filter_, previous,
                  found.mesh, found);
 }
 

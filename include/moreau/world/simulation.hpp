@@ -301,7 +301,7 @@ class Simulation : public BodyControl<ShapeT> {
   friend struct detail::StateAccess;
   auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
-                    contacts_, detector_);
+                    contacts_, detector_, attempts_);
   }
   void deserialized() {
     const std::size_t laws = materials_.laws().size(), variants = variants_of<Law, S>();
@@ -328,22 +328,56 @@ class Simulation : public BodyControl<ShapeT> {
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
   /// @param clock started before the prediction
-  void detect(StepReport& report, StepReport::StageClock clock = {}) {
+  void detect(StepReport& report, Scalar step, StepReport::StageClock clock = {}) {
     const std::span<const Pose<S>> poses(assembly_.bodies().pose);
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     report.ms_place = clock.lap();
     detector_.find_pairs(lengths());
     report.ms_pairs = clock.lap();
+    if (narrows_margins() && attempts_.begin())
+      detector_.fit_margins(lengths(), bodies(), step);
+    else
+      detector_.use_whole_margin();
     detector_.detect(lengths(), bodies(), contacts_, previous_);
     assign_laws(assembly_.bodies(), materials_, previous_, team_);
     assembly_.require_no_deep_overlap(previous_, "Simulation::step");
     std::swap(contacts_, previous_);  // last: what throws above changes no contacts
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
+    count_contacts(report);
+  }
+  void count_contacts(StepReport& report) const {
     report.pairs = detector_.touching_count();
     report.points = contacts_.size();
     report.measure_overlaps(contacts_);
+  }
+  /// Whether pairs have margins by their motion in the step (detail/step_margins.hpp). The pairs of a
+  /// process among several are not all pairs of its bodies.
+  bool narrows_margins() const {
+    if constexpr (detail::acts_where_gaps_close<Law>)
+      return tolerances_.narrows && !dynamics_.shares_bodies();
+    else
+      return false;
+  }
+  /// After the contact problem was solved: detects the contacts again, up to the whole margin, if a pair
+  /// approaches by more than its margin.
+  /// @returns whether it did
+  bool detect_again(StepReport& report, const detail::StepContext<S, Law>& context)
+      requires set_valued {
+    if (!detector_.has_fitted_margins()) return false;
+    const bool enough = detector_.margins_suffice(lengths(), bodies(), dynamics_.motion(context, chords_.has_any()));
+    attempts_.end(!enough);
+    if (enough) return false;
+    StepReport::StageClock clock;
+    dynamics_.undo_shifts(assembly_.bodies());
+    detector_.use_whole_margin();
+    detector_.detect(lengths(), bodies(), previous_, contacts_);
+    assign_laws(assembly_.bodies(), materials_, contacts_, team_);
+    report.ms_collide += clock.lap();
+    count_contacts(report);
+    report.repeated = true;
+    return true;
   }
 
   Scalar grain_size_;
@@ -356,6 +390,7 @@ class Simulation : public BodyControl<ShapeT> {
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
   detail::ChordVelocities<ShapeT> chords_;
+  detail::MarginAttempts attempts_;
   Team team_;
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
@@ -376,25 +411,32 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     dynamics_.predict(assembly_.bodies(), step);
   } else {
     if (assembly_.has_changed() || !dynamics_.has_loads_of(assembly_.bodies().size())) {
-      detect(report);
+      detect(report, step);
       dynamics_.evaluate(context, 0, report);
       assembly_.set_changed(false);
       report = {};
     }
     dynamics_.predict(assembly_.bodies(), gravity_, step);
   }
-  detect(report, clock);
-  context.chords = chords_.update(assembly_, contacts_, set_valued ? step : -step);
+  detect(report, step, clock);
   const auto detected = Clock::now();
+  const double once = report.ms_collide;
   if constexpr (set_valued) {
-    dynamics_.advance(context, report);
+    dynamics_.free_velocities(context, report);
+    do {
+      context.chords = chords_.update(assembly_, contacts_, step);
+      dynamics_.solve_contacts(context, report);
+    } while (detect_again(report, context));
+    dynamics_.finish(context, report);
   } else {
+    context.chords = chords_.update(assembly_, contacts_, -step);
     dynamics_.evaluate(context, step, report);
     dynamics_.advance(context);
   }
   assembly_.require_finite("Simulation::step");
   time_ += step;
-  report.set_times(detected - start, Clock::now() - detected);
+  const std::chrono::duration<double, std::milli> again(report.ms_collide - once);
+  report.set_times(detected - start + again, Clock::now() - detected - again);
   return report;
 }
 

@@ -49,6 +49,9 @@ struct StepReport {
   double relative_compliance = 0;
   /// Of a compliant law: the natural-map residual of the law without its springs [-].
   double rigid_residual = 0;
+  /// Whether a pair closed a gap for which it had no contact, and the step was solved again with all contacts up to
+  /// the margin.
+  bool repeated = false;
   SolveReport solve;                   ///< how well the contact problem was solved
   OverlapCorrectionReport correction;  ///< results of the overlap correction
   double ms_detect = 0;                ///< time for prediction and detection [ms]
@@ -85,6 +88,7 @@ struct StepReport {
   template <class S>
   void measure_overlaps(const Contacts<S>& contacts) {
     overlapping = 0;
+    max_overlap = mean_overlap = 0;
     for (const Contact<S>& contact : contacts.points) {
       if (!(contact.gap < 0)) continue;
       if (-double(contact.gap) > max_overlap) {

@@ -18,10 +18,13 @@ struct DetectionLengths {
 /// Lengths that act as tolerances, each relative to the grain size [-].
 struct Tolerances {
   /// Largest gap at which a contact is made, > 0 (LMGC90 calls it alert distance). Times the grain size
-  /// it must exceed the distance by which two bodies approach in a step.
+  /// it must exceed the distance by which two bodies approach in a step. See `narrows`.
   double margin = 0.02;
   double skin = 0.05;        ///< the list of pairs is kept until a box has moved this far, >= 0
   double resolution = 1e-3;  ///< contact points closer together than this are merged, >= 0
+  /// Whether, under rigid laws, pairs that cannot close the margin in a step have contacts up to a smaller gap
+  /// (detail/step_margins.hpp): the solutions are the same, and a step has fewer contacts. Off: contacts up to the margin.
+  bool narrows = false;
 
   /// The lengths for grains of this size [m].
   template <class T>

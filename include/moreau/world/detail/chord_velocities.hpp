@@ -113,6 +113,8 @@ class ChordVelocities {
     }
     return velocities_;
   }
+  /// Whether a body of the last update() turns by prescription, or is a cylinder: its contacts have velocities.
+  bool has_any() const { return !turning_.empty(); }
 
  private:
   /// Marks cylinders, and bodies with a rotation that is prescribed.

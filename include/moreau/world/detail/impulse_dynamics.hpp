@@ -44,6 +44,7 @@
 #include "moreau/world/detail/contact_unknowns.hpp"
 #include "moreau/world/detail/restitution_limit.hpp"
 #include "moreau/world/detail/step_context.hpp"
+#include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -129,6 +130,7 @@ class ImpulseDynamics {
     free_.resize(bodies.size());
     after_.resize(bodies.size());
     roots_.resize(bodies.size());
+    unshifted_.resize(bodies.size());
     const std::span momentum(momentum_);
     if constexpr (requires { integrator_.predict_configuration(bodies, momentum, step, team_); })
       integrator_.predict_configuration(bodies, momentum, step, team_);
@@ -136,9 +138,33 @@ class ImpulseDynamics {
       integrator_.predict_configuration(bodies, momentum, step);
   }
 
-  /// Stages 2 to 11.
-  /// @param report out: all but the results of detection and the times
-  void advance(const Context& context, StepReport& report);
+  /// Stages 2 to 11 with the contacts of the context.
+  /// @param report out: all but the results of detection, and the times
+  void advance(const Context& context, StepReport& report) {
+    free_velocities(context, report);
+    solve_contacts(context, report);
+    finish(context, report);
+  }
+  /// Whether other processes share bodies.
+  bool shares_bodies() const { return shared_ != nullptr; }
+  /// Stage 2.
+  void free_velocities(const Context& context, StepReport& report);
+  /// Stages 3 to 9.
+  /// @param report out: all but the results of detection and of stage 10, and the times
+  void solve_contacts(const Context& context, StepReport& report);
+  /// Velocities after solve_contacts(), and the shifts by which it has corrected overlaps, one per body.
+  /// @param has_chords whether the relative velocities of some contacts get chords
+  StepMotion<S> motion(const Context& context, bool has_chords) const {
+    StepMotion<S> motion{after_, moved_by_correction(), context.step};
+    if (has_chords) motion.before = context.bodies.velocity;
+    return motion;
+  }
+  /// Undoes the shifts of solve_contacts(), which can then be called with other contacts.
+  void undo_shifts(Bodies<S>& bodies) const {
+    if (!moved_by_correction().empty()) bodies.pose = unshifted_;
+  }
+  /// Stages 10 and 11.
+  void finish(const Context& context, StepReport& report);
 
  private:
   friend struct moreau::SerializationAccess;
@@ -167,7 +193,7 @@ class ImpulseDynamics {
                                springs_.compliances(context), team_);
   }
 
-  void free_velocities(const Context& context) {
+  void find_free_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
     team_.share_each(bodies.size(), 128,
                      [&](std::size_t i) { roots_[i] = bodies.mobility_root(i); });
@@ -271,10 +297,15 @@ class ImpulseDynamics {
   OverlapCorrectionReport correct_overlaps(const Context& context) {
     OverlapCorrectionReport report = correction_.solve(problem_.delassus, context.contacts.points,
                                                        context.grain_size, team_, shared_.get());
-    if (shared_ || report.corrected > 0) shift_bodies(context.bodies, context.gravity, report);
+    is_shifted_ = shared_ || report.corrected > 0;
+    if (is_shifted_) shift_bodies(context.bodies, context.gravity, report);
     return report;
   }
+  std::span<const Twist> moved_by_correction() const {
+    return is_shifted_ ? correction_.shifts() : std::span<const Twist>();
+  }
   void shift_bodies(Bodies<S>& bodies, const Vector& gravity, OverlapCorrectionReport& report) {
+    unshifted_ = bodies.pose;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector move = linear<S>(correction_.shifts()[i]);
       const Vector force = linear<S>(bodies.force[i]) + bodies.grain_mass[i] * gravity;
@@ -356,6 +387,8 @@ class ImpulseDynamics {
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
   std::vector<Twist> free_, after_;            // velocities without and with the impulses
   std::vector<MobilityRoot<S>> roots_;
+  std::vector<Pose<S>> unshifted_;      // before the overlap correction
+  bool is_shifted_ = false;             // by the overlap correction, in this step
   std::vector<unsigned char> touched_;  // by contacts
   // One entry per contact.
   std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
@@ -366,22 +399,34 @@ class ImpulseDynamics {
 
 // Outside of the class: compiled once where a program declares the dynamics extern.
 template <class S, class Law, class Integrator, class Solver>
-void ImpulseDynamics<S, Law, Integrator, Solver>::advance(const Context& context,
-                                                          StepReport& report) {
+void ImpulseDynamics<S, Law, Integrator, Solver>::free_velocities(const Context& context,
+                                                                  StepReport& report) {
   StepReport::StageClock clock;
-  free_velocities(context);
+  find_free_velocities(context);
+  report.ms_assemble += clock.lap();
+}
+
+template <class S, class Law, class Integrator, class Solver>
+void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& context,
+                                                                 StepReport& report) {
+  StepReport::StageClock clock;
   if (shared_)
     split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
   assemble(context);
   report.warm_started = warm_start(context);
-  report.ms_assemble = clock.lap();
+  report.ms_assemble += clock.lap();
   report.correction = correct_overlaps(context);
-  report.ms_correct = clock.lap();
+  report.ms_correct += clock.lap();
   prepare_laws(context);
   report.approach = double(offset_velocities(context) * context.step / context.margin);
   solve(context, report);
-  report.ms_contacts = clock.lap();
+  report.ms_contacts += clock.lap();
   velocities_after();
+}
+
+template <class S, class Law, class Integrator, class Solver>
+void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
+                                                         StepReport& report) {
   const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
                                                  std::span(before_), std::span(after_));
   report.friction += losses.friction;

@@ -57,6 +57,11 @@ class MeshWalls {
       wall.near.resize(poses.size());
     }
   }
+  /// Calls use(body) for each wall whose box comes as near to a box as the margin [m].
+  void for_each_near(const Aabb<S>& box, Scalar margin, const auto& use) const {
+    for (const Wall& wall : walls_)
+      if (wall.box.overlaps(box.inflated(margin))) use(wall.body);
+  }
   /// Finds the contacts of a grain.
   void detect(const GrainInWorld<ShapeT>& grain, Scalar margin, const Bodies<S>& bodies,
               const PairFilter& filter, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,

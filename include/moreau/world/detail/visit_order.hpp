@@ -65,7 +65,9 @@ class VisitOrder {
   /// @param later  argument of a visit in for_each()
   /// @param grains with placed shapes
   /// @param pairs  of the grains, sorted
-  void prefetch(const auto& later, const auto& grains, std::span<const IndexPair> pairs) const {
+  /// @param is_near function: number of a pair -> whether the arrays of its second grain will be read
+  void prefetch(const auto& later, const auto& grains, std::span<const IndexPair> pairs,
+                const auto& is_near) const {
     for (std::size_t visits = 3; visits >= 1; --visits) {
       const std::optional<std::size_t> k = later(visits);
       if (!k) continue;
@@ -76,7 +78,7 @@ class VisitOrder {
       };
       load(grains[*k]);
       for (std::size_t p = first_pair(*k); p < first_pair(*k + 1); ++p)
-        load(grains[pairs[p].second]);
+        if (visits > 1 || is_near(p)) load(grains[pairs[p].second]);
     }
   }
 

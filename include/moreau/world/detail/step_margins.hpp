@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The margin of each pair in a step. A contact with the gap g > 0 takes part in a step of h only if
+//
+//     g + h u_n < 0                                                                                   (1)
+//
+// u_n being its normal relative velocity at the end of the step without it: else zero impulse solves its law.
+// So a pair needs its contacts up to the gap that it can close in the step. The velocities at the end are known
+// only after the contact problem is solved. Therefore
+//
+//   1. before detection the velocities before the step give each pair a margin m, at most the whole margin M
+//      (fit());
+//   2. after the contact problem is solved, suffice() finds out whether any pair can approach by more than its
+//      m in the step. If none can, (1) holds for no contact that was left out: the solution is one of the
+//      problem with all contacts up to M. Otherwise the step is solved again with M for all pairs.
+//
+// Results are those of M, and what step 1 guesses changes no more than the time. The guess: let s_p be a bound
+// on how far the bodies of pair p approach in the step, and s_i the largest s_p of the pairs of body i. A body that
+// is hit moves with the one that hits it, so that
+//
+//     m = M / 10 + 2 max(s_i, s_j)
+//
+// covers the pairs of a body that is hit, and M / 10 small motions.
+//
+// The bound: points of both bodies at most R from the centre of a have relative velocities of at most
+// |u| + R |w|, u being the relative velocity of the two rigid motions at this centre and w that of their rotations.
+// Bodies that move together, such as grains and a turning cylinder wall, approach by nothing.
+// Near walls that turn, the contact problem adds the chord of the motion to u_n (chord_velocities.hpp). Where it is
+// negative it is at most the approach velocity before the step, which is then added to the bound of 2.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/body/bodies.hpp"
+#include "moreau/core/team.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/detect/broad_phase.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+namespace moreau::detail {
+
+/// Whether (1) is the condition of a law for impulses. Other laws, also those of users, get all contacts
+/// up to the margin.
+template <class Law>
+inline constexpr bool acts_where_gaps_close = false;
+template <class T>
+inline constexpr bool acts_where_gaps_close<SignoriniCoulomb<T>> = true;
+template <class T>
+inline constexpr bool acts_where_gaps_close<Frictionless<T>> = true;
+template <class T>
+inline constexpr bool acts_where_gaps_close<RollingResistance<T>> = true;
+
+/// A bound on the relative velocity of two bodies near the centre of the first one [m/s].
+/// @param twist_a,twist_b of the bodies, or their displacements and rotations in a step [m]
+/// @param to_a   from the centre of b to that of a, world axes [m]
+/// @param radius of the points around the centre of a [m]
+template <class S>
+typename S::Scalar relative_speed(const typename S::Twist& twist_a,
+                                  const typename S::Twist& twist_b, const typename S::Vector& to_a,
+                                  typename S::Scalar radius) {
+  const typename S::Angular of_b = angular<S>(twist_b), turn = of_b - angular<S>(twist_a);
+  const typename S::Vector slide = linear<S>(twist_b) + S::spin(of_b, to_a) - linear<S>(twist_a);
+  return slide.norm() + radius * turn.norm();
+}
+
+/// The motions of all bodies in a step.
+template <class S>
+struct StepMotion {
+  std::span<const typename S::Twist> velocities;  ///< one per body, world axes [m/s, rad/s]
+  /// One per body: displacement and rotation beside the velocities [m, rad]; empty: none.
+  std::span<const typename S::Twist> shifts;
+  typename S::Scalar step;  ///< h [s]
+  /// One per body: velocities before the step, if chords are added to the relative velocities; else empty.
+  std::span<const typename S::Twist> before = {};
+
+  /// A bound on the distance by which two bodies can approach [m].
+  /// @param a,b indices of the bodies
+  typename S::Scalar approach(std::size_t a, std::size_t b, const typename S::Vector& to_a,
+                              typename S::Scalar radius) const {
+    auto sum = step * relative_speed<S>(velocities[a], velocities[b], to_a, radius);
+    if (!shifts.empty()) sum += relative_speed<S>(shifts[a], shifts[b], to_a, radius);
+    if (!before.empty()) sum += step * relative_speed<S>(before[a], before[b], to_a, radius);
+    return sum;
+  }
+};
+
+/// Whether margins are chosen in a step, by how often steps had to be repeated: after a repeated step the whole
+/// margin is used for some steps, for more of them if the next attempt fails as well. A function of the past steps, and
+/// so part of a snapshot.
+struct MarginAttempts {
+  std::uint32_t waiting = 0;  ///< steps until the next attempt
+  std::uint32_t pause = 1;    ///< steps to wait after the next failure
+
+  /// Whether to choose margins in this step.
+  bool begin() {
+    if (waiting == 0) return true;
+    --waiting;
+    return false;
+  }
+  /// After an attempt.
+  void end(bool repeated) {
+    constexpr std::uint32_t longest = 64;
+    if (repeated) waiting = pause;
+    pause = repeated ? std::min(longest, 2 * pause) : std::max(1U, pause / 2);
+  }
+};
+
+/// The margins of the pairs of grains, and of grains and walls; the head of this file says how they are chosen.
+template <class S>
+class StepMargins {
+ public:
+  using Scalar = typename S::Scalar;
+
+  void use_whole() { fitted_ = false; }  ///< gives all pairs the whole margin
+  /// Chooses the margins of a step.
+  /// @param grains     number of grains
+  /// @param pairs      of grains
+  /// @param approach   function: (p, first, second) -> bound on the approach of pair p [m]; < 0 if its boxes are
+  ///                   farther apart than the whole margin
+  /// @param to_walls   function: k -> largest bound on the approach of grain k and a wall within the margin [m]
+  /// @param prescribed function: k -> whether the motion of grain k is prescribed
+  void fit(const Team& team, std::size_t grains, std::span<const IndexPair> pairs,
+           const auto& approach, const auto& to_walls, const auto& prescribed) {
+    fitted_ = true;
+    near_.resize(pairs.size());
+    of_grain_.resize(grains);
+    team.share_each(grains, 256, [&](std::size_t k) { of_grain_[k] = to_walls(k); });
+    team.share_each(pairs.size(), 512, [&](std::size_t p) {
+      near_[p] = approach(p, std::size_t(pairs[p].first), std::size_t(pairs[p].second));
+    });
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      for (const std::size_t k : {pairs[p].first, pairs[p].second})
+        of_grain_[k] = std::max(of_grain_[k], near_[p]);
+    // A grain whose motion is prescribed is not moved by a hit: the grain that meets it decides.
+    for (std::size_t k = 0; k < grains; ++k)
+      if (prescribed(k)) of_grain_[k] = 0;
+  }
+  bool are_fitted() const { return fitted_; }  ///< not so after use_whole()
+  /// Whether the boxes of pair p are closer than the whole margin; true if that is not known.
+  bool is_near(std::size_t p) const { return !fitted_ || near_[p] >= 0; }
+  /// The margin of a pair of grains [m].
+  /// @param whole the largest margin [m]
+  Scalar of_pair(std::size_t first, std::size_t second, Scalar whole) const {
+    return fitted_ ? margin(std::max(of_grain_[first], of_grain_[second]), whole) : whole;
+  }
+  /// The margin of grain k and any wall [m].
+  Scalar of_walls(std::size_t k, Scalar whole) const {
+    return fitted_ ? margin(of_grain_[k], whole) : whole;
+  }
+
+  /// Whether no pair can approach by more than its margin, unless that is the whole one. Arguments as for
+  /// fit(), with bounds for the motion that has been found.
+  bool suffice(const Team& team, Scalar whole, std::span<const IndexPair> pairs,
+               const auto& approach, const auto& to_walls) const {
+    std::atomic<bool> enough{true};
+    const auto check = [&](Scalar margin, const auto& bound) {
+      if (margin < whole && bound() > margin) enough.store(false, std::memory_order_relaxed);
+    };
+    team.share_each(of_grain_.size(), 256,
+                    [&](std::size_t k) { check(of_walls(k, whole), [&] { return to_walls(k); }); });
+    team.share_each(pairs.size(), 512, [&](std::size_t p) {
+      const std::size_t first = pairs[p].first, second = pairs[p].second;
+      if (is_near(p))
+        check(of_pair(first, second, whole), [&] { return approach(p, first, second); });
+    });
+    return enough;
+  }
+
+ private:
+  static Scalar margin(Scalar approach, Scalar whole) {
+    return std::min(whole, whole / 10 + 2 * approach);
+  }
+
+  std::vector<Scalar> near_;      // bound of each pair [m]; < 0: its boxes are far apart
+  std::vector<Scalar> of_grain_;  // largest of the bounds of its pairs [m]
+  bool fitted_ = false;
+};
+
+}  // namespace moreau::detail
