@@ -85,7 +85,8 @@ World empty_world(double tolerance = 1e-6) {
       return Rigid(0.4);
   }();
   Tolerances tolerances;
-  tolerances.narrows = false;  // as in several processes, whose contacts are compared with those of one
+  tolerances.narrows =
+      false;  // as in several processes, whose contacts are compared with those of one
   World world(size, Materials<Law>(1, law), SolverIn<World>(options), tolerances);
   OverlapCorrectionOptions correction;
   correction.enabled = false;

@@ -363,10 +363,11 @@ class Simulation : public BodyControl<ShapeT> {
   /// After the contact problem was solved: detects the contacts again, up to the whole margin, if a pair
   /// approaches by more than its margin.
   /// @returns whether it did
-  bool detect_again(StepReport& report, const detail::StepContext<S, Law>& context)
-      requires set_valued {
+  bool detect_again(StepReport& report,
+                    const detail::StepContext<S, Law>& context) requires set_valued {
     if (!detector_.has_fitted_margins()) return false;
-    const bool enough = detector_.margins_suffice(lengths(), bodies(), dynamics_.motion(context, chords_.has_any()));
+    const bool enough = detector_.margins_suffice(lengths(), bodies(),
+                                                  dynamics_.motion(context, chords_.has_any()));
     attempts_.end(!enough);
     if (enough) return false;
     StepReport::StageClock clock;

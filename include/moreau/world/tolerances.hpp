@@ -24,7 +24,7 @@ struct Tolerances {
   double resolution = 1e-3;  ///< contact points closer together than this are merged, >= 0
   /// Whether, under rigid laws, pairs that cannot close the margin in a step have contacts up to a smaller gap
   /// (detail/step_margins.hpp): the solutions are the same, and a step has fewer contacts. Off: contacts up to the margin.
-  bool narrows = false;
+  bool narrows = true;
 
   /// The lengths for grains of this size [m].
   template <class T>
