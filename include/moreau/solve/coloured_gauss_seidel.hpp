@@ -147,7 +147,7 @@ class ColouredGaussSeidel {
     const bool swept = report.converged;
     const double residual = report.residual;
     workspace.first.assign(impulses.begin(), impulses.end());
-    islands.finish(problem, impulses, report.sweeps);
+    islands.finish(problem, impulses, report.sweeps, swept);
     if (!islands.attempted()) return report;
     judge(problem, impulses, swept, islands, report);
     if (!swept || report.residual <= std::max(residual, options_.tolerance)) return report;

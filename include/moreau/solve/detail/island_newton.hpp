@@ -249,7 +249,7 @@ class IslandNewton {
   /// @returns whether Newton's method has converged
   bool proximal_step(double epsilon, int most_steps, double tolerance) {
     constexpr double share = 0.03;
-    constexpr int most_of_one = 12;  // structures take 2 to 6
+    constexpr int most_of_one = 30;  // structures take 2 to 6, packings that come to rest up to 20
     most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
     Value value = respond(epsilon, next_);

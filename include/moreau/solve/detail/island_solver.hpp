@@ -70,7 +70,8 @@ class IslandSolver {
   void save(Impulses impulses) { saved_.assign(impulses.begin(), impulses.end()); }
   /// After sweeps: goes back to the saved impulses of the islands where these are better, and solves some of the
   /// others from the impulses of the sweeps.
-  void finish(const Problem& problem, Impulses impulses, int sweeps) {
+  /// @param swept whether the sweeps have met their stopping test: if not, islands that slide are attempted as well
+  void finish(const Problem& problem, Impulses impulses, int sweeps, bool swept) {
     for (Small& one : small_) {
       if (one.error <= near * tolerance_)
         for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
@@ -79,7 +80,7 @@ class IslandSolver {
       if (is_solved(one) || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       take(problem, one.island);
       newton_.start(impulses);
-      if (newton_.slip() < 1) improve(one, impulses, late_epsilon, most_steps);
+      if (newton_.slip() < 1 || !swept) improve(one, impulses, late_epsilon, most_steps);
     }
   }
   /// Whether the direct method has estimated the error of an island.
