@@ -4,10 +4,10 @@
 # this takes a fraction of the time of building them. The long tests build and run all programs.
 set(sources ${PROJECT_SOURCE_DIR}/bench/broad_phase.cpp)
 set(folders ${PROJECT_SOURCE_DIR}/bench)
-if(NOT MOREAU_BUILD_BENCHES)
+if(NOT TARGET bench_broad_phase)
   set(sources "")
 endif()
-foreach(program contacts drum measures mixed_shapes own_integrator own_law own_shape packing restart)
+foreach(program contacts drum heap measures mixed_shapes own_integrator own_law own_shape packing restart)
   file(GLOB of_program CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/${program}/*.cpp)
   list(APPEND sources ${of_program})
   list(APPEND folders ${PROJECT_SOURCE_DIR}/examples/${program})

@@ -3,9 +3,9 @@
 // trajectories with a cache; from memory, with a cache, each of 10,000 pairs once in a row, so that
 // its data are not in the caches of the processor. The same code runs for every shape and dimension.
 //
-// A shape of your own: configure with -DMOREAU_BENCH_HEADER=pebble.hpp -DMOREAU_BENCH_SHAPE=Pebble.
-// The type needs `static Pebble draw(std::mt19937_64&)`, which returns a random shape. With
-// -DMOREAU_BENCH_OWN_ONLY=ON only this shape is compiled.
+// Shapes of your own: configure with -DMOREAU_BENCH_HEADER=pebble.hpp -DMOREAU_BENCH_SHAPE=Pebble.
+// The type has a function `static Shape draw(std::mt19937_64&)`, which returns a random shape: of this
+// type, or any shape of the library. With -DMOREAU_BENCH_OWN_ONLY=ON only this type is compiled.
 #include <benchmark/benchmark.h>
 #include <memory>
 #include <string>
@@ -43,7 +43,11 @@ struct Collide {
   Manifold<S> manifold;
   template <class Body, class T, class... Cache>
   bool operator()(const Body& a, const Body& b, T margin, Cache&... cache) {
-    const bool touch = collide(a, b, margin, manifold, cache...);
+    bool touch = false;
+    if constexpr (requires { a.part_count(); })  // a compound, whose caches are those of its parts
+      touch = collide_parts(a, b, margin, manifold, [] {});
+    else
+      touch = collide(a, b, margin, manifold, cache...);
     benchmark::DoNotOptimize(manifold.points.data());
     return touch;
   }
@@ -58,9 +62,9 @@ void run_cold(benchmark::State& state, const pairs::Situation& situation,
     const auto& pair = pairs.list[i];
     Placed<ShapeT>& b = pairs.bodies[pair.b];
     const auto stood_at = b.center();
-    b.move_to(pairs.bodies[pair.a].center() + pair.offset);
+    pairs.move_to(pair.b, b, pairs.bodies[pair.a].center() + pair.offset);
     hits += query(pairs.bodies[pair.a], b, pair.margin);
-    b.move_to(stood_at);
+    pairs.move_to(pair.b, b, stood_at);
     if (++i == pairs.list.size()) i = 0;
   }
   state.counters["hits"] = static_cast<double>(hits) / static_cast<double>(state.iterations());
@@ -99,7 +103,7 @@ void run_from_memory(benchmark::State& state, const pairs::Situation& situation,
   for (const auto& pair : pairs.list) {
     places.push_back({pairs.bodies[pair.a], pairs.bodies[pair.b], {}, pair.margin});
     Place& place = places.back();
-    place.b.move_to(place.a.center() + pair.offset);
+    pairs.move_to(pair.b, place.b, place.a.center() + pair.offset);
     query(place.a, place.b, place.margin, place.cache);
   }
   std::size_t i = 0, hits = 0;
@@ -144,6 +148,16 @@ template <class ShapeT>
 void register_shape(const std::string& shape) {
   register_shape<ShapeT>(shape, pairs::ballast<ShapeT>(200));
 }
+/// The shapes that a type draws.
+template <class FamilyT>
+void register_family(const std::string& shape) {
+  static_assert(
+      pairs::Family<FamilyT>,
+      "the type needs `static Shape draw(std::mt19937_64&)`, which returns a shape of grains");
+  if constexpr (pairs::Family<FamilyT>) {
+    register_shape(shape, pairs::draw_shapes<FamilyT>(200));
+  }
+}
 
 /// The same by number of vertices.
 template <class ShapeT>
@@ -186,7 +200,7 @@ int main(int argc, char** argv) {
   register_update<Polygon<double>>("polygons");
 #endif
 #ifdef MOREAU_BENCH_HEADER
-  register_shape<MOREAU_BENCH_SHAPE>("own");
+  register_family<MOREAU_BENCH_SHAPE>("own");
 #endif
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -13,6 +13,8 @@
 
 #include "moreau/detect/collide.hpp"
 #include "moreau/sample/ballast.hpp"
+#include "moreau/shape/compound.hpp"
+#include "moreau/shape/rounded.hpp"
 
 namespace pairs {
 
@@ -99,14 +101,27 @@ auto radius_of(const Placed<ShapeT>& placed) {
   }
 }
 
+/// Moves the centre of a placed shape, world axes [m].
+/// @param rotation with which the shape was placed
+template <class ShapeT>
+void move_to(Placed<ShapeT>& placed, const ShapeT& shape,
+             const typename SpaceOf<ShapeT>::Rotation& rotation,
+             const typename SpaceOf<ShapeT>::Vector& center) {
+  if constexpr (requires { placed.move_to(center); })
+    placed.move_to(center);
+  else
+    placed.update(shape, {center, rotation});
+}
+
 /// The distance of b's centre from a's along the line at which they touch.
+/// @param move function that moves the centre of b
 template <class ShapeT>
 auto touching_distance(const Placed<ShapeT>& a, Placed<ShapeT> b,
-                       const typename Placed<ShapeT>::Vector& line) {
+                       const typename Placed<ShapeT>::Vector& line, const auto& move) {
   auto inside = typename Placed<ShapeT>::Scalar(0), outside = radius_of(a) + radius_of(b);
   for (int k = 0; k < 50; ++k) {
     const auto middle = (inside + outside) / 2;
-    b.move_to(a.center() + middle * line);
+    move(b, a.center() + middle * line);
     (overlap(a, b) ? inside : outside) = middle;
   }
   return inside;
@@ -137,6 +152,10 @@ struct Pairs {
     while (list.size() < count) add(situation, random);
   }
   const ShapeT& shape_of(std::size_t body) const { return shapes[shape_index_[body]]; }
+  /// Moves the centre of a body, or of a copy of it, world axes [m].
+  void move_to(std::size_t body, Placed<ShapeT>& placed, const Vector& center) const {
+    pairs::move_to(placed, shape_of(body), poses[body].rotation, center);
+  }
   std::size_t shape_index(std::size_t body) const { return shape_index_[body]; }
   T diameter(const Pair& pair) const {
     return 2 * std::min(radius_of(bodies[pair.a]), radius_of(bodies[pair.b]));
@@ -166,7 +185,8 @@ struct Pairs {
       }
     const T size = 2 * std::min(radius_of(bodies[a]), radius_of(bodies[b]));
     std::uniform_real_distribution<double> part(situation.from, situation.to);
-    const T distance = touching_distance(bodies[a], bodies[b], line);
+    const auto move = [&](Placed<ShapeT>& placed, const Vector& x) { move_to(b, placed, x); };
+    const T distance = touching_distance(bodies[a], bodies[b], line, move);
     list.push_back({a, b, (distance + size * static_cast<T>(part(random))) * line,
                     static_cast<T>(margin_over_diameter) * size});
   }
@@ -218,17 +238,51 @@ struct Trajectories {
   }
 };
 
-/// Random shapes: those of a type with a function draw(random), or as in the samples of the study.
+/// A type that draws random shapes: draw(random) returns a shape, of this type or of another.
+template <class T>
+concept Family = requires(std::mt19937_64& random) {
+  { T::draw(random) } -> moreau::GrainShape;
+};
+
+/// The shape of the library from which a class is derived: the narrow phase is written for that one.
+struct BaseShape {
+  template <class T>
+  static moreau::Polyhedron<T> of(const moreau::Polyhedron<T>*);
+  template <class T>
+  static moreau::Polygon<T> of(const moreau::Polygon<T>*);
+  template <class S>
+  static moreau::BallIn<S> of(const moreau::BallIn<S>*);
+  template <class Core>
+  static moreau::Rounded<Core> of(const moreau::Rounded<Core>*);
+  template <class Part>
+  static moreau::Compound<Part> of(const moreau::Compound<Part>*);
+};
+template <class ShapeT>
+struct Plain {
+  using type = ShapeT;
+};
+template <class ShapeT>
+requires requires(const ShapeT* shape) {
+  BaseShape::of(shape);
+}
+struct Plain<ShapeT> {
+  using type = decltype(BaseShape::of(static_cast<const ShapeT*>(nullptr)));
+};
+
+/// Random shapes of a family.
+template <Family FamilyT>
+auto draw_shapes(std::size_t count) {
+  std::mt19937_64 random(1);
+  std::vector<typename Plain<decltype(FamilyT::draw(random))>::type> shapes;
+  for (std::size_t k = 0; k < count; ++k) shapes.push_back(FamilyT::draw(random));
+  return shapes;
+}
+
+/// Random shapes as in the samples of the study.
 template <class ShapeT>
 std::vector<ShapeT> ballast(std::size_t count) {
   std::mt19937_64 random(1);
-  if constexpr (requires { ShapeT::draw(random); }) {
-    std::vector<ShapeT> shapes;
-    for (std::size_t k = 0; k < count; ++k) shapes.push_back(ShapeT::draw(random));
-    return shapes;
-  } else {
-    return moreau::ballast_shapes<ShapeT>(count, random);
-  }
+  return moreau::ballast_shapes<ShapeT>(count, random);
 }
 
 }  // namespace pairs
