@@ -25,6 +25,8 @@ class Materials {
     require(count > 0 && count <= 65535, "Materials", "count", count, "must lie in [1, 65535]");
     laws_.assign(count * count, fallback);
   }
+  /// One material. Not explicit, so that a law can be given in place of materials.
+  Materials(const Law& law) : Materials(1, law) {}  // NOLINT(google-explicit-constructor)
   /// The first argument is the number of materials, not a coefficient of friction.
   explicit Materials(std::floating_point auto, const Law& = Law{}) = delete;
 

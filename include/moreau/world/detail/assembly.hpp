@@ -213,7 +213,7 @@ class Assembly {
   static void require_pose(const Pose<S>& pose, const char* function) {
     require(all_finite(pose.position), function, "pose.position", pose.position, "must be finite");
     require(pose.is_finite() && S::is_rotation(pose.rotation), function, "pose.rotation",
-            "(no rotation)", "must be finite and of unit length");
+            pose.rotation, "must be finite and of unit length");
   }
   bool contains(BodyId body) const {
     return body.index() < bodies_.size() && bodies_.id[body.index()] == body &&

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Whether a packing is at rest. No single number of one step shows it: grains at the top of their path are slow,
+// too, and the kinetic energy of a packing at rest is not zero but as small as the tolerance of the solver.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+
+#include "moreau/core/error.hpp"
+#include "moreau/measure/energy.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau {
+
+/// When a packing counts as at rest.
+struct RestOptions {
+  /// Largest speed of the grains, the root of 2 x kinetic energy / mass [m/s]. If it is 0, it is the speed at
+  /// which a grain rises by 1e-5 of the grain size under the gravity of the simulation.
+  double speed = 0;
+  /// Largest part of the weight that walls and obstacles do not carry [-]. Without gravity and applied forces the
+  /// load is not tested.
+  double load = 0.01;
+  /// Time for which speed and load must stay within their limits, and all steps must be solved [s].
+  double time = 0.05;
+  /// Once they are within their limits, they may exceed them by this factor, >= 1, before the time begins anew.
+  double hysteresis = 4;
+};
+
+/// Decides after each step whether a packing is at rest:
+///
+///     moreau::RestTest rest;
+///     while (!rest.add(simulation, simulation.step(h), h)) {}
+///
+/// It does so if for RestOptions::time every step was solved, the grains were slow, and walls and obstacles carried
+/// the grains. Grains whose motion is prescribed are obstacles.
+class RestTest {
+ public:
+  /// @throws std::invalid_argument for an option that is not finite or out of range
+  explicit RestTest(const RestOptions& options = {}) : options_(options) {
+    const auto check = [](double value, double least, const char* name, const char* range) {
+      require(std::isfinite(value) && value >= least, "RestTest", name, value, range);
+    };
+    check(options.speed, 0, "options.speed", "must be finite and >= 0");
+    check(options.load, 0, "options.load", "must be finite and >= 0");
+    check(options.time, 0, "options.time", "must be finite and >= 0");
+    check(options.hysteresis, 1, "options.hysteresis", "must be finite and >= 1");
+  }
+
+  /// Takes a step into account.
+  /// @param simulation after the step
+  /// @param report     what the step returned
+  /// @param step       its length [s]
+  /// @returns whether the packing is at rest
+  /// @throws std::invalid_argument if RestOptions::speed is 0 and there is no gravity
+  template <class Simulation>
+  bool add(const Simulation& simulation, const StepReport& report, double step) {
+    const double gravity = double(simulation.gravity().norm());
+    require(options_.speed > 0 || gravity > 0, "RestTest::add", "options.speed", options_.speed,
+            "must be > 0 without gravity");
+    limit_ = options_.speed > 0 ? options_.speed
+                                : std::sqrt(2e-5 * gravity * double(simulation.grain_size()));
+    measure(simulation, step);
+    solved_ = report.solve.converged;
+    const double factor = time_ > 0 ? options_.hysteresis : 1;
+    const bool calm =
+        solved_ && speed_ <= factor * limit_ && missing_load_ <= factor * options_.load;
+    time_ = calm ? time_ + step : 0;
+    return is_at_rest();
+  }
+
+  /// Whether the packing was at rest after the last step.
+  bool is_at_rest() const { return time_ > 0 && time_ >= options_.time * (1 - 1e-9); }
+  double time() const { return time_; }  ///< for which the conditions hold [s]; 0 if they do not
+  double speed() const {
+    return speed_;
+  }  ///< of the grains after the last step [m/s], see RestOptions
+  /// Part of the weight that walls and obstacles did not carry in the last step [-].
+  double missing_load() const { return missing_load_; }
+  /// Why the packing is not at rest, as a sentence with numbers; empty if it is.
+  std::string reason() const {
+    std::ostringstream text;
+    text.precision(3);
+    if (is_at_rest()) return {};
+    if (!solved_)
+      text << "the last step was not solved";
+    else if (time_ > 0)
+      text << "at rest for " << time_ << " s of " << options_.time << " s";
+    else if (speed_ > limit_)
+      text << "the grains move with " << speed_ << " m/s, the limit is " << limit_ << " m/s";
+    else
+      text << "walls and obstacles do not carry " << missing_load_
+           << " of the weight, the limit is " << options_.load;
+    return text.str();
+  }
+
+ private:
+  template <class Simulation>
+  void measure(const Simulation& simulation, double step) {
+    using S = typename Simulation::S;
+    using Vector = typename S::Vector;
+    const auto& bodies = simulation.bodies();
+    double mass = 0, energy = 0;
+    Vector load = Vector::Zero();  // of the grains that move [N]
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const std::size_t i = simulation.grain(k).index();
+      if (bodies.is_prescribed(i)) continue;
+      mass += double(bodies.grain_mass[i]);
+      const BodyMotion<S> motion{bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
+                                 bodies.pose[i].position, bodies.velocity[i]};
+      energy += double(kinetic_energy<S>(motion).total());
+      load += bodies.grain_mass[i] * simulation.gravity() + linear<S>(bodies.force[i]);
+    }
+    speed_ = mass > 0 ? std::sqrt(2 * energy / mass) : 0;
+    // On walls and obstacles, from the grains that move.
+    const auto carries = [&](std::size_t i) {
+      return !simulation.is_grain(i) || bodies.is_prescribed(i);
+    };
+    Vector carried = Vector::Zero();
+    const auto& contacts = simulation.contacts();
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto& point = contacts.points[c];
+      if (carries(point.a) == carries(point.b)) continue;
+      const Vector impulse = point.frame * contacts.impulses[c];
+      carried += carries(point.b) ? impulse : Vector(-impulse);
+    }
+    carried /= static_cast<typename S::Scalar>(step);
+    missing_load_ = load.norm() > 0 ? double((carried - load).norm() / load.norm()) : 0;
+  }
+
+  RestOptions options_;
+  double time_ = 0, speed_ = 0, missing_load_ = 0, limit_ = 0;
+  bool solved_ = false;
+};
+
+}  // namespace moreau
