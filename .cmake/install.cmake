@@ -21,6 +21,10 @@ install(DIRECTORY include/moreau DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
 install(FILES ${PROJECT_BINARY_DIR}/moreau-config.cmake
               ${PROJECT_BINARY_DIR}/moreau-config-version.cmake
         DESTINATION ${package_dir})
+# moreau::instances: its sources are compiled in the project that links it.
+file(COPY .cmake/usual_instances.cmake .cmake/usual_instances DESTINATION ${PROJECT_BINARY_DIR})
+install(FILES .cmake/usual_instances.cmake DESTINATION ${package_dir})
+install(DIRECTORY .cmake/usual_instances DESTINATION ${package_dir})
 install(FILES ${PROJECT_BINARY_DIR}/moreau.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
 # The suites that policies of a user's own are tried with; they need doctest.
 install(DIRECTORY tests/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/moreau/tests

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs a program as a project of its own, outside this one's source tree.
 #   WAY       find_package | build_tree | eigen_5 | add_subdirectory | fetch_content | pkg_config | plain
-#             | debian_package
+#             | debian_package | project | instances
 #   LIBRARY   this project's source    BUILD     its build folder
 #   COMPILER  the C++ compiler         GENERATOR of build files
 #   EIGEN     its include folder
 # One way builds two units with all of moreau.hpp; for the others it is enough that
 # the headers are found, and Eigen's. eigen_5 has a package file as Eigen 5 has it, which refuses a
-# request for version 3.4, over the headers that are there. The subdirectory meets globals with the names that
+# request for version 3.4, over the headers that are there. project is the template of examples/project, which
+# compiles the usual simulations once, and instances does the same with pkg-config and make. The subdirectory meets globals with the names that
 # the library has for its own.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
@@ -48,7 +49,7 @@ list(TRANSFORM units PREPEND ${LIBRARY}/tests/consumer/)
 file(COPY ${units} DESTINATION ${WORK}/project)
 
 # An installed tree must not depend on where it was installed: move it.
-if(WAY MATCHES "find_package|pkg_config|eigen_5")
+if(WAY MATCHES "find_package|pkg_config|eigen_5|instances")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/staging)
   file(RENAME ${WORK}/staging ${WORK}/prefix)
 endif()
@@ -63,6 +64,20 @@ elseif(WAY STREQUAL "pkg_config")
   run(sh -c "${COMPILER} -std=c++20 -I prefix/include -isystem ${EIGEN} -isystem prefix/share/moreau/tests \
              suites.cpp -o suites")
   run(./suites)
+elseif(WAY STREQUAL "project")
+  file(COPY ${LIBRARY}/examples/project DESTINATION ${WORK})
+  run(project/build.sh -DMOREAU=${LIBRARY} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1
+      -DCMAKE_CXX_COMPILER=${COMPILER})
+  if(NOT output MATCHES "contact points")
+    message(FATAL_ERROR "${WAY}: the program printed:\n${output}")
+  endif()
+elseif(WAY STREQUAL "instances")
+  set(ENV{PKG_CONFIG_PATH} ${WORK}/prefix/share/pkgconfig)
+  set(flags "-std=c++20 -O1")
+  run(sh -c "make -j2 -f $(pkg-config --variable=instances moreau) CXX=${COMPILER} CXXFLAGS='${flags}'")
+  file(COPY_FILE ${LIBRARY}/examples/restart/restart.cpp ${WORK}/restart.cpp)
+  run(sh -c "${COMPILER} ${flags} $(pkg-config --cflags moreau) -include moreau_instances.hpp \
+             restart.cpp libmoreau_instances.a -o restart && ./restart")
 elseif(WAY STREQUAL "debian_package")
   # Packed, looked at, unpacked beside the system, used.
   get_filename_component(bin ${CMAKE_COMMAND} DIRECTORY)

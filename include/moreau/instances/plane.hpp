@@ -13,6 +13,6 @@
 
 namespace moreau {
 /// @cond instances
-MOREAU_WORLD_INSTANCES(Space<2>, Polygon<double>)
+MOREAU_WORLD_INSTANCES(MOREAU_INSTANCE, Space<2>, Polygon<double>)
 /// @endcond
 }  // namespace moreau

@@ -11,6 +11,6 @@
 
 namespace moreau {
 /// @cond instances
-MOREAU_WORLD_INSTANCES(Space<3>, Polyhedron<double>)
+MOREAU_WORLD_INSTANCES(MOREAU_INSTANCE, Space<3>, Polyhedron<double>)
 /// @endcond
 }  // namespace moreau

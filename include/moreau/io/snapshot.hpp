@@ -39,6 +39,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/io/detail/archive.hpp"
 #include "moreau/io/detail/crc64.hpp"
 #include "moreau/io/detail/input_file.hpp"
@@ -89,15 +90,31 @@ struct SnapshotTypes<Simulation<ShapeT, Law, Integrator, Broad, Solver>, More...
   }
 };
 
-template <class... Objects>
-std::uint64_t outline_of(Objects&... objects) {
+/// What of reading and writing depends on the type of the simulation alone. The functions are not inline: a program
+/// can instantiate them in one source and declare them extern (moreau/instances).
+template <class Archive, class World>
+MOREAU_COLD void transfer_world(Archive& archive, World& world) {
+  transfer(archive, world);
+}
+template <class World>
+MOREAU_COLD World copy_of_world(const World& world) {
+  return world;
+}
+template <class World>
+MOREAU_COLD void replace_world(World& world, World& by) {
+  world = std::move(by);
+}
+
+template <class World, class... More>
+MOREAU_COLD std::uint64_t outline_of(World& world, More&... more) {
   ArchiveOutline outline;
-  (transfer(outline, objects), ...);
+  transfer_world(outline, world);
+  (transfer(outline, more), ...);
   return outline.checksum();
 }
 
 /// The parts A, B<C, D>, ... of the text std::tuple<A, B<C, D>, ...>.
-inline std::vector<std::string_view> parts_of(std::string_view tuple) {
+MOREAU_COLD inline std::vector<std::string_view> parts_of(std::string_view tuple) {
   const std::size_t first = tuple.find('<') + 1, last = tuple.rfind('>');
   if (first == 0 || last == tuple.npos || last < first) return {};
   std::vector<std::string_view> parts;
@@ -118,7 +135,7 @@ inline std::vector<std::string_view> parts_of(std::string_view tuple) {
 }
 
 /// Describes the first difference between two lists of types.
-inline std::string difference(std::string_view found, std::string_view wanted) {
+MOREAU_COLD inline std::string difference(std::string_view found, std::string_view wanted) {
   constexpr std::array<std::string_view, 4> of_world{"shape", "law", "integrator",
                                                      "solver's options"};
   const std::vector<std::string_view> is = parts_of(found), want = parts_of(wanted);
@@ -136,7 +153,7 @@ inline std::string difference(std::string_view found, std::string_view wanted) {
 }
 
 /// @throws std::runtime_error unless the bytes are a complete snapshot of the present format
-inline SnapshotHead checked_head(std::string_view bytes, const std::string& name) {
+MOREAU_COLD inline SnapshotHead checked_head(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& why) { throw std::runtime_error(name + why); };
   if (bytes.empty()) refuse(" is empty");
   SnapshotHead head;
@@ -164,12 +181,13 @@ inline SnapshotHead checked_head(std::string_view bytes, const std::string& name
 }
 
 template <class World, class... More>
-void restore(std::string_view bytes, const std::string& name, World& world, More&... more) {
+MOREAU_COLD void restore(std::string_view bytes, const std::string& name, World& world,
+                         More&... more) {
   const SnapshotHead head = checked_head(bytes, name);
   bytes.remove_suffix(sizeof(std::uint64_t));
   ArchiveReader archive(bytes.substr(sizeof head));
   // The objects are read into copies, so that an error leaves the originals unchanged.
-  World loaded = world;
+  World loaded = copy_of_world(world);
   std::tuple<More...> loaded_more(more...);
   try {
     std::string version, types;
@@ -181,13 +199,13 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
       throw std::runtime_error("was written by moreau " + version +
                                ", whose objects have other members than those of this " +
                                MOREAU_VERSION_STRING);
-    transfer(archive, loaded);
+    transfer_world(archive, loaded);
     std::apply([&](auto&... one) { (transfer(archive, one), ...); }, loaded_more);
     if (archive.left() > 0) throw std::runtime_error("holds more than its objects");
   } catch (const std::exception& error) {
     throw std::runtime_error(name + ' ' + error.what());
   }
-  world = std::move(loaded);
+  replace_world(world, loaded);
   std::tie(more...) = std::move(loaded_more);
 }
 
@@ -198,8 +216,8 @@ void restore(std::string_view bytes, const std::string& name, World& world, More
 /// @param more other objects of the run: numbers, strings, vectors, random number generators,
 ///             classes with serialized_members(); see core/serialize.hpp
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
-std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
-                     const More&... more) {
+MOREAU_COLD std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
+                                 const More&... more) {
   using World = Simulation<ShapeT, Law, Integrator, Broad, Solver>;
   // An archive takes references that are not const. This archive only reads the objects.
   auto& open = const_cast<World&>(world);
@@ -211,7 +229,7 @@ std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& w
   std::string types = detail::SnapshotTypes<World, More...>::name();
   transfer(archive, version);
   transfer(archive, types);
-  transfer(archive, open);
+  detail::transfer_world(archive, open);
   (transfer(archive, const_cast<More&>(more)), ...);
   head.size = archive.bytes.size() + sizeof(std::uint64_t);
   std::memcpy(archive.bytes.data(), &head, sizeof head);

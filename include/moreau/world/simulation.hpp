@@ -86,15 +86,21 @@ class Simulation : public BodyControl<ShapeT> {
              const Tolerances& tolerances = {},
              const OverlapCorrectionOptions& correction = Dynamics::default_correction(),
              const Integrator& integrator = Integrator{}) requires set_valued
-      : Simulation(grain_size, materials, tolerances, Dynamics(solver, correction, integrator)) {}
+      : Simulation(grain_size, materials, tolerances, Parts(solver, correction, integrator)) {}
   /// The same for a regularized law, without a contact problem and without overlap correction.
   /// @throws std::invalid_argument for a size or tolerances out of range
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
              const Integrator& integrator = Integrator{}) requires(!set_valued)
-      : Simulation(grain_size, materials, tolerances, Dynamics(integrator)) {}
+      : Simulation(grain_size, materials, tolerances, Parts(integrator)) {}
+
+  Simulation(const Simulation&);  ///< a copy with the same state; it shares the team
+  Simulation(Simulation&&);       ///< moves the state; the source may only be assigned to
+  Simulation& operator=(const Simulation&);  ///< as the copy
+  Simulation& operator=(Simulation&&);       ///< as the move
+  ~Simulation();                             ///< the team stays with those who share it
 
   /// Adds a shape that grains can share; it is copied. It stays, also if no grain has it any more.
-  ShapeId add_shape(const ShapeT& shape) { return assembly_.add_shape(shape); }
+  ShapeId add_shape(const ShapeT& shape);
 
   /// Adds a grain at rest, before the first step or between two steps.
   /// @param shape    an id that add_shape() returned
@@ -108,16 +114,7 @@ class Simulation : public BodyControl<ShapeT> {
   ///         mass or an inertia that the scalar cannot hold, a shape whose centre of mass is farther
   ///         from its origin than 1e-3 of the grain size, a grain too wide for a periodic cell
   BodyId add_grain(ShapeId shape, const Pose<S>& pose, Scalar density,
-                   MaterialId material = MaterialId(0)) {
-    constexpr const char* self = "Simulation::add_grain";
-    assembly_.require_pose(pose, self);
-    const MassProperties<S> mass = assembly_.mass_of(shape, density, grain_size_, self);
-    cell().require_room(detector_.room_of(assembly_.shape(shape), lengths()), self);
-    const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
-    assembly_.set_grain(body, shape, mass);
-    detector_.add_grain(body, assembly_.shape(shape));
-    return body;
-  }
+                   MaterialId material = MaterialId(0));
   /// Removes a grain, with its contacts of the last step. Its id is refused from now on. All other ids
   /// stay valid. The other grains keep their contacts with the impulses and the memory of the laws.
   /// The measures of the last step no longer include the grain.
@@ -138,14 +135,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// @throws std::invalid_argument for a normal that is not unit within 1e-5, a point that is not
   ///         finite, an unknown material, a wall across a periodic axis
   BodyId add_wall(const VectorArgument<S>& normal, const VectorArgument<S>& point,
-                  MaterialId material = MaterialId(0)) {
-    constexpr const char* self = "Simulation::add_wall";
-    require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
-    require(all_finite(point), self, "point", point, "must be finite");
-    cell().require_along(normal, self);
-    const Pose<S> pose{point, S::normalized(typename S::Rotation(S::contact_frame(normal)))};
-    return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
-  }
+                  MaterialId material = MaterialId(0));
   /// Adds the inside of an infinite cylinder (in the plane, of a circle) as a wall around grains:
   /// fixed, or moving with set_velocity() and set_spin(cylinder, rate * axis). walls() does not contain
   /// it and it cannot have a mass. Laws with an effective radius treat it as flat.
@@ -158,14 +148,7 @@ class Simulation : public BodyControl<ShapeT> {
   ///         1e-5, a radius that is not finite or not positive, an unknown material, a cylinder
   ///         that bounds a periodic axis
   BodyId add_cylinder(const VectorArgument<S>& point, const AngularArgument<S>& axis, Scalar radius,
-                      MaterialId material = MaterialId(0)) {
-    constexpr const char* self = "Simulation::add_cylinder";
-    require(all_finite(point), self, "point", point, "must be finite");
-    require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
-    require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
-    cell().require_around(axis, self);
-    return add_wall_of(CylinderWall<S>(axis, radius), Pose<S>(point), material, self);
-  }
+                      MaterialId material = MaterialId(0));
 
   /// Adds a wall of triangles [m], in the plane of segments, in the frame `pose`: fixed, or moving with
   /// set_velocity() and set_spin(). mesh_walls() lists it.
@@ -278,18 +261,12 @@ class Simulation : public BodyControl<ShapeT> {
   using Dynamics =
       std::conditional_t<set_valued, detail::ImpulseDynamics<S, Law, Integrator, Solver>,
                          detail::ForceDynamics<S, Law, Integrator>>;
+  /// What dynamics_ is made of.
+  using Parts =
+      std::conditional_t<set_valued, std::tuple<Solver, OverlapCorrectionOptions, Integrator>,
+                         std::tuple<Integrator>>;
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances,
-             Dynamics&& dynamics)
-      : grain_size_(grain_size),
-        tolerances_(tolerances),
-        materials_(materials),
-        dynamics_(std::move(dynamics)) {
-    // Not in the class, where further errors would hide the reason.
-    static_assert(sizeof(detail::Policies<S, Law, Integrator, Broad, Solver>) > 0);
-    require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
-            "must be finite and > 0");
-    tolerances.check("Simulation");
-  }
+             const Parts& parts);
 
   BodyId add_wall_of(const auto& shape, const Pose<S>& pose, MaterialId material,
                      const char* function) {
@@ -313,17 +290,7 @@ class Simulation : public BodyControl<ShapeT> {
     detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 
-  void remove(std::span<const BodyId> grains, const char* function) {
-    const std::vector<unsigned char>& removed = assembly_.mark(grains, function);
-    lost_.clear();
-    for (const Contact<S>& contact : contacts_.points)
-      lost_.push_back(removed[contact.a] != 0 || removed[contact.b] != 0);
-    const auto is_lost = [&](std::size_t c) { return lost_[c] != 0; };
-    dynamics_.erase(is_lost);
-    contacts_.erase(is_lost);
-    detector_.remove_grains(removed);
-    assembly_.remove_marked();
-  }
+  void remove(std::span<const BodyId> grains, const char* function);
 
   DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
 
@@ -396,7 +363,100 @@ class Simulation : public BodyControl<ShapeT> {
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
-// Not inline: a program can instantiate it in one source and declare it extern (moreau/instances).
+// What follows is not inline: a program can instantiate it in one source and declare it extern (moreau/instances). A
+// function in the class is inline, and is compiled in each unit that uses it.
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+ShapeId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_shape(const ShapeT& shape) {
+  return assembly_.add_shape(shape);
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_grain(ShapeId shape,
+                                                                     const Pose<S>& pose,
+                                                                     Scalar density,
+                                                                     MaterialId material) {
+  constexpr const char* self = "Simulation::add_grain";
+  assembly_.require_pose(pose, self);
+  const MassProperties<S> mass = assembly_.mass_of(shape, density, grain_size_, self);
+  cell().require_room(detector_.room_of(assembly_.shape(shape), lengths()), self);
+  const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
+  assembly_.set_grain(body, shape, mass);
+  detector_.add_grain(body, assembly_.shape(shape));
+  return body;
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_wall(const VectorArgument<S>& normal,
+                                                                    const VectorArgument<S>& point,
+                                                                    MaterialId material) {
+  constexpr const char* self = "Simulation::add_wall";
+  require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
+  require(all_finite(point), self, "point", point, "must be finite");
+  cell().require_along(normal, self);
+  const Pose<S> pose{point, S::normalized(typename S::Rotation(S::contact_frame(normal)))};
+  return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_cylinder(
+    const VectorArgument<S>& point, const AngularArgument<S>& axis, Scalar radius,
+    MaterialId material) {
+  constexpr const char* self = "Simulation::add_cylinder";
+  require(all_finite(point), self, "point", point, "must be finite");
+  require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
+  require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
+  cell().require_around(axis, self);
+  return add_wall_of(CylinderWall<S>(axis, radius), Pose<S>(point), material, self);
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Scalar grain_size,
+                                                               const Materials<Law>& materials,
+                                                               const Tolerances& tolerances,
+                                                               const Parts& parts)
+    : grain_size_(grain_size),
+      tolerances_(tolerances),
+      materials_(materials),
+      dynamics_(std::make_from_tuple<Dynamics>(parts)) {
+  // Not in the class, where further errors would hide the reason.
+  static_assert(sizeof(detail::Policies<S, Law, Integrator, Broad, Solver>) > 0);
+  require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
+          "must be finite and > 0");
+  tolerances.check("Simulation");
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(const Simulation&) = default;
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Simulation&&) = default;
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+Simulation<ShapeT, Law, Integrator, Broad, Solver>&
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::operator=(const Simulation&) = default;
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+Simulation<ShapeT, Law, Integrator, Broad, Solver>&
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::operator=(Simulation&&) = default;
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+Simulation<ShapeT, Law, Integrator, Broad, Solver>::~Simulation() = default;
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+void Simulation<ShapeT, Law, Integrator, Broad, Solver>::remove(std::span<const BodyId> grains,
+                                                                const char* function) {
+  const std::vector<unsigned char>& removed = assembly_.mark(grains, function);
+  lost_.clear();
+  for (const Contact<S>& contact : contacts_.points)
+    lost_.push_back(removed[contact.a] != 0 || removed[contact.b] != 0);
+  const auto is_lost = [&](std::size_t c) { return lost_[c] != 0; };
+  dynamics_.erase(is_lost);
+  contacts_.erase(is_lost);
+  detector_.remove_grains(removed);
+  assembly_.remove_marked();
+}
+
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,

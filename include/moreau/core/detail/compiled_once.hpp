@@ -8,6 +8,8 @@
 
 #include <cstddef>
 
+#include "moreau/core/detail/compiler.hpp"
+
 /// Before a function: all calls run the same machine code. It is neither inlined nor copied for arguments
 /// that a caller knows.
 #if defined(__clang__)
@@ -16,6 +18,14 @@
 #define MOREAU_COMPILED_ONCE [[gnu::noinline, gnu::noclone]]
 #else
 #define MOREAU_COMPILED_ONCE
+#endif
+
+/// Before a function of files: it is compiled for size and not inlined, which takes the compiler a fraction of the
+/// time.
+#if defined(__GNUC__) || defined(__clang__)
+#define MOREAU_COLD [[gnu::cold, gnu::noinline]]
+#else
+#define MOREAU_COLD
 #endif
 
 namespace moreau::detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Macros of this folder. Templates that take long to compile are declared extern in every unit and
-// instantiated in the one unit that defines MOREAU_INSTANTIATE before its includes.
+// Macros of this folder. They declare or instantiate templates that take long to compile; KEYWORD is
+// `extern template` (compiled elsewhere) or `template` (compiled here).
 #pragma once
 
 #ifdef MOREAU_INSTANTIATE
@@ -9,13 +9,55 @@
 #define MOREAU_INSTANCE extern template
 #endif
 
+/// What depends on the shape only: detection, the parts of a simulation that hold its bodies.
+#define MOREAU_SHAPE_INSTANCES(KEYWORD, ShapeT) \
+  KEYWORD class ContactDetector<ShapeT, CellGrid<SpaceOf<ShapeT>>>;
+
+/// What depends on the space and on the law only: the solver and its stages of a step.
+#define MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, LawT) \
+  KEYWORD class detail::ImpulseDynamics<SpaceT, LawT, MoreauJean, ColouredGaussSeidel>;
+
+/// What depends on both.
+#define MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT) KEYWORD class Simulation<ShapeT, LawT>;
+
 /// The worlds of one space: spheres and one kind of polytope in double under Signorini-Coulomb,
 /// with the default integrator, broad phase and solver.
-#define MOREAU_WORLD_INSTANCES(SpaceT, PolytopeT)                                             \
-  MOREAU_INSTANCE class PolytopeT;                                                            \
-  MOREAU_INSTANCE class ContactDetector<PolytopeT, CellGrid<SpaceT>>;                         \
-  MOREAU_INSTANCE class ContactDetector<BallIn<SpaceT>, CellGrid<SpaceT>>;                    \
-  MOREAU_INSTANCE class detail::ImpulseDynamics<SpaceT, SignoriniCoulomb<double>, MoreauJean, \
-                                                ColouredGaussSeidel>;                         \
-  MOREAU_INSTANCE StepReport Simulation<PolytopeT, SignoriniCoulomb<double>>::step(double);   \
-  MOREAU_INSTANCE StepReport Simulation<BallIn<SpaceT>, SignoriniCoulomb<double>>::step(double);
+#define MOREAU_WORLD_INSTANCES(KEYWORD, SpaceT, PolytopeT)                 \
+  KEYWORD class PolytopeT;                                                 \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, PolytopeT)                               \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, BallIn<SpaceT>)                          \
+  MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, SignoriniCoulomb<double>)          \
+  MOREAU_SIMULATION_INSTANCE(KEYWORD, PolytopeT, SignoriniCoulomb<double>) \
+  MOREAU_SIMULATION_INSTANCE(KEYWORD, BallIn<SpaceT>, SignoriniCoulomb<double>)
+
+/// Snapshots of a simulation.
+#define MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)                                   \
+  KEYWORD void detail::transfer_world(detail::ArchiveReader&, Simulation<ShapeT, LawT>&);  \
+  KEYWORD void detail::transfer_world(detail::ArchiveWriter&, Simulation<ShapeT, LawT>&);  \
+  KEYWORD void detail::transfer_world(detail::ArchiveOutline&, Simulation<ShapeT, LawT>&); \
+  KEYWORD Simulation<ShapeT, LawT> detail::copy_of_world(const Simulation<ShapeT, LawT>&); \
+  KEYWORD void detail::replace_world(Simulation<ShapeT, LawT>&, Simulation<ShapeT, LawT>&);
+
+/// The parts of the library of usual simulations (usual.hpp); each is a source of its own.
+#define MOREAU_BALL_AND_POLYTOPE_INSTANCES(KEYWORD, BallT, PolytopeT) \
+  KEYWORD class PolytopeT;                                            \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, BallT)                              \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, PolytopeT)
+#define MOREAU_CAPSULE_AND_COMPOUND_INSTANCES(KEYWORD, CapsuleT, PolytopeT) \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, CapsuleT)                                 \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, Compound<PolytopeT>)
+#define MOREAU_SIMULATION_INSTANCES(KEYWORD, ShapeT, LawT) \
+  MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT)        \
+  MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)
+#define MOREAU_PLANE_INSTANCES(KEYWORD, LawT)                 \
+  MOREAU_LAW_INSTANCES(KEYWORD, Space<2>, LawT)               \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Disk<double>, LawT)    \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Polygon<double>, LawT) \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Stadium<double>, LawT) \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Compound<Polygon<double>>, LawT)
+#define MOREAU_SPACE_INSTANCES(KEYWORD, LawT)                    \
+  MOREAU_LAW_INSTANCES(KEYWORD, Space<3>, LawT)                  \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Ball<double>, LawT)       \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Polyhedron<double>, LawT) \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Capsule<double>, LawT)    \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Compound<Polyhedron<double>>, LawT)

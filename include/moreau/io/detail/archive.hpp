@@ -29,6 +29,7 @@
 #include <variant>
 #include <vector>
 
+#include "moreau/core/detail/compiled_once.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/io/detail/crc64.hpp"
 
@@ -118,8 +119,9 @@ inline constexpr bool is_variant = false;
 template <class... Kinds>
 inline constexpr bool is_variant<std::variant<Kinds...>> = true;
 
+/// Visits all numbers of x.
 template <class Archive, class X>
-void transfer(Archive& archive, X& x) {
+MOREAU_COLD void transfer(Archive& archive, X& x) {
   if constexpr (Number<X>) {
     archive.number(x);
   } else if constexpr (EigenArray<X>) {

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/instances/usual.hpp"
+
+namespace moreau {
+MOREAU_BALL_AND_POLYTOPE_INSTANCES(template, Disk<double>, Polygon<double>)
+}  // namespace moreau

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "moreau/instances/usual.hpp"
+
+namespace moreau {
+MOREAU_SPACE_INSTANCES(template, Compliant<SignoriniCoulomb<double>>)
+}  // namespace moreau
