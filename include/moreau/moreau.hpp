@@ -17,8 +17,6 @@
 #pragma once
 
 #include "moreau/core/detail/compiler.hpp"
-#if __cplusplus >= 202002L  // the error above is the only one
-
 #include "moreau/law/materials.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
@@ -33,4 +31,3 @@
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/version.hpp"
 #include "moreau/world/simulation.hpp"
-#endif

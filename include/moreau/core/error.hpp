@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 
+#include "moreau/core/detail/compiler.hpp"
+
 /// Assertion in a kernel. It is checked only in builds without NDEBUG. If the macro is defined
 /// before the first include, that definition is used.
 #ifndef MOREAU_ASSERT
@@ -40,6 +42,25 @@ void print(std::ostream& out, const Matrix& value) {
   out << (plain.size() > 0 ? ")" : "()");
 }
 
+/// Prints a quaternion.
+template <class Quaternion>
+requires requires(const Quaternion& q) {
+  q.vec();
+  q.w();
+}
+void print(std::ostream& out, const Quaternion& q) {
+  out << "(w " << q.w() << ", x " << q.x() << ", y " << q.y() << ", z " << q.z() << ')';
+}
+
+/// Prints a rotation of the plane.
+template <class Rotation>
+requires requires(const Rotation& rotation) {
+  rotation.smallestPositiveAngle();
+}
+void print(std::ostream& out, const Rotation& rotation) {
+  out << rotation.angle() << " rad";
+}
+
 }  // namespace detail
 
 /// Throws the exception for a bad argument of a public function. Matrices are printed as one row of
@@ -47,8 +68,8 @@ void print(std::ostream& out, const Matrix& value) {
 /// @param expectation the requirement on the argument, e.g. "must be finite"
 /// @throws std::invalid_argument "function: argument = value must ...", always
 template <class Value>
-[[noreturn]] void throw_invalid(std::string_view function, std::string_view argument,
-                                const Value& value, std::string_view expectation) {
+[[noreturn, gnu::cold]] void throw_invalid(std::string_view function, std::string_view argument,
+                                           const Value& value, std::string_view expectation) {
   std::ostringstream message;
   message.precision(9);
   message << function << ": " << argument << " = ";
@@ -62,8 +83,8 @@ template <class Value>
 /// @param index index of the body
 /// @throws std::runtime_error "function: what index = value is not finite", always
 template <class Value>
-[[noreturn]] void throw_not_finite(std::string_view function, std::string_view what,
-                                   std::size_t index, const Value& value) {
+[[noreturn, gnu::cold]] void throw_not_finite(std::string_view function, std::string_view what,
+                                              std::size_t index, const Value& value) {
   std::ostringstream message;
   message.precision(9);
   message << function << ": " << what << ' ' << index << " = ";

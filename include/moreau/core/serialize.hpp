@@ -17,6 +17,8 @@
 
 #include <tuple>  // for the classes that include this header
 
+#include "moreau/core/detail/compiler.hpp"
+
 namespace moreau {
 
 namespace detail {

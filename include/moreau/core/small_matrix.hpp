@@ -12,6 +12,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "moreau/core/detail/compiler.hpp"
+
 namespace moreau {
 
 namespace detail {

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "moreau/core/detail/compiler.hpp"
+
 namespace moreau {
 
 /// The linear part of a vector, D components, as a reference into the vector.

@@ -14,6 +14,8 @@
 
 #include <concepts>
 
+#include "moreau/core/detail/compiler.hpp"
+
 namespace moreau {
 
 /// A matrix or vector whose sums, differences, products and multiples are plain values.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "moreau/core/detail/compiler.hpp"
+
 namespace moreau {
 
 /// How well the contact problem of one step was solved. Always filled. A solver that does not

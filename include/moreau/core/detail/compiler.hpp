@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One line for a compiler or a language version that cannot compile the library, in place of
-// hundreds. Include it before everything else.
+// hundreds: the file that does not exist ends the compilation. Include it before everything else.
 #pragma once
 
 #if !defined(__GNUC__) && !defined(__clang__)
 #error "moreau needs the vector extensions of g++ 12 or clang++ 14, or a later version of them."
+#include "moreau needs g++ or clang++"
 #elif __cplusplus < 202002L
 #error "moreau needs C++20: compile with -std=c++20 or later."
+#include "moreau needs C++20"
 #endif

@@ -14,6 +14,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "moreau/core/detail/compiler.hpp"
+
 namespace moreau::detail {
 
 /// Width in bytes of the registers for which the target has fast comparisons and shuffles.
