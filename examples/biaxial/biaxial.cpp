@@ -34,6 +34,7 @@ struct Options {
   std::size_t plane = 600, space = 500, samples = 3, rows = 40;
   std::vector<std::string> shapes{"disk", "polygon", "ball", "polyhedron"};
   std::vector<std::string> preparations{"dense", "loose"};
+  biaxial::Parameters parameters;
 };
 
 Options parsed(int argc, char** argv) {
@@ -52,6 +53,17 @@ Options parsed(int argc, char** argv) {
   app.add_option("--shape", o.shapes, "the shapes to run")->check(CLI::IsMember(o.shapes));
   app.add_option("--preparation", o.preparations, "dense: compressed without friction")
       ->check(CLI::IsMember(o.preparations));
+  biaxial::Parameters& p = o.parameters;
+  app.add_option("--pressure", p.pressure, "lateral pressure [Pa], in the plane [N/m]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--friction", p.friction, "friction between grains during the shear")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--density", p.density, "of the grains [kg/m^3], in the plane [kg/m^2]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--inertial-number", p.inertial, "of the shear")->check(CLI::PositiveNumber);
+  app.add_option("--step", p.h, "time step of the shear [s]")->check(CLI::PositiveNumber);
+  app.add_option("--compression-step", p.h_compression, "time step of the compression [s]")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--quick", quick, "a small sample of disks and one of balls, as a test");
   try {
     app.parse(argc, argv);
@@ -147,11 +159,13 @@ bool run_sample(const Options& options, const std::string& name, const std::stri
   constexpr int dim = moreau::SpaceOf<Shape>::dim;
   constexpr bool round = moreau::is_ball<Shape>;
   const bool dense = preparation == "dense";
-  biaxial::Specimen<Shape> specimen(dim == 2 ? options.plane : options.space, seed);
-  const bool at_rest = specimen.compress(dense ? 0 : biaxial::friction, 5);
+  biaxial::Specimen<Shape> specimen(dim == 2 ? options.plane : options.space, seed,
+                                    options.parameters);
+  const bool at_rest = specimen.compress(dense ? 0 : options.parameters.friction, 5);
   const double fraction = specimen.solid_fraction();
-  const std::vector<biaxial::Row> rows = specimen.shear(
-      biaxial::friction, options.rows, dense && seed == 1 ? options.output / name : fs::path());
+  const std::vector<biaxial::Row> rows =
+      specimen.shear(options.parameters.friction, options.rows,
+                     dense && seed == 1 ? options.output / name : fs::path());
   for (const biaxial::Row& r : rows)
     tables.rows.row(dim, int{round}, int{dense}, seed, r.strain, r.volume_strain, r.walls.axial,
                     r.walls.lateral, r.inside.axial, r.inside.lateral, r.beyond.axial,

@@ -38,14 +38,21 @@ namespace biaxial {
 
 using Law = moreau::SignoriniCoulomb<double>;
 
-constexpr double size = 0.01;                       // circumdiameter of the smallest grains [m]
-constexpr double mean = 0.0125;                     // of all grains: d [m]
-constexpr double density = 2700;                    // of the grains [kg/m^3], in the plane [kg/m^2]
-constexpr double pressure = 1e4;                    // p [Pa], in the plane [N/m]
-constexpr double friction = 0.5;                    // between grains, during the shear [-]
-constexpr double h = 2.5e-4, h_compression = 1e-4;  // steps of shear and compression [s]
-constexpr double inertial = 1e-3;                   // inertial number of the shear [-]
+constexpr double size = 0.01;         // circumdiameter of the smallest grains [m]
+constexpr double mean = 0.0125;       // of all grains: d [m]
 constexpr double row_strain = 0.005;  // axial strain between two rows of the table [-]
+
+/// What a test can change.
+struct Parameters {
+  double density = 2700;                    ///< of the grains [kg/m^3], in the plane [kg/m^2]
+  double pressure = 1e4;                    ///< p [Pa], in the plane [N/m]
+  double friction = 0.5;                    ///< between grains, during the shear [-]
+  double h = 2.5e-4, h_compression = 1e-4;  ///< steps of shear and compression [s]
+  double inertial = 1e-3;                   ///< inertial number of the shear [-]
+  /// The time d sqrt(rho / p) in which the pressure moves a grain by about its diameter [s]. The inertial
+  /// number is a strain rate times this time.
+  double inertial_time() const { return mean * std::sqrt(density / pressure); }
+};
 
 /// One value per axis, which an int counts as in Eigen.
 template <class T, int Axes>
@@ -59,12 +66,6 @@ class PerAxis {
  private:
   std::array<T, std::size_t(Axes)> values_;
 };
-
-/// The time d sqrt(rho / p) in which the pressure moves a grain by about its diameter [s]. The inertial
-/// number is a strain rate times this time.
-inline double inertial_time() {
-  return mean * std::sqrt(density / pressure);
-}
 
 /// Principal stresses [Pa], in the plane [N/m]. Compression is positive.
 struct Stress {
@@ -115,8 +116,8 @@ class Specimen {
   static constexpr int up = S::dim - 1;
 
   /// Adds grains of three sizes that do not touch, and the walls around them.
-  Specimen(std::size_t count, std::uint64_t seed)
-      : simulation_(size, materials(0), solver(), tolerances()) {
+  Specimen(std::size_t count, std::uint64_t seed, const Parameters& parameters)
+      : p_(parameters), simulation_(size, materials(0), solver(), tolerances()) {
     std::mt19937_64 random(seed);
     const moreau::SizeDistribution diameters({{size, 1}, {mean, 1}, {2 * mean - size, 1}});
     std::vector<double> radii;
@@ -130,7 +131,7 @@ class Specimen {
     const auto poses = moreau::random_deposition<S>(radii, length, random);
     for (std::size_t k = 0; k < count; ++k) {
       const Shape shape = moreau::Ballast<Shape>::draw(random).scaled(radii[k]);
-      simulation_.add_grain(simulation_.add_shape(shape), poses[k], density);
+      simulation_.add_grain(simulation_.add_shape(shape), poses[k], p_.density);
       top = std::max(top, poses[k].position[up] + radii[k]);
     }
     for (const double grain : simulation_.bodies().grain_mass) mass_ += grain;
@@ -152,7 +153,7 @@ class Specimen {
     for (int axis = 0; axis < S::dim; ++axis) load_wall(axis);
     int calm = 0;
     while (calm < 100 && simulation_.time() < longest)
-      calm = is_calm(step(h_compression)) ? calm + 1 : 0;
+      calm = is_calm(step(p_.h_compression)) ? calm + 1 : 0;
     return calm >= 100;
   }
 
@@ -163,9 +164,9 @@ class Specimen {
   std::vector<Row> shear(double grain_friction, std::size_t rows,
                          const std::filesystem::path& path) {
     simulation_.set_materials(materials(grain_friction));
-    const double rate = inertial / inertial_time();
-    const auto steps = static_cast<int>(std::lround(row_strain / (rate * h)));
-    const double speed = row_strain / (steps * h) * length(up);
+    const double rate = p_.inertial / p_.inertial_time();
+    const auto steps = static_cast<int>(std::lround(row_strain / (rate * p_.h)));
+    const double speed = row_strain / (steps * p_.h) * length(up);
     drive_wall(up, speed);
 
     const double height = length(up), before = volume();
@@ -176,8 +177,8 @@ class Specimen {
     for (std::size_t k = 0; k < rows; ++k) {
       Row& row = table[k];
       for (int i = 0; i < steps; ++i) {
-        const moreau::StepReport report = step(h);
-        energy.add(simulation_, report, h);
+        const moreau::StepReport report = step(p_.h);
+        energy.add(simulation_, report, p_.h);
         measure(row, report, 1.0 / steps);
       }
       row.strain = 1 - length(up) / height;
@@ -188,7 +189,7 @@ class Specimen {
       row.kinetic = energy.kinetic() - energy.kinetic_at_start();
       if (series && k % 10 == 9) {
         const std::string name = path.filename().string() + "_" + std::to_string(k + 1);
-        moreau::write_paraview(path.parent_path() / name, simulation_, h);
+        moreau::write_paraview(path.parent_path() / name, simulation_, p_.h);
         series->add(simulation_.time(), name + ".vtm");
       }
     }
@@ -204,8 +205,8 @@ class Specimen {
     for (int axis = 0; axis < S::dim; ++axis) volume *= length(axis);
     return volume;
   }
-  double solid_fraction() const { return mass_ / density / volume(); }  ///< of the grains [-]
-  std::size_t steps() const { return steps_; }                          ///< so far
+  double solid_fraction() const { return mass_ / p_.density / volume(); }  ///< of the grains [-]
+  std::size_t steps() const { return steps_; }                             ///< so far
   double approach() const { return approach_; }  ///< largest StepReport::approach so far
   double overlap() const { return overlap_; }    ///< largest overlap so far [m]
 
@@ -232,7 +233,7 @@ class Specimen {
 
   /// Puts the pressure p on the movable wall of an axis.
   void load_wall(int axis) {
-    loads_[axis].emplace(simulation_, upper_[axis], pressure, mass_,
+    loads_[axis].emplace(simulation_, upper_[axis], p_.pressure, mass_,
                          [this, axis] { return area(axis); });
   }
   /// Moves the movable wall of an axis towards the other one, at a constant speed [m/s].
@@ -254,8 +255,8 @@ class Specimen {
 
   /// Mean pressure on the two walls perpendicular to an axis.
   double wall_stress(int axis) {
-    return (moreau::wall_pressure(simulation_, lower_[axis], h, area(axis)) +
-            moreau::wall_pressure(simulation_, upper_[axis], h, area(axis))) /
+    return (moreau::wall_pressure(simulation_, lower_[axis], p_.h, area(axis)) +
+            moreau::wall_pressure(simulation_, upper_[axis], p_.h, area(axis))) /
            2;
   }
 
@@ -265,11 +266,11 @@ class Specimen {
     bool calm = report.solve.converged;
     for (int axis = 0; axis < S::dim; ++axis) {
       for (const moreau::BodyId wall : {lower_[axis], upper_[axis]})
-        calm =
-            calm && std::abs(moreau::wall_pressure(simulation_, wall, h_compression, area(axis)) -
-                             pressure) <= 0.01 * pressure;
+        calm = calm &&
+               std::abs(moreau::wall_pressure(simulation_, wall, p_.h_compression, area(axis)) -
+                        p_.pressure) <= 0.01 * p_.pressure;
       const double rate = simulation_.velocity(upper_[axis]).norm() / length(axis);
-      calm = calm && rate * inertial_time() <= 0.01 * inertial;
+      calm = calm && rate * p_.inertial_time() <= 0.01 * p_.inertial;
     }
     return calm;
   }
@@ -278,7 +279,7 @@ class Specimen {
   /// control volume ends beyond the walls, and the stress is that of the box.
   Stress contact_stress(double inset) const {
     moreau::Aabb<S> box = control_volume(inset);
-    typename S::Matrix stress = moreau::contact_stress(simulation_, h, box);
+    typename S::Matrix stress = moreau::contact_stress(simulation_, p_.h, box);
     if (inset < 0) stress *= moreau::volume(box) / volume();
     return {stress(up, up), (stress.trace() - stress(up, up)) / up};
   }
@@ -297,13 +298,14 @@ class Specimen {
     row.beyond.add(contact_stress(-mean), weight);
     row.ending.add(contact_stress(0), weight);
     row.coordination += weight * moreau::coordination(simulation_, 2).neighbours;
-    const moreau::Fabric<S> fabric = moreau::fabric(simulation_, h, control_volume(mean));
+    const moreau::Fabric<S> fabric = moreau::fabric(simulation_, p_.h, control_volume(mean));
     row.anisotropy += weight * fabric.anisotropy()(up, up);
     row.sweeps += weight * double(report.solve.sweeps);
     row.residual = std::max(row.residual, report.solve.residual);
     row.unsolved += !report.solve.converged;
   }
 
+  Parameters p_;
   moreau::Simulation<Shape, Law> simulation_;
   PerAxis<moreau::BodyId, S::dim> lower_, upper_;
   using Load = moreau::PressureLoad<std::function<double()>>;

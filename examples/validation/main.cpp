@@ -53,9 +53,24 @@ void print(const Result& result) {
   for (const Row& row : result.record.rows())
     if (!row.pass())
       std::printf("  %s %s (%s): expected %g, measured %g, error %g, tolerance %g\n",
-                  known_miss(row) ? "MISSED" : "FAILED", row.name.c_str(), row.space.c_str(),
+                  known_miss(row) ? "known miss:" : "FAILED:", row.name.c_str(), row.space.c_str(),
                   row.expected, row.measured, row.error, row.tolerance);
   std::fflush(stdout);
+}
+
+void print_totals(const std::vector<Result>& results) {
+  std::size_t all = 0, passed = 0, known = 0;
+  double seconds = 0;
+  for (const Result& result : results) {
+    seconds += result.seconds;
+    for (const Row& row : result.record.rows()) {
+      ++all;
+      passed += row.pass();
+      known += !row.pass() && known_miss(row);
+    }
+  }
+  std::printf("%zu comparisons in %.0f s: %zu pass, %zu are known misses (misses.cpp), %zu fail\n",
+              all, seconds, passed, known, all - passed - known);
 }
 
 /// @returns 0 if every comparison passes or is a known miss, else 1
@@ -72,6 +87,7 @@ int run(const Options& options) {
     write(options.output, results);
   }
   plot(options.output);
+  print_totals(results);
   std::printf("table.md, table.csv and the curves are in %s\n", options.output.c_str());
   return passed ? 0 : 1;
 }

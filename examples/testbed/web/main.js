@@ -134,7 +134,7 @@ function load() {
     ? "Drag a grain to pull it. Drag beside the grains to turn the picture, wheel to zoom."
     : "Drag a grain to pull it. Drag beside the grains to move the picture, wheel to zoom.";
   for (const setting of tables.settings) setting.holder.hidden = (setting.scenes & (1 << state.scene)) === 0;
-  location.replace(`#scene=${scene.key}&shape=${tables.shapes[shapeIndex()].key}`);
+  writeAddress();
 }
 /** One scene is built at a time. Of the choices made meanwhile only the last is built. */
 function sendLoad() {
@@ -314,6 +314,8 @@ worker.onmessage = ({ data }) => {
       isNew = true;
       fault = "";
       element("error").hidden = true;
+      if (addressFault) showError(addressFault);
+      addressFault = "";
       refresh = true;
       break;
     case "frame":
@@ -326,6 +328,7 @@ worker.onmessage = ({ data }) => {
       if (!data.refused) {
         state.values[setting.key] = data.value;
         setting.show(data.value);
+        writeAddress();
         element("error").hidden = true;
         if (data.rebuild) load();
       } else {
@@ -353,16 +356,26 @@ worker.onmessage = ({ data }) => {
 };
 worker.onerror = (event) => (element("loading").textContent = `The simulation could not be started: ${event.message}`);
 
-/** #scene=column&shape=disk&grains=500 */
+/** #scene=column&shape=disk&grains=500. What the page does not know is said once the scene is shown. */
 function readAddress() {
   for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
     const scene = tables.scenes.findIndex((entry) => entry.key === value);
     const shape = tables.shapes.find((entry) => entry.key === value);
+    const number = value.trim() === "" ? NaN : Number(value);
     if (key === "scene" && scene >= 0) state.scene = scene;
     else if (key === "shape" && shape) Object.assign(state, { dimension: shape.dimension, label: shape.label });
-    else if (tables.settings.some((setting) => setting.key === key)) setValue(key, Number(value));
+    else if (tables.settings.some((setting) => setting.key === key) && !Number.isNaN(number)) setValue(key, number);
+    else addressFault = `The address has ${key}=${value}, which this page does not know.`;
   }
 }
+/** Keeps the scene, the shape and all settings that are not the defaults in the address. */
+function writeAddress() {
+  const address = new URLSearchParams({ scene: tables.scenes[state.scene].key, shape: tables.shapes[shapeIndex()].key });
+  for (const { key, value } of tables.settings)
+    if (state.values[key] !== value) address.set(key, String(Number(state.values[key].toPrecision(9))));
+  location.replace(`#${address}`);
+}
+let addressFault = "";
 
 // Buttons
 
