@@ -12,7 +12,7 @@ int main() {
   const S::Vector aside = S::Vector::UnitX(), up = S::Vector::Unit(S::dim - 1);
 
   // Grains of 2 cm, which all tolerances are relative to; one material with friction 0.4.
-  moreau::Simulation<Shape, Law> simulation(0.02, moreau::Materials<Law>(1, Law(0.4)));
+  moreau::Simulation<Shape, Law> simulation(0.02, Law(0.4));
   const moreau::ShapeId shape = simulation.add_shape(moreau::regular_shape<Shape>(0.02));
   for (int k = 0; k < 10; ++k) {
     const S::Vector position = 0.003 * (k % 3) * aside + (0.03 + 0.03 * k) * up;
