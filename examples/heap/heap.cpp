@@ -79,10 +79,8 @@ int main() {
 
   const double end = heap.time() + 5;
   moreau::RestTest rest;
-  while (!rest.add(heap, heap.step(h), h) && heap.time() < end) {
-  }
+  while (!rest.add(heap, heap.step(h), h) && heap.time() < end) remove_fallen(heap);
   if (!rest.is_at_rest()) std::cerr << "not at rest: " << rest.reason() << '\n';
-  remove_fallen(heap);
 
   // Neither the rounded top nor the edge of the plate.
   const std::vector<Vector> surface = moreau::free_surface(heap, 2 * size);
