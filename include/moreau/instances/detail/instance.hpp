@@ -18,7 +18,8 @@
   KEYWORD class detail::ImpulseDynamics<SpaceT, LawT, MoreauJean, ColouredGaussSeidel>;
 
 /// What depends on both.
-#define MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT) KEYWORD class Simulation<ShapeT, LawT>;
+#define MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT) \
+  KEYWORD StepReport Simulation<ShapeT, LawT>::step(double);
 
 /// The worlds of one space: spheres and one kind of polytope in double under Signorini-Coulomb,
 /// with the default integrator, broad phase and solver.
