@@ -49,9 +49,10 @@ struct Scene {
   double worst =
       0;  // deepest overlap that a contact which was left out would have had after a step / size
 
-  explicit Scene(double friction = 0.4)
-      : world(size, Materials<scenes::LawOf<ShapeT>>(1, scenes::LawOf<ShapeT>(friction)), {},
-              wide()) {}
+  explicit Scene(double friction = 0.4, const ColouredOptions& options = {},
+                 const Tolerances& tolerances = wide())
+      : world(size, Materials<scenes::LawOf<ShapeT>>(1, scenes::LawOf<ShapeT>(friction)),
+              ColouredGaussSeidel(options), tolerances) {}
   BodyId add(const ShapeT& shape, const Pose<S>& pose, const Vector& velocity = Vector::Zero(),
              const Angular& spin = Angular::Zero()) {
     shapes.push_back(shape);
@@ -185,6 +186,36 @@ TEST_CASE_TEMPLATE("no contact that a step needs is left out: grains in a turnin
   scene.world.set_spin(drum, 20 * axis);
   scene.world.set_gravity(-9.81 * Vector::Unit(1));
   scene.run(60);
+}
+
+TEST_CASE_TEMPLATE("without friction grains move as with contacts up to the margin", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Polygon<>), (Ball<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  for (const double rate : {20.0, 200.0}) {
+    std::vector<Vector> places[2];
+    for (const bool narrows : {false, true}) {
+      ColouredOptions options;
+      options.tolerance = 1e-10;
+      Tolerances tolerances = wide();
+      tolerances.narrows = narrows;
+      Scene<ShapeT> scene(0, options, tolerances);
+      add_moving_grains(scene, 3, 0.5, Vector::Constant(-1.6 * size));
+      typename S::Angular axis = S::Angular::Zero();
+      axis[S::angular_dim - 1] = 1;
+      scene.world.set_spin(scene.world.add_cylinder(Vector::Zero(), axis, 4 * size), rate * axis);
+      const BodyId floor = scene.world.add_wall(Vector::Unit(1), -3.5 * size * Vector::Unit(1));
+      scene.world.set_spin(floor, 5 * axis);
+      scene.world.set_gravity(-9.81 * Vector::Unit(1));
+      for (int k = 0; k < 40; ++k) scene.world.step(h);
+      for (const BodyId grain : scene.world.grains())
+        places[narrows].push_back(scene.world.pose(grain).position);
+    }
+    double farthest = 0;
+    for (std::size_t k = 0; k < places[0].size(); ++k)
+      farthest = std::max(farthest, (places[0][k] - places[1][k]).norm() / size);
+    CHECK(farthest < 1e-6);
+  }
 }
 
 TEST_CASE_TEMPLATE(
