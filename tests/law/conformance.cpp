@@ -6,6 +6,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/law/tangential_restitution.hpp"
 
 #include "conformance/law.hpp"
 #include "conformance/regularized_law.hpp"
@@ -19,6 +20,8 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   using T = typename S::Scalar;
   const SignoriniCoulomb<T> coulomb(T(0.4));
   set_valued_law<S>(coulomb);
+  set_valued_law<S>(TangentialRestitution<T>(T(0.4), T(0.5), T(0.4)));
+  lane_law<S>(TangentialRestitution<T>(T(0.4), T(0.5), T(0.4)));
   set_valued_law<S>(Frictionless<T>());
   set_valued_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1)));
   const RollingResistance<T> rolling(T(0.4), T(0.2));

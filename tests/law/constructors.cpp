@@ -9,6 +9,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/law/tangential_restitution.hpp"
 
 TEST_CASE("the constructors of the set-valued laws") {
   using Coulomb = moreau::SignoriniCoulomb<double>;
@@ -18,6 +19,8 @@ TEST_CASE("the constructors of the set-valued laws") {
   const moreau::Frictionless<double> smooth(0.5);  // restitution 0.5
   // Friction 0.4; the bodies attract each other with 1e-3 N at each contact point, up to a gap of 1e-5 m.
   const moreau::Cohesive<Coulomb> wet(rough, 1e-3, 1e-5);
+  // Friction 0.25, restitution 0.87, tangential restitution 0.43.
+  const moreau::TangentialRestitution<double> acetate(0.25, 0.87, 0.43);
   // Friction 0.4; the couple is at most 0.1 x effective radius x normal force.
   const moreau::RollingResistance<double> rolling(0.4, 0.1);
   // Friction 0.4; springs with a normal stiffness of 1e8 N/m and a tangential stiffness of 7e7 N/m.
@@ -30,6 +33,8 @@ TEST_CASE("the constructors of the set-valued laws") {
   CHECK(sticking.friction() == 0.3);
   CHECK(sticking.static_friction() == 0.4);
   CHECK(smooth.restitution() == 0.5);
+  CHECK(acetate.friction() == 0.25);
+  CHECK(acetate.tangential_restitution() == 0.43);
   CHECK(wet.friction() == 0.4);
   CHECK(wet.attraction(1e-5) == 1e-3);
   CHECK(wet.attraction(2e-5) == 0);

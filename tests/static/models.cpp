@@ -17,6 +17,7 @@
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/law/tangential_restitution.hpp"
 #include "moreau/moreau.hpp"
 #include "moreau/solve/gathered_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
@@ -80,6 +81,7 @@ static_assert(SetValuedLaw<SignoriniCoulomb<>, S> && SetValuedLaw<Frictionless<>
 static_assert(PointLaw<Cohesive<>, S> && AttractiveLaw<Cohesive<>, S>);
 static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
+static_assert(TangentialRestitutionLaw<TangentialRestitution<>, S>);
 static_assert(CoulombLaw<SignoriniCoulomb<>, S> && !CoulombLaw<Frictionless<>, S>);
 static_assert(StatefulLaw<SignoriniCoulomb<>, S> && LaneLaw<SignoriniCoulomb<>, S>);
 static_assert(LaneLaw<RollingResistance<>, S> && LaneLaw<Frictionless<>, S>);

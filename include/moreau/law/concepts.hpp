@@ -41,7 +41,7 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// A law with `static constexpr bool rolls = true` has a couple beside the force: block, u, r and b
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
-/// Optional: see AttractiveLaw, CompliantLaw, StatefulLaw, LaneLaw.
+/// Optional: see AttractiveLaw, CompliantLaw, TangentialRestitutionLaw, StatefulLaw, LaneLaw.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -95,6 +95,16 @@ concept CompliantLaw = SetValuedLaw<L, S> && requires(const L law) {
   { law.normal_compliance() } -> std::same_as<typename S::Scalar>;
   { law.tangential_compliance() } -> std::same_as<typename S::Scalar>;
   { law.keeps_normal_impulse() } -> std::same_as<bool>;
+};
+
+/// A law with a restitution across the normal, see tangential_restitution.hpp.
+///
+/// - tangential_share(gap, before): the share of u_t before the step that is added to u_t [-], 0 where the contact is
+///   no impact. gap [m]; before = u_n before the step [m/s]
+template <class L, class S>
+concept TangentialRestitutionLaw = PointLaw<L, S> &&
+    requires(const L law, typename S::Scalar scalar) {
+  { law.tangential_share(scalar, scalar) } -> std::same_as<typename S::Scalar>;
 };
 
 /// A law that depends on what the contact did in the step before, such as static friction.

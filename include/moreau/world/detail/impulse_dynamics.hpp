@@ -342,10 +342,21 @@ class ImpulseDynamics {
                      before_[c][0] - add_chord(problem_.delassus, context, c, before_[c]);
                  const Scalar offset = law.velocity_offset(contact.gap, approach, context.step);
                  limit_.set(c, law, contact.gap, approach, context.step, offset);
+                 if constexpr (TangentialRestitutionLaw<Law, S>)
+                   bounce_aside(c, law, contact.gap, approach);
                  if (!std::isfinite(offset)) impulses[c].setZero();
                  problem_.delassus.offset_normal(c, offset);
                })
         .value;
+  }
+  /// Adds beta0 u_t^- of an impact to u_t.
+  /// @param approach u_n before the step, without the chord of a turning wall [m/s]
+  template <class L>  // explicit instantiations would instantiate a function that is no template
+  void bounce_aside(std::size_t c, const L& law, Scalar gap, Scalar approach) {
+    typename Unknowns::Row aside = law.tangential_share(gap, approach) * before_[c];
+    aside[0] = 0;
+    problem_.delassus.offset(c, aside);
+    limit_.set_aside(c, aside);
   }
   struct Largest {
     Scalar value = 0;

@@ -25,6 +25,11 @@ struct Policies {
       "Simulation: Law offers neither the functions velocity_offset, solve and natural_map "
       "(SetValuedLaw) nor the function force (RegularizedLaw) for the dimension and the scalar of "
       "the shape; static_assert the concept to see what is missing");
+  static_assert(
+      !(CompliantLaw<Law, S> && TangentialRestitutionLaw<Law, S>),
+      "Simulation: Compliant<TangentialRestitution> would have two tangential restitutions, "
+      "that of the springs and beta0; use Compliant<SignoriniCoulomb> or "
+      "TangentialRestitution");
   static_assert(integrates,
                 "Simulation: Integrator offers the functions neither of an ImpulseIntegrator nor "
                 "of a ForceIntegrator with the types of the shape's space; assert the concept to "

@@ -21,6 +21,8 @@
 // prescribed bodies, to the chord of their motion where they turn (chord_velocities.hpp): nothing above asks how
 // these move, and their work is not counted.
 //
+// A tangential restitution (law/tangential_restitution.hpp) is a part of the restitution: r_0 has neither.
+//
 // Springs (law/compliant.hpp) store energy. Let c be the compliance of a contact over h^2, s the impulse that
 // its spring remembers. The energy of the spring changes by (r . c r - s . c s) / 2, which adds to G. With
 // the operator's velocities, u + c (r - s) with the impulses and u_f - c s without, this is
@@ -56,6 +58,7 @@ class RestitutionLimit {
   void resize(std::size_t contacts) {
     offset_.resize(contacts);
     bounce_.resize(contacts);
+    if constexpr (aside) aside_.resize(contacts);
   }
   /// Splits the offset of a contact into that without restitution and the rest. Several threads may call
   /// it for different contacts.
@@ -66,12 +69,16 @@ class RestitutionLimit {
     if (before < 0 && std::isfinite(offset))
       bounce_[c] = offset - law.velocity_offset(gap, Scalar(0), step);
   }
+  /// Stores the offset across the normal of a contact under a law with tangential restitution [m/s], as set() does.
+  void set_aside(std::size_t c, const Row& offset) requires(TangentialRestitutionLaw<Law, S>) {
+    aside_[c] = offset;
+  }
   /// Limits the impulses of a solved problem; leaves the operator with their velocities.
   /// @param springs          of the contacts: their relaxation(c) and energy_before(c)
   /// @param solver,workspace solve the problem without restitution, if it is needed
   void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
              const auto& springs, const auto& solver, auto& workspace) {
-    if (std::all_of(bounce_.begin(), bounce_.end(), [](Scalar x) { return x == 0; })) return;
+    if (!bounces()) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
     roots_.resize(bodies.size());
     islands_.resize(bodies.size());
@@ -107,6 +114,14 @@ class RestitutionLimit {
     }
   };
 
+  static constexpr bool aside = TangentialRestitutionLaw<Law, S>;
+  bool bounces() const {
+    bool any = std::any_of(bounce_.begin(), bounce_.end(), [](Scalar x) { return x != 0; });
+    if constexpr (aside)
+      any = any ||
+            std::any_of(aside_.begin(), aside_.end(), [](const Row& x) { return !x.isZero(0); });
+    return any;
+  }
   /// @param without share of the restitution that the operator lacks, 0 or 1
   void measure(const Problem& problem, std::span<const Row> impulses, const auto& springs,
                Scalar without, std::vector<State>& states) const {
@@ -120,6 +135,7 @@ class RestitutionLimit {
       if (!std::isfinite(offset_[c])) continue;
       Row offset = springs.relaxation(c);
       offset[0] += offset_[c] - without * bounce_[c];
+      if constexpr (aside) offset += (1 - without) * aside_[c];
       state.velocity = problem.delassus.velocity(c) - offset;
       if (!state.acts) continue;
       const Row free = problem.delassus.free_velocity(c) - offset;
@@ -139,6 +155,9 @@ class RestitutionLimit {
   void offset_all(Problem& problem, Scalar sign) const {
     for (std::size_t c = 0; c < bounce_.size(); ++c)
       if (bounce_[c] != 0) problem.delassus.offset_normal(c, sign * bounce_[c]);
+    if constexpr (aside)
+      for (std::size_t c = 0; c < aside_.size(); ++c)
+        problem.delassus.offset(c, Row(sign * aside_[c]));
   }
   void combine(const Bodies<S>& bodies, const Problem& problem, std::span<Row> impulses) {
     add_up(bodies, problem);
@@ -180,6 +199,7 @@ class RestitutionLimit {
   }
 
   std::vector<Scalar> offset_, bounce_;  // one per contact: all of the offset, its part by e [m/s]
+  std::vector<Row> aside_;  // one per contact, if the law has a tangential restitution [m/s]
   std::vector<State> bouncing_, resting_;  // one per contact: with restitution, without
   std::vector<std::uint32_t> roots_;       // one per body: towards the root of its island
   std::vector<Island> islands_;            // one per body: that of a root counts
