@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// What silo, drum and impact of Dosta et al. (Comput. Phys. Commun. 296 (2024) 109066) share: materials,
+// the settling of a bed, runs in pieces.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <moreau/moreau.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "moreau/core/thread_team.hpp"
+#include "moreau/io/snapshot.hpp"
+
+#include "session.hpp"
+
+namespace experiments::bulk {
+
+using Law = moreau::SignoriniCoulomb<double>;
+using World = moreau::Simulation<moreau::Ball<double>, Law>;
+using Vector = Eigen::Vector3d;
+
+inline const moreau::MaterialId m1(0), m2(1), steel(2);
+constexpr double density_m1 = 2500, density_m2 = 2000, density_steel = 7200;  // [kg/m^3]
+constexpr double gravity = 9.81;                                              // [m/s^2]
+
+/// Friction and restitution of all pairs, as published.
+inline moreau::Materials<Law> materials() {
+  moreau::Materials<Law> all(3, Law(0.3, 0.5));
+  all.set(m1, m2, Law(0.2, 0.45));
+  all.set(m2, m2, Law(0.4, 0.4));
+  all.set(m1, steel, Law(0.2, 0.4));
+  all.set(m2, steel, Law(0.2, 0.4));
+  all.set(steel, steel, Law(0.5, 0.6));
+  return all;
+}
+
+/// Step and criterion of a run.
+struct Numerics {
+  double step = 1e-4;       ///< [s]
+  double tolerance = 1e-3;  ///< of the solver
+  double margin = 0.1;      ///< of detection, of the smallest diameter
+
+  std::string text() const {
+    return "step " + std::to_string(step) + " tolerance " + std::to_string(tolerance);
+  }
+};
+
+/// An empty world of balls.
+/// @param size smallest diameter [m]
+inline World world_of(double size, const Numerics& numerics, int threads) {
+  moreau::ColouredOptions options;
+  options.tolerance = numerics.tolerance;
+  options.max_sweeps = 500;
+  moreau::Tolerances tolerances;
+  tolerances.margin = numerics.margin;
+  tolerances.skin = 0.1;
+  World world(size, materials(), moreau::ColouredGaussSeidel(options), tolerances);
+  world.set_gravity({0, 0, -gravity});
+  if (threads > 1) world.set_team(moreau::ThreadTeam(threads));
+  return world;
+}
+
+/// What a run in pieces adds up.
+struct Sums {
+  double steps = 0, unsolved = 0, sweeps = 0, overlap = 0, stepping = 0;
+
+  void add(const moreau::StepReport& report) {
+    ++steps;
+    unsolved += !report.solve.converged;
+    sweeps += report.solve.sweeps;
+    overlap = std::max(overlap, report.max_overlap);
+    stepping += report.ms_total / 1000;
+  }
+  /// For Result::values: what sums_of() reads.
+  void append_to(Numbers& numbers) const {
+    numbers.insert(numbers.end(), {steps, unsolved, sweeps, overlap, stepping});
+  }
+};
+
+/// Advances a world, in pieces if the time of the runner is over, and calls look(world) every `interval`.
+/// @param build fills an empty world
+/// @param log   what look() has stored so far
+/// @throws Paused after the state was stored
+inline Sums advance(Run& run, World& world, const Numerics& numerics, double until, double interval,
+                    Numbers& log, const auto& build, const auto& look) {
+  using Clock = std::chrono::steady_clock;
+  Numbers sums{0, 0, 0, 0, 0};
+  if (run.is_started())
+    moreau::read_snapshot(run.snapshot(), world, log, sums);
+  else
+    build(world);
+  Sums s{sums[0], sums[1], sums[2], sums[3], sums[4]};
+  auto stored = Clock::now();
+  const auto store = [&] {
+    sums = {s.steps, s.unsolved, s.sweeps, s.overlap, s.stepping};
+    moreau::write_snapshot(run.snapshot(), world, log, sums);
+    stored = Clock::now();
+  };
+  const auto every = static_cast<std::uint64_t>(std::lround(interval / numerics.step));
+  const auto last = static_cast<std::uint64_t>(std::lround(until / numerics.step));
+  for (auto k = static_cast<std::uint64_t>(s.steps); k < last;) {
+    if (k % every == 0 && double(log.size()) <= double(k / every)) log.push_back(look(world));
+    s.add(world.step(numerics.step));
+    ++k;
+    if (run.must_stop()) {
+      store();
+      Session::say("  paused at step " + std::to_string(k) + " of " + std::to_string(last) + ", " +
+                   std::to_string(1000 * s.stepping / s.steps) + " ms per step, " +
+                   std::to_string(s.sweeps / s.steps) + " sweeps");
+      throw Paused();
+    }
+    if (Clock::now() - stored > std::chrono::seconds(120)) store();
+  }
+  log.push_back(look(world));
+  return s;
+}
+
+/// Root of the mean square of the velocities [m/s].
+inline double mean_speed(const World& world) {
+  double sum = 0;
+  for (const moreau::BodyId grain : world.grains()) sum += world.velocity(grain).squaredNorm();
+  return std::sqrt(sum / double(world.grain_count()));
+}
+
+/// Largest and root mean square difference of two curves at the same times.
+struct Difference {
+  double largest = 0, mean_square = 0;
+};
+inline Difference difference(const Numbers& a, const Numbers& b) {
+  Difference d;
+  const std::size_t n = std::min(a.size(), b.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    const double one = std::abs(a[k] - b[k]);
+    d.largest = std::max(d.largest, one);
+    d.mean_square += one * one / double(n);
+  }
+  d.mean_square = std::sqrt(d.mean_square);
+  return d;
+}
+
+}  // namespace experiments::bulk

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Collapse of a column of height a r on a rough floor, after its container has vanished: disks between two sides, r
+// half of their distance, and balls in a tube of radius r. Published for experiments (G. Lube et al., J. Fluid Mech. 508
+// (2004) 175 and Phys. Rev. E 72 (2005) 041301): run-out over r, for small a, 1.24 a (axisymmetric) and 1.2 a (plane),
+// whatever the material; 1.6 sqrt(a) (axisymmetric) for a > 1.7. Their grains are sand, salt, sugar, rice; these are
+// balls and disks, which roll: friction is varied.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <moreau/moreau.hpp>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "moreau/sample/random_deposition.hpp"
+
+#include "session.hpp"
+
+namespace experiments {
+
+namespace columns_parts {
+
+using Law = moreau::SignoriniCoulomb<double>;
+constexpr double size = 0.004, step = 2e-4, tolerance = 1e-3,
+                 gravity = 9.81;  // [m], [s], [-], [m/s^2]
+
+template <class Shape>
+using World = moreau::Simulation<Shape, Law>;
+
+template <class Shape>
+World<Shape> empty_world(double friction) {
+  constexpr int up = moreau::SpaceOf<Shape>::dim - 1;
+  using Vector = typename moreau::SpaceOf<Shape>::Vector;
+  moreau::ColouredOptions options;
+  options.tolerance = tolerance;
+  options.max_sweeps = 500;
+  moreau::Tolerances tolerances;
+  tolerances.margin = 0.15;
+  World<Shape> world(0.9 * size, moreau::Materials<Law>(1, Law(friction)),
+                     moreau::ColouredGaussSeidel(options), tolerances);
+  world.set_gravity(Vector(-gravity * Vector::Unit(up)));
+  world.add_wall(Vector(Vector::Unit(up)), Vector(Vector::Zero()));
+  return world;
+}
+
+/// A grain by its place and radius.
+template <class S>
+struct Grain {
+  typename S::Vector position;
+  double radius;
+};
+
+/// A settled column of the radius r, as high as r times the aspect.
+template <class Shape, class S = moreau::SpaceOf<Shape>>
+std::vector<Grain<S>> column(double r, double aspect, double friction, std::uint64_t seed) {
+  constexpr int up = S::dim - 1;
+  using Vector = typename S::Vector;
+  World<Shape> world = empty_world<Shape>(friction);
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> share(0.9, 1.1);
+  const double solid = S::dim == 3 ? 0.58 : 0.8;
+  const double volume = S::dim == 3 ? std::numbers::pi * r * r * r * aspect : 2 * r * r * aspect;
+  std::vector<double> radii;
+  double filled = 0;
+  // Those outside of the tube are not taken.
+  const double surplus = S::dim == 3 ? 4 / std::numbers::pi * 1.1 : 1;
+  while (filled < solid * volume * surplus) {
+    radii.push_back(share(random) * size / 2);
+    const double x = radii.back();
+    filled += S::dim == 3 ? 4 * std::numbers::pi / 3 * x * x * x : std::numbers::pi * x * x;
+  }
+  const auto poses = moreau::random_deposition<S>(radii, 2 * r, random);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    moreau::Pose<S> pose = poses[k];
+    for (int axis = 0; axis < up; ++axis) pose.position[axis] -= r;
+    if (pose.position.template head<up>().norm() > r - radii[k]) continue;
+    world.add_grain(world.add_shape(Shape(radii[k])), pose, 2500);
+  }
+  if constexpr (S::dim == 3)
+    world.add_cylinder(Vector(Vector::Zero()), Vector(Vector::UnitZ()), r);
+  else
+    for (const double side : {-1.0, 1.0})
+      world.add_wall(Vector(-side * Vector::UnitX()), Vector(side * r * Vector::UnitX()));
+  for (int k = 0; k < 2000; ++k) world.step(step);
+  std::vector<Grain<S>> grains;
+  for (std::size_t k = 0; k < world.grain_count(); ++k)
+    grains.push_back({world.pose(world.grain(k)).position, world.shape_of_grain(k).radius()});
+  return grains;
+}
+
+/// Radius of the deposit: where its mean height, at the solid fraction of the column, falls below half a grain.
+template <class S>
+double radius_of(const std::vector<Grain<S>>& grains) {
+  constexpr int up = S::dim - 1;
+  const double solid = S::dim == 3 ? 0.58 : 0.8, ring = 2 * size;
+  std::vector<double> volume(400, 0.0);
+  for (const Grain<S>& grain : grains) {
+    const auto k = std::size_t(grain.position.template head<up>().norm() / ring);
+    const double x = grain.radius;
+    if (k < volume.size())
+      volume[k] += S::dim == 3 ? 4 * std::numbers::pi / 3 * x * x * x : std::numbers::pi * x * x;
+  }
+  const double least = size / 2;
+  double last = 0;
+  for (std::size_t k = 0; k < volume.size(); ++k) {
+    const double area = S::dim == 3 ? std::numbers::pi * ring * ring * double(2 * k + 1) : 2 * ring;
+    const double height = volume[k] / (solid * area);
+    if (height >= least) {
+      last = height;
+      continue;
+    }
+    // Between the middles of two rings.
+    return ring * (double(k) - 0.5 + (last > height ? (last - least) / (last - height) : 0));
+  }
+  return 0;
+}
+
+/// Aspect ratio, run-out over r, number of grains.
+template <class Shape, class S = moreau::SpaceOf<Shape>>
+Numbers collapse(double r, double aspect, double friction, std::uint64_t seed) {
+  constexpr int up = S::dim - 1;
+  const std::vector<Grain<S>> start = column<Shape>(r, aspect, friction, seed);
+  World<Shape> world = empty_world<Shape>(friction);
+  std::vector<double> tops;
+  for (const Grain<S>& grain : start) {
+    world.add_grain(world.add_shape(Shape(grain.radius)), {grain.position}, 2500);
+    tops.push_back(grain.position[up] + grain.radius);
+  }
+  // The height of the column: twice the mean height of its volume.
+  double height = 0;
+  for (const Grain<S>& grain : start) height += 2 * grain.position[up] / double(start.size());
+  const double duration = 10 * std::sqrt(height / gravity);
+  while (world.time() < duration) world.step(step);
+  std::vector<Grain<S>> deposit;
+  for (std::size_t k = 0; k < world.grain_count(); ++k)
+    deposit.push_back({world.pose(world.grain(k)).position, start[k].radius});
+  return {height / r, radius_of(deposit) / r - 1, double(start.size())};
+}
+
+template <class Shape>
+void run(Session& session, const std::string& name, double across, const Numbers& aspects,
+         int samples, double slope, double power) {
+  const double r = across * size;
+  std::vector<Numbers> rows;
+  for (const double friction : {0.3, 0.6})
+    for (const double aspect : aspects) {
+      Numbers ratios, runouts;
+      Row row;
+      for (int seed = 1; seed <= samples; ++seed) {
+        const Result result = session.once(
+            name + " a " + std::to_string(aspect) + " friction " + std::to_string(friction) +
+                " across " + std::to_string(across) + " seed " + std::to_string(seed),
+            [&](Run&) { return collapse<Shape>(r, aspect, friction, std::uint64_t(seed)); });
+        ratios.push_back(result.values[0]);
+        runouts.push_back(result.values[1]);
+        row.grains = std::size_t(result.values[2]);
+        row.seconds += result.seconds;
+      }
+      const double a = mean_of(ratios).value;
+      const double published = power > 0 && a > 1.7 ? 1.6 * std::sqrt(a) : slope * a;
+      row.figure = name + ": run-out over r, a = " + std::to_string(a).substr(0, 4) +
+                   ", friction " + std::to_string(friction).substr(0, 3);
+      row.published = std::to_string(published).substr(0, 4) + " (experiment)";
+      row.measured = mean_of(runouts).value;
+      row.error = mean_of(runouts).error;
+      row.samples = runouts.size();
+      row.law = "SignoriniCoulomb";
+      row.step = step;
+      row.tolerance = tolerance;
+      row.verdict = std::abs(row.measured - published) <= 0.15 * published ? "within 15 %" : "no";
+      session.row(row);
+      rows.push_back({friction, a, row.measured, row.error, published});
+    }
+  session.curve("columns_" + name, {"friction", "a", "run-out", "error", "published"}, rows);
+}
+
+}  // namespace columns_parts
+
+void columns(Session& session) {
+  using namespace columns_parts;
+  if (session.quick()) {
+    run<moreau::Disk<double>>(session, "plane", 8, {1}, 1, 1.2, 0);
+    run<moreau::Ball<double>>(session, "axisymmetric", 4, {1}, 1, 1.24, 0.5);
+    return;
+  }
+  run<moreau::Disk<double>>(session, "plane", 25, {0.5, 1, 1.7}, 3, 1.2, 0);
+  run<moreau::Ball<double>>(session, "axisymmetric", 10, {0.5, 1, 3}, 2, 1.24, 0.5);
+}
+
+}  // namespace experiments

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// What every experiment needs of its runner: results that are stored when they are finished, long runs
+// that continue after a stop, rows of the table, curves.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+using Numbers = std::vector<double>;
+
+/// Thrown where a run must stop because its time is over. Its state is in a file.
+struct Paused : std::runtime_error {
+  Paused() : std::runtime_error("stopped; the same command continues") {}
+};
+
+/// A row of the table.
+struct Row {
+  std::string figure;     ///< what is compared, with its unit
+  std::string published;  ///< value and source's spread, as text
+  double measured = 0;    ///< the mean of the samples
+  /// Standard error of the mean of the samples; not a number for one sample.
+  double error = std::numeric_limits<double>::quiet_NaN();
+  std::size_t samples = 1;
+  std::string law;       ///< contact law, or solver
+  double step = 0;       ///< [s]
+  double tolerance = 0;  ///< of the solver, relative; 0: none
+  std::size_t grains = 0;
+  double seconds = 0;   ///< wall-clock time of all samples [s]
+  std::string verdict;  ///< "yes", "no", or why there is no comparison
+};
+
+/// A stored result.
+struct Result {
+  Numbers values;
+  double seconds = 0;  ///< wall-clock time, with all earlier pieces of the run [s]
+};
+
+struct Options {
+  std::filesystem::path output = "experiments-output";
+  std::vector<std::string> only;
+  bool quick = false;
+  double hold = std::numeric_limits<double>::infinity();  ///< stop after this wall-clock time [s]
+  int threads = 1;                                        ///< of the long runs
+};
+
+/// A run that may be stopped and continued.
+class Run {
+ public:
+  Run(std::filesystem::path snapshot, std::chrono::steady_clock::time_point deadline)
+      : snapshot_(std::move(snapshot)), deadline_(deadline) {}
+  /// File of the state of the run, whether it exists or not.
+  const std::filesystem::path& snapshot() const { return snapshot_; }
+  bool is_started() const { return std::filesystem::exists(snapshot_); }
+  bool must_stop() const { return std::chrono::steady_clock::now() >= deadline_; }
+
+ private:
+  std::filesystem::path snapshot_;
+  std::chrono::steady_clock::time_point deadline_;
+};
+
+/// The results of the runner.
+class Session {
+ public:
+  explicit Session(const Options& options);
+  ~Session();
+
+  bool quick() const { return options_.quick; }
+  const Options& options() const { return options_; }
+  /// The experiment to which the following rows belong.
+  void begin(const std::string& experiment);
+
+  /// The numbers of a run: stored ones, if the run has finished before, else those that it returns.
+  /// @throws Paused if the time is over
+  Result once(const std::string& key, const std::function<Numbers(Run&)>& run);
+  void row(const Row& row);
+  /// Writes a curve as CSV into the output folder.
+  void curve(const std::string& name, const std::vector<std::string>& columns,
+             const std::vector<Numbers>& rows) const;
+  /// A line of text on the terminal.
+  static void say(const std::string& text);
+  /// Writes experiments.md and experiments.csv from the rows so far.
+  void write() const;
+
+ private:
+  struct Store;
+  Options options_;
+  std::chrono::steady_clock::time_point deadline_;
+  std::unique_ptr<Store> store_;
+};
+
+/// Mean and standard error of some samples.
+struct Mean {
+  double value = 0;
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< not a number for one sample
+};
+Mean mean_of(const Numbers& samples);
+
+/// The k-th column of a table in data/, between commas, without its head.
+std::vector<Numbers> read_data(const std::string& name);
+/// Path of a file in data/.
+std::string data_path(const std::string& name);
+
+/// An experiment.
+struct Experiment {
+  const char* name;
+  const char* what;
+  const char* source;  ///< of the published figures
+  void (*run)(Session&);
+  double core_seconds,
+      quick_core_seconds;  ///< about, on one core of the machine named in the guide
+};
+std::vector<Experiment> all_experiments();
+
+void sticking(Session& session);
+void rebound(Session& session);
+void oblique(Session& session);
+void columns(Session& session);
+void heap(Session& session);
+void dice(Session& session);
+void silo(Session& session);
+void drum(Session& session);
+void impact(Session& session);
+
+}  // namespace experiments
