@@ -43,7 +43,7 @@ struct Impact {
 /// An impact with a random spin of both spheres.
 template <class Law>
 Impact impact_of(const Spheres& spheres, const Law& law, double psi, std::mt19937_64& random) {
-  constexpr double speed = 1, step = 1e-6;
+  constexpr double speed = 1, step = 1e-10;
   const double radius = spheres.diameter / 2;
   moreau::Simulation<moreau::Ball<double>, Law> world(spheres.diameter,
                                                       moreau::Materials<Law>(1, law));
@@ -125,7 +125,7 @@ void oblique(Session& session) {
                       {"psi1", "psi2"}, curve);
       Row row;
       row.law = walton ? "TangentialRestitution" : "SignoriniCoulomb";
-      row.step = 1e-6;
+      row.step = 1e-10;
       row.tolerance = 1e-4;
       row.grains = 2;
       row.samples = 60;

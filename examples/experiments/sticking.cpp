@@ -318,12 +318,13 @@ void launches(Session& session) {
       row.figure = "launched cube: largest lift over its edge";
       row.published = "0; another engine: 3.18";
       row.measured = worst.lift;
-      row.verdict = worst.lift <= 1e-6 ? "yes" : "no";
+      row.verdict = worst.lift <= 1e-9 ? "yes" : "no";
       session.row(row);
       row.figure = "launched cube: largest tilt [rad]";
       row.published = "0";
       row.measured = worst.tilt;
-      row.verdict = worst.tilt <= 1e-6 ? "yes" : "no";
+      // Springs that give by 1e-6 of the edge under the weight tilt the cube by some 1e-6.
+      row.verdict = worst.tilt <= (std::is_same_v<Law, Rigid> ? 1e-9 : 5e-6) ? "yes" : "no";
       session.row(row);
     }
 }

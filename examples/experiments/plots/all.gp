@@ -4,11 +4,11 @@ set datafile separator ","
 set terminal pngcairo size 900,560 font "sans,12"
 set grid
 set key top right
-exists(name) = int(system(sprintf("[ -s '%s/%s.csv' ] && echo 1 || echo 0", folder, name)))
+has(name) = int(system(sprintf("[ -s '%s/%s.csv' ] && echo 1 || echo 0", folder, name)))
 file(name) = sprintf("%s/%s.csv", folder, name)
 own = "#0B6E99"; other = "#B5482A"; third = "#7A7A7A"; last = "#2E8540"
 
-if (exists("drum")) {
+if (has("drum")) {
   set output folder . "/drum.png"
   set title "Drum: M1 balls with x < 0 and z < 0. 30,000 balls of M1 and 8,000 of M2, step 0.2 ms, tolerance 1e-3"
   set xlabel "t [s]"; set ylabel "number of balls"
@@ -18,7 +18,7 @@ if (exists("drum")) {
 }
 do for [n in "25 100"] {
   name = sprintf("impact_%sk", n)
-  if (exists(name)) {
+  if (has(name)) {
     set output folder . "/" . name . ".png"
     set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step 50 µs, tolerance 1e-3", n)
     set xlabel "t [ms]"; set ylabel "z [mm]"
@@ -28,20 +28,20 @@ do for [n in "25 100"] {
          for [k = 3:count] file(name) using 1:(1000 * column(k)) skip 1 with lines lc rgb own title (k == 3 ? "moreau, each bed" : "")
   }
 }
-if (exists("silo_large_M1_100k") || exists("silo_large_M1_30k")) {
+if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
   set output folder . "/silo.png"
   set title "Silo: balls above the orifice, d = 4 mm, step 0.2 ms, tolerance 1e-3"
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/silo_large_M1.csv" using 1:2 skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, 100,000, large orifice", \
        data . "/silo_large_M1.csv" using 1:3 skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, 100,000, large orifice", \
        for [name in "silo_large_M1_100k silo_small_M1_100k silo_large_M1_30k silo_small_M1_30k"] \
-         (exists(name) ? file(name) : "/dev/null") using 1:2 skip 1 with points title (exists(name) ? "moreau " . name[6:*] : "") noenhanced
+         (has(name) ? file(name) : "/dev/null") using 1:2 skip 1 with points title (has(name) ? "moreau " . name[6:*] : "") noenhanced
 }
-if (exists("oblique_glass") && exists("oblique_acetate")) {
+if (has("oblique_glass") && has("oblique_acetate")) {
   set output folder . "/oblique.png"
   set title "Oblique impacts of two spheres: tangential velocity after the impact over before, both over u_n"
   set xlabel "{/Symbol y}_1"; set ylabel "{/Symbol y}_2"
-  set key bottom right
+  set key top left Left reverse
   walton(x, e, mu, b) = x * (1 + b) < 3.5 * (1 + e) * mu ? -b * x : x - 3.5 * (1 + e) * mu
   plot walton(x, 0.97, 0.092, 0.44) with lines lw 2 lc rgb other title "Foerster et al., glass: 0.97, 0.092, 0.44", \
        walton(x, 0.87, 0.25, 0.43) with lines lw 2 lc rgb third title "acetate: 0.87, 0.25, 0.43", \
@@ -52,7 +52,7 @@ if (exists("oblique_glass") && exists("oblique_acetate")) {
 }
 do for [kind in "plane axisymmetric"] {
   name = "columns_" . kind
-  if (exists(name)) {
+  if (has(name)) {
     set output folder . "/" . name . ".png"
     set title sprintf("Collapse of a column, %s: run-out over the initial radius", kind)
     set xlabel "a = height / radius"; set ylabel "run-out / radius"
@@ -64,7 +64,7 @@ do for [kind in "plane axisymmetric"] {
     set key top right
   }
 }
-if (exists("dice")) {
+if (has("dice")) {
   set output folder . "/dice.png"
   set title "Dice: solid fraction, loosest (open) and densest (filled)"
   set xlabel "faces"; set ylabel "solid fraction"; set xrange [3:21]; set yrange [0.4:0.8]
