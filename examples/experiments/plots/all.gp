@@ -55,13 +55,13 @@ do for [kind in "plane axisymmetric"] {
   if (has(name)) {
     set output folder . "/" . name . ".png"
     set title sprintf("Collapse of a column, %s: run-out over the initial radius", kind)
-    set xlabel "a = height / radius"; set ylabel "run-out / radius"
+    set xlabel "a = height / radius"; set ylabel "run-out / radius"; set xrange [0:*]; set yrange [0:*]
     set key top left
     of(mu) = sprintf("< awk -F, 'NR > 1 && $1 == %s' '%s'", mu, file(name))
     plot file(name) using 2:5 skip 1 with points pt 5 lc rgb other title "experiments (formula)", \
          of("0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 6 lc rgb own title "moreau, friction 0.3", \
          of("0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 4 lc rgb last title "moreau, friction 0.6"
-    set key top right
+    set key top right; set autoscale
   }
 }
 if (has("dice")) {
