@@ -17,19 +17,46 @@
 #define MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, LawT) \
   KEYWORD class detail::ImpulseDynamics<SpaceT, LawT, MoreauJean, ColouredGaussSeidel>;
 
-/// What depends on both.
-#define MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT) \
+/// What depends on both: the step.
+#define MOREAU_STEP_INSTANCE(KEYWORD, ShapeT, LawT) \
   KEYWORD StepReport Simulation<ShapeT, LawT>::step(double);
+
+/// All functions of a simulation that are not inline. clang++ 14 instantiates with a class also members whose
+/// requirements do not hold, and g++ 12 instantiates no member that is defaulted outside of its class.
+#if defined(__clang__)
+#define MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT)                                          \
+  KEYWORD Simulation<ShapeT, LawT>::Simulation(double, const Materials<LawT>&, const Tolerances&,  \
+                                               const Simulation<ShapeT, LawT>::Parts&);            \
+  KEYWORD Simulation<ShapeT, LawT>::Simulation(const Simulation<ShapeT, LawT>&);                   \
+  KEYWORD Simulation<ShapeT, LawT>::Simulation(Simulation<ShapeT, LawT>&&);                        \
+  KEYWORD Simulation<ShapeT, LawT>& Simulation<ShapeT, LawT>::operator=(                           \
+      const Simulation<ShapeT, LawT>&);                                                            \
+  KEYWORD Simulation<ShapeT, LawT>& Simulation<ShapeT, LawT>::operator=(                           \
+      Simulation<ShapeT, LawT>&&);                                                                 \
+  KEYWORD Simulation<ShapeT, LawT>::~Simulation();                                                 \
+  KEYWORD ShapeId Simulation<ShapeT, LawT>::add_shape(const ShapeT&);                              \
+  KEYWORD BodyId Simulation<ShapeT, LawT>::add_grain(ShapeId, const Pose<SpaceOf<ShapeT>>&,        \
+                                                     double, MaterialId);                          \
+  KEYWORD BodyId Simulation<ShapeT, LawT>::add_wall(                                               \
+      const VectorArgument<SpaceOf<ShapeT>>&, const VectorArgument<SpaceOf<ShapeT>>&, MaterialId); \
+  KEYWORD BodyId Simulation<ShapeT, LawT>::add_cylinder(const VectorArgument<SpaceOf<ShapeT>>&,    \
+                                                        const AngularArgument<SpaceOf<ShapeT>>&,   \
+                                                        double, MaterialId);                       \
+  KEYWORD void Simulation<ShapeT, LawT>::remove(std::span<const BodyId>, const char*);             \
+  KEYWORD StepReport Simulation<ShapeT, LawT>::step(double);
+#else
+#define MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT) KEYWORD class Simulation<ShapeT, LawT>;
+#endif
 
 /// The worlds of one space: spheres and one kind of polytope in double under Signorini-Coulomb,
 /// with the default integrator, broad phase and solver.
-#define MOREAU_WORLD_INSTANCES(KEYWORD, SpaceT, PolytopeT)                 \
-  KEYWORD class PolytopeT;                                                 \
-  MOREAU_SHAPE_INSTANCES(KEYWORD, PolytopeT)                               \
-  MOREAU_SHAPE_INSTANCES(KEYWORD, BallIn<SpaceT>)                          \
-  MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, SignoriniCoulomb<double>)          \
-  MOREAU_SIMULATION_INSTANCE(KEYWORD, PolytopeT, SignoriniCoulomb<double>) \
-  MOREAU_SIMULATION_INSTANCE(KEYWORD, BallIn<SpaceT>, SignoriniCoulomb<double>)
+#define MOREAU_WORLD_INSTANCES(KEYWORD, SpaceT, PolytopeT)           \
+  KEYWORD class PolytopeT;                                           \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, PolytopeT)                         \
+  MOREAU_SHAPE_INSTANCES(KEYWORD, BallIn<SpaceT>)                    \
+  MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, SignoriniCoulomb<double>)    \
+  MOREAU_STEP_INSTANCE(KEYWORD, PolytopeT, SignoriniCoulomb<double>) \
+  MOREAU_STEP_INSTANCE(KEYWORD, BallIn<SpaceT>, SignoriniCoulomb<double>)
 
 /// Snapshots of a simulation.
 #define MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)                                   \
