@@ -110,7 +110,8 @@ double radius_of(const std::vector<Grain<S>>& grains) {
       continue;
     }
     // Between the middles of two rings.
-    return ring * (double(k) - 0.5 + (last > height ? (last - least) / (last - height) : 0));
+    return std::max(
+        0.0, ring * (double(k) - 0.5 + (last > height ? (last - least) / (last - height) : 0)));
   }
   return 0;
 }
