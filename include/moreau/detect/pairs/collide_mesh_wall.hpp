@@ -13,7 +13,7 @@
 //
 // A normal of 2, 3 and 4 must lie between the normals of the facets that join there: in the normal
 // cone of the ridge or the tip. The shape must lie on one side of the plane through the point, so that
-// the normal lies in its normal cone as well. Therefore no flat and no concave ridge gives a contact,
+// the normal lies in its normal cone as well, or nearly so for 2. Therefore no flat and no concave ridge gives a contact,
 // and of several facets that join only one gives it. Where two
 // normal cones meet, each of them takes what rounding errors might push out of it, and a contact that
 // is known is left out: those of faces come first, those of tips last.
@@ -264,7 +264,7 @@ class MeshCollision {
     // At a rim two opposite directions can lie in the normal cone.
     for (const T length : {std::sqrt(across2), -std::sqrt(across2)}) {
       const Vector d = across / length;
-      if (is_in_cone(r, d) && is_near(-d.dot(apart)) && is_lowest(p, d))
+      if (is_in_cone(r, d) && is_near(-d.dot(apart)) && is_low(p, -d.dot(apart), d))
         return add(d, -d.dot(apart), Vector(p + on_edge / across2 * edge),
                    FeatureKey(FeatureKey::Kind::edge_edge, e, r));
     }
@@ -307,6 +307,13 @@ class MeshCollision {
         FeatureKey(found.feature.kind(), found.feature.a(), v));
   }
   bool is_near(T gap) const { return gap <= margin_ && gap >= -core_.deepest(); }
+  /// Whether a contact point x of the shape with a ridge counts: where a face comes down on the ridge, each end
+  /// of the line of contact is a point while the gap is small, and not only the lower one, as on a face of the
+  /// wall. The shape may reach below the plane through the ridge by 1 % of its width, and by more if x is its
+  /// lowest point.
+  bool is_low(const Vector& x, T gap, const Vector& d) const {
+    return core_.reach(-d) <= -d.dot(x) + std::max(near_, gap - radius_ + core_.deepest() / 50);
+  }
   /// Whether no point of the shape lies below x along d.
   bool is_lowest(const Vector& x, const Vector& d) const {
     return core_.reach(-d) <= -d.dot(x) + near_;
