@@ -263,4 +263,33 @@ class OnFloor {
   typename DynamicsOf<S, Law>::type dynamics_ = DynamicsOf<S, Law>::make();
 };
 
+/// Kinetic energy of a body of which the angular momentum is that at the end of the step, in the pose [J].
+template <class S>
+double energy_at(const Bodies<S>& bodies, std::size_t i, const typename S::Rotation& q,
+                 const typename S::Twist& v, const typename S::Rotation& end) {
+  const typename S::Angular momentum = bodies.inertia(i, end) * angular<S>(v);
+  return (bodies.grain_mass[i] * linear<S>(v).squaredNorm() +
+          momentum.dot(bodies.inertia(i, q).inverse() * momentum)) /
+         2;
+}
+
+/// A step, and the kinetic energy that the impulses of the bodies from `first` on add in it, in the configuration in
+/// which they act, also as the overlap correction turns it: that the inertia turns before and after changes the
+/// energy by (h w)^2.
+template <class S>
+double gain_of_step(auto& world, std::size_t first, double h) {
+  const Bodies<S> before = world.bodies;
+  world.step(h);
+  const Bodies<S>& after = world.bodies;
+  const auto energy = [](const Bodies<S>& bodies, std::size_t i, double time) {
+    Pose<S> middle = bodies.pose[i];
+    advance_pose<S>(middle, bodies.velocity[i], time);
+    return energy_at<S>(bodies, i, middle.rotation, bodies.velocity[i], bodies.pose[i].rotation);
+  };
+  double gain = 0;
+  for (std::size_t i = first; i < before.size(); ++i)
+    gain += energy(after, i, -h / 2) - energy(before, i, h / 2);
+  return gain;
+}
+
 }  // namespace landing

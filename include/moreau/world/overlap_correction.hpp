@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Overlaps come from rounding, from the linearization of rotations and from sweeps that did not
-// converge. They are corrected by displacements outside the velocity problem, which change neither
-// velocities nor kinetic energy: find the mass-weighted smallest shift d of all bodies with
+// converge. They are corrected by displacements outside the velocity problem, which change no kinetic energy:
+// spins turn with the bodies. Find the mass-weighted smallest shift d of all bodies with
 //
 //     change of the gap by d >= rate (-gap - slop)   where gap < -slop
 //     change of the gap by d >= -(gap + slop)        elsewhere (no new overlap)

@@ -374,6 +374,16 @@ class ImpulseDynamics {
     unknowns_.finish(problem_.delassus, context.contacts, team_);
   }
 
+  /// Turns the spins as the overlap correction turned the bodies: with their inertia, so that the kinetic energy stays.
+  void turn_spins() {
+    if (S::angular_dim == 1 || !is_shifted_) return;
+    team_.share_each(roots_.size(), 256, [&](std::size_t i) {
+      const typename S::Angular turn = angular<S>(correction_.shifts()[i]);
+      const typename S::Angular spin = angular<S>(after_[i]);
+      if (!turn.isZero(0)) angular<S>(after_[i]) = S::adjoint(S::exp(turn)) * spin;
+    });
+  }
+
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
   void velocities_after() {
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
@@ -443,6 +453,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
   report.friction += losses.friction;
   report.rolling += losses.rolling;
   report.dissipation += losses.dissipation;
+  turn_spins();
   const std::span<const Twist> after(after_);
   if constexpr (requires {
                   integrator_.advance_configuration(context.bodies, after, context.step, team_);
