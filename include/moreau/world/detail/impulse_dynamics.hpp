@@ -376,7 +376,7 @@ class ImpulseDynamics {
 
   /// Turns the spins as the overlap correction turned the bodies: with their inertia, so that the kinetic energy stays.
   void turn_spins() {
-    if (S::angular_dim == 1 || !is_shifted_) return;
+    if (!is_shifted_) return;
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
       const typename S::Angular turn = angular<S>(correction_.shifts()[i]);
       const typename S::Angular spin = angular<S>(after_[i]);
