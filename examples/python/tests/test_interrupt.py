@@ -6,7 +6,8 @@ import sys
 import time
 
 PROGRAM = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores the signal for what runs in its background
 sys.path.insert(0, {tests!r})
 from conftest import heap
 s = heap({shape!r}, count=60)
