@@ -12,7 +12,7 @@ endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 add_library(moreau_development INTERFACE)
-find_package(Threads REQUIRED)  # moreau/core/thread_team.hpp
+find_package(Threads REQUIRED)  # moreau/parallel/thread_team.hpp
 target_link_libraries(moreau_development INTERFACE moreau::moreau Threads::Threads)
 target_compile_options(moreau_development INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow)

@@ -44,7 +44,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
-  # For moreau/io/write_picture.hpp and moreau/io/read_mesh.hpp.
+  # For moreau/picture/write_picture.hpp and moreau/io/read_mesh.hpp.
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libpng-dev")
   set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Contact dynamics of rigid grains (headers)")

@@ -28,8 +28,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/moreau.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 #include "tiles.hpp"
 

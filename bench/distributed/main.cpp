@@ -18,13 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/distributed/distributed_simulation.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/measure/solid_fraction.hpp"
 #include "moreau/measure/stress.hpp"
 #include "moreau/moreau.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 #include "packing.hpp"
 

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/moreau.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/sample/spatial_order.hpp"
 
 namespace scenes {

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/sample/size_distribution.hpp"

@@ -23,7 +23,7 @@
 #include "moreau/io/csv.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/io/write_paraview.hpp"
-#include "moreau/io/write_picture.hpp"
+#include "moreau/picture/write_picture.hpp"
 
 #include "avalanche.hpp"
 

@@ -18,7 +18,7 @@
 
 #include "moreau/io/csv.hpp"
 #include "moreau/io/write_paraview.hpp"
-#include "moreau/io/write_picture.hpp"
+#include "moreau/picture/write_picture.hpp"
 #include "moreau/sample/ballast.hpp"
 
 using Law = moreau::SignoriniCoulomb<double>;

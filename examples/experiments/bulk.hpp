@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 #include "session.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <iostream>
 #include <map>
-#include <moreau/io/write_picture.hpp>
 #include <moreau/moreau.hpp>
+#include <moreau/picture/write_picture.hpp>
 #include <string>
 #include <vector>
 

@@ -11,8 +11,8 @@
 #include <span>
 
 #include "moreau/core/twist.hpp"
-#include "moreau/integrate/body_motion.hpp"
-#include "moreau/integrate/concepts.hpp"
+#include "moreau/motion/body_motion.hpp"
+#include "moreau/motion/concepts.hpp"
 
 struct ExplicitContacts {
   /// Leaves the bodies where they are, and stores their angular momenta L = I w.

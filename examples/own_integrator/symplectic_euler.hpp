@@ -8,7 +8,7 @@
 #include <span>
 
 #include "moreau/core/twist.hpp"
-#include "moreau/integrate/concepts.hpp"
+#include "moreau/motion/concepts.hpp"
 
 /// v += h M^-1 f, then q += h v; the angular momentum L += h torque is the same about all axes.
 struct SymplecticEuler {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
-#include <moreau/io/write_picture.hpp>
 #include <moreau/moreau.hpp>
+#include <moreau/picture/write_picture.hpp>
 #include <moreau/shape/faceted.hpp>
 #include <moreau/shape/support_box.hpp>
 #include <stdexcept>

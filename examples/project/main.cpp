@@ -5,7 +5,7 @@
 #include <moreau/measure/rest_test.hpp>
 #include <moreau/moreau.hpp>
 #ifdef WITH_PICTURE
-#include <moreau/io/write_picture.hpp>
+#include <moreau/picture/write_picture.hpp>
 #endif
 
 int main() {

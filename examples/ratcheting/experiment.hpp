@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/world/simulation.hpp"
 

@@ -9,11 +9,11 @@
 #include <tuple>
 
 #include "moreau/core/serialize.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
-#include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/motion/moreau_jean.hpp"
+#include "moreau/motion/velocity_verlet.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/simulation.hpp"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "moreau/io/csv.hpp"
-#include "moreau/io/render_packing.hpp"
 #include "moreau/io/vtk.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/picture/render_packing.hpp"
 
 #include "experiment.hpp"
 

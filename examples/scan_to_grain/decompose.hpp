@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "moreau/shape/facet_mesh.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
 /// Limits of a convex decomposition.

@@ -10,9 +10,9 @@
 
 #include "moreau/io/output_file.hpp"
 #include "moreau/io/read_mesh.hpp"
-#include "moreau/shape/check_mesh.hpp"
-#include "moreau/shape/convex_of_mesh.hpp"
-#include "moreau/shape/repair_mesh.hpp"
+#include "moreau/mesh/check_mesh.hpp"
+#include "moreau/mesh/convex_of_mesh.hpp"
+#include "moreau/mesh/repair_mesh.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
 #include "decompose.hpp"

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "moreau/boundary/sink.hpp"
-#include "moreau/io/write_picture.hpp"
+#include "moreau/picture/write_picture.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/sample/compound_ballast.hpp"
 #include "moreau/sample/random_deposition.hpp"

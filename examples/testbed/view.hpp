@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "moreau/core/space.hpp"
-#include "moreau/shape/surface_mesh.hpp"
+#include "moreau/mesh/surface_mesh.hpp"
 
 namespace testbed {
 

@@ -16,7 +16,7 @@
 //   residual                     measure_residual()             solve/measure_residual.hpp
 #pragma once
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"

@@ -12,7 +12,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/detect/broad/all_pairs.hpp"
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/io/snapshot.hpp"
@@ -22,6 +21,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/moreau.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/sample/ballast.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
 

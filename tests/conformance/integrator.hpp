@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/integrate/concepts.hpp"
+#include "moreau/motion/concepts.hpp"
 
 namespace conformance {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "moreau/detect/broad/cell_grid.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -16,6 +15,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/motion/moreau_jean.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
 #include "conformance/world.hpp"

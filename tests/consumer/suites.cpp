@@ -2,9 +2,9 @@
 // The conformance suites of the installed library, each applied to one model of its concept.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "moreau/detect/broad/cell_grid.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/motion/moreau_jean.hpp"
 #include "moreau/shape/ball.hpp"
 
 #include "conformance/broad_phase.hpp"

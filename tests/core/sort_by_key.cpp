@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/core/detail/sort_by_key.hpp"
+#include "moreau/core/sort_by_key.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "moreau/core/detail/z_curve.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/z_curve.hpp"
 
 namespace {
 

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "moreau/detect/collide.hpp"
+#include "moreau/mesh/convex_of_mesh.hpp"
 #include "moreau/sample/concave_mesh.hpp"
 #include "moreau/sample/random_rotation.hpp"
 #include "moreau/shape/capsule.hpp"
-#include "moreau/shape/convex_of_mesh.hpp"
 #include "moreau/shape/regular_shape.hpp"
 
 #include "conformance/random_direction.hpp"

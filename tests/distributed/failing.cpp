@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "moreau/distributed/distributed_simulation.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/motion/moreau_jean.hpp"
 #include "moreau/shape/ball.hpp"
 
 namespace {

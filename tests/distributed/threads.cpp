@@ -2,8 +2,8 @@
 // Threads within the processes change no bit.
 #include <doctest/doctest.h>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 #include "distributed/worlds.hpp"
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "moreau/detect/pairs/collide_mesh_wall.hpp"
+#include "moreau/mesh/check_mesh.hpp"
+#include "moreau/mesh/convex_of_mesh.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
+#include "moreau/mesh/repair_mesh.hpp"
 #include "moreau/shape/ball.hpp"
-#include "moreau/shape/check_mesh.hpp"
-#include "moreau/shape/convex_of_mesh.hpp"
-#include "moreau/shape/facet_mesh.hpp"
-#include "moreau/shape/mesh_wall.hpp"
 #include "moreau/shape/regular_shape.hpp"
-#include "moreau/shape/repair_mesh.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
 #include "bytes.hpp"

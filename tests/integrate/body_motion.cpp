@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/integrate/body_motion.hpp"
+#include "moreau/motion/body_motion.hpp"
 
 #include <doctest/doctest.h>
 #include <random>

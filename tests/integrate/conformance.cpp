@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/integrate/moreau_jean.hpp"
-#include "moreau/integrate/velocity_verlet.hpp"
+#include "moreau/motion/moreau_jean.hpp"
+#include "moreau/motion/velocity_verlet.hpp"
 
 #include "conformance/integrator.hpp"
 #include "own_integrator/explicit_contacts.hpp"

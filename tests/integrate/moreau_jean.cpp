@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/integrate/moreau_jean.hpp"
+#include "moreau/motion/moreau_jean.hpp"
 
 #include <cmath>
 #include <doctest/doctest.h>

@@ -17,11 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "moreau/mesh/check_mesh.hpp"
+#include "moreau/mesh/convex_of_mesh.hpp"
+#include "moreau/mesh/repair_mesh.hpp"
 #include "moreau/sample/concave_mesh.hpp"
-#include "moreau/shape/check_mesh.hpp"
 #include "moreau/shape/compound.hpp"
-#include "moreau/shape/convex_of_mesh.hpp"
-#include "moreau/shape/repair_mesh.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
 #include "io/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "moreau/io/write_picture.hpp"
+#include "moreau/picture/write_picture.hpp"
 
 #include <cstddef>
 #include <doctest/doctest.h>

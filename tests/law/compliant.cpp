@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "moreau/contact/detail/warm_start.hpp"
+#include "moreau/contact/warm_start.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/frictionless.hpp"

@@ -10,8 +10,8 @@
 #include <concepts>
 #include <limits>
 
-#include "moreau/contact/local_block.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/law/local_block.hpp"
 
 namespace law_oracle {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/placed.hpp"
+#include "moreau/motion/bodies.hpp"
 
 #include "law/vertices_on_floor.hpp"
 

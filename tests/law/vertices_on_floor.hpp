@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
-#include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/motion/moreau_jean.hpp"
+#include "moreau/motion/velocity_verlet.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"

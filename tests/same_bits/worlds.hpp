@@ -14,10 +14,10 @@
 #include <memory>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 

@@ -6,12 +6,12 @@
 #include <random>
 #include <stdexcept>
 
+#include "moreau/mesh/surface_mesh.hpp"
 #include "moreau/sample/compound_ballast.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/capsule.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/regular_shape.hpp"
-#include "moreau/shape/surface_mesh.hpp"
 
 #include "conformance/shape.hpp"
 #include "detect/shapes.hpp"

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "moreau/mesh/check_mesh.hpp"
+#include "moreau/mesh/convex_of_mesh.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
+#include "moreau/mesh/repair_mesh.hpp"
 #include "moreau/sample/concave_mesh.hpp"
-#include "moreau/shape/check_mesh.hpp"
-#include "moreau/shape/convex_of_mesh.hpp"
-#include "moreau/shape/facet_mesh.hpp"
 #include "moreau/shape/regular_shape.hpp"
-#include "moreau/shape/repair_mesh.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
 #include "shape/message_of.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/body/mobility.hpp"
+#include "moreau/motion/mobility.hpp"
 
 #include "solve/assembly.hpp"
 

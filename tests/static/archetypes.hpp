@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "moreau/detect/broad_phase.hpp"
-#include "moreau/integrate/concepts.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
+#include "moreau/motion/concepts.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"

@@ -3,9 +3,6 @@
 // write.
 #include <span>
 
-#include "moreau/integrate/concepts.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
-#include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -13,6 +10,9 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/motion/concepts.hpp"
+#include "moreau/motion/moreau_jean.hpp"
+#include "moreau/motion/velocity_verlet.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"

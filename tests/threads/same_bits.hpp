@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The number of threads has no influence on the results.
-#include "moreau/core/thread_team.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 #include <atomic>
 #include <barrier>

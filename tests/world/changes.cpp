@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "moreau/boundary/servo.hpp"
-#include "moreau/contact/detail/warm_start.hpp"
+#include "moreau/contact/warm_start.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/ball.hpp"
-#include "moreau/shape/facet_mesh.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/solve/proximal_fallback.hpp"
 #include "moreau/world/detail/enlarged_boxes.hpp"

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/coordination.hpp"
 #include "moreau/measure/pair_forces.hpp"
 #include "moreau/measure/solid_fraction.hpp"
+#include "moreau/parallel/thread_team.hpp"
 #include "moreau/shape/ball.hpp"
 
 #include "conformance/shape.hpp"

@@ -12,10 +12,10 @@
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/moreau.hpp"
 #include "moreau/sample/concave_mesh.hpp"
 #include "moreau/shape/compound.hpp"
-#include "moreau/shape/facet_mesh.hpp"
 
 #include "conformance/random_direction.hpp"
 #include "detect/mesh_surfaces.hpp"

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/integrate/moreau_jean.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/motion/moreau_jean.hpp"
 #include "moreau/sample/random_rotation.hpp"
 
 #include "io/temporary_folder.hpp"

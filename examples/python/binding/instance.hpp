@@ -10,17 +10,17 @@
 
 #include "moreau/boundary/drive.hpp"
 #include "moreau/boundary/servo.hpp"
-#include "moreau/core/thread_team.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/io/write_paraview.hpp"
 #include "moreau/measure/check.hpp"
 #include "moreau/measure/energy.hpp"
 #include "moreau/measure/solid_fraction.hpp"
 #include "moreau/measure/stress.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 #include "engine.hpp"
 #ifndef MOREAU_WITHOUT_PNG
-#include "moreau/io/write_picture.hpp"
+#include "moreau/picture/write_picture.hpp"
 #endif
 
 #include "world.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "moreau/body/bodies.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace validation {

@@ -24,17 +24,17 @@
 #include <type_traits>
 #include <vector>
 
-#include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/contact_lanes.hpp"
-#include "moreau/contact/detail/effective_radius.hpp"
-#include "moreau/contact/local_block.hpp"
-#include "moreau/contact/rolling_block.hpp"
-#include "moreau/core/detail/compiled_once.hpp"
-#include "moreau/core/detail/prefetch.hpp"
+#include "moreau/contact/effective_radius.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/small_matrix.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/law/local_block.hpp"
+#include "moreau/law/rolling_block.hpp"
+#include "moreau/motion/mobility.hpp"
+#include "moreau/parallel/team.hpp"
+#include "moreau/simd/prefetch.hpp"
 
 namespace moreau {
 

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/core/erase_at.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/value.hpp"
 #include "moreau/detect/manifold.hpp"

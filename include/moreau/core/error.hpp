@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 
 /// Assertion in a kernel. It is checked only in builds without NDEBUG. If the macro is defined
 /// before the first include, that definition is used.

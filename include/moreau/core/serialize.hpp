@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a class supports serialization: writing an object to a file and reading it back
-// (io/detail/archive.hpp).
+// (io/archive.hpp).
 //
 // An aggregate with at most eight members, such as Tolerances, needs no code. A class with private
 // members lists the members once, for both directions:
@@ -17,7 +17,7 @@
 
 #include <tuple>  // for the classes that include this header
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 
 namespace moreau {
 

@@ -12,7 +12,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 
 namespace moreau {
 

@@ -19,8 +19,8 @@
 #include <concepts>
 #include <numbers>
 
+#include "moreau/core/compiler.hpp"
 #include "moreau/core/components.hpp"
-#include "moreau/core/detail/compiler.hpp"
 #include "moreau/core/small_matrix.hpp"
 
 namespace moreau {

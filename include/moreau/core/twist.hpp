@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 
 namespace moreau {
 

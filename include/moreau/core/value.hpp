@@ -14,7 +14,7 @@
 
 #include <concepts>
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 
 namespace moreau {
 

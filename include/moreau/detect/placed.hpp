@@ -16,14 +16,14 @@
 #include <variant>
 #include <vector>
 
-#include "moreau/core/detail/prefetch.hpp"
-#include "moreau/core/detail/rows.hpp"
+#include "moreau/detect/detail/rows.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/shape/segment.hpp"
+#include "moreau/simd/prefetch.hpp"
 
 namespace moreau {
 

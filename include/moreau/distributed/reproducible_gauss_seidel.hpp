@@ -14,7 +14,7 @@
 //
 //  - Sums over contacts are exact until they are rounded once (detail/exact_sum.hpp).
 //  - What belongs to a contact or a body is computed by functions that are compiled once
-//    (core/detail/compiled_once.hpp): the place in a loop depends on the process.
+//    (core/compiled_once.hpp): the place in a loop depends on the process.
 //
 // The sweeps have Nesterov's momentum.
 #pragma once
@@ -30,7 +30,7 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/detail/compiled_once.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/distributed/detail/exact_sum.hpp"
 #include "moreau/distributed/detail/ordered_sharing.hpp"
@@ -38,8 +38,8 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/measure_residual.hpp"
+#include "moreau/solve/nesterov_momentum.hpp"
 #include "moreau/solve/solve_report.hpp"
 #include "moreau/solve/stop_test.hpp"
 

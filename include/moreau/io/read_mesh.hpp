@@ -25,8 +25,8 @@
 #include "moreau/io/detail/read_obj.hpp"
 #include "moreau/io/detail/read_ply.hpp"
 #include "moreau/io/detail/read_stl.hpp"
-#include "moreau/shape/facet_mesh.hpp"
-#include "moreau/shape/repair_mesh.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
+#include "moreau/mesh/repair_mesh.hpp"
 
 namespace moreau {
 
@@ -118,7 +118,7 @@ void require_unit(T unit, const char* function) {
 }  // namespace detail
 
 /// Reads all groups of a file into one mesh. The mesh is not checked: call require_solid() or
-/// require_surface() (shape/check_mesh.hpp), and the repairs of shape/repair_mesh.hpp before, if
+/// require_surface() (mesh/check_mesh.hpp), and the repairs of mesh/repair_mesh.hpp before, if
 /// they are wanted. Given the path as the name of the function, their messages name the file.
 /// @param path of an .obj, .stl or .ply file
 /// @param unit length of one unit of the file [m]: 1e-3 for a file in millimetres

@@ -39,8 +39,8 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/detail/compiled_once.hpp"
-#include "moreau/io/detail/archive.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/io/archive.hpp"
 #include "moreau/io/detail/crc64.hpp"
 #include "moreau/io/detail/input_file.hpp"
 #include "moreau/io/output_file.hpp"

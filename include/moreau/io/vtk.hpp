@@ -28,9 +28,9 @@
 #include "moreau/io/vtk_poly_data.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/measure/grid_field.hpp"
+#include "moreau/mesh/surface_mesh.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
-#include "moreau/shape/surface_mesh.hpp"
 
 namespace moreau {
 

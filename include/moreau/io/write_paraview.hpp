@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
-#include "moreau/io/detail/wall_surface.hpp"
 #include "moreau/io/output_file.hpp"
 #include "moreau/io/vtk.hpp"
 #include "moreau/io/vtk_poly_data.hpp"
+#include "moreau/io/wall_surface.hpp"
 #include "moreau/measure/force_chains.hpp"
 
 namespace moreau {

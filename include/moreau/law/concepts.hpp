@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "moreau/contact/lane_block.hpp"
-#include "moreau/contact/local_block.hpp"
-#include "moreau/contact/rolling_block.hpp"
+#include "moreau/law/lane_block.hpp"
+#include "moreau/law/local_block.hpp"
+#include "moreau/law/rolling_block.hpp"
 
 namespace moreau {
 

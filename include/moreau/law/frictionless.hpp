@@ -7,11 +7,11 @@
 #include <concepts>
 #include <tuple>
 
-#include "moreau/contact/lane_block.hpp"
-#include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/law/detail/newton_restitution.hpp"
+#include "moreau/law/lane_block.hpp"
+#include "moreau/law/local_block.hpp"
 
 namespace moreau {
 

@@ -20,7 +20,7 @@ struct ContactMotion {
   /// Mass that the point bears [kg]. Of two balls it is 1 / (1/m_a + 1/m_b), with 1/m = 0 for a wall. At a
   /// vertex of a grain it is smaller, because the grain can turn. n points of a face that lands flat
   /// have 1/n of it each, so that a dashpot 2 beta sqrt(k m) has the damping ratio beta for the face, too.
-  /// contact/detail/effective_mass.hpp has the definition.
+  /// contact/effective_mass.hpp has the definition.
   typename S::Scalar effective_mass;
   typename S::Scalar effective_radius;  ///< 1 / (1/R_a + 1/R_b) with R from the centre of mass to
                                         ///< the point; a wall has no curvature [m]

@@ -21,11 +21,11 @@
 #include <limits>
 #include <tuple>
 
-#include "moreau/contact/rolling_block.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/detail/rolling_lanes.hpp"
+#include "moreau/law/rolling_block.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {

@@ -14,12 +14,12 @@
 #include <limits>
 #include <tuple>
 
-#include "moreau/contact/local_block.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/law/detail/coulomb_lanes.hpp"
 #include "moreau/law/detail/newton_restitution.hpp"
+#include "moreau/law/local_block.hpp"
 
 namespace moreau {
 

@@ -28,12 +28,12 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
+#include "moreau/mesh/surface_mesh.hpp"
 #include "moreau/shape/ball.hpp"
-#include "moreau/shape/facet_mesh.hpp"
-#include "moreau/shape/surface_mesh.hpp"
 
 namespace moreau {
 

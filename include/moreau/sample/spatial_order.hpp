@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "moreau/core/components.hpp"
-#include "moreau/core/detail/z_curve.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/z_curve.hpp"
 
 namespace moreau {
 

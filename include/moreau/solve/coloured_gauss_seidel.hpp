@@ -37,8 +37,8 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/coloured_sweeps.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/island_solver.hpp"

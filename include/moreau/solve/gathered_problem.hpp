@@ -11,11 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "moreau/body/mobility.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/motion/mobility.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"
 #include "moreau/solve/friction_problem.hpp"

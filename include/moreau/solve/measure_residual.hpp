@@ -7,8 +7,8 @@
 #include <limits>
 #include <span>
 
-#include "moreau/core/team.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"

@@ -16,7 +16,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/core/team.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/friction_problem.hpp"

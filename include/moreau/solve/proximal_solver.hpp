@@ -21,8 +21,8 @@
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/solve/detail/block_system.hpp"
 #include "moreau/solve/detail/coulomb_newton.hpp"
-#include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/friction_problem.hpp"
+#include "moreau/solve/nesterov_momentum.hpp"
 
 namespace moreau {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "moreau/core/detail/compiler.hpp"
+#include "moreau/core/compiler.hpp"
 
 namespace moreau {
 

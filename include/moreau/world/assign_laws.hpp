@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
 
 namespace moreau {
 

@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <span>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/core/value.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/world/detail/assembly.hpp"
 

@@ -21,18 +21,18 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
-#include "moreau/core/detail/compiled_once.hpp"
-#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/erase_at.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"

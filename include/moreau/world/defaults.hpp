@@ -4,10 +4,10 @@
 #include <type_traits>
 
 #include "moreau/detect/broad/cell_grid.hpp"
-#include "moreau/integrate/moreau_jean.hpp"
-#include "moreau/integrate/velocity_verlet.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
+#include "moreau/motion/moreau_jean.hpp"
+#include "moreau/motion/velocity_verlet.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"

@@ -9,7 +9,7 @@
 // by a few projected Gauss-Seidel sweeps over the normals. The sweeps carry a shift over few contacts. The shifts of
 // columns, arches and other small islands in which no more pairs touch than there are bodies are those of a direct
 // method: d is a motion under frictionless impulses with the free normal velocity -rate depth
-// (solve/detail/island_newton.hpp).
+// (solve/island_newton.hpp).
 //
 // No body is moved by more than max_shift in a step: the gaps are linear in d, and contacts beyond the margin
 // are not known, only for small d. The report has the work of the external forces along the shift.
@@ -27,10 +27,10 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/solve/detail/contact_islands.hpp"
-#include "moreau/solve/detail/island_newton.hpp"
+#include "moreau/parallel/team.hpp"
+#include "moreau/solve/contact_islands.hpp"
+#include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/point_geometry.hpp"
 

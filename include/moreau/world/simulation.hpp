@@ -13,18 +13,18 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/core/value.hpp"
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"

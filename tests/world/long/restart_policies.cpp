@@ -2,7 +2,6 @@
 // Restarts with every kind of stored state that a law, a shape or a boundary has.
 #include <doctest/doctest.h>
 
-#include "moreau/core/thread_team.hpp"
 #include "moreau/detect/broad/cell_grid.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
@@ -10,6 +9,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/moreau.hpp"
+#include "moreau/parallel/thread_team.hpp"
 
 using namespace moreau;
 

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <limits>
 
-#include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/lane_block.hpp"
-#include "moreau/contact/local_block.hpp"
-#include "moreau/core/detail/lane_algebra.hpp"
+#include "moreau/law/lane_block.hpp"
+#include "moreau/law/local_block.hpp"
+#include "moreau/motion/mobility.hpp"
+#include "moreau/simd/lane_algebra.hpp"
 
 namespace moreau::detail {
 

@@ -41,7 +41,7 @@
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/shape_kinds.hpp"
 #include "moreau/detect/tolerance.hpp"
-#include "moreau/shape/mesh_wall.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
 
 namespace moreau {
 

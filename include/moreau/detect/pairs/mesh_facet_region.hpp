@@ -11,7 +11,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/detect/pairs/mesh_neighbours.hpp"
 #include "moreau/detect/pairs/nearest_on_facet.hpp"
-#include "moreau/shape/mesh_wall.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
 
 namespace moreau::detail {
 

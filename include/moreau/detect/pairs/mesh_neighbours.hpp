@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
-#include "moreau/shape/mesh_wall.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
 
 namespace moreau {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/distributed/communicator.hpp"
 #include "moreau/distributed/detail/rank_topology.hpp"
+#include "moreau/motion/bodies.hpp"
 
 namespace moreau::detail {
 

@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/io/detail/archive.hpp"
+#include "moreau/io/archive.hpp"
+#include "moreau/motion/bodies.hpp"
 
 namespace moreau::detail {
 

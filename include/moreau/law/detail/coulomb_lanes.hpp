@@ -21,7 +21,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "moreau/contact/lane_block.hpp"
+#include "moreau/law/lane_block.hpp"
 
 namespace moreau::detail {
 

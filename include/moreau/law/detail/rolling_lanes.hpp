@@ -23,8 +23,8 @@
 #include <array>
 #include <cstddef>
 
-#include "moreau/contact/rolling_block.hpp"
 #include "moreau/law/detail/coulomb_lanes.hpp"
+#include "moreau/law/rolling_block.hpp"
 
 namespace moreau::detail {
 

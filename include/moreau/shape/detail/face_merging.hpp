@@ -25,7 +25,7 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/shape/detail/box_tree.hpp"
+#include "moreau/shape/box_tree.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
 #include "moreau/shape/detail/triangle_hull.hpp"
 

@@ -12,9 +12,9 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/core/detail/prefetch.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/simd/prefetch.hpp"
 
 namespace moreau {
 

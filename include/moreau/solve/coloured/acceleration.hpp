@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "moreau/solve/detail/anderson_mixing.hpp"
-#include "moreau/solve/detail/nesterov_momentum.hpp"
 #include "moreau/solve/detail/stagnation_test.hpp"
+#include "moreau/solve/nesterov_momentum.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {

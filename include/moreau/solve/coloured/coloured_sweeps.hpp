@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/team.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/acceleration.hpp"
 #include "moreau/solve/coloured/group_kernel.hpp"
 #include "moreau/solve/coloured/schedule.hpp"

@@ -25,9 +25,9 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/detail/sort_by_key.hpp"
-#include "moreau/core/team.hpp"
+#include "moreau/core/sort_by_key.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/packs.hpp"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/detail/compiled_once.hpp"
-#include "moreau/core/team.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"

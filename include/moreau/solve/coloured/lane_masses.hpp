@@ -10,9 +10,9 @@
 
 #include <cstddef>
 
-#include "moreau/body/mobility.hpp"
-#include "moreau/contact/lane_block.hpp"
-#include "moreau/core/detail/lane_algebra.hpp"
+#include "moreau/law/lane_block.hpp"
+#include "moreau/motion/mobility.hpp"
+#include "moreau/simd/lane_algebra.hpp"
 
 namespace moreau::detail {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/detail/cache_lines.hpp"
-#include "moreau/core/detail/compiled_once.hpp"
-#include "moreau/core/team.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/parallel/team.hpp"
+#include "moreau/simd/cache_lines.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 
 namespace moreau::detail {

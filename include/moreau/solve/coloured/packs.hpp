@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "moreau/contact/lane_block.hpp"
 #include "moreau/law/concepts.hpp"
-#include "moreau/law/detail/law_lanes.hpp"
+#include "moreau/law/lane_block.hpp"
+#include "moreau/law/law_lanes.hpp"
 
 namespace moreau::detail {
 

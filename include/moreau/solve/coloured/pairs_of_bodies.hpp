@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/core/team.hpp"
+#include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
 

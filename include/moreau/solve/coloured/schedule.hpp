@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "moreau/core/team.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/pair_colouring.hpp"
 
 namespace moreau::detail {

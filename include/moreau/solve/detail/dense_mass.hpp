@@ -5,8 +5,8 @@
 
 #include <cstddef>
 
-#include "moreau/body/mobility.hpp"
-#include "moreau/core/detail/lane_algebra.hpp"
+#include "moreau/motion/mobility.hpp"
+#include "moreau/simd/lane_algebra.hpp"
 
 namespace moreau::detail {
 

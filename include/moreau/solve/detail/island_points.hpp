@@ -19,10 +19,10 @@
 #include <span>
 #include <vector>
 
-#include "moreau/contact/local_block.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/law/local_block.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"
 
 namespace moreau::detail {

@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
+#include "moreau/solve/contact_islands.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/detail/contact_islands.hpp"
-#include "moreau/solve/detail/island_newton.hpp"
+#include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau::detail {

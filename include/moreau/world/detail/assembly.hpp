@@ -14,21 +14,21 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/aabb.hpp"
-#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/core/erase_at.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
-#include "moreau/shape/mesh_wall.hpp"
 
 namespace moreau {
 

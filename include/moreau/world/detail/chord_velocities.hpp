@@ -36,10 +36,10 @@
 #include <span>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/one_of.hpp"

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <span>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/detail/warm_start.hpp"
-#include "moreau/core/detail/compiled_once.hpp"
-#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/contact/warm_start.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "moreau/contact/detail/warm_start.hpp"
+#include "moreau/contact/warm_start.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/concepts.hpp"

@@ -11,17 +11,17 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/body_delassus.hpp"
-#include "moreau/contact/detail/effective_mass.hpp"
-#include "moreau/contact/detail/effective_radius.hpp"
-#include "moreau/contact/detail/warm_start.hpp"
-#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/contact/effective_mass.hpp"
+#include "moreau/contact/effective_radius.hpp"
+#include "moreau/contact/warm_start.hpp"
+#include "moreau/core/erase_at.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/law/regularized.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 

@@ -26,18 +26,18 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/detail/split_shared_bodies.hpp"
 #include "moreau/solve/shared_bodies.hpp"
+#include "moreau/solve/split_shared_bodies.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"

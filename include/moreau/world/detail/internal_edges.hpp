@@ -27,11 +27,11 @@
 #include <optional>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/placed.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/shape/concepts.hpp"
 
 namespace moreau::detail {

@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/pairs/collide_compound.hpp"
 #include "moreau/detect/pairs/collide_mesh_wall.hpp"
 #include "moreau/detect/placed.hpp"
-#include "moreau/shape/mesh_wall.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/detail/pair_filter.hpp"
 

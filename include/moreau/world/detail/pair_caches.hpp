@@ -10,8 +10,8 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/core/detail/erase_at.hpp"
-#include "moreau/core/detail/merge_join.hpp"
+#include "moreau/core/erase_at.hpp"
+#include "moreau/core/merge_join.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"

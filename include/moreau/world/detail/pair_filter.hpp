@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/detail/erase_at.hpp"
+#include "moreau/core/erase_at.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/broad_phase.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "moreau/body/mobility.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/motion/mobility.hpp"
 
 namespace moreau::detail {
 

@@ -5,9 +5,9 @@
 #include <concepts>
 
 #include "moreau/detect/broad_phase.hpp"
-#include "moreau/integrate/concepts.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/regularized.hpp"
+#include "moreau/motion/concepts.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 

@@ -40,7 +40,7 @@
 #include <span>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
+#include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "moreau/body/bodies.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
 
 namespace moreau::detail {
 

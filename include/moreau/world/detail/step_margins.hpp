@@ -35,13 +35,13 @@
 #include <span>
 #include <vector>
 
-#include "moreau/body/bodies.hpp"
-#include "moreau/core/team.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
-#include "moreau/core/detail/prefetch.hpp"
-#include "moreau/core/detail/z_curve.hpp"
-#include "moreau/core/team.hpp"
+#include "moreau/core/z_curve.hpp"
 #include "moreau/detect/broad_phase.hpp"
+#include "moreau/parallel/team.hpp"
+#include "moreau/simd/prefetch.hpp"
 
 namespace moreau::detail {
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// Values that contacts keep from the step before. A contact is the same in two steps if its key is.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/merge_join.hpp"
+#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/parallel/team.hpp"
+
+namespace moreau {
+
+/// A vector in the frame of a contact of the step before, in the frame of the contact in this step:
+/// through world axes. It is the first guess of an impulse.
+template <class S>
+MOREAU_COMPILED_ONCE typename S::Vector turned(const Contact<S>& before, const Contact<S>& now,
+                                               const typename S::Vector& vector) {
+  return transposed_product(now.frame, product(before.frame, vector));
+}
+
+/// How the springs of contacts turn between two detections. A spring in the tangential plane turns
+/// with the mean of the rotations of the two bodies, about the normal as well, and then by the least
+/// rotation that takes its normal to that of this step. A common rotation of both bodies therefore
+/// changes no component of a spring in the contact frame. To first order this is the rotation of the
+/// tangential force in P. A. Cundall, Int. J. Rock Mech. Min. Sci. 25 (1988) 107. The component along
+/// the normal is kept: as a vector of the world it would become a tangential component wherever the
+/// normal turns.
+template <class S>
+struct SpringTurn {
+  std::span<const typename S::Twist> velocity;  ///< one per body, world axes [m/s, rad/s]
+  typename S::Scalar duration;                  ///< between the detections, at this velocity [s]
+
+  /// The frame of a contact of the step before after the rotation: orthonormal columns, the first is
+  /// the normal of `now`.
+  typename S::Matrix axes(const Contact<S>& before, const Contact<S>& now) const {
+    using Scalar = typename S::Scalar;
+    const typename S::Angular mean =
+        (angular<S>(velocity[now.a]) + angular<S>(velocity[now.b])) * (duration / 2);
+    typename S::Matrix axes = S::exp(mean).toRotationMatrix() * before.frame;
+    const typename S::Vector normal = now.frame.col(0), sum = axes.col(0) + normal;
+    // |sum|^2 = 2 (1 + cos of the angle between the normals)
+    const Scalar square = std::max(sum.squaredNorm(), std::numeric_limits<Scalar>::epsilon());
+    for (int k = 1; k < S::dim; ++k) axes.col(k) -= 2 * axes.col(k).dot(normal) / square * sum;
+    axes.col(0) = normal;
+    return axes;
+  }
+  /// A vector in the frame of a contact of the step before, in the frame of the contact in this step.
+  MOREAU_COMPILED_ONCE typename S::Vector operator()(const Contact<S>& before,
+                                                     const Contact<S>& now,
+                                                     const typename S::Vector& vector) const {
+    if (vector.template tail<S::dim - 1>().isZero(0)) return vector;
+    typename S::Vector carried = transposed_product(now.frame, product(axes(before, now), vector));
+    carried[0] = vector[0];  // to the last bit
+    return carried;
+  }
+};
+
+/// Carries vectors in contact frames, and the variants of the laws, over to the contacts of the same keys.
+/// Contacts without a predecessor get zero.
+/// @param before,now each sorted by its keys
+/// @param old        one per contact of `before`
+/// @param out        out: one per contact of `now`
+/// @param turn       turned() or a SpringTurn
+/// @param team       threads that share the work
+/// @returns how many contacts have a predecessor
+template <class S, class Turn>
+std::size_t carry(const Contacts<S>& before, Contacts<S>& now,
+                  const std::vector<typename S::Vector>& old, std::vector<typename S::Vector>& out,
+                  const Turn& turn, const Team& team = {}) {
+  struct Count {
+    std::size_t value = 0;
+    void add(const Count& other) { value += other.value; }
+  };
+  out.resize(now.size());
+  return detail::sum_of_parts<Count>(
+             team, now.size(),
+             [&](std::size_t begin, std::size_t end) -> Count {
+               std::fill(out.begin() + std::ptrdiff_t(begin), out.begin() + std::ptrdiff_t(end),
+                         S::Vector::Zero());
+               if (begin == end) return {};
+               const auto first =
+                   std::lower_bound(before.keys.begin(), before.keys.end(), now.keys[begin]);
+               const auto skipped = std::size_t(first - before.keys.begin());
+               const std::span some = std::span(now.keys).subspan(begin, end - begin);
+               return {merge_join(some, std::span(before.keys).subspan(skipped),
+                                  [&](std::size_t i, std::size_t j) {
+                                    i += begin;
+                                    j += skipped;
+                                    out[i] = turn(before.points[j], now.points[i], old[j]);
+                                    now.points[i].variant = before.points[j].variant;
+                                  })};
+             })
+      .value;
+}
+
+/// Makes the impulses of the step before [N s] the first guess of this step.
+/// @param before,now each sorted by its keys
+/// @returns how many contacts have a predecessor
+template <class S>
+std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now, const Team& team = {}) {
+  return carry(before, now, before.impulses, now.impulses, turned<S>, team);
+}
+
+/// Makes the impulses of the step before [N s] the memory of the springs in this step.
+/// @param before,now each sorted by its keys
+/// @returns how many contacts have a predecessor
+template <class S>
+std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now, const SpringTurn<S>& turn,
+                             const Team& team = {}) {
+  return carry(before, now, before.impulses, now.impulses, turn, team);
+}
+
+namespace detail {
+
+/// Calls receive(i, j) for each contact j of the step before that has a memory and whose key is gone: i is
+/// the nearest contact of the same pair of bodies for which may_receive(key of i). Nothing is called if
+/// there is none.
+/// @param before,now each sorted by its keys
+/// @param memory     vectors, one per contact of `before`
+template <class S>
+void for_each_heir(const Contacts<S>& before, const Contacts<S>& now, const auto& memory,
+                   const auto& may_receive, const auto& receive) {
+  const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
+  const auto begin = now.keys.begin(), end = now.keys.end();
+  auto next = begin;  // the first contact whose key is not below
+  for (std::size_t j = 0; j < before.size(); ++j) {
+    const ContactKey& key = before.keys[j];
+    while (next != end && *next < key) ++next;
+    if ((next != end && *next == key) || memory[j].isZero(0)) continue;
+    auto first = next, last = next;
+    while (first != begin && pair_of(*(first - 1)) == pair_of(key)) --first;
+    while (last != end && pair_of(*last) == pair_of(key)) ++last;
+    const auto distance = [&](auto it) {
+      return (now.points[std::size_t(it - now.keys.begin())].lever_a - before.points[j].lever_a)
+          .squaredNorm();
+    };
+    auto nearest = last;
+    for (auto it = first; it != last; ++it)
+      if (may_receive(*it) && (nearest == last || distance(it) < distance(nearest))) nearest = it;
+    if (nearest != last) receive(std::size_t(nearest - now.keys.begin()), j);
+  }
+}
+
+}  // namespace detail
+
+/// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of
+/// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
+/// contact. A contact without an impulse of its own takes the variant of the law, too.
+/// @param before,now each sorted by its keys; the impulses of `now` are those of
+///                   warm_start() or remember_springs()
+/// @param turn       turned() or a SpringTurn
+/// @returns how many contacts handed their impulse over
+template <class S, class Turn>
+std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now, const Turn& turn) {
+  std::size_t count = 0;
+  detail::for_each_heir<S>(
+      before, now, before.impulses, [](const ContactKey&) { return true; },
+      [&](std::size_t i, std::size_t j) {
+        if (now.impulses[i].isZero(0)) now.points[i].variant = before.points[j].variant;
+        now.impulses[i] += turn(before.points[j], now.points[i], before.impulses[j]);
+        ++count;
+      });
+  return count;
+}
+
+/// Hands the memory of contacts whose key is gone to the nearest contact of the same pair of bodies
+/// that is new and has no memory yet. Unlike impulses, stretches of springs are not added: a sum would
+/// have more energy than its parts.
+/// @param before,now each sorted by its keys
+/// @param old        memory, one per contact of `before`
+/// @param out        in and out: one per contact of `now`, as carry() left it
+template <class S>
+void hand_over_stretches(const Contacts<S>& before, const Contacts<S>& now,
+                         const std::vector<typename S::Vector>& old,
+                         std::vector<typename S::Vector>& out, const SpringTurn<S>& turn) {
+  detail::for_each_heir<S>(
+      before, now, old,
+      [&](const ContactKey& key) {
+        const auto i = std::size_t(&key - now.keys.data());
+        return out[i].isZero(0) && !std::binary_search(before.keys.begin(), before.keys.end(), key);
+      },
+      [&](std::size_t i, std::size_t j) {
+        out[i] = turn(before.points[j], now.points[i], old[j]);
+      });
+}
+
+/// Carries couples [N m s] over, as carry() does impulses, and hands those of contacts whose key is gone
+/// over, as hand_over() does: A numbers each, in the angular frame.
+/// @param axes function: contact before, contact now -> the frame of the contact before, turned into
+///             this step
+template <class S>
+void carry_couples(const Contacts<S>& before, const Contacts<S>& now,
+                   const std::vector<typename S::Angular>& old,
+                   std::vector<typename S::Angular>& out, const auto& axes) {
+  const auto add = [&](std::size_t i, std::size_t j) {
+    if (old[j].isZero(0)) return;
+    out[i] += S::angular_frame(now.points[i].frame).transpose() *
+              (S::angular_frame(axes(before.points[j], now.points[i])) * old[j]);
+  };
+  out.assign(now.size(), S::Angular::Zero());
+  merge_join(now.keys, before.keys, add);
+  detail::for_each_heir<S>(
+      before, now, old, [](const ContactKey&) { return true; }, add);
+}
+
+}  // namespace moreau

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Many vectors, stored for scans that use vector registers.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/error.hpp"
+#include "moreau/simd/cache_lines.hpp"
+#include "moreau/simd/prefetch.hpp"
+#include "moreau/simd/wide.hpp"
+
+namespace moreau::detail {
+
+/// The rows of an N x D matrix, stored in blocks. Each block has as many rows as a register has
+/// lanes. In a block the x of all its rows come first, then the y of all its rows, and so on. So a
+/// scan reads memory in order, and a single row lies on one or two cache lines. The last block is
+/// filled up with copies of the first row, so that scans need no special case at the end. If
+/// several rows are equal, a scan reports the first of them, never a copy.
+template <class S>
+class Rows {
+ public:
+  using T = typename S::Scalar;
+  using W = Wide<T>;
+  using Vector = typename S::Vector;
+  using Wides = std::array<typename W::Values, std::size_t{S::dim}>;
+
+  /// Stores the rows of a matrix, rotated from body axes to world axes.
+  template <class BodyRows>
+  void assign(const BodyRows& body, const typename S::Matrix& rotation) {
+    MOREAU_ASSERT(body.rows() > 0);
+    count_ = body.rows();
+    padded_ = W::padded(count_);
+    const auto size = std::size_t(S::dim * padded_);
+    if (rows_.size() < size) rows_.resize(size);
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+      const Wides block = load(body, i);
+      for (Eigen::Index k = 0; k < S::dim; ++k) {
+        auto sum = rotation(k, 0) * block[0];
+        for (Eigen::Index l = 1; l < S::dim; ++l)
+          sum += rotation(k, l) * block[static_cast<std::size_t>(l)];
+        std::memcpy(rows_.data() + S::dim * i + k * W::lanes, &sum, sizeof sum);
+      }
+    }
+  }
+
+  /// Begins to load the rows into the cache.
+  void prefetch() const {
+    detail::prefetch(rows_.data(), std::size_t(S::dim * padded_) * sizeof(T));
+  }
+
+  std::size_t size() const { return static_cast<std::size_t>(count_); }
+  Eigen::Index padded_size() const { return padded_; }
+  /// Row i. The function is always inlined. Otherwise g++ decides not to inline it and calls it for
+  /// every vertex.
+  [[gnu::always_inline]] Vector operator[](std::size_t i) const {
+    constexpr std::size_t lanes = W::lanes;
+    const T* block = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
+    Vector row;
+    for (Eigen::Index k = 0; k < S::dim; ++k) row[k] = block[k * W::lanes];
+    return row;
+  }
+
+  /// direction . row for the block of rows that starts at row i.
+  /// @param d  the direction, each component in all lanes
+  typename W::Values dot(Eigen::Index i, const Wides& d) const {
+    const T* block = rows_.data() + S::dim * i;
+    typename W::Values sum = d[0] * W::load(block);
+    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * W::load(block += W::lanes);
+    return sum;
+  }
+  static Wides broadcast(const Vector& v) {
+    Wides wide;
+    for (std::size_t k = 0; k < S::dim; ++k)
+      wide[k] = W::broadcast(v[static_cast<Eigen::Index>(k)]);
+    return wide;
+  }
+
+  /// The block of rows that starts at row i.
+  Wides wide(Eigen::Index i) const {
+    Wides rows;
+    for (std::size_t k = 0; k < S::dim; ++k)
+      rows[k] = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
+    return rows;
+  }
+  /// The smallest value of direction . row over all rows, for a different direction in each lane.
+  typename W::Values lowest(const Wides& directions) const {
+    constexpr std::size_t lanes = W::lanes;
+    auto lowest = W::broadcast(std::numeric_limits<T>::infinity());
+    const T* block = rows_.data();
+    for (std::size_t left = size(); left > 0; block += S::dim * lanes) {
+      const std::size_t here = std::min(left, lanes);
+      for (std::size_t l = 0; l < here; ++l) {
+        auto height = directions[0] * W::broadcast(block[l]);
+        for (std::size_t k = 1; k < S::dim; ++k)
+          height += directions[k] * W::broadcast(block[k * lanes + l]);
+        lowest = height < lowest ? height : lowest;
+      }
+      left -= here;
+    }
+    return lowest;
+  }
+
+  /// The largest value of direction . row over all rows, and the index of this row.
+  Extreme<T> farthest(const Vector& direction) const {
+    const auto d = broadcast(direction);
+    auto index = W::iota();
+    WideMaximum<T> best{dot(0, d), index};
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) {
+      index += W::lanes;
+      best.take(dot(i, d), index);
+    }
+    return best.reduce();
+  }
+  /// The largest value of direction . row over all rows.
+  T reach(const Vector& direction) const {
+    const auto d = broadcast(direction);
+    auto best = dot(0, d);
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) {
+      const auto here = dot(i, d);
+      best = here > best ? here : best;
+    }
+    return W::maximum(best)[0];
+  }
+  /// The number of rows with direction . row >= lowest.
+  std::ptrdiff_t count_above(const Vector& direction, T lowest) const {
+    const auto d = broadcast(direction);
+    auto above = dot(0, d) >= lowest;
+    // The copies of the first row at the end are not counted.
+    const std::ptrdiff_t copies = above[0] ? padded_ - count_ : 0;
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) above += dot(i, d) >= lowest;
+    const auto sum = W::template fold<W::lanes / 2>(
+        above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
+    return -static_cast<std::ptrdiff_t>(sum[0]) - copies;
+  }
+  /// Bit i: whether direction . row i >= lowest. For at most 64 rows.
+  std::uint64_t bits_above(const Vector& direction, T lowest) const {
+    const auto d = broadcast(direction);
+    std::uint64_t bits = 0;
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes)
+      bits |= std::uint64_t{W::bits(dot(i, d) >= lowest)} << i;
+    return bits & ~std::uint64_t{0} >> (64 - count_);
+  }
+  /// The square of the largest ratio of distance to rise [-]. The ratio is taken for the vector
+  /// from one row, the apex, to each other row. Infinite if another row rises by `least` or less.
+  /// @param apex   the row from which distances and rises are measured
+  /// @param up     direction of the rise, unit
+  /// @param least  [m]
+  T spread2(const Vector& apex, const Vector& up, T least) const {
+    const auto from = broadcast(apex), d = broadcast(up);
+    const auto infinite = W::broadcast(std::numeric_limits<T>::infinity());
+    typename W::Values widest{};
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+      typename W::Values rise{}, length2{};
+      for (std::size_t k = 0; k < S::dim; ++k) {
+        const auto x = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes}) - from[k];
+        rise += d[k] * x;
+        length2 += x * x;
+      }
+      const auto low = length2 == 0 ? typename W::Values{} : infinite;
+      const auto here = rise > least ? length2 / (rise * rise) : low;
+      widest = here > widest ? here : widest;
+    }
+    return W::maximum(widest)[0];
+  }
+  /// The bounding box of the rows.
+  Aabb<S> bounding_box() const {
+    Wides low, high;
+    for (std::size_t k = 0; k < S::dim; ++k)
+      low[k] = high[k] = W::load(rows_.data() + k * std::size_t{W::lanes});
+    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes)
+      for (std::size_t k = 0; k < S::dim; ++k) {
+        const auto x = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
+        low[k] = x < low[k] ? x : low[k];
+        high[k] = x > high[k] ? x : high[k];
+      }
+    Aabb<S> box;
+    for (std::size_t k = 0; k < S::dim; ++k) {
+      box.lower[static_cast<Eigen::Index>(k)] = -W::maximum(-low[k])[0];
+      box.upper[static_cast<Eigen::Index>(k)] = W::maximum(high[k])[0];
+    }
+    return box;
+  }
+  /// Calls use(index) for each row with direction . row >= lowest, in ascending order of the index.
+  template <class Use>
+  void for_each_above(const Vector& direction, T lowest, Use&& use) const {
+    const auto d = broadcast(direction);
+    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+      const auto above = dot(i, d) >= lowest;
+      for (int l = 0; l < W::lanes; ++l)
+        if (above[l] && i + l < count_) use(static_cast<std::uint32_t>(i + l));
+    }
+  }
+
+ private:
+  /// Loads a block of rows of a matrix whose columns are contiguous. Rows after the last row are
+  /// copies of the first row.
+  template <class BodyRows>
+  static Wides load(const BodyRows& body, Eigen::Index i) {
+    Wides block;
+    if (i + W::lanes <= body.rows()) {
+      for (std::size_t k = 0; k < S::dim; ++k)
+        block[k] = W::load(&body(i, static_cast<Eigen::Index>(k)));
+      return block;
+    }
+    for (std::size_t k = 0; k < S::dim; ++k)
+      for (int l = 0; l < W::lanes; ++l)
+        block[k][l] = body(i + l < body.rows() ? i + l : 0, static_cast<Eigen::Index>(k));
+    return block;
+  }
+
+  std::vector<T, CacheLineAllocator<T>> rows_;
+  Eigen::Index count_ = 0, padded_ = 0;
+};
+
+}  // namespace moreau::detail
