@@ -211,11 +211,11 @@ struct Extreme {
 /// The running maximum in every lane, and the index at which it occurred.
 template <std::floating_point T>
 struct WideMaximum {
-  using W = Wide<T>;
-  typename W::Values value;
-  typename W::Indices index;
+  using Lanes = Wide<T>;
+  typename Lanes::Values value;
+  typename Lanes::Indices index;
 
-  void take(typename W::Values v, typename W::Indices i) {
+  void take(typename Lanes::Values v, typename Lanes::Indices i) {
     const auto larger = v > value;
     value = larger ? v : value;
     index = larger ? i : index;
@@ -223,10 +223,10 @@ struct WideMaximum {
   /// The maximum over all lanes. Computed without branches, because the lane with the maximum is
   /// unpredictable.
   Extreme<T> reduce() const {
-    const auto top = W::maximum(value);
-    const auto none = typename W::Indices{} + std::numeric_limits<typename W::Lane>::max();
-    const typename W::Indices candidates = value == top ? index : none;
-    const auto first = W::template fold<W::lanes / 2>(
+    const auto top = Lanes::maximum(value);
+    const auto none = typename Lanes::Indices{} + std::numeric_limits<typename Lanes::Lane>::max();
+    const typename Lanes::Indices candidates = value == top ? index : none;
+    const auto first = Lanes::template fold<Lanes::lanes / 2>(
         candidates, [](const auto& x, const auto& y) { return x < y ? x : y; });
     return {top[0], static_cast<std::uint32_t>(first[0])};
   }

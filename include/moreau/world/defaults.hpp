@@ -11,9 +11,11 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
-#include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau {
+
+/// The solver of a Simulation under a regularized law, which leaves nothing to solve.
+struct NoSolver {};
 
 /// The default integrator of a law: VelocityVerlet for a regularized law, MoreauJean for a
 /// set-valued law.

@@ -18,11 +18,11 @@ namespace moreau::detail {
 template <class S>
 class ContactLanes {
  public:
-  using W = typename LaneBlock<S>::Number;
-  using Values = typename W::Values;
+  using Lanes = typename LaneBlock<S>::Number;
+  using Values = typename Lanes::Values;
   using Algebra = LaneAlgebra<S, Values>;
   using Vector = typename Algebra::Vector;
-  static constexpr std::size_t lanes = W::lanes, dim = S::dim, tangents = dim - 1;
+  static constexpr std::size_t lanes = Lanes::lanes, dim = S::dim, tangents = dim - 1;
 
   /// What belongs to one of the two bodies.
   struct Side {
@@ -54,7 +54,7 @@ class ContactLanes {
     for (std::size_t d = 0; d < dim; ++d) w[Algebra::entry(d, d)] = compliance[d];
     add_inertia(a, w);
     add_inertia(b, w);
-    aligned_ = aligned_block<S, W>(w);
+    aligned_ = aligned_block<S, Lanes>(w);
     make_regular();
     turn_tangents();
     const Vector of_a = Algebra::point_velocity(a.velocity, a.lever);
@@ -66,7 +66,7 @@ class ContactLanes {
     // No impulse changes the normal velocity, as between a wall that moves along the tangent and a grain of
     // prescribed motion: the contact does not act.
     constexpr T never = std::numeric_limits<T>::infinity();
-    free_[0] = w[0] == Values{} ? W::broadcast(never) : free_[0];
+    free_[0] = w[0] == Values{} ? Lanes::broadcast(never) : free_[0];
     trace_ = aligned_.block.trace();
   }
 
@@ -119,7 +119,7 @@ class ContactLanes {
   }
 
   std::array<Vector, dim> axes_;  // of the frame, in world axes
-  AlignedBlock<S, W> aligned_;
+  AlignedBlock<S, Lanes> aligned_;
   Vector free_;
   Values trace_;
 };

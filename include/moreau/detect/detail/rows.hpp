@@ -27,25 +27,25 @@ template <class S>
 class Rows {
  public:
   using T = typename S::Scalar;
-  using W = Wide<T>;
+  using Lanes = Wide<T>;
   using Vector = typename S::Vector;
-  using Wides = std::array<typename W::Values, std::size_t{S::dim}>;
+  using Wides = std::array<typename Lanes::Values, std::size_t{S::dim}>;
 
   /// Stores the rows of a matrix, rotated from body axes to world axes.
   template <class BodyRows>
   void assign(const BodyRows& body, const typename S::Matrix& rotation) {
     MOREAU_ASSERT(body.rows() > 0);
     count_ = body.rows();
-    padded_ = W::padded(count_);
+    padded_ = Lanes::padded(count_);
     const auto size = std::size_t(S::dim * padded_);
     if (rows_.size() < size) rows_.resize(size);
-    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+    for (Eigen::Index i = 0; i < padded_; i += Lanes::lanes) {
       const Wides block = load(body, i);
       for (Eigen::Index k = 0; k < S::dim; ++k) {
         auto sum = rotation(k, 0) * block[0];
         for (Eigen::Index l = 1; l < S::dim; ++l)
           sum += rotation(k, l) * block[static_cast<std::size_t>(l)];
-        std::memcpy(rows_.data() + S::dim * i + k * W::lanes, &sum, sizeof sum);
+        std::memcpy(rows_.data() + S::dim * i + k * Lanes::lanes, &sum, sizeof sum);
       }
     }
   }
@@ -60,25 +60,25 @@ class Rows {
   /// Row i. The function is always inlined. Otherwise g++ decides not to inline it and calls it for
   /// every vertex.
   [[gnu::always_inline]] Vector operator[](std::size_t i) const {
-    constexpr std::size_t lanes = W::lanes;
+    constexpr std::size_t lanes = Lanes::lanes;
     const T* block = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
     Vector row;
-    for (Eigen::Index k = 0; k < S::dim; ++k) row[k] = block[k * W::lanes];
+    for (Eigen::Index k = 0; k < S::dim; ++k) row[k] = block[k * Lanes::lanes];
     return row;
   }
 
   /// direction . row for the block of rows that starts at row i.
   /// @param d  the direction, each component in all lanes
-  typename W::Values dot(Eigen::Index i, const Wides& d) const {
+  typename Lanes::Values dot(Eigen::Index i, const Wides& d) const {
     const T* block = rows_.data() + S::dim * i;
-    typename W::Values sum = d[0] * W::load(block);
-    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * W::load(block += W::lanes);
+    typename Lanes::Values sum = d[0] * Lanes::load(block);
+    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * Lanes::load(block += Lanes::lanes);
     return sum;
   }
   static Wides broadcast(const Vector& v) {
     Wides wide;
     for (std::size_t k = 0; k < S::dim; ++k)
-      wide[k] = W::broadcast(v[static_cast<Eigen::Index>(k)]);
+      wide[k] = Lanes::broadcast(v[static_cast<Eigen::Index>(k)]);
     return wide;
   }
 
@@ -86,20 +86,20 @@ class Rows {
   Wides wide(Eigen::Index i) const {
     Wides rows;
     for (std::size_t k = 0; k < S::dim; ++k)
-      rows[k] = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
+      rows[k] = Lanes::load(rows_.data() + S::dim * i + k * std::size_t{Lanes::lanes});
     return rows;
   }
   /// The smallest value of direction . row over all rows, for a different direction in each lane.
-  typename W::Values lowest(const Wides& directions) const {
-    constexpr std::size_t lanes = W::lanes;
-    auto lowest = W::broadcast(std::numeric_limits<T>::infinity());
+  typename Lanes::Values lowest(const Wides& directions) const {
+    constexpr std::size_t lanes = Lanes::lanes;
+    auto lowest = Lanes::broadcast(std::numeric_limits<T>::infinity());
     const T* block = rows_.data();
     for (std::size_t left = size(); left > 0; block += S::dim * lanes) {
       const std::size_t here = std::min(left, lanes);
       for (std::size_t l = 0; l < here; ++l) {
-        auto height = directions[0] * W::broadcast(block[l]);
+        auto height = directions[0] * Lanes::broadcast(block[l]);
         for (std::size_t k = 1; k < S::dim; ++k)
-          height += directions[k] * W::broadcast(block[k * lanes + l]);
+          height += directions[k] * Lanes::broadcast(block[k * lanes + l]);
         lowest = height < lowest ? height : lowest;
       }
       left -= here;
@@ -110,10 +110,10 @@ class Rows {
   /// The largest value of direction . row over all rows, and the index of this row.
   Extreme<T> farthest(const Vector& direction) const {
     const auto d = broadcast(direction);
-    auto index = W::iota();
+    auto index = Lanes::iota();
     WideMaximum<T> best{dot(0, d), index};
-    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) {
-      index += W::lanes;
+    for (Eigen::Index i = Lanes::lanes; i < padded_; i += Lanes::lanes) {
+      index += Lanes::lanes;
       best.take(dot(i, d), index);
     }
     return best.reduce();
@@ -122,11 +122,11 @@ class Rows {
   T reach(const Vector& direction) const {
     const auto d = broadcast(direction);
     auto best = dot(0, d);
-    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) {
+    for (Eigen::Index i = Lanes::lanes; i < padded_; i += Lanes::lanes) {
       const auto here = dot(i, d);
       best = here > best ? here : best;
     }
-    return W::maximum(best)[0];
+    return Lanes::maximum(best)[0];
   }
   /// The number of rows with direction . row >= lowest.
   std::ptrdiff_t count_above(const Vector& direction, T lowest) const {
@@ -134,17 +134,18 @@ class Rows {
     auto above = dot(0, d) >= lowest;
     // The copies of the first row at the end are not counted.
     const std::ptrdiff_t copies = above[0] ? padded_ - count_ : 0;
-    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes) above += dot(i, d) >= lowest;
-    const auto sum = W::template fold<W::lanes / 2>(
-        above, [](const auto& x, const auto& y) -> typename W::Indices { return x + y; });
+    for (Eigen::Index i = Lanes::lanes; i < padded_; i += Lanes::lanes)
+      above += dot(i, d) >= lowest;
+    const auto sum = Lanes::template fold<Lanes::lanes / 2>(
+        above, [](const auto& x, const auto& y) -> typename Lanes::Indices { return x + y; });
     return -static_cast<std::ptrdiff_t>(sum[0]) - copies;
   }
   /// Bit i: whether direction . row i >= lowest. For at most 64 rows.
   std::uint64_t bits_above(const Vector& direction, T lowest) const {
     const auto d = broadcast(direction);
     std::uint64_t bits = 0;
-    for (Eigen::Index i = 0; i < padded_; i += W::lanes)
-      bits |= std::uint64_t{W::bits(dot(i, d) >= lowest)} << i;
+    for (Eigen::Index i = 0; i < padded_; i += Lanes::lanes)
+      bits |= std::uint64_t{Lanes::bits(dot(i, d) >= lowest)} << i;
     return bits & ~std::uint64_t{0} >> (64 - count_);
   }
   /// The square of the largest ratio of distance to rise [-]. The ratio is taken for the vector
@@ -154,36 +155,37 @@ class Rows {
   /// @param least  [m]
   T spread2(const Vector& apex, const Vector& up, T least) const {
     const auto from = broadcast(apex), d = broadcast(up);
-    const auto infinite = W::broadcast(std::numeric_limits<T>::infinity());
-    typename W::Values widest{};
-    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
-      typename W::Values rise{}, length2{};
+    const auto infinite = Lanes::broadcast(std::numeric_limits<T>::infinity());
+    typename Lanes::Values widest{};
+    for (Eigen::Index i = 0; i < padded_; i += Lanes::lanes) {
+      typename Lanes::Values rise{}, length2{};
       for (std::size_t k = 0; k < S::dim; ++k) {
-        const auto x = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes}) - from[k];
+        const auto x =
+            Lanes::load(rows_.data() + S::dim * i + k * std::size_t{Lanes::lanes}) - from[k];
         rise += d[k] * x;
         length2 += x * x;
       }
-      const auto low = length2 == 0 ? typename W::Values{} : infinite;
+      const auto low = length2 == 0 ? typename Lanes::Values{} : infinite;
       const auto here = rise > least ? length2 / (rise * rise) : low;
       widest = here > widest ? here : widest;
     }
-    return W::maximum(widest)[0];
+    return Lanes::maximum(widest)[0];
   }
   /// The bounding box of the rows.
   Aabb<S> bounding_box() const {
     Wides low, high;
     for (std::size_t k = 0; k < S::dim; ++k)
-      low[k] = high[k] = W::load(rows_.data() + k * std::size_t{W::lanes});
-    for (Eigen::Index i = W::lanes; i < padded_; i += W::lanes)
+      low[k] = high[k] = Lanes::load(rows_.data() + k * std::size_t{Lanes::lanes});
+    for (Eigen::Index i = Lanes::lanes; i < padded_; i += Lanes::lanes)
       for (std::size_t k = 0; k < S::dim; ++k) {
-        const auto x = W::load(rows_.data() + S::dim * i + k * std::size_t{W::lanes});
+        const auto x = Lanes::load(rows_.data() + S::dim * i + k * std::size_t{Lanes::lanes});
         low[k] = x < low[k] ? x : low[k];
         high[k] = x > high[k] ? x : high[k];
       }
     Aabb<S> box;
     for (std::size_t k = 0; k < S::dim; ++k) {
-      box.lower[static_cast<Eigen::Index>(k)] = -W::maximum(-low[k])[0];
-      box.upper[static_cast<Eigen::Index>(k)] = W::maximum(high[k])[0];
+      box.lower[static_cast<Eigen::Index>(k)] = -Lanes::maximum(-low[k])[0];
+      box.upper[static_cast<Eigen::Index>(k)] = Lanes::maximum(high[k])[0];
     }
     return box;
   }
@@ -191,9 +193,9 @@ class Rows {
   template <class Use>
   void for_each_above(const Vector& direction, T lowest, Use&& use) const {
     const auto d = broadcast(direction);
-    for (Eigen::Index i = 0; i < padded_; i += W::lanes) {
+    for (Eigen::Index i = 0; i < padded_; i += Lanes::lanes) {
       const auto above = dot(i, d) >= lowest;
-      for (int l = 0; l < W::lanes; ++l)
+      for (int l = 0; l < Lanes::lanes; ++l)
         if (above[l] && i + l < count_) use(static_cast<std::uint32_t>(i + l));
     }
   }
@@ -204,13 +206,13 @@ class Rows {
   template <class BodyRows>
   static Wides load(const BodyRows& body, Eigen::Index i) {
     Wides block;
-    if (i + W::lanes <= body.rows()) {
+    if (i + Lanes::lanes <= body.rows()) {
       for (std::size_t k = 0; k < S::dim; ++k)
-        block[k] = W::load(&body(i, static_cast<Eigen::Index>(k)));
+        block[k] = Lanes::load(&body(i, static_cast<Eigen::Index>(k)));
       return block;
     }
     for (std::size_t k = 0; k < S::dim; ++k)
-      for (int l = 0; l < W::lanes; ++l)
+      for (int l = 0; l < Lanes::lanes; ++l)
         block[k][l] = body(i + l < body.rows() ? i + l : 0, static_cast<Eigen::Index>(k));
     return block;
   }

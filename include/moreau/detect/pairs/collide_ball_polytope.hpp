@@ -38,13 +38,13 @@ template <class ShapeT>
 Extreme<typename SpaceOf<ShapeT>::Scalar> highest_face(const Placed<ShapeT>& shape,
                                                        const typename SpaceOf<ShapeT>::Vector& x) {
   using T = typename SpaceOf<ShapeT>::Scalar;
-  using W = Wide<T>;
+  using Lanes = Wide<T>;
   const auto point = Rows<SpaceOf<ShapeT>>::broadcast(x);
-  WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
-  auto index = W::iota();
-  for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += W::lanes) {
-    best.take(shape.normals().dot(i, point) - W::load(shape.offsets() + i), index);
-    index += W::lanes;
+  WideMaximum<T> best{Lanes::broadcast(-std::numeric_limits<T>::infinity()), Lanes::iota()};
+  auto index = Lanes::iota();
+  for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += Lanes::lanes) {
+    best.take(shape.normals().dot(i, point) - Lanes::load(shape.offsets() + i), index);
+    index += Lanes::lanes;
   }
   return best.reduce();
 }

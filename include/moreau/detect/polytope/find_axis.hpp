@@ -43,16 +43,16 @@ namespace moreau::detail {
 template <std::floating_point T>
 Extreme<T> best_edge(const Placed<Polygon<T>>& own, const Placed<Polygon<T>>& other,
                      const typename Space<2, T>::Vector& offset) {
-  using W = Wide<T>;
-  WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
-  auto index = W::iota();
+  using Lanes = Wide<T>;
+  WideMaximum<T> best{Lanes::broadcast(-std::numeric_limits<T>::infinity()), Lanes::iota()};
+  auto index = Lanes::iota();
   const auto apart = Rows<Space<2, T>>::broadcast(offset);
-  for (Eigen::Index i = 0; i < own.normals().padded_size(); i += W::lanes) {
+  for (Eigen::Index i = 0; i < own.normals().padded_size(); i += Lanes::lanes) {
     const auto normals = own.normals().wide(i);
-    best.take(
-        other.vertices().lowest(normals) + own.normals().dot(i, apart) - W::load(own.offsets() + i),
-        index);
-    index += W::lanes;
+    best.take(other.vertices().lowest(normals) + own.normals().dot(i, apart) -
+                  Lanes::load(own.offsets() + i),
+              index);
+    index += Lanes::lanes;
   }
   return best.reduce();
 }

@@ -31,10 +31,10 @@ template <class S, class Block = LaneBlock<S>>
 class CoulombLanes {
  public:
   using T = typename S::Scalar;
-  using W = typename Block::Number;
+  using Lanes = typename Block::Number;
   using Index = typename Block::Index;
-  using Values = typename W::Values;
-  using Indices = typename W::Indices;
+  using Values = typename Lanes::Values;
+  using Indices = typename Lanes::Indices;
   using Vector = typename Block::Vector;
   using Tangent = typename Block::Tangent;
   static constexpr Index tangents = Block::tangents;
@@ -56,8 +56,8 @@ class CoulombLanes {
     const Values limit = friction * normal;
     const Indices sticks = (limit >= zero) & (squared(tangent) <= limit * limit);
     const Indices slips = acts & ~sticks;
-    if (W::any(slips)) {
-      const CoulombLanes problem(block, c, slips ? free : W::broadcast(1), friction);
+    if (Lanes::any(slips)) {
+      const CoulombLanes problem(block, c, slips ? free : Lanes::broadcast(1), friction);
       Tangent sliding = problem.slide(slips & (friction > zero), alpha);
       if (polish) sliding = problem.onto_cone(sliding);
       normal = slips ? free : normal;
@@ -73,7 +73,7 @@ class CoulombLanes {
   }
 
  private:
-  static constexpr bool exact = std::same_as<W, OneNumber<T>>;
+  static constexpr bool exact = std::same_as<Lanes, OneNumber<T>>;
   static constexpr bool fine = std::numeric_limits<T>::epsilon() < T(1e-10);
   /// The iteration ends after a Newton step shorter than this, relative to slip + alpha, if
   /// | |r_t| - mu r_n | is as small relative to |r_t| + mu r_n.
@@ -134,21 +134,22 @@ class CoulombLanes {
   Indices is_short(const Values& change, const Values& alpha) const {
     Values least = slip_[0];
     for (Index t = 1; t < tangents; ++t) least = slip_[t] < least ? slip_[t] : least;
-    return W::absolute(change) <= close * (least + alpha);
+    return Lanes::absolute(change) <= close * (least + alpha);
   }
 
   /// The same in space. In most visits one Newton step on |r_t|^2 - (mu r_n)^2, which needs no
   /// root, is enough, because alpha of the last visit is near.
   Tangent slide(const Indices& open, Values& alpha) const requires(tangents > 1) {
     const Values zero{};
-    const Point p = at(alpha, W::broadcast(1));
+    const Point p = at(alpha, Lanes::broadcast(1));
     const Values limit2 = p.limit * p.limit, phi = p.length2 - limit2;
     const Values slope = T(2) * (p.along + p.limit * p.limit_slope);
-    const Values change = phi / (slope > zero ? slope : W::broadcast(1));
+    const Values change = phi / (slope > zero ? slope : Lanes::broadcast(1));
     const Values next = alpha + change;
     const Indices near = (p.limit > zero) & (slope > zero) & is_short(change, alpha) &
-                         (next >= zero) & (W::absolute(phi) <= T(2) * close * (p.length2 + limit2));
-    if (W::any(open & ~near)) return search(open, alpha);
+                         (next >= zero) &
+                         (Lanes::absolute(phi) <= T(2) * close * (p.length2 + limit2));
+    if (Lanes::any(open & ~near)) return search(open, alpha);
     alpha = open ? next : alpha;
     Tangent r;
     for (Index t = 0; t < tangents; ++t) r[t] = open ? p.r[t] - change * p.fall[t] : zero;
@@ -159,7 +160,7 @@ class CoulombLanes {
   Tangent far_tangent() const {
     Values size{};
     for (Index t = 0; t < tangents; ++t) {
-      const Values one = W::absolute(c_[t]);
+      const Values one = Lanes::absolute(c_[t]);
       size = one > size ? one : size;
     }
     Tangent r;
@@ -169,7 +170,7 @@ class CoulombLanes {
       length2 += r[t] * r[t];
       along += coupling_[t] * r[t];
     }
-    const Values length = W::square_root(length2), share = length + friction_ * along;
+    const Values length = Lanes::square_root(length2), share = length + friction_ * along;
     // If the share is negative there is no such impulse; if size is 0, it is not a number.
     const Values normal = share > Values{} ? free_ / share : Values{};
     for (Index t = 0; t < tangents; ++t)
@@ -179,7 +180,7 @@ class CoulombLanes {
   Indices is_far() const {
     Values size{}, slip{};
     for (Index t = 0; t < tangents; ++t) {
-      const Values one = W::absolute(c_[t]);
+      const Values one = Lanes::absolute(c_[t]);
       size = one > size ? one : size;
       slip += slip_[t];
     }
@@ -188,7 +189,7 @@ class CoulombLanes {
 
   /// Newton's method in a bracket, from any alpha >= 0, in units of the impulse without friction.
   Tangent search(Indices open, Values& alpha) const requires(tangents > 1) {
-    const Values zero{}, most = W::broadcast(std::numeric_limits<T>::max());
+    const Values zero{}, most = Lanes::broadcast(std::numeric_limits<T>::max());
     const Values unit = T(1) / free_;
     const Indices all = open;
     Indices direct = open & is_far();
@@ -198,7 +199,7 @@ class CoulombLanes {
     for (Index t = 0; t < tangents; ++t) result[t] = zero;
     for (int iteration = 0; iteration < 100; ++iteration) {
       const Point p = at(trial, unit);
-      const Values length = W::square_root(p.length2), phi = length - p.limit;
+      const Values length = Lanes::square_root(p.length2), phi = length - p.limit;
       const Indices positive = p.limit > zero;
       const Values change =
           (positive ? phi * p.length2 * p.limit : phi * length) /
@@ -209,13 +210,13 @@ class CoulombLanes {
       // At a fold of phi the step may point away from the root.
       const Values next = trial + change;
       const Indices near = positive & is_short(change, trial) & (next >= lower) & (next <= upper) &
-                           (W::absolute(phi) <= close * (length + p.limit));
+                           (Lanes::absolute(phi) <= close * (length + p.limit));
       const Indices narrow = (upper < most) & (upper - lower <= close * close * upper);
       alpha = open ? (near ? next : trial) : alpha;
       for (Index t = 0; t < tangents; ++t)
         result[t] = open ? free_ * (p.r[t] - (near ? change * p.fall[t] : zero)) : result[t];
       open = open & ~near & ~narrow;
-      if (!W::any(open)) break;
+      if (!Lanes::any(open)) break;
       Values fallback = (lower + upper) / T(2);
       Values beyond = T(2) * lower;
       for (Index t = 0; t < tangents; ++t) beyond += slip_[t];
@@ -223,11 +224,11 @@ class CoulombLanes {
       trial = ((next > lower) & (next < upper)) ? next : fallback;
     }
     // A load at the limit of the numbers.
-    Indices finite = W::absolute(alpha) <= most;
-    for (Index t = 0; t < tangents; ++t) finite = finite & (W::absolute(result[t]) <= most);
+    Indices finite = Lanes::absolute(alpha) <= most;
+    for (Index t = 0; t < tangents; ++t) finite = finite & (Lanes::absolute(result[t]) <= most);
     alpha = finite ? alpha : zero;
     direct = direct | (all & ~finite);
-    if (!W::any(direct)) return result;
+    if (!Lanes::any(direct)) return result;
     const Tangent far = far_tangent();
     for (Index t = 0; t < tangents; ++t) result[t] = direct ? far[t] : result[t];
     return result;
@@ -236,8 +237,9 @@ class CoulombLanes {
   /// The projection onto the cone: Newton's method leaves a small distance. Impulses so small that their
   /// square underflows, whose root may be 0, stay as they are.
   Tangent onto_cone(const Tangent& r) const {
-    const Values length2 = squared(r), least = W::broadcast(std::numeric_limits<T>::min());
-    const Values scale = length2 >= least ? limit(r) / W::square_root(length2) : W::broadcast(1);
+    const Values length2 = squared(r), least = Lanes::broadcast(std::numeric_limits<T>::min());
+    const Values scale =
+        length2 >= least ? limit(r) / Lanes::square_root(length2) : Lanes::broadcast(1);
     Tangent on;
     for (Index t = 0; t < tangents; ++t) on[t] = scale * r[t];
     return on;

@@ -33,9 +33,9 @@ template <class S>
 class RollingLanes {
  public:
   using Block = LaneRollingBlock<S>;
-  using W = typename Block::Number;
-  using Values = typename W::Values;
-  using Indices = typename W::Indices;
+  using Lanes = typename Block::Number;
+  using Values = typename Lanes::Values;
+  using Indices = typename Lanes::Indices;
   using Vector = typename Block::Vector;
 
   /// @param guess   of the couple of a contact that rolls
@@ -45,7 +45,7 @@ class RollingLanes {
   static Vector solve(const Block& block, const Vector& b, const Vector& guess,
                       const Values& friction, const Values& rolling, typename Block::Memory& memory,
                       bool polish) {
-    const Values zero{}, one = W::broadcast(1);
+    const Values zero{}, one = Lanes::broadcast(1);
     const Indices rolls = memory[1] > zero;
     const auto push = CoulombLanes<S>::solve(
         point_of(block, rolls), velocity_of(block, b, guess, rolls), friction, memory[0], polish);
@@ -59,7 +59,8 @@ class RollingLanes {
     const Indices acts = b[0] < zero, beyond = acts & (length2 > limit * limit);
     memory[1] = beyond ? one : zero;
     Values scale = acts ? one : zero;
-    if (W::any(beyond)) scale = beyond ? limit / W::square_root(beyond ? length2 : one) : scale;
+    if (Lanes::any(beyond))
+      scale = beyond ? limit / Lanes::square_root(beyond ? length2 : one) : scale;
     Vector r;
     for (std::size_t d = 0; d < S::dim; ++d) r[d] = push[d];
     for (std::size_t k = 0; k < couples; ++k) r[S::dim + k] = scale * couple[k];

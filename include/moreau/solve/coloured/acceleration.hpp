@@ -23,7 +23,7 @@ class ImpulseMixing {
  public:
   using S = typename Kernel::S;
   using T = typename S::Scalar;
-  using W = typename Kernel::W;
+  using Lanes = typename Kernel::Lanes;
 
   /// @param active groups with active points
   void start(Kernel& kernel, const std::vector<std::uint32_t>& active) {
@@ -32,7 +32,7 @@ class ImpulseMixing {
       const typename Kernel::Pairs& group = kernel.groups()[k];
       for (std::uint32_t p = 0; p < group.active; ++p) points_.push_back(group.first + p);
     }
-    packed_.resize(Eigen::Index(points_.size() * Kernel::rows * std::size_t{W::lanes}));
+    packed_.resize(Eigen::Index(points_.size() * Kernel::rows * std::size_t{Lanes::lanes}));
     pack(kernel);
     anderson_.start(packed_);
   }
@@ -42,16 +42,16 @@ class ImpulseMixing {
     anderson_.mix(packed_, shared);
     const T* from = packed_.data();
     for (const std::uint32_t p : points_)
-      for (std::size_t d = 0; d < Kernel::rows; ++d, from += W::lanes)
-        kernel.points()[p].impulse[d] = W::load(from);
+      for (std::size_t d = 0; d < Kernel::rows; ++d, from += Lanes::lanes)
+        kernel.points()[p].impulse[d] = Lanes::load(from);
   }
 
  private:
   void pack(Kernel& kernel) {
     T* to = packed_.data();
     for (const std::uint32_t p : points_)
-      for (std::size_t d = 0; d < Kernel::rows; ++d, to += W::lanes)
-        std::memcpy(to, &kernel.points()[p].impulse[d], sizeof(typename W::Values));
+      for (std::size_t d = 0; d < Kernel::rows; ++d, to += Lanes::lanes)
+        std::memcpy(to, &kernel.points()[p].impulse[d], sizeof(typename Lanes::Values));
   }
 
   std::vector<std::uint32_t> points_;

@@ -43,11 +43,11 @@ class ContactGroups {
  public:
   using S = typename Operator::Space;
   using Points = PointPack<S, Law>;
-  using W = typename LaneBlock<S>::Number;
-  using Pairs = PairPack<W::lanes>;
+  using Lanes = typename LaneBlock<S>::Number;
+  using Pairs = PairPack<Lanes::lanes>;
   using Impulse = typename Operator::Vector;
   using Block = BlockOf<Law, S>;
-  static constexpr std::size_t lanes = W::lanes, rows_of_point = Points::Block::rows;
+  static constexpr std::size_t lanes = Lanes::lanes, rows_of_point = Points::Block::rows;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   /// Largest tr(W^-1 W_hub) of a hub whose pairs share groups.
   static constexpr auto largest_share = typename S::Scalar(0.02);

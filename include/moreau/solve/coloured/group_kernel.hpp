@@ -28,8 +28,8 @@ class GroupKernel {
   using Groups = ContactGroups<Operator, Law>;
   using S = typename Groups::S;
   using T = typename S::Scalar;
-  using W = typename Groups::W;
-  using Values = typename W::Values;
+  using Lanes = typename Groups::Lanes;
+  using Values = typename Lanes::Values;
   using Vector = typename LaneBlock<S>::Vector;
   using Row = typename Groups::Points::Row;
   static constexpr std::size_t rows = Groups::rows_of_point;  ///< of a contact
@@ -42,7 +42,7 @@ class GroupKernel {
   void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team, SharedBodies* shared) {
     groups_.build(problem, impulses, team);
-    is_large_ = groups_.rows() * sizeof(BodyLanes) / W::lanes > near_cache;
+    is_large_ = groups_.rows() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(groups_.pairs.size(), Values{});
     hub_changes_.resize(groups_.pairs.size());
     set_impulses(problem.delassus, impulses, team, shared);
@@ -73,7 +73,7 @@ class GroupKernel {
 
   const std::vector<Pairs>& groups() const { return groups_.pairs; }
   std::vector<Points>& points() { return groups_.points; }
-  LaneVelocities<S, W>& velocity() { return velocity_; }
+  LaneVelocities<S, Lanes>& velocity() { return velocity_; }
 
   /// Visits the active points of group k.
   /// @param beta impulses start from r + beta (r - r of the last visit)
@@ -99,7 +99,7 @@ class GroupKernel {
   double squared_change(const std::vector<std::uint32_t>& groups) const {
     Values change2{};
     for (const std::uint32_t k : groups) change2 += changes_[k];
-    return double(W::sum(change2));
+    return double(Lanes::sum(change2));
   }
   void clear_measures() { measures_.assign(groups_.pairs.size(), {}); }
   SweepChange measures() const {
@@ -109,7 +109,7 @@ class GroupKernel {
   }
 
  private:
-  using BodyLanes = typename LaneVelocities<S, W>::BodyLanes;
+  using BodyLanes = typename LaneVelocities<S, Lanes>::BodyLanes;
   using Algebra = LaneAlgebra<S, Values>;
   using Angular = std::array<Values, Algebra::angular>;
 
@@ -198,16 +198,16 @@ class GroupKernel {
     group.active = 0;
     for (std::uint32_t p = 0; p < group.count; ++p) {
       const Points& point = groups_.points[group.first + p];
-      typename W::Indices some{};
+      typename Lanes::Indices some{};
       for (std::size_t d = 0; d < rows; ++d)
         some |= (point.impulse[d] != Values{}) | (point.before[d] != Values{});
-      if (W::any(some)) group.active = p + 1;
+      if (Lanes::any(some)) group.active = p + 1;
     }
   }
   /// Whether u_n < 0 at a point of the group.
   MOREAU_COMPILED_ONCE bool approaches(const Pairs& group) const {
     const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
-    typename W::Indices some{};
+    typename Lanes::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
       const Points& point = groups_.points[p];
       const Vector between = relative(point, a, b);
@@ -215,7 +215,7 @@ class GroupKernel {
       for (std::size_t k = 0; k < S::dim; ++k) u += point.frame[k][0] * between[k];
       some |= u < Values{};
     }
-    return W::any(some);
+    return Lanes::any(some);
   }
 
   /// Solves the first `count` contacts of each pair in the group, one after the other.
@@ -225,7 +225,7 @@ class GroupKernel {
     const Pairs& group = groups_.pairs[number];
     Values change2{};
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
-    const Values beta = W::broadcast(extrapolation);
+    const Values beta = Lanes::broadcast(extrapolation);
     for (std::uint32_t p = group.first; p < group.first + count; ++p) {
       Points& point = groups_.points[p];
       Row guess;
@@ -272,17 +272,17 @@ class GroupKernel {
       wr2 += wr[d] * wr[d];
       rwr += impulse[d] * wr[d];
     }
-    for (int l = 0; l < W::lanes; ++l)
+    for (int l = 0; l < Lanes::lanes; ++l)
       sum.add(double(dv2[l]), double(r2[l]), double(wr2[l]), double(rwr[l]));
   }
 
   Groups groups_;
-  LaneVelocities<S, W> velocity_;
+  LaneVelocities<S, Lanes> velocity_;
   bool is_large_ = false;  // whether prefetch_from() does anything
   // One entry per group.
   std::vector<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
   std::vector<SweepChange> measures_;
-  std::vector<typename LaneVelocities<S, W>::Change> hub_changes_;  // of groups that delay them
+  std::vector<typename LaneVelocities<S, Lanes>::Change> hub_changes_;  // of groups that delay them
 };
 
 }  // namespace moreau::detail

@@ -29,24 +29,9 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/wall_bodies.hpp"
 
 namespace moreau {
-
-/// A cylinder wall of a simulation: its body, and its shape in the frame of the body.
-template <class S>
-struct CylinderBody {
-  BodyId body;  ///< its pose places the shape
-  /// In the frame of the body.
-  CylinderWall<S> shape = SerializationAccess::blank<CylinderWall<S>>();
-};
-
-/// A mesh wall of a simulation: its body, and its shape in the frame of the body.
-template <class S>
-struct MeshBody {
-  BodyId body;  ///< its pose places the shape
-  /// In the frame of the body.
-  MeshWall<S> shape = SerializationAccess::blank<MeshWall<S>>();
-};
 
 namespace detail {
 

@@ -27,9 +27,6 @@
 
 namespace moreau {
 
-/// The solver of a Simulation under a regularized law, which leaves nothing to solve.
-struct NoSolver {};
-
 namespace detail {
 
 template <class S, class Law, class Integrator>

@@ -9,6 +9,7 @@
 #include "moreau/law/regularized.hpp"
 #include "moreau/motion/concepts.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/world/defaults.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau::detail {

@@ -97,7 +97,7 @@ class WidePoints {
 template <std::floating_point T>
 class FaceMasks {
  public:
-  using W = Wide<T>;
+  using Lanes = Wide<T>;
 
   FaceMasks(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points)
       : shape_(shape), points_(points) {}
@@ -110,18 +110,18 @@ class FaceMasks {
     if (normals.padded_size() > capacity) return;
     is_stored_ = true;
     const WidePoints<T> wide(points_);
-    typename W::Indices in_common{};
+    typename Lanes::Indices in_common{};
     in_common = ~in_common;
-    for (Eigen::Index i = 0; i < normals.padded_size(); i += W::lanes) {
-      const auto level = height_ + W::load(shape_.offsets() + i);
-      typename W::Indices mask{};
+    for (Eigen::Index i = 0; i < normals.padded_size(); i += Lanes::lanes) {
+      const auto level = height_ + Lanes::load(shape_.offsets() + i);
+      typename Lanes::Indices mask{};
       for (std::size_t k = 0; k < points_.size(); ++k)
-        mask |= (normals.dot(i, wide[k]) <= level) & (typename W::Lane{1} << k);
+        mask |= (normals.dot(i, wide[k]) <= level) & (typename Lanes::Lane{1} << k);
       in_common &= mask;
-      for (int l = 0; l < W::lanes; ++l)
+      for (int l = 0; l < Lanes::lanes; ++l)
         masks_[static_cast<std::size_t>(i + l)] = static_cast<std::uint16_t>(mask[l]);
     }
-    in_common_ = static_cast<std::uint32_t>(W::common_bits(in_common));
+    in_common_ = static_cast<std::uint32_t>(Lanes::common_bits(in_common));
   }
 
   std::uint32_t operator[](std::size_t face) const {
@@ -161,18 +161,18 @@ class FaceMasks {
 /// largest of these heights, and that height [m].
 template <std::floating_point T>
 Extreme<T> highest_above(const Placed<Polyhedron<T>>& shape, const PointSet<T>& points) {
-  using W = Wide<T>;
+  using Lanes = Wide<T>;
   const WidePoints<T> wide(points);
-  WideMaximum<T> best{W::broadcast(-std::numeric_limits<T>::infinity()), W::iota()};
-  auto index = W::iota();
-  for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += W::lanes) {
+  WideMaximum<T> best{Lanes::broadcast(-std::numeric_limits<T>::infinity()), Lanes::iota()};
+  auto index = Lanes::iota();
+  for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += Lanes::lanes) {
     auto lowest = shape.normals().dot(i, wide[0]);
     for (std::size_t k = 1; k < points.size(); ++k) {
       const auto h = shape.normals().dot(i, wide[k]);
       lowest = h < lowest ? h : lowest;
     }
-    best.take(lowest - W::load(shape.offsets() + i), index);
-    index += W::lanes;
+    best.take(lowest - Lanes::load(shape.offsets() + i), index);
+    index += Lanes::lanes;
   }
   return best.reduce();
 }
