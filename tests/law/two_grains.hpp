@@ -31,21 +31,20 @@ struct PolytopeOf<Space<3>> {
 
 /// Boxes and random polytopes of 2 cm, at 1 m/s.
 template <class S, class Law>
-class TwoGrains {
+class TwoGrains : public TwoBodies<S, Law> {
  public:
-  using Vector = typename S::Vector;
+  using Base = TwoBodies<S, Law>;
+  using Base::bodies;
+  using typename Base::Vector;
   using Shape = typename PolytopeOf<S>::type;
-  static constexpr double radius = 0.01, margin = 4e-4;
+  static constexpr double radius = 0.01;
 
-  Bodies<S> bodies;
-  Contacts<S> contacts, previous;
-  StepReport report;
-  double time = 0, longest = 0.03;  ///< [s]
+  double longest = 0.03;  ///< [s]
   bool has_touched = false;
 
   /// @param trial 0 to 9: two boxes, face on face, aside by up to half of their size; beyond: at random
   /// @param spin  size of the angular velocities [rad/s]
-  TwoGrains(const Law& law, int trial, double spin) : materials_(1, law) {
+  TwoGrains(const Law& law, int trial, double spin) : Base(law) {
     std::mt19937_64 random(unsigned(trial) + 1);
     std::normal_distribution<double> normal;
     for (const double side : {-1.0, 1.0}) {
@@ -69,41 +68,16 @@ class TwoGrains {
       bodies.velocity.back()[0] = -side;
     }
   }
-  double kinetic_energy() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto w = angular<S>(bodies.velocity[i]);
-      sum += (bodies.grain_mass[i] * linear<S>(bodies.velocity[i]).squaredNorm() +
-              w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) /
-             2;
-    }
-    return sum;
-  }
-  bool touches() const {
-    return std::any_of(contacts.impulses.begin(), contacts.impulses.end(),
-                       [](const Vector& r) { return r[0] > 0; });
-  }
+  double kinetic_energy() const { return this->kinetic_energy_of(0) + this->kinetic_energy_of(1); }
   void step(double h) {
-    const Vector gravity = Vector::Zero();
-    const detail::StepContext<S, Law> context{bodies,   gravity, materials_, previous,
-                                              contacts, 0.02,    h,          margin};
-    report = {};
-    if constexpr (RegularizedLaw<Law, S>) {
-      if (!dynamics_.has_loads_of(2)) {
-        detect();
-        dynamics_.evaluate(context, 0, report);
-      }
-      dynamics_.predict(bodies, gravity, h);
-      detect();
-      dynamics_.evaluate(context, h, report);
-      dynamics_.advance(context);
-    } else {
-      dynamics_.predict(bodies, h);
-      detect();
-      dynamics_.advance(context, report);
-    }
-    has_touched = has_touched || touches();
-    time += h;
+    Base::step(h, [&] {
+      const Placed<Shape> a(shapes_[0], bodies.pose[0]), b(shapes_[1], bodies.pose[1]);
+      if (!collide(a, b, Base::margin, manifold_)) return;
+      for (const auto& point : manifold_.points)
+        this->add(point.gap, manifold_.normal, point.position - bodies.pose[0].position,
+                  point.position - bodies.pose[1].position, point.feature, manifold_.contact_class);
+    });
+    has_touched = has_touched || this->touches();
   }
 
  private:
@@ -118,30 +92,8 @@ class TwoGrains {
     }
     return hull<Shape>(points);
   }
-  void detect() {
-    std::swap(contacts, previous);
-    contacts.clear();
-    const Placed<Shape> a(shapes_[0], bodies.pose[0]), b(shapes_[1], bodies.pose[1]);
-    if (!collide(a, b, margin, manifold_)) return;
-    for (const auto& point : manifold_.points) {
-      Contact<S> contact{};
-      contact.a = 0;
-      contact.b = 1;
-      contact.gap = point.gap;
-      contact.frame = S::contact_frame(manifold_.normal);
-      contact.lever_a = point.position - bodies.pose[0].position;
-      contact.lever_b = point.position - bodies.pose[1].position;
-      contacts.points.push_back(contact);
-      contacts.keys.push_back({0, 1, point.feature});
-      contacts.classes.push_back(manifold_.contact_class);
-      contacts.impulses.push_back(Vector::Zero());
-    }
-  }
-
   std::vector<Shape> shapes_;
-  Materials<Law> materials_;
   Manifold<S> manifold_;
-  typename DynamicsOf<S, Law>::type dynamics_ = DynamicsOf<S, Law>::make();
 };
 
 }  // namespace landing

@@ -177,48 +177,43 @@ struct DynamicsOf<S, Law> {
   static type make() { return type(); }
 };
 
+/// Two bodies and the contacts between them, which the caller detects.
 template <class S, class Law>
-class OnFloor {
+class TwoBodies {
  public:
   using Vector = typename S::Vector;
   using Twist = typename S::Twist;
-  static constexpr int up = S::dim - 1;
+  static constexpr double margin = 4e-4;  ///< [m]
 
-  Bodies<S> bodies;  // the floor and the grain
+  Bodies<S> bodies;
   Vector gravity = Vector::Zero();
   Contacts<S> contacts, previous;
   StepReport report;
-  double time = 0;
+  double time = 0;  ///< [s]
 
-  /// The grain turned by q, its lowest vertex at the height above the floor [m].
-  OnFloor(const Grain<S>& grain, const Law& law, const typename S::Rotation& q, double height)
-      : grain_(grain), materials_(1, law) {
-    Pose<S> pose;
-    bodies.push_back(pose, MaterialId(0));
-    pose.rotation = q;
-    pose.position[up] = height - grain.lowest(q);
-    bodies.push_back(pose, MaterialId(0));
-    bodies.set_mass(1, grain.mass, grain.inertia);
-  }
-  Twist& velocity() { return bodies.velocity[1]; }
-  double rise() const { return bodies.velocity[1][up]; }  // upward velocity of the centre [m/s]
-  double kinetic_energy() const {
-    const auto w = angular<S>(bodies.velocity[1]);
-    return (grain_.mass * linear<S>(bodies.velocity[1]).squaredNorm() +
-            w.dot(bodies.inertia(1, bodies.pose[1].rotation) * w)) /
-           2;
-  }
-  /// Kinetic energy and that of gravity [J].
-  double energy() const {
-    return kinetic_energy() - grain_.mass * gravity.dot(bodies.pose[1].position);
-  }
   bool touches() const {
     return std::any_of(contacts.impulses.begin(), contacts.impulses.end(),
                        [](const Vector& r) { return r[0] > 0; });
   }
-  void step(double h) {
+  double kinetic_energy_of(std::size_t i) const {  ///< [J]
+    const auto w = angular<S>(bodies.velocity[i]);
+    return (bodies.grain_mass[i] * linear<S>(bodies.velocity[i]).squaredNorm() +
+            w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) /
+           2;
+  }
+
+ protected:
+  explicit TwoBodies(const Law& law) : materials_(1, law) {}
+
+  /// @param find adds the contacts of the poses by add()
+  void step(double h, const auto& find) {
     const detail::StepContext<S, Law> context{bodies,   gravity, materials_, previous,
-                                              contacts, 0.02,    h,          4e-4};
+                                              contacts, 0.02,    h,          margin};
+    const auto detect = [&] {
+      std::swap(contacts, previous);
+      contacts.clear();
+      find();
+    };
     report = {};
     if constexpr (RegularizedLaw<Law, S>) {
       if (!dynamics_.has_loads_of(2)) {
@@ -236,31 +231,62 @@ class OnFloor {
     }
     time += h;
   }
-
- private:
-  void detect() {
-    std::swap(contacts, previous);
-    contacts.clear();
-    const Pose<S>& pose = bodies.pose[1];
-    for (std::size_t i = 0; i < grain_.vertices.size(); ++i) {
-      Contact<S> contact{};
-      contact.a = 0;
-      contact.b = 1;
-      contact.lever_b = pose.rotation * grain_.vertices[i];
-      contact.lever_a = contact.lever_b + pose.position - bodies.pose[0].position;
-      contact.gap = contact.lever_a[up];
-      if (contact.gap > 4e-4) continue;
-      contact.frame = S::contact_frame(Vector(Vector::Unit(up)));
-      contacts.points.push_back(contact);
-      contacts.keys.push_back({0, 1, FeatureKey(FeatureKey::Kind::face_vertex, 0, i)});
-      contacts.classes.push_back(ContactClass::vertex_face);
-      contacts.impulses.push_back(Vector::Zero());
-    }
+  /// @param normal from body 0 to body 1, world axes
+  /// @param lever_a,lever_b from the centres of the bodies to the point, world axes [m]
+  void add(double gap, const Vector& normal, const Vector& lever_a, const Vector& lever_b,
+           FeatureKey feature, ContactClass its_class) {
+    contacts.points.push_back({0, 1, 0, gap, S::contact_frame(normal), lever_a, lever_b});
+    contacts.keys.push_back({0, 1, feature});
+    contacts.classes.push_back(its_class);
+    contacts.impulses.push_back(Vector::Zero());
   }
 
-  Grain<S> grain_;
+ private:
   Materials<Law> materials_;
   typename DynamicsOf<S, Law>::type dynamics_ = DynamicsOf<S, Law>::make();
+};
+
+template <class S, class Law>
+class OnFloor : public TwoBodies<S, Law> {  // body 0 is the floor, body 1 the grain
+ public:
+  using Base = TwoBodies<S, Law>;
+  using Base::bodies;
+  using typename Base::Twist;
+  using typename Base::Vector;
+  static constexpr int up = S::dim - 1;
+
+  /// The grain turned by q, its lowest vertex at the height above the floor [m].
+  OnFloor(const Grain<S>& grain, const Law& law, const typename S::Rotation& q, double height)
+      : Base(law), grain_(grain) {
+    Pose<S> pose;
+    bodies.push_back(pose, MaterialId(0));
+    pose.rotation = q;
+    pose.position[up] = height - grain.lowest(q);
+    bodies.push_back(pose, MaterialId(0));
+    bodies.set_mass(1, grain.mass, grain.inertia);
+  }
+  Twist& velocity() { return bodies.velocity[1]; }
+  double rise() const { return bodies.velocity[1][up]; }  // upward velocity of the centre [m/s]
+  double kinetic_energy() const { return this->kinetic_energy_of(1); }
+  /// Kinetic energy and that of gravity [J].
+  double energy() const {
+    return kinetic_energy() - grain_.mass * this->gravity.dot(bodies.pose[1].position);
+  }
+  void step(double h) {
+    Base::step(h, [&] {
+      const Pose<S>& pose = bodies.pose[1];
+      for (std::size_t i = 0; i < grain_.vertices.size(); ++i) {
+        const Vector lever_b = pose.rotation * grain_.vertices[i];
+        const Vector lever_a = lever_b + pose.position - bodies.pose[0].position;
+        if (lever_a[up] <= Base::margin)
+          this->add(lever_a[up], Vector::Unit(up), lever_a, lever_b,
+                    FeatureKey(FeatureKey::Kind::face_vertex, 0, i), ContactClass::vertex_face);
+      }
+    });
+  }
+
+ private:
+  Grain<S> grain_;
 };
 
 /// Kinetic energy of a body of which the angular momentum is that at the end of the step, in the pose [J].

@@ -8,7 +8,7 @@
 // returns when all members are done. No result may depend on the size of the team: members write to
 // different places, and what they add up is added in an order that does not depend on them. The calling
 // thread alone runs the same machine code as the members, and share_each() the same for every element,
-// wherever the part of a member begins (detail/compiled_once.hpp).
+// wherever the part of a member begins (core/compiled_once.hpp).
 //
 // This header needs no thread library; parallel/thread_team.hpp has the team with threads.
 #pragma once

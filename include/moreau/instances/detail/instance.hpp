@@ -77,15 +77,15 @@
 #define MOREAU_SIMULATION_INSTANCES(KEYWORD, ShapeT, LawT) \
   MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT)        \
   MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)
-#define MOREAU_PLANE_INSTANCES(KEYWORD, LawT)                 \
-  MOREAU_LAW_INSTANCES(KEYWORD, Space<2>, LawT)               \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Disk<double>, LawT)    \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Polygon<double>, LawT) \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Stadium<double>, LawT) \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Compound<Polygon<double>>, LawT)
-#define MOREAU_SPACE_INSTANCES(KEYWORD, LawT)                    \
-  MOREAU_LAW_INSTANCES(KEYWORD, Space<3>, LawT)                  \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Ball<double>, LawT)       \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Polyhedron<double>, LawT) \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Capsule<double>, LawT)    \
-  MOREAU_SIMULATION_INSTANCES(KEYWORD, Compound<Polyhedron<double>>, LawT)
+#define MOREAU_SPACE_AND_LAW_INSTANCES(KEYWORD, SpaceT, BallT, PolytopeT, CapsuleT, LawT) \
+  MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, LawT)                                             \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, BallT, LawT)                                       \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, PolytopeT, LawT)                                   \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, CapsuleT, LawT)                                    \
+  MOREAU_SIMULATION_INSTANCES(KEYWORD, Compound<PolytopeT>, LawT)
+#define MOREAU_PLANE_INSTANCES(KEYWORD, LawT)                                      \
+  MOREAU_SPACE_AND_LAW_INSTANCES(KEYWORD, Space<2>, Disk<double>, Polygon<double>, \
+                                 Stadium<double>, LawT)
+#define MOREAU_SPACE_INSTANCES(KEYWORD, LawT)                                         \
+  MOREAU_SPACE_AND_LAW_INSTANCES(KEYWORD, Space<3>, Ball<double>, Polyhedron<double>, \
+                                 Capsule<double>, LawT)
