@@ -36,6 +36,7 @@
 #include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/detail/approach_bounds.hpp"
 #include "moreau/world/detail/enlarged_boxes.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/detail/internal_edges.hpp"
@@ -240,12 +241,13 @@ class ContactDetector {
     grain.placed.update(shape, poses[grain.body.index()]);
     box = grain.placed.bounding_box();
   }
-  /// Calls use(approach, to_walls) with the functions of these names of StepMargins::fit().
-  auto with_bounds(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
-                   const detail::StepMotion<S>& motion, const auto& use) const;
-  /// The largest bound on the approach of grain k and a wall within the margin [m].
-  Scalar approach_to_walls(std::size_t k, Scalar margin, const Bodies<S>& bodies,
-                           const detail::StepMotion<S>& motion) const;
+  auto bounds_of(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+                 const detail::StepMotion<S>& motion) const {
+    return detail::ApproachBounds<S, Grain, decltype(walls_), decltype(cylinders_),
+                                  decltype(meshes_)>{grains_, boxes_,        pairs_,  shifts_,
+                                                     walls_,  cylinders_,    meshes_, bodies,
+                                                     motion,  lengths.margin};
+  }
   /// Finds the contacts of grain k with later grains and with walls.
   MOREAU_COMPILED_ONCE void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies,
                                       const Contacts<S>& previous, Member& found);
@@ -392,65 +394,17 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>
 }
 
 template <class ShapeT, class BroadPhaseT>
-auto ContactDetector<ShapeT, BroadPhaseT>::approach_to_walls(
-    std::size_t k, Scalar margin, const Bodies<S>& bodies,
-    const detail::StepMotion<S>& motion) const -> Scalar {
-  Scalar largest = 0;
-  const Grain& grain = grains_[k];
-  const std::size_t i = grain.body.index();
-  const auto take = [&](BodyId wall) {
-    const Vector to_grain = bodies.pose[i].position - bodies.pose[wall.index()].position;
-    largest =
-        std::max(largest, motion.approach(i, wall.index(), to_grain, grain.width / 2 + margin));
-  };
-  for (const auto& wall : walls_)
-    if (wall.placed.reaches(boxes_[k], margin)) take(wall.body);
-  for (const auto& wall : cylinders_)
-    if (wall.placed.reaches(boxes_[k], margin)) take(wall.body);
-  meshes_.for_each_near(boxes_[k], margin, take);
-  return largest;
-}
-
-template <class ShapeT, class BroadPhaseT>
-auto ContactDetector<ShapeT, BroadPhaseT>::with_bounds(const DetectionLengths<Scalar>& lengths,
-                                                       const Bodies<S>& bodies,
-                                                       const detail::StepMotion<S>& motion,
-                                                       const auto& use) const {
-  const Scalar margin = lengths.margin;
-  const auto approach = [&](std::size_t p, std::size_t first, std::size_t second) {
-    const Grain &a = grains_[first], &b = grains_[second];
-    const bool shifted = !shifts_.empty();
-    const Aabb<S> reach = boxes_[first].inflated(margin);
-    if (!reach.overlaps(shifted ? moved(boxes_[second], shifts_[p]) : boxes_[second]))
-      return Scalar(-1);
-    const std::size_t i = a.body.index(), j = b.body.index();
-    if (bodies.is_prescribed(i) && bodies.is_prescribed(j)) return Scalar(-1);
-    Vector to_b = bodies.pose[j].position - bodies.pose[i].position;
-    if (shifted) to_b += shifts_[p];
-    return a.width < b.width ? motion.approach(i, j, -to_b, a.width / 2 + margin)
-                             : motion.approach(j, i, to_b, b.width / 2 + margin);
-  };
-  const auto to_walls = [&](std::size_t k) { return approach_to_walls(k, margin, bodies, motion); };
-  return use(approach, to_walls);
-}
-
-template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::fit_margins(const DetectionLengths<Scalar>& lengths,
                                                        const Bodies<S>& bodies, Scalar step) {
   const detail::StepMotion<S> motion{bodies.velocity, {}, step};
-  with_bounds(lengths, bodies, motion, [&](const auto& approach, const auto& to_walls) {
-    margins_.fit(team_, grains_.size(), pairs_, approach, to_walls,
-                 [&](std::size_t k) { return bodies.is_prescribed(grains_[k].body.index()); });
-  });
+  margins_.fit(team_, bounds_of(lengths, bodies, motion));
 }
 
 template <class ShapeT, class BroadPhaseT>
 bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(
     const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
     const detail::StepMotion<S>& motion) const {
-  return with_bounds(lengths, bodies, motion, [&](const auto& approach, const auto& to_walls) {
-    return margins_.suffice(team_, lengths.margin, pairs_, approach, to_walls);
-  });
+  return margins_.suffice(team_, bounds_of(lengths, bodies, motion));
 }
 
 template <class ShapeT, class BroadPhaseT>

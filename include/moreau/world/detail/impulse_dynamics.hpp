@@ -38,6 +38,8 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/split_shared_bodies.hpp"
+#include "moreau/world/detail/attraction.hpp"
+#include "moreau/world/detail/body_shifts.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
@@ -130,7 +132,7 @@ class ImpulseDynamics {
     free_.resize(bodies.size());
     after_.resize(bodies.size());
     roots_.resize(bodies.size());
-    unshifted_.resize(bodies.size());
+    shifts_.resize(bodies.size());
     const std::span momentum(momentum_);
     if constexpr (requires { integrator_.predict_configuration(bodies, momentum, step, team_); })
       integrator_.predict_configuration(bodies, momentum, step, team_);
@@ -155,14 +157,13 @@ class ImpulseDynamics {
   /// Velocities after solve_contacts(), and the shifts by which it has corrected overlaps, one per body.
   /// @param has_chords whether the relative velocities of some contacts get chords
   StepMotion<S> motion(const Context& context, bool has_chords) const {
-    StepMotion<S> motion{after_, moved_by_correction(), context.step};
+    StepMotion<S> motion{after_, {}, context.step};
+    if (shifts_.any()) motion.shifts = correction_.shifts();
     if (has_chords) motion.before = context.bodies.velocity;
     return motion;
   }
   /// Undoes the shifts of solve_contacts(), which can then be called with other contacts.
-  void undo_shifts(Bodies<S>& bodies) const {
-    if (!moved_by_correction().empty()) bodies.pose = unshifted_;
-  }
+  void undo_shifts(Bodies<S>& bodies) const { shifts_.undo(bodies); }
   /// Stages 10 and 11.
   void finish(const Context& context, StepReport& report);
 
@@ -206,37 +207,18 @@ class ImpulseDynamics {
       integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step, team_);
     else
       integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step);
-    if constexpr (AttractiveLaw<Law, S>) attract(context.materials, context);
+    attraction_.apply(context, std::span<const MobilityRoot<S>>(roots_), free);
   }
-  /// Applies the attraction to the bodies as an external force. It depends on the gaps as detected,
-  /// although the overlap correction changes them afterwards.
-  template <class L>  // clang would instantiate a function that is no template with the class
-  void attract(const Materials<L>& materials, const Context& context) {
-    const Contacts<S>& contacts = context.contacts;
-    pulls_.resize(contacts.size());
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const Contact<S>& contact = contacts.points[c];
-      pulls_[c] = context.step * materials.laws()[contact.law].attraction(contact.gap);
-      if (pulls_[c] == 0) continue;
-      const Vector pull = -pulls_[c] * contact.frame.col(0);
-      pull_body(contact.b, contact.lever_b, pull);
-      pull_body(contact.a, contact.lever_a, -pull);
-    }
-  }
-  void pull_body(std::uint32_t i, const Vector& lever, const Vector& pull) {
-    const MobilityRoot<S>& root = roots_[i];
-    linear<S>(free_[i]) += root.linear * (root.linear * pull);
-    angular<S>(free_[i]) += root.angular * (root.angular * S::moment(lever, pull));
-  }
-
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
     if constexpr (!compliant) {
       const std::size_t found = start(context, context.previous);
-      if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, 1);
+      attraction_.add_to(unknowns_.impulses(context.contacts));
       return found;
     } else {
-      const std::size_t found = start(context, pushes_before(context));
+      // The springs bear the pushes.
+      const std::size_t found =
+          start(context, attraction_.pushes_before(context, springs_.last_step()));
       springs_.scale(context, unknowns_.impulses(context.contacts));
       springs_.relax(context, unknowns_.impulses(context.contacts), problem_.delassus);
       return found;
@@ -246,27 +228,6 @@ class ImpulseDynamics {
     return unknowns_.start(problem_.delassus, before, context.contacts,
                            springs_.turn(context, integrator_), team_);
   }
-  /// The contacts of the step before with their pushes against the attraction that they had then: the
-  /// springs bear the pushes. Without attraction these are their impulses.
-  const Contacts<S>& pushes_before(const Context& context) {
-    if constexpr (AttractiveLaw<Law, S>) {
-      pushes_ = context.previous;
-      for (std::size_t c = 0; c < pushes_.size(); ++c) {
-        const Contact<S>& contact = pushes_.points[c];
-        pushes_.impulses[c][0] +=
-            springs_.last_step() * context.materials.laws()[contact.law].attraction(contact.gap);
-      }
-      return pushes_;
-    } else {
-      return context.previous;
-    }
-  }
-  /// From the impulse on b to the push against the attraction (sign 1), or back (-1).
-  void shift_impulses(Contacts<S>& contacts, Scalar sign) {
-    const auto impulses = unknowns_.impulses(contacts);
-    for (std::size_t c = 0; c < contacts.size(); ++c) impulses[c][0] += sign * pulls_[c];
-  }
-
   void prepare_laws(const Context& context) {
     problem_.law_of.resize(context.contacts.size());
     problem_.laws.clear();
@@ -297,28 +258,11 @@ class ImpulseDynamics {
   OverlapCorrectionReport correct_overlaps(const Context& context) {
     OverlapCorrectionReport report = correction_.solve(problem_.delassus, context.contacts.points,
                                                        context.grain_size, team_, shared_.get());
-    is_shifted_ = shared_ || report.corrected > 0;
-    if (is_shifted_) shift_bodies(context.bodies, context.gravity, report);
+    shifts_.clear();
+    if (shared_ || report.corrected > 0)
+      shifts_.apply(correction_.shifts(), context.bodies, context.gravity, team_, shared_.get(),
+                    report);
     return report;
-  }
-  std::span<const Twist> moved_by_correction() const {
-    return is_shifted_ ? correction_.shifts() : std::span<const Twist>();
-  }
-  void shift_bodies(Bodies<S>& bodies, const Vector& gravity, OverlapCorrectionReport& report) {
-    unshifted_ = bodies.pose;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Vector move = linear<S>(correction_.shifts()[i]);
-      const Vector force = linear<S>(bodies.force[i]) + bodies.grain_mass[i] * gravity;
-      if (!shared_ || shared_->owns(i)) report.work += double(force.dot(move));
-      report.largest_shift = std::max(report.largest_shift, double(move.norm()));
-    }
-    team_.share_each(bodies.size(), 128, [&](std::size_t i) {
-      const Twist& shift = correction_.shifts()[i];
-      if (shared_ && shift.isZero(0)) return;
-      Pose<S>& pose = bodies.pose[i];
-      pose.position += linear<S>(shift);
-      pose.rotation = S::normalized(S::exp(angular<S>(shift)) * pose.rotation);
-    });
   }
 
   /// Chooses the law of each contact, fills the relative velocities before the step and adds the
@@ -370,18 +314,8 @@ class ImpulseDynamics {
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant) springs_.measure(context, problem_, impulses, report, shared_.get());
     if constexpr (stateful) choose_variants(context.materials, context.contacts);
-    if constexpr (AttractiveLaw<Law, S>) shift_impulses(context.contacts, -1);
+    attraction_.take_from(impulses);
     unknowns_.finish(problem_.delassus, context.contacts, team_);
-  }
-
-  /// Turns the spins as the overlap correction turned the bodies: with their inertia, so that the kinetic energy stays.
-  void turn_spins() {
-    if (!is_shifted_) return;
-    team_.share_each(roots_.size(), 256, [&](std::size_t i) {
-      const typename S::Angular turn = angular<S>(correction_.shifts()[i]);
-      const typename S::Angular spin = angular<S>(after_[i]);
-      if (!turn.isZero(0)) angular<S>(after_[i]) = S::adjoint(S::exp(turn)) * spin;
-    });
   }
 
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
@@ -401,6 +335,10 @@ class ImpulseDynamics {
   Problem problem_;
   Unknowns unknowns_;
   [[no_unique_address]] std::conditional_t<compliant, ContactSprings<S, Law>, NoSprings> springs_;
+  [[no_unique_address]] std::conditional_t<AttractiveLaw<Law, S>, Attraction<S, Law>,
+                                           NoAttraction<S, Law>>
+      attraction_;
+  BodyShifts<S> shifts_;  // by the overlap correction
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
   RestitutionLimit<S, Law> limit_;
 
@@ -408,14 +346,9 @@ class ImpulseDynamics {
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
   std::vector<Twist> free_, after_;            // velocities without and with the impulses
   std::vector<MobilityRoot<S>> roots_;
-  std::vector<Pose<S>> unshifted_;      // before the overlap correction
-  bool is_shifted_ = false;             // by the overlap correction, in this step
   std::vector<unsigned char> touched_;  // by contacts
   // One entry per contact.
   std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
-  std::vector<Scalar> pulls_;   // impulse of the attraction, for a law that attracts [N s]
-  std::conditional_t<compliant && AttractiveLaw<Law, S>, Contacts<S>, NoSprings>
-      pushes_;  // see pushes_before()
 };
 
 // Outside of the class: compiled once where a program declares the dynamics extern.
@@ -453,7 +386,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
   report.friction += losses.friction;
   report.rolling += losses.rolling;
   report.dissipation += losses.dissipation;
-  turn_spins();
+  shifts_.turn_spins(correction_.shifts(), after_, team_);
   const std::span<const Twist> after(after_);
   if constexpr (requires {
                   integrator_.advance_configuration(context.bodies, after, context.step, team_);

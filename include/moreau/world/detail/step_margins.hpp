@@ -119,27 +119,20 @@ class StepMargins {
 
   void use_whole() { fitted_ = false; }  ///< gives all pairs the whole margin
   /// Chooses the margins of a step.
-  /// @param grains     number of grains
-  /// @param pairs      of grains
-  /// @param approach   function: (p, first, second) -> bound on the approach of pair p [m]; < 0 if its boxes are
-  ///                   farther apart than the whole margin
-  /// @param to_walls   function: k -> largest bound on the approach of grain k and a wall within the margin [m]
-  /// @param prescribed function: k -> whether the motion of grain k is prescribed
-  void fit(const Team& team, std::size_t grains, std::span<const IndexPair> pairs,
-           const auto& approach, const auto& to_walls, const auto& prescribed) {
+  /// @param bounds ApproachBounds by the velocities before the step
+  void fit(const Team& team, const auto& bounds) {
     fitted_ = true;
-    near_.resize(pairs.size());
-    of_grain_.resize(grains);
-    team.share_each(grains, 256, [&](std::size_t k) { of_grain_[k] = to_walls(k); });
-    team.share_each(pairs.size(), 512, [&](std::size_t p) {
-      near_[p] = approach(p, std::size_t(pairs[p].first), std::size_t(pairs[p].second));
-    });
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-      for (const std::size_t k : {pairs[p].first, pairs[p].second})
+    near_.resize(bounds.pairs.size());
+    of_grain_.resize(bounds.grains.size());
+    team.share_each(of_grain_.size(), 256,
+                    [&](std::size_t k) { of_grain_[k] = bounds.of_walls(k); });
+    team.share_each(near_.size(), 512, [&](std::size_t p) { near_[p] = bounds.of_pair(p); });
+    for (std::size_t p = 0; p < near_.size(); ++p)
+      for (const std::size_t k : {bounds.pairs[p].first, bounds.pairs[p].second})
         of_grain_[k] = std::max(of_grain_[k], near_[p]);
     // A grain whose motion is prescribed is not moved by a hit: the grain that meets it decides.
-    for (std::size_t k = 0; k < grains; ++k)
-      if (prescribed(k)) of_grain_[k] = 0;
+    for (std::size_t k = 0; k < of_grain_.size(); ++k)
+      if (bounds.is_prescribed(k)) of_grain_[k] = 0;
   }
   bool are_fitted() const { return fitted_; }  ///< not so after use_whole()
   /// Whether the boxes of pair p are closer than the whole margin; true if that is not known.
@@ -154,20 +147,21 @@ class StepMargins {
     return fitted_ ? margin(of_grain_[k], whole) : whole;
   }
 
-  /// Whether no pair can approach by more than its margin, unless that is the whole one. Arguments as for
-  /// fit(), with bounds for the motion that has been found.
-  bool suffice(const Team& team, Scalar whole, std::span<const IndexPair> pairs,
-               const auto& approach, const auto& to_walls) const {
+  /// Whether no pair can approach by more than its margin, unless that is the whole one.
+  /// @param bounds ApproachBounds of the motion that has been found
+  bool suffice(const Team& team, const auto& bounds) const {
     std::atomic<bool> enough{true};
     const auto check = [&](Scalar margin, const auto& bound) {
-      if (margin < whole && bound() > margin) enough.store(false, std::memory_order_relaxed);
+      if (margin < bounds.margin && bound() > margin)
+        enough.store(false, std::memory_order_relaxed);
     };
-    team.share_each(of_grain_.size(), 256,
-                    [&](std::size_t k) { check(of_walls(k, whole), [&] { return to_walls(k); }); });
-    team.share_each(pairs.size(), 512, [&](std::size_t p) {
-      const std::size_t first = pairs[p].first, second = pairs[p].second;
+    team.share_each(of_grain_.size(), 256, [&](std::size_t k) {
+      check(of_walls(k, bounds.margin), [&] { return bounds.of_walls(k); });
+    });
+    team.share_each(near_.size(), 512, [&](std::size_t p) {
       if (is_near(p))
-        check(of_pair(first, second, whole), [&] { return approach(p, first, second); });
+        check(of_pair(bounds.pairs[p].first, bounds.pairs[p].second, bounds.margin),
+              [&] { return bounds.of_pair(p); });
     });
     return enough;
   }
