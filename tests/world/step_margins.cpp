@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/motion/moreau_jean.hpp"
 #include "moreau/sample/random_rotation.hpp"
 
@@ -287,4 +288,58 @@ TEST_CASE_TEMPLATE("a run that is continued after repeated steps has the same bi
       same = same && copy.bodies().velocity[i] == scene.world.bodies().velocity[i];
   }
   CHECK(same);
+}
+
+namespace {
+
+/// Two slopes that fall to the middle, with the outside above.
+FacetMesh<Space<2>> valley(Space<2>) {
+  FacetMesh<Space<2>> mesh;
+  mesh.vertices = {{-0.2, 0.08}, {0, 0}, {0.2, 0.08}};
+  mesh.facets = {{1, 0}, {2, 1}};
+  return mesh;
+}
+FacetMesh<Space<3>> valley(Space<3>) {
+  FacetMesh<Space<3>> mesh;
+  for (const double y : {-0.2, 0.2})
+    for (const double x : {-0.2, 0.0, 0.2}) mesh.vertices.push_back({x, y, 0.4 * std::abs(x)});
+  mesh.facets = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("contacts with a mesh do not depend on the margins of a step, however deep",
+                   ShapeT, Polyhedron<>, Polygon<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t points = 0, deep = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Pose<S> pose;
+    for (auto& x : pose.position) x = 0.01 * uniform(random);
+    pose.position[S::dim - 1] = 0.012 + 0.003 * uniform(random);
+    pose.rotation = random_rotation<S>(random);
+    const Vector velocity = 0.01 * uniform(random) * Vector::Unit(0);
+    Contacts<S> found[2];
+    for (const bool narrows : {false, true}) {
+      Tolerances tolerances = wide();
+      tolerances.narrows = narrows;
+      Scene<ShapeT> scene(0.4, {}, tolerances);
+      scene.world.add_mesh_wall(valley(S{}));
+      scene.add(grain_of<ShapeT>(1), pose, velocity);
+      scene.world.allow_overlaps();
+      scene.world.step(h);
+      found[narrows] = scene.world.contacts();
+    }
+    CHECK(found[0].keys == found[1].keys);
+    for (std::size_t c = 0; c < std::min(found[0].size(), found[1].size()); ++c) {
+      CHECK(found[0].points[c].gap == found[1].points[c].gap);
+      deep += found[0].points[c].gap < -0.02 * size;
+    }
+    points += found[0].size();
+  }
+  CHECK(points > 300);
+  CHECK(deep > 100);
 }
