@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Functions of small matrices that the compiler instantiates once. Eigen has each of them, but with
 // new types for every combination of operands, which make up most of the time to compile a
-// simulation. The results are the same to the last bit.
+// simulation. Results that Eigen's functions have under the same name are the same to the last bit.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <type_traits>
 
@@ -57,6 +58,89 @@ template <class Matrix>
   const T scale = std::ldexp(T(1), -std::clamp(std::ilogb(m.trace()), -most, most));  // exact
   const Matrix scaled = m * scale, inverse = scaled.inverse();
   return inverse * scale;
+}
+
+/// @name Sums of products of small matrices, without the types that Eigen makes for each of them.
+/// @{
+
+/// to += factor a b.
+/// @param to N x M, another matrix than a and b
+/// @param a  N x K
+/// @param b  K x M
+template <class T, int N, int K, int M>
+void add_product(Eigen::Matrix<T, N, M>& to, const Eigen::Matrix<T, N, K>& a,
+                 const Eigen::Matrix<T, K, M>& b, std::type_identity_t<T> factor = T(1)) {
+  T* column = to.data();
+  const T* entry = b.data();
+  for (int j = 0; j < M; ++j, column += N)
+    for (int k = 0; k < K; ++k, ++entry) {
+      const T by = factor * *entry;
+      const T* of_a = a.data() + k * N;
+      for (int i = 0; i < N; ++i) column[i] += of_a[i] * by;
+    }
+}
+/// to += factor a b^T.
+/// @param to N x M, another matrix than a and b
+/// @param a  N x K
+/// @param b  M x K
+template <class T, int N, int K, int M>
+void add_product_transposed(Eigen::Matrix<T, N, M>& to, const Eigen::Matrix<T, N, K>& a,
+                            const Eigen::Matrix<T, M, K>& b,
+                            std::type_identity_t<T> factor = T(1)) {
+  for (int k = 0; k < K; ++k)
+    for (int j = 0; j < M; ++j) {
+      const T by = factor * b.data()[k * M + j];
+      const T* of_a = a.data() + k * N;
+      T* column = to.data() + j * N;
+      for (int i = 0; i < N; ++i) column[i] += of_a[i] * by;
+    }
+}
+/// to += factor a^T b.
+/// @param to N x M, another matrix than a and b
+/// @param a  K x N
+/// @param b  K x M
+template <class T, int N, int K, int M>
+void add_transposed_product(Eigen::Matrix<T, N, M>& to, const Eigen::Matrix<T, K, N>& a,
+                            const Eigen::Matrix<T, K, M>& b,
+                            std::type_identity_t<T> factor = T(1)) {
+  for (int j = 0; j < M; ++j)
+    for (int i = 0; i < N; ++i) {
+      T sum = 0;
+      for (int k = 0; k < K; ++k) sum += a.data()[i * K + k] * b.data()[j * K + k];
+      to.data()[j * N + i] += factor * sum;
+    }
+}
+/// @}
+
+/// Replaces a symmetric positive definite matrix by its inverse. Its lower triangle is read. With the factor L of
+/// Cholesky, m = L L^T, the inverse is L^-T L^-1.
+/// @returns false, with a matrix without meaning, if the matrix is not positive definite
+template <class T, int N>
+[[nodiscard]] bool invert_definite(Eigen::Matrix<T, N, N>& m) {
+  constexpr auto n = static_cast<std::size_t>(N);
+  T l[n][n], inverse[n][n] = {};
+  for (int k = 0; k < N; ++k)
+    for (int i = k; i < N; ++i) {
+      T rest = m.data()[k * N + i];
+      for (int j = 0; j < k; ++j) rest -= l[i][j] * l[k][j];
+      if (i == k && !(rest > 0)) return false;
+      l[i][k] = i == k ? std::sqrt(rest) : rest / l[k][k];
+    }
+  for (int k = 0; k < N; ++k) {
+    inverse[k][k] = 1 / l[k][k];
+    for (int i = k + 1; i < N; ++i) {
+      T rest = 0;
+      for (int j = k; j < i; ++j) rest += l[i][j] * inverse[j][k];
+      inverse[i][k] = -rest / l[i][i];
+    }
+  }
+  for (int j = 0; j < N; ++j)
+    for (int i = j; i < N; ++i) {
+      T sum = 0;
+      for (int k = i; k < N; ++k) sum += inverse[k][i] * inverse[k][j];
+      m.data()[j * N + i] = m.data()[i * N + j] = sum;
+    }
+  return true;
 }
 
 /// x + t d, for instance the point at t of a line.

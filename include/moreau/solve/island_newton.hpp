@@ -92,13 +92,12 @@ class IslandNewton {
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
   double slip() const {
-    constexpr int tangents = S::dim - 1;
     double fastest = 0;
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       if (!(centre_[k][0] > 0)) continue;
       const auto& point = points_.points()[k];
       const Vector u = point.free + points_.velocity(point, y_);
-      fastest = std::max(fastest, u.template tail<tangents>().norm());
+      fastest = std::max(fastest, slip_of(u));
     }
     const double motion = scale(y_);
     return motion > 0 ? fastest / motion : 0;
@@ -166,6 +165,12 @@ class IslandNewton {
                           visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
 
+  /// The speed along the tangents of a contact.
+  static double slip_of(const Vector& u) {
+    double square = 0;
+    for (int k = 1; k < S::dim; ++k) square += u[k] * u[k];
+    return std::sqrt(square);
+  }
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
     for (std::size_t k = 0; k < centre_.size(); ++k)
@@ -175,9 +180,9 @@ class IslandNewton {
   void first_shifts() {
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
-      const Vector u =
-          point.free + points_.velocity(point, y_) + point.compliance.cwiseProduct(centre_[k]);
-      shift_[k] = point.friction * u.template tail<S::dim - 1>().norm();
+      Vector u = point.free + points_.velocity(point, y_);
+      for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
+      shift_[k] = point.friction * slip_of(u);
     }
   }
   /// Sets the shifts of the motion that a proximal step has found.
@@ -185,8 +190,7 @@ class IslandNewton {
   double next_shifts() {
     double largest = 0;
     for (std::size_t k = 0; k < shift_.size(); ++k) {
-      const double shift =
-          points_.points()[k].friction * slip_[k].template tail<S::dim - 1>().norm();
+      const double shift = points_.points()[k].friction * slip_of(slip_[k]);
       if (found_[k][0] > 0) largest = std::max(largest, std::abs(shift - shift_[k]));
       shift_[k] = shift;
     }
@@ -210,7 +214,7 @@ class IslandNewton {
   double largest_change() const {
     double largest = 0;
     for (std::size_t i = 0; i < y_.size(); ++i)
-      largest = std::max(largest, (next_[i] - y_[i]).norm() * points_.speed(i));
+      largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
     return largest > 0 ? largest / scale(next_) : 0;
   }
 
@@ -226,16 +230,25 @@ class IslandNewton {
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
       const double soft = epsilon * point.diagonal;
-      const Vector s = point.compliance.array() + soft;
-      Vector b = point.free + points_.velocity(point, y) - soft * centre_[k];
+      const Vector caused = points_.velocity(point, y);
+      Vector s, b;
+      for (int i = 0; i < S::dim; ++i) {
+        s[i] = point.compliance[i] + soft;
+        b[i] = point.free[i] + caused[i] - soft * centre_[k][i];
+      }
       slip_[k] = b;
       b[0] += shift_[k];
       const ContactResponse<S> answer = response<S>(point.friction, s, b);
       found_[k] = answer.impulse;
       stiffness_[k] = answer.stiffness;
-      slip_[k] += s.cwiseProduct(answer.impulse);
-      energy += s.dot(answer.impulse.cwiseAbs2());
-      points_.push(point, -answer.impulse, f_);
+      Vector back;
+      for (int i = 0; i < S::dim; ++i) {
+        const double soft_part = s[i] * answer.impulse[i];
+        slip_[k][i] += soft_part;
+        energy += soft_part * answer.impulse[i];
+        back[i] = -answer.impulse[i];
+      }
+      points_.push(point, back, f_);
     }
     double squares = 0;
     for (std::size_t i = 0; i < f_.size(); ++i) {
@@ -290,7 +303,8 @@ class IslandNewton {
     if (!(first < 0)) return false;
     double length = 1, low = 0, low_slope = first, high = 0, high_slope = 0;
     for (int k = 0; k < most; ++k) {
-      for (std::size_t i = 0; i < next_.size(); ++i) trial_[i] = next_[i] + length * direction_[i];
+      for (std::size_t i = 0; i < next_.size(); ++i)
+        trial_[i] = along(next_[i], length, direction_[i]);
       const Value reached = respond(epsilon, trial_);
       const double here = slope();
       if (std::abs(here) <= -enough * first || reached.norm < value.norm / 2) {
@@ -318,6 +332,12 @@ class IslandNewton {
     for (std::size_t i = 0; i < f_.size(); ++i) sum += f_[i].dot(direction_[i]);
     return sum;
   }
+  /// A J of a contact and one of its bodies.
+  typename Points::Rows stiff(std::size_t k, const typename Points::Rows& j) const {
+    typename Points::Rows rows = Points::Rows::Zero();
+    add_product(rows, stiffness_[k], j);
+    return rows;
+  }
   /// Solves phi'' direction_ = -F at the motion of the last respond().
   bool newton_direction() {
     matrix_.clear();
@@ -325,16 +345,15 @@ class IslandNewton {
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
       if (found_[k][0] == 0) continue;
-      typename Points::Rows of_a, of_b;
-      if (point.body_a != Points::none) {
-        of_a.noalias() = stiffness_[k] * point.a;
-        matrix_.diagonal(point.body_a).noalias() += point.a.transpose() * of_a;
-      }
-      if (point.body_b == Points::none) continue;
-      of_b.noalias() = stiffness_[k] * point.b;
-      matrix_.diagonal(point.body_b).noalias() += point.b.transpose() * of_b;
       if (point.body_a != Points::none)
-        matrix_.add(point.body_a, point.body_b, point.a.transpose() * of_b);
+        add_transposed_product(matrix_.diagonal(point.body_a), point.a, stiff(k, point.a));
+      if (point.body_b == Points::none) continue;
+      const typename Points::Rows of_b = stiff(k, point.b);
+      add_transposed_product(matrix_.diagonal(point.body_b), point.b, of_b);
+      if (point.body_a == Points::none) continue;
+      block_.setZero();
+      add_transposed_product(block_, point.a, of_b);
+      matrix_.add(point.body_a, point.body_b, block_);
     }
     if (!matrix_.factorize()) return false;
     for (std::size_t i = 0; i < f_.size(); ++i) direction_[i] = -f_[i];
@@ -353,6 +372,7 @@ class IslandNewton {
   std::vector<Coordinates> y_;                                    // of the centre
   std::vector<Coordinates> next_, trial_, f_, direction_;
   BlockFactorization<S::dofs> matrix_;
+  typename BlockFactorization<S::dofs>::Block block_;
 };
 
 }  // namespace moreau::detail

@@ -5,7 +5,6 @@
 // order are found once for each pattern.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -16,6 +15,8 @@
 #include <limits>
 #include <span>
 #include <vector>
+
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau::detail {
 
@@ -59,9 +60,9 @@ class BlockFactorization {
   /// Adds a block (i, j) of an edge, and its transpose (j, i).
   void add(std::size_t i, std::size_t j, const Block& block) {
     if (place_[i] > place_[j])
-      blocks_[slots_[i * count_ + j]] += block;
+      add_entries(blocks_[slots_[i * count_ + j]], block, 1, N);
     else
-      blocks_[slots_[i * count_ + j]] += block.transpose();
+      add_entries(blocks_[slots_[i * count_ + j]], block, N, 1);
   }
 
   /// Replaces the matrix by its factors.
@@ -69,14 +70,13 @@ class BlockFactorization {
   bool factorize() {
     for (std::size_t k = 0; k < count_; ++k) {
       const std::uint32_t p = order_[k];
-      const Eigen::LLT<Block> root(blocks_[p]);
-      if (root.info() != Eigen::Success) return false;
-      blocks_[p] = root.solve(Block::Identity());
+      if (!invert_definite(blocks_[p])) return false;
       const auto after = later(k);
       for (std::size_t a = 0; a < after.size(); ++a) {
         const Block& of_a = block(after[a], p);
-        scaled_.noalias() = of_a * blocks_[p];
-        blocks_[after[a]].noalias() -= scaled_ * of_a.transpose();
+        scaled_.setZero();
+        add_product(scaled_, of_a, blocks_[p]);
+        add_product_transposed(blocks_[after[a]], scaled_, of_a, -1);
         for (std::size_t b = a + 1; b < after.size(); ++b)
           subtract(after[a], after[b], block(after[b], p));
       }
@@ -87,14 +87,16 @@ class BlockFactorization {
   void solve(std::span<Segment> x) const {
     for (std::size_t k = 0; k < count_; ++k) {
       const std::uint32_t p = order_[k];
-      const Segment part = blocks_[p] * x[p];
-      for (const std::uint32_t i : later(k)) x[i].noalias() -= block(i, p) * part;
+      Segment part = Segment::Zero();
+      add_product(part, blocks_[p], x[p]);
+      for (const std::uint32_t i : later(k)) add_product(x[i], block(i, p), part, -1);
     }
     for (std::size_t k = count_; k-- > 0;) {
       const std::uint32_t p = order_[k];
       Segment rest = x[p];
-      for (const std::uint32_t j : later(k)) rest.noalias() -= block(j, p).transpose() * x[j];
-      x[p].noalias() = blocks_[p] * rest;
+      for (const std::uint32_t j : later(k)) add_transposed_product(rest, block(j, p), x[j], -1);
+      x[p].setZero();
+      add_product(x[p], blocks_[p], rest);
     }
   }
 
@@ -107,9 +109,14 @@ class BlockFactorization {
   void subtract(std::size_t i, std::size_t j, const Block& other) {
     Block& target = blocks_[slots_[i * count_ + j]];
     if (place_[i] > place_[j])
-      target.noalias() -= scaled_ * other.transpose();
+      add_product_transposed(target, scaled_, other, -1);
     else
-      target.noalias() -= other * scaled_.transpose();
+      add_product_transposed(target, other, scaled_, -1);
+  }
+  /// Adds a block, whose entries lie `down` and `along` apart in memory in a column and in a row.
+  static void add_entries(Block& to, const Block& block, int down, int along) {
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) to.data()[j * N + i] += block.data()[j * along + i * down];
   }
   void connect(std::size_t i, std::size_t j) {
     if (slots_[i * count_ + j] != none) return;

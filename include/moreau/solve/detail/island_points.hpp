@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
@@ -42,36 +43,43 @@ struct ContactResponse {
 template <class S>
 ContactResponse<S> response(double mu, const Eigen::Matrix<double, S::dim, 1>& s,
                             const Eigen::Matrix<double, S::dim, 1>& b) {
-  constexpr int tangents = S::dim - 1;
-  using Tangent = Eigen::Matrix<double, tangents, 1>;
+  constexpr int dim = S::dim;
   ContactResponse<S> answer;
+  answer.stiffness.setZero();
   // In the coordinates sqrt(s) r the projection is orthogonal, onto a cone of another angle.
   const double stretch = std::sqrt(s[1] / s[0]), slope = mu * stretch;
   const double normal = -b[0] / s[0];
-  const Tangent slip = b.template tail<tangents>() * (-stretch / s[1]);
-  const double length = slip.norm();
+  Eigen::Matrix<double, dim, 1> direction;  // of the slip; entry 0 is not used
+  double square = 0;
+  for (int k = 1; k < dim; ++k) {
+    direction[k] = b[k] * (-stretch / s[1]);
+    square += direction[k] * direction[k];
+  }
+  const double length = std::sqrt(square);
   if (slope * length <= -normal) {
     answer.impulse.setZero();
-    answer.stiffness.setZero();
     return answer;
   }
   if (length < slope * normal) {
-    answer.impulse = -b.cwiseQuotient(s);
-    answer.stiffness = s.cwiseInverse().asDiagonal();
+    for (int k = 0; k < dim; ++k) {
+      answer.impulse[k] = -b[k] / s[k];
+      answer.stiffness(k, k) = 1 / s[k];
+    }
     return answer;
   }
-  const Tangent direction = length > 0 ? Tangent(slip / length) : Tangent(Tangent::Zero());
+  for (int k = 1; k < dim; ++k) direction[k] = length > 0 ? direction[k] / length : 0;
   const double share = 1 / (1 + slope * slope), reached = (normal + slope * length) * share;
-  answer.impulse[0] = reached;
-  answer.impulse.template tail<tangents>() = mu * reached * direction;
-  answer.stiffness(0, 0) = share / s[0];
-  answer.stiffness.template bottomLeftCorner<tangents, 1>() = mu * share / s[0] * direction;
-  answer.stiffness.template topRightCorner<1, tangents>() =
-      mu * share / s[0] * direction.transpose();
   const double across = length > 0 ? slope * reached / length : 0;
-  answer.stiffness.template bottomRightCorner<tangents, tangents>() =
-      (across / s[1]) * Eigen::Matrix<double, tangents, tangents>::Identity() +
-      (mu * mu * share / s[0] - across / s[1]) * direction * direction.transpose();
+  const double along = share / s[0], turned = across / s[1];
+  answer.impulse[0] = reached;
+  answer.stiffness(0, 0) = along;
+  for (int k = 1; k < dim; ++k) {
+    answer.impulse[k] = mu * reached * direction[k];
+    answer.stiffness(k, 0) = answer.stiffness(0, k) = mu * along * direction[k];
+    for (int l = 1; l < dim; ++l)
+      answer.stiffness(k, l) = (mu * mu * along - turned) * direction[k] * direction[l];
+    answer.stiffness(k, k) += turned;
+  }
   return answer;
 }
 
@@ -145,14 +153,14 @@ class IslandPoints {
   /// Change of the relative velocity of a contact by the motion y of the bodies [m/s].
   Vector velocity(const Point& point, std::span<const Coordinates> y) const {
     Vector u = Vector::Zero();
-    if (point.body_a != none) u.noalias() += point.a * y[point.body_a];
-    if (point.body_b != none) u.noalias() += point.b * y[point.body_b];
+    if (point.body_a != none) add_product(u, point.a, y[point.body_a]);
+    if (point.body_b != none) add_product(u, point.b, y[point.body_b]);
     return u;
   }
   /// Adds J^T r of one contact.
   void push(const Point& point, const Vector& r, std::span<Coordinates> y) const {
-    if (point.body_a != none) y[point.body_a].noalias() += point.a.transpose() * r;
-    if (point.body_b != none) y[point.body_b].noalias() += point.b.transpose() * r;
+    if (point.body_a != none) add_transposed_product(y[point.body_a], point.a, r);
+    if (point.body_b != none) add_transposed_product(y[point.body_b], point.b, r);
   }
 
  private:
@@ -175,28 +183,35 @@ class IslandPoints {
   /// L of a positive semidefinite matrix L L^T, lower triangle; a zero pivot gives a zero column.
   static Root root(const Root& m) {
     Root l = Root::Zero();
+    const auto rest = [&](int i, int k) {
+      double sum = m(i, k);
+      for (int j = 0; j < k; ++j) sum -= l(i, j) * l(k, j);
+      return sum;
+    };
     for (int k = 0; k < dofs; ++k) {
-      const double pivot = m(k, k) - l.row(k).head(k).squaredNorm();
+      const double pivot = rest(k, k);
       if (!(pivot > 1e-14 * m(k, k))) continue;
       l(k, k) = std::sqrt(pivot);
-      for (int i = k + 1; i < dofs; ++i)
-        l(i, k) = (m(i, k) - l.row(i).head(k).dot(l.row(k).head(k))) / l(k, k);
+      for (int i = k + 1; i < dofs; ++i) l(i, k) = rest(i, k) / l(k, k);
     }
     return l;
   }
   template <class Operator>
   Rows rows(const Operator& op, std::size_t c, std::uint32_t body, const typename S::Vector& lever,
             double sign) const {
-    Rows rows = Rows::Zero();
+    Rows rows = Rows::Zero(), by_root = Rows::Zero();
     if (body == none) return rows;
     using Exact = Space<dim, double>;
-    const typename Exact::Vector arm = lever.template cast<double>();
+    const auto& frame = op.frame(c);
+    typename Exact::Vector arm, axis;
+    for (int i = 0; i < dim; ++i) arm[i] = double(lever[i]);
     for (int k = 0; k < dim; ++k) {
-      const typename Exact::Vector axis = sign * op.frame(c).col(k).template cast<double>();
-      rows.template block<1, dim>(k, 0) = axis.transpose();
-      rows.template block<1, S::angular_dim>(k, dim) = Exact::moment(arm, axis).transpose();
+      for (int i = 0; i < dim; ++i) rows(k, i) = axis[i] = sign * double(frame(i, k));
+      const typename Exact::Angular moment = Exact::moment(arm, axis);
+      for (int i = 0; i < S::angular_dim; ++i) rows(k, dim + i) = moment[i];
     }
-    return rows * roots_[body];
+    add_product(by_root, rows, roots_[body]);
+    return by_root;
   }
 
   std::vector<Point> points_;
