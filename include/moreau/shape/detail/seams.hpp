@@ -50,8 +50,10 @@ class Seams {
     using T = typename decltype(part.pose)::Vector::Scalar;
     constexpr T near = std::numeric_limits<T>::epsilon() > T(1e-9) ? T(1e-4) : T(1e-6);
     const auto body = part.pose.to_body(point);
-    const auto heights = (part.shape.face_normals() * body).array() - part.shape.face_offsets();
-    return heights.maxCoeff() <= near * part.shape.circumradius();
+    // In one expression, which refers to temporaries.
+    const T height =
+        ((part.shape.face_normals() * body).array() - part.shape.face_offsets()).maxCoeff();
+    return height <= near * part.shape.circumradius();
   }
 
   std::vector<std::vector<std::uint32_t>> neighbours_;  // of each part
