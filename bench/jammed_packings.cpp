@@ -109,7 +109,7 @@ Tiles<ShapeT, Law> large_packing(const std::string& name, const Law& law, std::s
   // Large steps first. Stored every 50 steps.
   const std::string file = stem + ".packing";
   int done = 0;
-  if (std::filesystem::exists(file)) read_snapshot(file, packing.world, done);
+  if (std::filesystem::exists(file)) reload_snapshot(file, packing.world, done);
   while (done < 5000) {
     packing.settle(50, done < 300 ? 5e-4 : h);
     done += 50;

@@ -160,7 +160,7 @@ class Experiment {
   /// same.
   /// @throws std::runtime_error naming the path if the file is not such a packing
   void read_packing(const std::filesystem::path& path, std::string& made_by) {
-    moreau::read_snapshot(path, simulation_, made_by, settled_);
+    moreau::reload_snapshot(path, simulation_, made_by, settled_);
   }
 
   /// Writes the state of the experiment and more members of the run.
@@ -174,8 +174,8 @@ class Experiment {
   /// @throws std::runtime_error naming the path if the file is not such a checkpoint
   template <class... More>
   void read_checkpoint(const std::filesystem::path& path, More&... more) {
-    moreau::read_snapshot(path, simulation_, start_, height_, wall_mass_, settled_, old_stiffness_,
-                          more...);
+    moreau::reload_snapshot(path, simulation_, start_, height_, wall_mass_, settled_,
+                            old_stiffness_, more...);
   }
 
   /// Makes the state that read_checkpoint() read the start of a run with other laws, solver, force,

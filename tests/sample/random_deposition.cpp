@@ -71,6 +71,27 @@ TEST_CASE("a floor with two lengths is filled to both, and nowhere overlaps a sp
   }
 }
 
+TEST_CASE_TEMPLATE("a round floor holds all spheres, and a floor that is too small is refused", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<3, float>))) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(4);
+  const std::vector<T> radii(100, T(0.1));
+  std::array<T, std::size_t(S::dim - 1)> lengths;
+  lengths.fill(T(1));
+  const auto poses = random_deposition<S>(radii, lengths, random, moreau::round_floor<S>(T(1)));
+  T farthest = 0;
+  for (const auto& pose : poses) {
+    typename S::Vector aside = pose.position - S::Vector::Constant(T(0.5));
+    aside[S::dim - 1] = 0;
+    farthest = std::max(farthest, aside.norm());
+  }
+  CHECK(farthest <= T(0.4) + 20 * std::numeric_limits<T>::epsilon());
+  CHECK(farthest > T(0.36));
+  CHECK_THROWS_WITH_AS(random_deposition<S>(radii, lengths, random,
+                                            [](const typename S::Vector&, T) { return false; }),
+                       doctest::Contains("must leave room above the floor"), std::invalid_argument);
+}
+
 TEST_CASE("the same seed gives the same sample") {
   const std::vector<double> radii(20, 0.1);
   std::mt19937_64 one(5), two(5), three(6);

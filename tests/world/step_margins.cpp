@@ -281,7 +281,7 @@ TEST_CASE_TEMPLATE("a run that is continued after repeated steps has the same bi
   for (int k = 0; k < 20; ++k) {
     scene.world.step(h);
     write_snapshot(folder / "state", scene.world);
-    read_snapshot(folder / "state", copy);
+    reload_snapshot(folder / "state", copy);
     scene.world.step(h);
     copy.step(h);
     for (std::size_t i = 0; i < copy.bodies().size(); ++i)

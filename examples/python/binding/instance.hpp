@@ -233,7 +233,7 @@ class Instance final : public World {
     moreau::write_snapshot(path, simulation_);
   }
   void read_snapshot(const std::string& path) override {
-    moreau::read_snapshot(path, simulation_);
+    moreau::reload_snapshot(path, simulation_);
     laws_ = simulation_.materials();
     count_shapes();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One line for a compiler or a language version that cannot compile the library, in place of
+// One line for a compiler, a language version or a flag that cannot compile the library, in place of
 // hundreds: the file that does not exist ends the compilation. Include it before everything else.
 #pragma once
 
@@ -9,4 +9,7 @@
 #elif __cplusplus < 202002L
 #error "moreau needs C++20: compile with -std=c++20 or later."
 #include "moreau needs C++20"
+#elif defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "moreau needs infinities and checks for NaN: compile without -ffast-math and -Ofast."
+#include "moreau needs infinities"
 #endif

@@ -40,6 +40,7 @@
 #include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/error.hpp"
 #include "moreau/io/archive.hpp"
 #include "moreau/io/detail/crc64.hpp"
 #include "moreau/io/detail/input_file.hpp"
@@ -263,16 +264,32 @@ void write_snapshot(const std::filesystem::path& path,
   write_atomically(path, snapshot(world, more...));
 }
 
-/// Restores a simulation of the same type from a file written by write_snapshot(); see
-/// restore_snapshot().
+/// Restores a simulation of the same type, and other objects of the run, from a file written by write_snapshot(); see
+/// restore_snapshot(). The file also sets what was set before: laws, gravity, options, tolerances, grain size. Change
+/// them after this call (set_materials(), set_gravity(), set_solver(), ...).
+/// @param world without bodies, which the file would replace; reload_snapshot() replaces them
+/// @throws std::invalid_argument if the simulation has bodies
 /// @throws std::system_error naming the path and the reason if the file cannot be read
 /// @throws std::runtime_error naming the path and the reason if restore_snapshot() would throw; no
 ///                            object is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void read_snapshot(const std::filesystem::path& path,
                    Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
+  require(
+      world.bodies().size() == 0, "read_snapshot", "bodies", world.bodies().size(),
+      "must be 0, because the file replaces all of the simulation: read first, then add, or use "
+      "reload_snapshot()");
   const std::string bytes = detail::read_file(path, "read_snapshot");
   detail::restore(bytes, "read_snapshot: '" + path.string() + "'", world, more...);
+}
+
+/// The same for a simulation that may have bodies: goes back to the state in the file.
+/// @throws as read_snapshot(), except that bodies are no error
+template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
+void reload_snapshot(const std::filesystem::path& path,
+                     Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
+  const std::string bytes = detail::read_file(path, "reload_snapshot");
+  detail::restore(bytes, "reload_snapshot: '" + path.string() + "'", world, more...);
 }
 
 }  // namespace moreau

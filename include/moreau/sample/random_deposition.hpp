@@ -111,16 +111,19 @@ class DepositedSpheres {
 /// @param radii   radii of the circumscribed spheres, > 0 [m]
 /// @param lengths lengths of the floor along the horizontal axes, at least the largest diameter [m]
 /// @param random  random number generator, whose state is advanced
-/// @throws std::invalid_argument if a length is not finite, or if a radius is not > 0 or does not
-///                               fit into the box
+/// @param on_floor function: position [m], radius [m] -> whether a sphere at this horizontal position lies above the
+///                floor as a whole; the last coordinate is 0. For floors of other outlines than the box; see
+///                round_floor()
+/// @throws std::invalid_argument if a length is not finite, if a radius is not > 0 or does not
+///                               fit into the box, or if no place above the floor was found in 1000 attempts
 template <class S>
 std::vector<Pose<S>> random_deposition(
     const std::vector<typename S::Scalar>& radii,
-    const std::array<typename S::Scalar, std::size_t(S::dim - 1)>& lengths,
-    std::mt19937_64& random) {
+    const std::array<typename S::Scalar, std::size_t(S::dim - 1)>& lengths, std::mt19937_64& random,
+    const auto& on_floor) {
   using T = typename S::Scalar;
   constexpr const char* self = "random_deposition";
-  constexpr int trials = 40, up = S::dim - 1;
+  constexpr int trials = 40, attempts = 1000, up = S::dim - 1;
   for (const T length : lengths)
     require(std::isfinite(length), self, "length", length, "must be finite");
   const T length = *std::min_element(lengths.begin(), lengths.end());
@@ -137,9 +140,14 @@ std::vector<Pose<S>> random_deposition(
   for (std::size_t i = 0; i < radii.size(); ++i) {
     typename S::Vector lowest;
     for (int trial = 0; trial < trials; ++trial) {
-      typename S::Vector x;
-      for (int k = 0; k < up; ++k)
-        x[k] = radii[i] + unit(random) * (lengths[std::size_t(k)] - 2 * radii[i]);
+      typename S::Vector x = S::Vector::Zero();
+      int attempt = 0;
+      do {
+        for (int k = 0; k < up; ++k)
+          x[k] = radii[i] + unit(random) * (lengths[std::size_t(k)] - 2 * radii[i]);
+      } while (!on_floor(x, radii[i]) && ++attempt < attempts);
+      require(attempt < attempts, self, "radii[" + std::to_string(i) + "]", radii[i],
+              "must leave room above the floor: no place was found in 1000 attempts");
       x[up] = deposited.height_at(x, radii[i]);
       if (trial == 0 || x[up] < lowest[up]) lowest = x;
     }
@@ -148,6 +156,30 @@ std::vector<Pose<S>> random_deposition(
     poses[i].rotation = random_rotation<S>(random);
   }
   return poses;
+}
+
+/// The same above the whole floor of the box.
+template <class S>
+std::vector<Pose<S>> random_deposition(
+    const std::vector<typename S::Scalar>& radii,
+    const std::array<typename S::Scalar, std::size_t(S::dim - 1)>& lengths,
+    std::mt19937_64& random) {
+  return random_deposition<S>(radii, lengths, random,
+                              [](const typename S::Vector&, typename S::Scalar) { return true; });
+}
+
+/// A round floor for random_deposition(), such as that of an upright cylinder; in the plane the whole length.
+/// @param diameter [m]; pass the same length along all axes of the box
+/// @returns the function `on_floor`, for a circle around the middle of the floor
+template <class S>
+auto round_floor(typename S::Scalar diameter) {
+  return [diameter](const typename S::Vector& x, typename S::Scalar radius) {
+    constexpr int up = S::dim - 1;
+    typename S::Scalar square = 0;
+    for (int k = 0; k < up; ++k) square += (x[k] - diameter / 2) * (x[k] - diameter / 2);
+    const typename S::Scalar reach = diameter / 2 - radius;
+    return square <= reach * reach;
+  };
 }
 
 /// The same above a floor of one length along all horizontal axes [m].
