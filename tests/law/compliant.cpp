@@ -18,6 +18,7 @@
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "types.hpp"
@@ -395,12 +396,13 @@ TEST_CASE("compliant: the stiffness of a pair does not depend on the margin") {
   CHECK(relative_compliance(0.04) == doctest::Approx(relative_compliance(0.2)).epsilon(1e-12));
 }
 
-TEST_CASE("compliant: an attraction closes a new contact, with restitution, too") {
+TEST_CASE_TEMPLATE("compliant: an attraction closes a new contact, with restitution, too", Solver,
+                   MOREAU_TYPES((NonlinearGaussSeidel), (ColouredGaussSeidel))) {
   using Sticky = Compliant<Cohesive<Coulomb>>;
   const double pull = 1, stiffness = 1e4;
   for (const double restitution : {0.0, 0.5}) {
     CAPTURE(restitution);
-    Simulation<Disk<double>, Sticky> world(
+    Simulation<Disk<double>, Sticky, MoreauJean, CellGrid<Space<2>>, Solver> world(
         0.02, Materials<Sticky>(
                   1, Sticky(Cohesive<Coulomb>(Coulomb(0.3, restitution), pull), stiffness)));
     const ShapeId shape = world.add_shape(Disk<double>(0.01));

@@ -21,6 +21,8 @@
 #include "moreau/world/detail/enlarged_boxes.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "types.hpp"
+
 using namespace moreau;
 using S = Space<2>;
 using Vector = S::Vector;
@@ -126,11 +128,13 @@ TEST_CASE("a snapshot between two steps keeps the state of friction") {
   CHECK(copy.friction({2e-4}).front() == doctest::Approx(0.2).epsilon(1e-6));
 }
 
-TEST_CASE("springs in series with rolling resistance: a disk is slowed down as by the rigid law") {
+TEST_CASE_TEMPLATE(
+    "springs in series with rolling resistance: a disk is slowed down as by the rigid law", Solver,
+    MOREAU_TYPES((NonlinearGaussSeidel), (ColouredGaussSeidel))) {
   // A disk that rolls is slowed down by eta g / (1 + k), k = 1/2.
   using Law = Compliant<RollingResistance<double>>;
   const double eta = 0.1, g = 9.81, h = 1e-3;
-  Simulation<Disk<double>, Law> world(
+  Simulation<Disk<double>, Law, MoreauJean, CellGrid<S>, Solver> world(
       0.1, Materials<Law>(1, Law(RollingResistance<double>(0.5, eta), 1e6)));
   world.add_wall({0, 1}, {0, 0});
   const BodyId disk =
