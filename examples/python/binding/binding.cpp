@@ -331,29 +331,51 @@ moreau::StepReport run(Handle& handle, double h, long steps) {
   return report;
 }
 
+/// A struct of results, and repr() that shows its fields.
+template <class T>
+class Fields {
+ public:
+  Fields(py::module_& m, const char* name) : type_(m, name) {
+    type_.def("__repr__", [of = names_, name = std::string(name)](const py::object& self) {
+      std::string text;
+      for (const std::string& field : *of)
+        text += (text.empty() ? "" : ", ") + field + "=" +
+                py::repr(self.attr(field.c_str())).cast<std::string>();
+      return name + "(" + text + ")";
+    });
+  }
+  template <class Member>
+  void add(const char* name, Member T::*member) {
+    type_.def_readonly(name, member);
+    names_->push_back(name);
+  }
+
+ private:
+  py::class_<T> type_;
+  std::shared_ptr<std::vector<std::string>> names_ = std::make_shared<std::vector<std::string>>();
+};
+
 void bind_reports(py::module_& m) {
-  using moreau::SolveReport, moreau::StepReport;
-  py::class_<SolveReport> solve(m, "SolveReport");
-#define FIELD(name) solve.def_readonly(#name, &SolveReport::name)
+  using moreau::SolveReport, moreau::StepReport, moreau::Coordination;
+  Fields<SolveReport> solve(m, "SolveReport");
+#define FIELD(name) solve.add(#name, &SolveReport::name)
   FIELD(sweeps), FIELD(converged), FIELD(capped), FIELD(residual), FIELD(relative_approach);
   FIELD(velocity_error), FIELD(islands), FIELD(unsolved_islands), FIELD(quad_dv), FIELD(quad_dvr);
   FIELD(maxm_dv), FIELD(maxm_dvr), FIELD(worst_velocity), FIELD(worst_gap), FIELD(worst_cone);
   FIELD(worst_complementarity), FIELD(wrong_sign_dissipation);
 #undef FIELD
-  py::class_<StepReport> step_report(m, "StepReport");
-#define FIELD(name) step_report.def_readonly(#name, &StepReport::name)
+  Fields<StepReport> step_report(m, "StepReport");
+#define FIELD(name) step_report.add(#name, &StepReport::name)
   FIELD(solve), FIELD(candidate_pairs), FIELD(pairs), FIELD(points), FIELD(warm_started);
   FIELD(approach), FIELD(overlapping), FIELD(max_overlap), FIELD(mean_overlap), FIELD(deepest_a);
   FIELD(deepest_b), FIELD(dissipation), FIELD(friction), FIELD(rolling), FIELD(elastic_energy);
   FIELD(ms_detect), FIELD(ms_solve), FIELD(ms_total);
 #undef FIELD
-  py::class_<moreau::Coordination>(m, "Coordination")
-      .def_readonly("grains", &moreau::Coordination::grains)
-      .def_readonly("rattlers", &moreau::Coordination::rattlers)
-      .def_readonly("points", &moreau::Coordination::points)
-      .def_readonly("pairs", &moreau::Coordination::pairs)
-      .def_readonly("neighbours", &moreau::Coordination::neighbours)
-      .def_readonly("points_per_grain", &moreau::Coordination::points_per_grain);
+  Fields<Coordination> coordination(m, "Coordination");
+#define FIELD(name) coordination.add(#name, &Coordination::name)
+  FIELD(grains), FIELD(rattlers), FIELD(points), FIELD(pairs), FIELD(neighbours);
+  FIELD(points_per_grain);
+#undef FIELD
 }
 
 void bind_shapes(py::module_& m) {

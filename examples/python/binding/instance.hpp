@@ -161,8 +161,11 @@ class Instance final : public World {
     constexpr const char* self = "Simulation::set_pose";
     moreau::Pose<S> pose = simulation_.pose(body_of(body));
     pose.position = vector_of<Vector>(position, self, "position");
-    if (!rotation.empty())
+    if (!rotation.empty()) {
+      moreau::require(rotation.size() == rotation_size<S>, self, "rotation", rotation.size(),
+                      "numbers, must have " + std::to_string(rotation_size<S>));
       pose.rotation = rotation_of<S>({rotation.data(), 1, rotation.size(), 0}, 0);
+    }
     simulation_.set_pose(body_of(body), pose);
   }
   void set_vector(Id body, Quantity quantity, Numbers value) override;
@@ -355,26 +358,29 @@ template <class ShapeT, class LawT>
 Rows Instance<ShapeT, LawT>::rows(Quantity quantity) const {
   const auto& b = simulation_.bodies();
   const std::size_t n = b.size();
-  if (n == 0) return {nullptr, 0, 1, sizeof(double)};
   constexpr auto dim = std::size_t(S::dim), angular = std::size_t(S::angular_dim);
   const auto of = [n](const double* first, std::size_t columns, std::size_t size) {
     return Rows{first, n, columns, std::ptrdiff_t(size)};
   };
   using Twist = typename S::Twist;
-  auto& pose = const_cast<moreau::Pose<S>&>(b.pose[0]);  // rotation_data() writes in other places
+  static moreau::Pose<S> no_pose;  // where the arrays of a simulation without bodies begin
+  static const Twist no_twist = Twist::Zero();
+  auto& pose = n > 0 ? const_cast<moreau::Pose<S>&>(b.pose[0]) : no_pose;  // only read here
+  const Twist& velocity = n > 0 ? b.velocity[0] : no_twist;
+  const Twist& force = n > 0 ? b.force[0] : no_twist;
   switch (quantity) {
     case Quantity::position:
       return of(pose.position.data(), dim, sizeof pose);
     case Quantity::rotation:
       return of(rotation_data(pose.rotation), rotation_size<S>, sizeof pose);
     case Quantity::velocity:
-      return of(b.velocity[0].data(), dim, sizeof(Twist));
+      return of(velocity.data(), dim, sizeof(Twist));
     case Quantity::spin:
-      return of(b.velocity[0].data() + dim, angular, sizeof(Twist));
+      return of(velocity.data() + dim, angular, sizeof(Twist));
     case Quantity::force:
-      return of(b.force[0].data(), dim, sizeof(Twist));
+      return of(force.data(), dim, sizeof(Twist));
     case Quantity::torque:
-      return of(b.force[0].data() + dim, angular, sizeof(Twist));
+      return of(force.data() + dim, angular, sizeof(Twist));
     case Quantity::mass:
       break;
   }

@@ -115,13 +115,15 @@ def test_all_other_arrays_own_their_memory(every):
         assert np.array_equal(copy, old)
 
 
-def test_an_empty_simulation_has_empty_arrays():
-    s = moreau.Simulation("disk", grain_size=1, friction=0)
+@pytest.mark.parametrize("shape", sorted({shape for shape, law in moreau._moreau.instances() if law == "coulomb"}))
+def test_an_empty_simulation_has_empty_arrays(shape):
+    s = moreau.Simulation(shape, grain_size=1, friction=0)
+    full = heap(shape, count=1)
     for name in NAMES:
-        assert getattr(s, name).size == 0
+        assert getattr(s, name).shape == (0, *getattr(full, name).shape[1:])
     assert len(s.contacts()) == 0 and s.coordination().neighbours == 0
     s.step(1e-3)
-    s.add_wall([0, 1], [0, 0])
+    s.add_wall([0] * (s.dim - 1) + [1], [0] * s.dim)
 
 
 def test_other_threads_run_during_a_step_and_are_refused_the_simulation():

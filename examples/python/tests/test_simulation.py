@@ -173,3 +173,10 @@ def test_run_stops_when_asked(disks):
     reports = []
     disks.run(1e-4, 50, each=lambda report: reports.append(report) or len(reports) == 7)
     assert len(reports) == 7 and disks.time == pytest.approx(7e-4)
+
+
+def test_reports_show_their_fields(disks):
+    report = disks.run(1e-3, 20)
+    assert repr(report).startswith("StepReport(solve=SolveReport(sweeps=")
+    assert f"converged={report.solve.converged}" in repr(report)
+    assert repr(disks.coordination()).startswith(f"Coordination(grains={disks.coordination().grains}, rattlers=")
