@@ -31,9 +31,9 @@ using Coulomb = SignoriniCoulomb<double>;
 namespace {
 
 /// A disk of 10 cm that slides on a floor, or over a fixed disk of 2 m, on which the normal turns.
-template <class Law>
+template <class Law, class Solver = ColouredGaussSeidel>
 struct Slide {
-  Simulation<Disk<double>, Law> world;
+  Simulation<Disk<double>, Law, MoreauJean, CellGrid<S>, Solver> world;
 
   Slide(const Law& law, bool curved) : world(0.1, Materials<Law>(1, law)) {
     const ShapeId disk = world.add_shape(Disk<double>(0.05));
@@ -72,7 +72,8 @@ void check_friction(const std::vector<double>& ratios, double slip) {
 
 }  // namespace
 
-TEST_CASE("static friction ends with the first slip, also where the normal turns") {
+TEST_CASE_TEMPLATE("static friction ends with the first slip, also where the normal turns", Solver,
+                   MOREAU_TYPES((NonlinearGaussSeidel), (ColouredGaussSeidel))) {
   const std::vector<double> steps(20, 2e-4);
   for (const bool curved : {false, true}) {
     CAPTURE(curved);
@@ -84,11 +85,12 @@ TEST_CASE("static friction ends with the first slip, also where the normal turns
   // The pull of a step is its length times the attraction.
   const std::vector<double> uneven{1e-4, 1.5e-4, 1e-4, 2e-4, 1e-4, 1.5e-4};
   using Sticky = Cohesive<Coulomb>;
-  check_friction(Slide<Sticky>(Sticky(Coulomb(0.2, 0, 0.4), 50, 1e-2), false).friction(uneven, 50),
-                 0.2);
+  Slide<Sticky, Solver> slide(Sticky(Coulomb(0.2, 0, 0.4), 50, 1e-2), false);
+  check_friction(slide.friction(uneven, 50), 0.2);
 }
 
-TEST_CASE("cohesive: a disk is held by another at the default range, up to its adhesion") {
+TEST_CASE_TEMPLATE("cohesive: a disk is held by another at the default range, up to its adhesion",
+                   Solver, MOREAU_TYPES((NonlinearGaussSeidel), (ColouredGaussSeidel))) {
   using Law = Cohesive<Coulomb>;
   const Disk<double> shape(0.01);
   const double weight = shape.mass_properties(2500).mass * 9.81;
@@ -96,8 +98,8 @@ TEST_CASE("cohesive: a disk is held by another at the default range, up to its a
   const auto lowered = [&](double adhesion, double angle, double step, bool correct) {
     OverlapCorrectionOptions correction;
     correction.enabled = correct;
-    Simulation<Disk<double>, Law> world(0.02, Materials<Law>(1, Law(Coulomb(0.5), adhesion)), {},
-                                        {}, correction);
+    Simulation<Disk<double>, Law, MoreauJean, CellGrid<S>, Solver> world(
+        0.02, Materials<Law>(1, Law(Coulomb(0.5), adhesion)), {}, {}, correction);
     const Vector down(std::sin(angle), -std::cos(angle));
     const ShapeId disk = world.add_shape(shape);
     world.prescribe_motion(world.add_grain(disk, {}, 2500));
