@@ -93,7 +93,7 @@ inline Sums advance(Run& run, World& world, const Numerics& numerics, double unt
   using Clock = std::chrono::steady_clock;
   Numbers sums{0, 0, 0, 0, 0};
   if (run.is_started())
-    moreau::read_snapshot(run.snapshot(), world, log, sums);
+    moreau::reload_snapshot(run.snapshot(), world, log, sums);
   else
     build(world);
   Sums s{sums[0], sums[1], sums[2], sums[3], sums[4]};

@@ -87,7 +87,7 @@ Numbers run_heap(Run& run, std::size_t count, double depth, double until) {
   World world = empty_world(depth);
   std::vector<double> gates;  // indices of the two walls that close the plate
   if (run.is_started()) {
-    moreau::read_snapshot(run.snapshot(), world, gates);
+    moreau::reload_snapshot(run.snapshot(), world, gates);
   } else {
     std::mt19937_64 random(20);
     const std::vector<double> radii(count, diameter / 2);
