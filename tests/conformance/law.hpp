@@ -223,6 +223,35 @@ void attractive_law(const Law& law, typename S::Scalar range) {
   CHECK(last == T(0));
 }
 
+/// Checks a law with bridges: it is a stateful law with and without a bridge, its attraction falls with the gap, and no
+/// step changes the bridge.
+/// @param radius of the grains [m]
+template <class S, class Law>
+requires moreau::BridgingLaw<Law, S>
+void bridging_law(const Law& law, typename S::Scalar radius) {
+  using T = typename S::Scalar;
+  stateful_law<S>(law);
+  CHECK(law.reach() > T(0));
+  CHECK(std::isfinite(law.reach()));
+  T last = law.bridge_force(-law.reach(), radius);
+  CHECK(std::isfinite(last));
+  for (int k = -99; k <= 100; ++k) {
+    const T now = law.bridge_force(law.reach() * T(k) / T(100), radius);
+    CHECK(now >= T(0));
+    CHECK(now <= last);
+    last = now;
+  }
+  for (std::size_t k = 0; k < Law::variants; ++k)
+    for (const bool bridged : {false, true}) {
+      const std::size_t with = Law::with_bridge(k, bridged);
+      CHECK(with < Law::variants);
+      CHECK(Law::is_bridged(with) == bridged);
+      CHECK(Law::with_bridge(with, Law::is_bridged(k)) == k);
+      const typename S::Vector push = S::Vector::Unit(0) + S::Vector::Unit(1);
+      CHECK(Law::is_bridged(law.variant_after(with, push)) == bridged);
+    }
+}
+
 /// Checks that visits with solve_lanes of a law converge to the scalar solution in every lane. As in a
 /// solver, a visit subtracts the lane block times the impulse from the velocity under the impulse: for
 /// a law with couples the lane block stands for W.

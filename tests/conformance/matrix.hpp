@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "moreau/detect/broad/cell_grid.hpp"
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/bridges.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -75,6 +77,18 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   }
   SUBCASE("Compliant") {
     world(shapes, moreau::Compliant<moreau::SignoriniCoulomb<T>>(coulomb, T(1e9) * mass), size);
+  }
+  SUBCASE("Bridged") {
+    using Water = moreau::CapillaryBridge<T>;
+    world(shapes, moreau::Bridged<Water, moreau::SignoriniCoulomb<T>>(Water(T(1e-12)), coulomb),
+          size);
+  }
+  SUBCASE("Bonded") {
+    const auto law_of = [](T strength) {
+      return moreau::Bonded<T>({strength, strength, strength}, T(0.4), T(0.1));
+    };
+    world(shapes, law_of(T(1)), size);
+    bonded(shapes, law_of, size);
   }
   SUBCASE("RollingResistance") {
     world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);

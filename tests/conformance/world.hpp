@@ -250,7 +250,10 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   const double energy = grains.kinetic_energy() + grains.potential_energy();
   const double drop = double(grains.mass()) * 10 * double(size);
   double gain = 0;  // energy that a contact point can take from an attraction up to the margin
-  if constexpr (moreau::AttractiveLaw<Law, moreau::SpaceOf<ShapeT>>)
+  if constexpr (moreau::BridgingLaw<Law, moreau::SpaceOf<ShapeT>>)
+    gain = double(law.bridge_force(T(0), size)) * double(law.reach());
+  else if constexpr (moreau::AttractiveLaw<Law, moreau::SpaceOf<ShapeT>> &&
+                     !moreau::BondingLaw<Law, moreau::SpaceOf<ShapeT>>)
     gain = double(law.attraction(T(0))) * moreau::Tolerances().margin * double(size);
   // A shape with a support function only has one contact point where other shapes have two. It
   // rocks on this point. The contact of the end that moves down is detected late, when the end has
@@ -289,6 +292,41 @@ void heap(const std::vector<ShapeT>& shapes, const Law& law,
   CHECK(most - energy <= (A::springs ? 0.02 : 1e-3) * drop + gain * double(at_once));
 }
 
+/// A grain falls on another, whose motion is prescribed, and is bonded to it; then gravity is turned round. Checks that a
+/// strong bond holds it where it is, and that a weak one breaks.
+/// @param law_of function: strength of a bond in tension, shear and bending [N] -> law
+template <class Choice = Defaults, class ShapeT>
+void bonded(const std::vector<ShapeT>& shapes, const auto& law_of,
+            typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  using S = moreau::SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Law = std::decay_t<decltype(law_of(T(1)))>;
+  for (const ShapeT& shape : shapes)
+    for (const bool strong : {true, false}) {
+      CAPTURE(strong);
+      const typename S::Vector up = S::Vector::Unit(S::dim - 1);
+      const T weight = 10 * shape.mass_properties(T(1000)).mass;
+      typename Choice::template Simulation<ShapeT, Law> simulation(
+          size, moreau::Materials<Law>(1, law_of((strong ? T(200) : T(0.5)) * weight)));
+      const auto id = simulation.add_shape(shape);
+      simulation.prescribe_motion(simulation.add_grain(id, {}, T(1000)));
+      const auto grain = simulation.add_grain(
+          id, {T(1.05) * size * up, S::exp(S::Angular::Constant(T(1)))}, T(1000));
+      simulation.set_gravity(T(-10) * up);
+      for (int k = 0; k < 300 && simulation.bond_touching(T(1e-3) * size) == 0; ++k)
+        simulation.step(T(5e-4));
+      REQUIRE(simulation.bonds().size() == 1);
+      simulation.set_velocity(grain, S::Vector::Zero());
+      simulation.set_spin(grain, S::Angular::Zero());
+      simulation.set_gravity(T(10) * up);
+      const typename S::Vector before = simulation.pose(grain).position;
+      for (int k = 0; k < 100; ++k) simulation.step(T(5e-4));
+      CHECK(simulation.bonds().size() == (strong ? 1 : 0));
+      CHECK(simulation.breakages().size() == (strong ? 0 : 1));
+      const double moved = double((simulation.pose(grain).position - before).norm());
+      CHECK((moved < 1e-3 * double(size)) == strong);  // it would fall by 12 mm
+    }
+}
 /// A grain falls on another, whose motion is prescribed, and hangs from it after gravity is turned
 /// round. Checks that a law which attracts every contact holds it.
 /// @param law_of function: attraction of a contact point [N] -> law

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/bridges.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -44,6 +46,17 @@ TEST_CASE_TEMPLATE("set-valued laws", S, Space<2>, Space<3>) {
   stateful_law<S>(Compliant<SignoriniCoulomb<T>>(two_frictions, T(1e8)));
   stateful_law<S>(SignoriniCoulomb<T>(T(0.3), T(0.5), T(0.4)));
   attractive_law<S>(Cohesive<SignoriniCoulomb<T>>(coulomb, T(1), T(1e-4)), T(1e-4));
+  using Wet = Bridged<CapillaryBridge<T>, SignoriniCoulomb<T>>;
+  const Wet wet(CapillaryBridge<T>(T(1e-12)), two_frictions);
+  bridging_law<S>(wet, T(1e-3));
+  bridging_law<S>(Compliant<Wet>(wet, T(1e8)), T(1e-3));
+  bridging_law<S>(Bridged<LinearCohesion<T>, RollingResistance<T>>(
+                      LinearCohesion<T>(T(1), T(1e-4)), RollingResistance<T>(T(0.4), T(0.2))),
+                  T(1e-3));
+  const Bonded<T> bonded({T(10), T(8), T(2)}, T(0.4), T(0.1));
+  stateful_law<S>(bonded);
+  lane_law<S>(bonded.variant(1), 400);
+  stateful_law<S>(Compliant<Bonded<T>>(bonded, T(1e8)));
 }
 
 TEST_CASE_TEMPLATE("regularized laws", S, Space<2>, Space<3>) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Every law of the library with its parameters, as examples/guide/laws.md shows them.
+#include <cmath>
 #include <doctest/doctest.h>
 
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/bridges.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -23,6 +26,15 @@ TEST_CASE("the constructors of the set-valued laws") {
   const moreau::TangentialRestitution<double> acetate(0.25, 0.87, 0.43);
   // Friction 0.4; the couple is at most 0.1 x effective radius x normal force.
   const moreau::RollingResistance<double> rolling(0.4, 0.1);
+  // A pair that has touched is held by 1e-9 m^3 of water with 0.0728 N/m, up to a gap of 1 mm.
+  using Water = moreau::CapillaryBridge<double>;
+  const moreau::Bridged<Water, Coulomb> moist(Water(1e-9), rough);
+  // The same with 1e-3 N at contact, which falls linearly to 0 at a gap of 1e-4 m.
+  using Linear = moreau::LinearCohesion<double>;
+  const moreau::Bridged<Linear, Coulomb> linear(Linear(1e-3, 1e-4), rough);
+  // Bonds with a strength of 100 N in tension and 80 N in shear, which bend and twist under a couple of 50 N x
+  // effective radius, and take 0.01 J to break; without a bond friction 0.4.
+  const moreau::Bonded<double> glued({100, 80, 50, 0.01}, 0.4);
   // Friction 0.4; springs with a normal stiffness of 1e8 N/m and a tangential stiffness of 7e7 N/m.
   const moreau::Compliant<Coulomb> elastic(rough, 1e8, 7e7);
 
@@ -41,6 +53,12 @@ TEST_CASE("the constructors of the set-valued laws") {
   CHECK(rolling.friction() == 0.4);
   CHECK(rolling.rolling() == 0.1);
   CHECK(rolling.restitution() == 0);
+  CHECK(std::abs(moist.reach() / 1e-3 - 1) < 1e-12);
+  CHECK(std::abs(linear.bridge_force(5e-5, 1) / 5e-4 - 1) < 1e-12);
+  CHECK(glued.friction() == 0.4);
+  CHECK(glued.variant(1).friction() == doctest::Approx(0.8));
+  CHECK(glued.variant(1).rolling() == doctest::Approx(0.5));
+  CHECK(glued.strength().fracture_energy == 0.01);
   CHECK(elastic.friction() == 0.4);
   CHECK(elastic.normal_compliance() == 1e-8);
   CHECK(elastic.tangential_stiffness() == 7e7);

@@ -11,6 +11,8 @@
 #include "moreau/detect/broad/sweep_and_prune.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/io/vtk_poly_data.hpp"
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/bridges.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
@@ -79,6 +81,9 @@ using S = Space<3>;
 
 static_assert(SetValuedLaw<SignoriniCoulomb<>, S> && SetValuedLaw<Frictionless<>, S>);
 static_assert(PointLaw<Cohesive<>, S> && AttractiveLaw<Cohesive<>, S>);
+static_assert(BridgingLaw<Bridged<CapillaryBridge<>>, S> &&
+              BridgingLaw<Bridged<LinearCohesion<>>, S>);
+static_assert(BondingLaw<Bonded<>, S> && RollingLaw<Bonded<>, S> && LaneLaw<Bonded<>, S>);
 static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
 static_assert(TangentialRestitutionLaw<TangentialRestitution<>, S>);

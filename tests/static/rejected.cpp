@@ -74,6 +74,28 @@ using Grain = moreau::Ball<EITHER(moreau::Space<3>, double)>;
 Grain* grain;
 #endif  // shape_of_a_space
 
+#ifdef two_attractions
+// A law with an attraction at every contact, and bridges beside it.
+// expect: Bridged<Bridge, Law>: Law has an attraction of its own
+#include "moreau/law/bridges.hpp"
+#include "moreau/law/cohesive.hpp"
+
+using Push = EITHER(moreau::Cohesive<>, moreau::SignoriniCoulomb<>);
+const moreau::Bridged<moreau::CapillaryBridge<>, Push> wet(moreau::CapillaryBridge<>(1e-12));
+#endif  // two_attractions
+
+#ifdef cohesive_bonds
+// A law with bonds, and an attraction at every contact beside them.
+// expect: Cohesive<Law>: Law has an attraction of its own
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/cohesive.hpp"
+
+using Push = EITHER(moreau::Bonded<>, moreau::RollingResistance<>);
+void glue(const moreau::Cohesive<Push>& law) {
+  (void)law.adhesion();
+}
+#endif  // cohesive_bonds
+
 #ifdef shape_without_mass
 // A simulation of a shape without mass properties. The message names the missing expression.
 // expect: shape.mass_properties\(density\)

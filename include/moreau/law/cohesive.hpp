@@ -20,6 +20,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
@@ -32,6 +33,10 @@ template <class Law = SignoriniCoulomb<>,
           std::floating_point Scalar =
               decltype(std::declval<const Law&>().velocity_offset(0., 0., 0.))>
 class Cohesive : public Law {
+  static_assert(
+      !detail::Attracts<Law>,
+      "Cohesive<Law>: Law has an attraction of its own, and a contact has one attraction");
+
  public:
   /// @param law      the law without adhesion
   /// @param adhesion gamma >= 0, per contact point [N]

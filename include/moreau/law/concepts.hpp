@@ -41,7 +41,8 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// A law with `static constexpr bool rolls = true` has a couple beside the force: block, u, r and b
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
-/// Optional: see AttractiveLaw, CompliantLaw, TangentialRestitutionLaw, StatefulLaw, LaneLaw.
+/// Optional: see AttractiveLaw, BondingLaw, BridgingLaw, CompliantLaw, TangentialRestitutionLaw,
+/// StatefulLaw, LaneLaw.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -78,12 +79,57 @@ concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
 };
 
-/// A law whose bodies attract each other with the force attraction(gap) [N]. Its local problem is
+namespace detail {
+/// A law with bridges or bonds, or with an attraction at every contact.
+template <class L>
+concept Attracts = requires {
+  L::is_bridged(std::size_t{});
+}
+|| requires {
+  L::is_bonded(std::size_t{});
+}
+|| requires(const L law) {
+  law.adhesion();
+};
+}  // namespace detail
+
+/// A law whose bodies attract each other through a bridge that forms when they touch and breaks at a gap; see
+/// bridges.hpp. Its memory is the variant: StatefulLaw with the functions
+///
+/// - reach(): the largest gap with a bridge [m]
+/// - is_bridged(k): whether variant k has a bridge; with_bridge(k, bridged): variant k with or without it
+/// - bridge_force(gap, radius): the attraction of the pair >= 0 [N]; radius is twice the effective radius [m]
+template <class L, class S>
+concept BridgingLaw = SetValuedLaw<L, S> &&
+    requires(const L law, typename S::Scalar length, std::size_t k) {
+  { law.reach() } -> std::same_as<typename S::Scalar>;
+  { law.bridge_force(length, length) } -> std::same_as<typename S::Scalar>;
+  { L::is_bridged(k) } -> std::same_as<bool>;
+  { L::with_bridge(k, true) } -> std::same_as<std::size_t>;
+};
+
+/// A law with bonds; see bonded.hpp. It has couples, and the variants without and with a bond: StatefulLaw with
+///
+/// - is_bonded(k): whether variant k has a bond
+/// - strength(): of a bond; its tension T is an attraction, so that the local problem is that of p = r + h T n
+/// - yields(p): whether the impulse of a bond lies at the limit of the law [N s]
+/// - softening(w): share of its strength that a bond loses per unit of time that yields with the velocity w [1/s]
+template <class L, class S>
+concept BondingLaw = SetValuedLaw<L, S> && Rolls<L> &&
+    requires(const L law, typename BlockOf<L, S>::Vector p, std::size_t k) {
+  { L::is_bonded(k) } -> std::same_as<bool>;
+  { law.yields(p) } -> std::same_as<bool>;
+  { law.softening(p) } -> std::same_as<typename S::Scalar>;
+  law.strength().tension;
+};
+
+/// A law whose bodies attract each other with the force attraction(gap) [N], through a bridge or a bond. Its local problem is
 /// that of the push against the attraction, see cohesive.hpp.
 template <class L, class S>
-concept AttractiveLaw = SetValuedLaw<L, S> && requires(const L law, typename S::Scalar gap) {
-  { law.attraction(gap) } -> std::same_as<typename S::Scalar>;
-};
+concept AttractiveLaw = BridgingLaw<L, S> || BondingLaw<L, S> ||
+    (SetValuedLaw<L, S>&& requires(const L law, typename S::Scalar gap) {
+      { law.attraction(gap) } -> std::same_as<typename S::Scalar>;
+    });
 
 /// A law with springs in series, see compliant.hpp.
 ///

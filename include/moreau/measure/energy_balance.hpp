@@ -2,7 +2,8 @@
 // The energy balance of a simulation, term by term:
 //
 //   kinetic - kinetic at the start = gravity + forces + drives
-//                                    - impacts - friction - rolling - elastic - correction
+//                                    - impacts - friction - rolling - fracture - elastic
+//                                    - correction
 //                                    + imbalance
 //
 //   EnergyBalance<S> energy(world);
@@ -52,15 +53,18 @@ struct EnergyTerms {
                        ///< [J]
   double friction = 0;  ///< energy dissipated by tangential impulses, > 0 for a loss [J]
   double rolling = 0;  ///< energy dissipated by rolling and twisting resistance, > 0 for a loss [J]
-  double elastic = 0;  ///< energy taken by the springs of compliant contacts, < 0 if they gave
-                       ///< energy back [J]
+  double fracture = 0;  ///< energy dissipated by bonds that yield and break, with that which their
+                        ///< springs release, > 0 for a loss [J]
+  double elastic = 0;   ///< energy taken by the springs of compliant contacts, < 0 if they gave
+                        ///< energy back [J]
   double correction = 0;  ///< work of gravity and forces along the displacements of the overlap
                           ///< correction, which do not change velocities; < 0 if grains are lifted
                           ///< [J]
 
   /// The increase of the kinetic energy that the terms explain [J].
   double gain() const {
-    return gravity + forces + drives - impacts - friction - rolling - elastic - correction;
+    return gravity + forces + drives - impacts - friction - rolling - fracture - elastic -
+           correction;
   }
 };
 
@@ -113,8 +117,9 @@ class EnergyBalance {
     terms_.drives += work_of_drives(bodies, simulation.contacts());
     terms_.friction += report.friction;
     terms_.rolling += report.rolling;
+    terms_.fracture += report.fracture;
     terms_.elastic += report.elastic_work;
-    terms_.impacts += report.dissipation - report.friction - report.rolling;
+    terms_.impacts += report.dissipation - report.friction - report.rolling - report.fracture;
     terms_.correction += report.correction.work;
     remember(bodies);
   }

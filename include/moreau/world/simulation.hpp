@@ -4,6 +4,7 @@
 // impulses (impulse_dynamics.hpp) or forces (force_dynamics.hpp), advance the configuration.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -31,8 +32,10 @@
 #include "moreau/solve/concepts.hpp"
 #include "moreau/world/assign_laws.hpp"
 #include "moreau/world/body_control.hpp"
+#include "moreau/world/bond.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
+#include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 #include "moreau/world/detail/impulse_dynamics.hpp"
@@ -66,6 +69,7 @@ template <GrainShape ShapeT, class Law,
           class Solver = typename detail::DefaultPolicies<ShapeT, Law>::Solver>
 class Simulation : public BodyControl<ShapeT> {
   static constexpr bool set_valued = SetValuedLaw<Law, SpaceOf<ShapeT>>;
+  static constexpr bool bonding = BondingLaw<Law, SpaceOf<ShapeT>>;
 
  public:
   using S = SpaceOf<ShapeT>;
@@ -220,8 +224,52 @@ class Simulation : public BodyControl<ShapeT> {
   void set_materials(const Materials<Law>& materials) {
     require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
             materials.count(), "must stay as it was");
-    materials_ = materials;
+    const Materials<Law> before = std::exchange(materials_, materials);
+    if (!cell().is_open() && reach() > detail::reach_of<S>(before)) {
+      try {
+        detector_.set_cell(cell(), lengths(), "Simulation::set_materials");
+      } catch (...) {
+        materials_ = before;
+        throw;
+      }
+    }
     assembly_.set_changed();
+  }
+
+  /// Bonds all pairs of bodies whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
+  /// contact points. The laws of their materials have the strengths.
+  /// @returns how many bonds were made
+  /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin
+  std::size_t bond_touching(Scalar gap) requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    require(gap >= 0 && gap <= lengths().margin, "Simulation::bond_touching", "gap", gap,
+            "must lie in [0, margin]");
+    return add_bonds([&](const Contact<S>& contact) { return contact.gap <= gap; });
+  }
+  /// Bonds two bodies at the middle of their contact points, unless they have a bond.
+  /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
+  ///         or that both have a prescribed motion
+  void bond(BodyId a, BodyId b) requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    constexpr const char* self = "Simulation::bond";
+    assembly_.require_body(a, self);
+    assembly_.require_body(b, self);
+    const auto is_pair = [&](BodyId first, BodyId second) {
+      return (first == a && second == b) || (first == b && second == a);
+    };
+    for (const Bond<S>& one : bonds())
+      if (is_pair(one.a, one.b)) return;
+    const std::size_t made = add_bonds([&](const Contact<S>& contact) {
+      return is_pair(bodies().id[contact.a], bodies().id[contact.b]);
+    });
+    require(made == 1, self, "b", b,
+            "must be within the margin of a, and one of them free to move");
+  }
+  /// All bonds, sorted by their bodies. The span is valid until bonds are made or break.
+  std::span<const Bond<S>> bonds() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    return dynamics_.bonds().bonds();
+  }
+  /// All bonds that broke, in the order of time.
+  std::span<const Breakage> breakages() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    return dynamics_.bonds().breakages();
   }
 
   /// Advances the time by `step` [s], > 0.
@@ -285,6 +333,9 @@ class Simulation : public BodyControl<ShapeT> {
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), laws, variants),
             "Simulation", "bodies", bodies().size(), "must be those of contacts and materials");
+    if constexpr (bonding)
+      require(dynamics_.bonds().are_valid(bodies()), "Simulation", "bonds", bonds().size(),
+              "must be of bodies that exist");
     require(dynamics_.is_valid(contacts_.size()), "Simulation", "contacts", contacts_.size(),
             "must be as many as the laws have memories");
     detector_.rebuild([&] { assembly_.add_to(detector_); });
@@ -292,7 +343,25 @@ class Simulation : public BodyControl<ShapeT> {
 
   void remove(std::span<const BodyId> grains, const char* function);
 
-  DetectionLengths<Scalar> lengths() const { return tolerances_.lengths(grain_size_); }
+  Scalar reach() const { return detail::reach_of<S>(materials_); }
+  /// Lengths of detection: bridges act beyond the margin.
+  DetectionLengths<Scalar> lengths() const {
+    DetectionLengths<Scalar> lengths = tolerances_.lengths(grain_size_);
+    lengths.margin = std::max(lengths.margin, reach());
+    return lengths;
+  }
+
+  /// Makes bonds of contacts in the present configuration.
+  /// @param keeps function: contact -> whether its pair is bonded
+  std::size_t add_bonds(const auto& keeps) {
+    Contacts<S> touching;
+    detector_.place(std::span<const Pose<S>>(bodies().pose),
+                    [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
+    detector_.find_pairs(lengths());
+    detector_.use_whole_margin();
+    detector_.detect(lengths(), bodies(), contacts_, touching);
+    return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
+  }
 
   /// @param clock started before the prediction
   void detect(StepReport& report, Scalar step, StepReport::StageClock clock = {}) {
@@ -307,12 +376,18 @@ class Simulation : public BodyControl<ShapeT> {
     else
       detector_.use_whole_margin();
     detector_.detect(lengths(), bodies(), contacts_, previous_);
+    if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), previous_);
     assign_laws(assembly_.bodies(), materials_, previous_, team_);
     assembly_.require_no_deep_overlap(previous_, "Simulation::step");
+    [[maybe_unused]] std::size_t pairs = 0;
+    if constexpr (BridgingLaw<Law, S>)
+      pairs = bridges_.update(materials_, contacts_, previous_,
+                              tolerances_.lengths(grain_size_).margin);
     std::swap(contacts_, previous_);  // last: what throws above changes no contacts
     report.ms_collide = clock.lap();
     report.candidate_pairs = detector_.pair_count();
     count_contacts(report);
+    if constexpr (BridgingLaw<Law, S>) report.pairs = pairs;
   }
   void count_contacts(StepReport& report) const {
     report.pairs = detector_.touching_count();
@@ -357,6 +432,9 @@ class Simulation : public BodyControl<ShapeT> {
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
   Contacts<S> contacts_, previous_;
+  [[no_unique_address]] std::conditional_t<BridgingLaw<Law, S>, detail::Bridges<S, Law>,
+                                           detail::NoBridges>
+      bridges_;
   detail::ChordVelocities<ShapeT> chords_;
   detail::MarginAttempts attempts_;
   Team team_;
@@ -452,6 +530,7 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::remove(std::span<const 
     lost_.push_back(removed[contact.a] != 0 || removed[contact.b] != 0);
   const auto is_lost = [&](std::size_t c) { return lost_[c] != 0; };
   dynamics_.erase(is_lost);
+  if constexpr (bonding) dynamics_.bonds().erase(removed);
   contacts_.erase(is_lost);
   detector_.remove_grains(removed);
   assembly_.remove_marked();
@@ -464,7 +543,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   StepReport report;
   detail::StepContext<S, Law> context{
       assembly_.bodies(), gravity_,    materials_, previous_,
-      contacts_,          grain_size_, step,       lengths().margin};
+      contacts_,          grain_size_, step,       tolerances_.lengths(grain_size_).margin};
   const auto start = Clock::now();
   StepReport::StageClock clock;
   assembly_.keep_poses(step);
@@ -496,6 +575,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   }
   assembly_.require_finite("Simulation::step");
   time_ += step;
+  if constexpr (bonding) dynamics_.bonds().stamp(time_);
   const std::chrono::duration<double, std::milli> again(report.ms_collide - once);
   report.set_times(detected - start + again, Clock::now() - detected - again);
   return report;

@@ -37,8 +37,11 @@ struct StepReport {
   /// value of a single step can be negative by h/2 F . (change of velocity) for each force F; these
   /// terms cancel over a load cycle.
   double dissipation = 0;
-  double friction = 0;  ///< part of it: by tangential impulses [J]
-  double rolling = 0;   ///< part of it: by couples of rolling and twisting [J]
+  double friction = 0;    ///< part of it: by tangential impulses [J]
+  double rolling = 0;     ///< part of it: by couples of rolling and twisting [J]
+  double fracture = 0;    ///< part of it: by bonds, with the energy that their springs release [J]
+  std::size_t bonds = 0;  ///< bonds that are left after the step
+  std::size_t broken_bonds = 0;  ///< bonds that broke in the step
   /// Energy of the springs of compliant contacts after the step [J]; 0 under other laws.
   double elastic_energy = 0;
   double elastic_work = 0;         ///< energy that these springs took in the step [J]

@@ -7,12 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
+#include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/step_context.hpp"
 
 namespace moreau::detail {
@@ -27,20 +31,54 @@ class Attraction {
 
   /// Applies the attraction to free velocities. It depends on the gaps as detected, although the overlap correction
   /// changes them afterwards.
+  /// @param bonds BondList of a law with bonds, which attract with their strength; NoBonds otherwise
   /// @param roots M^-1/2, one per body
   /// @param free  in, out: velocities without contacts, one per body [m/s, rad/s]
-  void apply(const StepContext<S, Law>& context, std::span<const MobilityRoot<S>> roots,
-             std::span<Twist> free) {
+  void apply(const StepContext<S, Law>& context, [[maybe_unused]] const auto& bonds,
+             std::span<const MobilityRoot<S>> roots, std::span<Twist> free) {
     const Contacts<S>& contacts = context.contacts;
-    pulls_.resize(contacts.size());
+    if constexpr (BondingLaw<Law, S>)
+      bonds.attractions(context.materials, contacts, pulls_);
+    else
+      attractions(context.bodies, context.materials, contacts, pulls_);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
-      pulls_[c] = context.step * context.materials.laws()[contact.law].attraction(contact.gap);
+      pulls_[c] *= context.step;
       if (pulls_[c] == 0) continue;
       const Vector pull = -pulls_[c] * contact.frame.col(0);
       pull_body(roots[contact.b], contact.lever_b, pull, free[contact.b]);
       pull_body(roots[contact.a], contact.lever_a, -pull, free[contact.a]);
     }
+  }
+  /// Changes the attraction of a contact while the problem is being solved; offset() must follow.
+  /// @param change of its impulse [N s]
+  /// @param push   in, out: the unknown of the contact, which stays the same impulse on b [N s]
+  void change(std::size_t c, Scalar change, const Contacts<S>& contacts,
+              std::span<const MobilityRoot<S>> roots, auto& push) {
+    const Contact<S>& contact = contacts.points[c];
+    const Vector pull = -change * contact.frame.col(0);
+    changes_.resize(roots.size(), Twist::Zero());
+    pull_body(roots[contact.b], contact.lever_b, pull, changes_[contact.b]);
+    pull_body(roots[contact.a], contact.lever_a, -pull, changes_[contact.a]);
+    pulls_[c] += change;
+    push[0] += change;
+  }
+  /// Adds what change() has changed to the free velocities of bodies and contacts.
+  /// @param free in, out: one per body [m/s, rad/s]
+  /// @param op   in, out: operator of contacts with couples
+  void offset(const Contacts<S>& contacts, std::span<Twist> free, auto& op) {
+    for (std::size_t i = 0; i < changes_.size(); ++i) free[i] += changes_[i];
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Contact<S>& contact = contacts.points[c];
+      const Twist &a = changes_[contact.a], &b = changes_[contact.b];
+      if (a.isZero(0) && b.isZero(0)) continue;
+      const typename S::Angular spin = angular<S>(b) - angular<S>(a);
+      typename std::decay_t<decltype(op)>::Vector row;
+      linear<S>(row) = BodyDelassus<S>::relative_velocity(contact, a, b);
+      angular<S>(row) = op.radius(c) * (S::angular_frame(op.frame(c)).transpose() * spin);
+      op.offset(c, row);
+    }
+    changes_.clear();
   }
   /// From impulses on b to pushes against the attraction.
   void add_to(auto impulses) const {
@@ -52,15 +90,20 @@ class Attraction {
   }
   /// The contacts of the step before with their pushes against the attraction that they had then.
   /// @param last_step h of the step before [s]
-  const Contacts<S>& pushes_before(const StepContext<S, Law>& context, Scalar last_step) {
-    pushes_ = context.previous;
-    for (std::size_t c = 0; c < pushes_.size(); ++c) {
-      const Contact<S>& contact = pushes_.points[c];
-      pushes_.impulses[c][0] +=
-          last_step * context.materials.laws()[contact.law].attraction(contact.gap);
+  const Contacts<S>& pushes_before(const StepContext<S, Law>& context,
+                                   [[maybe_unused]] Scalar last_step) {
+    if constexpr (BondingLaw<Law, S>) {  // bonds have no memory of impulses
+      return context.previous;
+    } else {
+      pushes_ = context.previous;
+      attractions(context.bodies, context.materials, pushes_, pulls_before_);
+      for (std::size_t c = 0; c < pushes_.size(); ++c)
+        pushes_.impulses[c][0] += last_step * pulls_before_[c];
+      return pushes_;
     }
-    return pushes_;
   }
+  /// One per contact: impulse of the attraction [N s].
+  std::span<const Scalar> pulls() const { return pulls_; }
 
  private:
   static void pull_body(const MobilityRoot<S>& root, const Vector& lever, const Vector& pull,
@@ -69,19 +112,22 @@ class Attraction {
     angular<S>(free) += root.angular * (root.angular * S::moment(lever, pull));
   }
 
-  std::vector<Scalar> pulls_;  // one per contact: impulse of the attraction [N s]
-  Contacts<S> pushes_;         // see pushes_before()
+  std::vector<Scalar> pulls_;         // one per contact: impulse of the attraction [N s]
+  std::vector<Scalar> pulls_before_;  // one per contact of the step before: the attraction [N]
+  Contacts<S> pushes_;                // see pushes_before()
+  std::vector<Twist> changes_;        // one per body: by change()
 };
 
 /// Under a law without attraction: does nothing.
 template <class S, class Law>
 struct NoAttraction {
-  void apply(const auto&, const auto&, const auto&) const {}
+  void apply(const auto&, const auto&, const auto&, const auto&) const {}
   void add_to(const auto&) const {}
   void take_from(const auto&) const {}
   const Contacts<S>& pushes_before(const StepContext<S, Law>& context, const auto&) const {
     return context.previous;
   }
+  std::span<const typename S::Scalar> pulls() const { return {}; }
 };
 
 }  // namespace moreau::detail

@@ -142,9 +142,11 @@ class ContactSprings {
   /// Energy of the springs, their largest compression, and the residual of the law without springs.
   /// @param problem  as solved
   /// @param impulses its solution [N s]
+  /// @param pulls    impulse of the attraction of each contact [N s]: the springs of bonds bear what acts on the bodies
   /// @param shared   bodies that other processes share: rigid_residual is that of all contacts
   void measure(const StepContext<S, Law>& context, const ContactProblem<Operator, Law>& problem,
-               std::span<const Row> impulses, StepReport& report, SharedBodies* shared = nullptr) {
+               std::span<const Row> impulses, std::span<const Scalar> pulls, StepReport& report,
+               SharedBodies* shared = nullptr) {
     Energy energy;
     energies_.resize(impulses.size());
     double sums[] = {0, 0};
@@ -152,9 +154,13 @@ class ContactSprings {
     const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus, shared));
     double stiffest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < impulses.size(); ++c) {
-      const Row& r = impulses[c];
+      const Contact<S>& point = context.contacts.points[c];
+      const bool bonded = is_bonded(point);
+      Row r = impulses[c];
+      if (bonded) r[0] -= pulls[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
       energies_[c] = Energy::of(r.cwiseProduct(stretch));
+      if (bonded) energies_[c] = {energies_[c].total(), 0, 0};
       energy.add(energies_[c]);
       report.max_elastic_overlap =
           std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
@@ -164,7 +170,7 @@ class ContactSprings {
         const Scalar own = compliance_[c][0];
         stiffest = std::min(stiffest, double(own / (problem.delassus.normal(c) - own)));
       }
-      const Contact<S>& point = context.contacts.points[c];
+      if (bonded) continue;
       if (!problem.law(c).keeps_normal_impulse())
         u[0] -= std::min(Scalar(0), point.gap) / context.step;
       if (r[0] == 0 && u[0] >= 0) continue;
@@ -183,6 +189,16 @@ class ContactSprings {
     energy_ = energy;
   }
 
+  double energy_after(std::size_t c) const { return energies_[c].total(); }  ///< of measure() [J]
+  /// Removes the springs of a bond that broke in the step: their energy is dissipated.
+  void release(std::size_t c, StepReport& report) {
+    const double energy = energies_[c].total();
+    energies_[c] = {};
+    energy_.normal -= energy;
+    report.elastic_energy -= energy;
+    report.elastic_work -= energy;
+    report.dissipation += energy;
+  }
   /// Removes the springs of contacts with removed grains: their energy leaves with the grains.
   /// @param is_gone function: index of a contact -> whether it is removed
   void erase(const auto& is_gone) {
@@ -214,6 +230,12 @@ class ContactSprings {
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };
 
+  static bool is_bonded([[maybe_unused]] const Contact<S>& point) {
+    if constexpr (BondingLaw<Law, S>)
+      return Law::is_bonded(point.variant);
+    else
+      return false;
+  }
   /// The gap at which a point no longer counts as a spring of its pair [m].
   static Scalar open_length(const StepContext<S, Law>& context) {
     return std::min(context.margin, Tolerances{}.lengths(context.grain_size).margin);

@@ -40,6 +40,8 @@
 #include "moreau/solve/split_shared_bodies.hpp"
 #include "moreau/world/detail/attraction.hpp"
 #include "moreau/world/detail/body_shifts.hpp"
+#include "moreau/world/detail/bond_list.hpp"
+#include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
@@ -118,6 +120,8 @@ class ImpulseDynamics {
   void erase([[maybe_unused]] const auto& is_gone) {
     if constexpr (compliant) springs_.erase(is_gone);
   }
+  auto& bonds() { return bonds_; }              ///< BondList of a law with bonds
+  const auto& bonds() const { return bonds_; }  ///< the same
   /// Whether the springs are those of as many contacts, after they were read from a file.
   bool is_valid([[maybe_unused]] std::size_t contacts) const {
     if constexpr (compliant)
@@ -171,7 +175,11 @@ class ImpulseDynamics {
   friend struct moreau::SerializationAccess;
   friend struct StateAccess;
   auto serialized_members() {
-    if constexpr (compliant)
+    if constexpr (compliant && bonding)
+      return std::tie(solver_, correction_, integrator_, springs_, bonds_);
+    else if constexpr (bonding)
+      return std::tie(solver_, correction_, integrator_, bonds_);
+    else if constexpr (compliant)
       return std::tie(solver_, correction_, integrator_, springs_);
     else
       return std::tie(solver_, correction_, integrator_);
@@ -181,6 +189,8 @@ class ImpulseDynamics {
 
   static constexpr bool stateful = StatefulLaw<Law, S>;
   static constexpr bool compliant = CompliantLaw<Law, S>;
+  static constexpr bool bridging = BridgingLaw<Law, S>;
+  static constexpr bool bonding = BondingLaw<Law, S>;
 
   static const OverlapCorrectionOptions& checked(const OverlapCorrectionOptions& correction) {
     require(!compliant || !correction.enabled, "Simulation", "correction.enabled",
@@ -207,26 +217,38 @@ class ImpulseDynamics {
       integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step, team_);
     else
       integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step);
-    attraction_.apply(context, std::span<const MobilityRoot<S>>(roots_), free);
+    attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), free);
   }
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
     if constexpr (!compliant) {
       const std::size_t found = start(context, context.previous);
       attraction_.add_to(unknowns_.impulses(context.contacts));
+      if constexpr (bonding) bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
       return found;
     } else {
       // The springs bear the pushes.
       const std::size_t found =
           start(context, attraction_.pushes_before(context, springs_.last_step()));
-      springs_.scale(context, unknowns_.impulses(context.contacts));
-      springs_.relax(context, unknowns_.impulses(context.contacts), problem_.delassus);
+      const auto impulses = unknowns_.impulses(context.contacts);
+      springs_.scale(context, impulses);
+      if constexpr (bonding) {
+        bonds_.hide(impulses, [&] { springs_.relax(context, impulses, problem_.delassus); });
+        attraction_.add_to(impulses);
+        bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
+      } else {
+        springs_.relax(context, impulses, problem_.delassus);
+      }
       return found;
     }
   }
   std::size_t start(const Context& context, const Contacts<S>& before) {
-    return unknowns_.start(problem_.delassus, before, context.contacts,
-                           springs_.turn(context, integrator_), team_);
+    if constexpr (bridging) bridges_.save(context.contacts);
+    const std::size_t found = unknowns_.start(problem_.delassus, before, context.contacts,
+                                              springs_.turn(context, integrator_), team_);
+    if constexpr (bridging) bridges_.restore(context.contacts);
+    if constexpr (bonding) bonds_.start(context.contacts);
+    return found;
   }
   void prepare_laws(const Context& context) {
     problem_.law_of.resize(context.contacts.size());
@@ -310,12 +332,53 @@ class ImpulseDynamics {
   void solve(const Context& context, StepReport& report) {
     const auto impulses = unknowns_.impulses(context.contacts);
     report.solve = solver_.solve(problem_, impulses, workspace_);
+    if constexpr (bonding) soften_bonds(context, report);
     if (!shared_) limit_.apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
-    if constexpr (compliant) springs_.measure(context, problem_, impulses, report, shared_.get());
+    if constexpr (compliant)
+      springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
+    if constexpr (bonding)
+      bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
     if constexpr (stateful) choose_variants(context.materials, context.contacts);
     attraction_.take_from(impulses);
     unknowns_.finish(problem_.delassus, context.contacts, team_);
+  }
+
+  /// Solves the problem again while the strength of bonds that yield falls within the step.
+  template <class C>  // clang would instantiate a function that is no template with the class
+  void soften_bonds(const C& context, StepReport& report) {
+    const auto impulses = unknowns_.impulses(context.contacts);
+    const auto change = [&](std::size_t c, Scalar pull) {
+      attraction_.change(c, pull, context.contacts, std::span<const MobilityRoot<S>>(roots_),
+                         impulses[c]);
+      if constexpr (compliant) {
+        auto spring = problem_.delassus.compliance(c);
+        spring.tail(spring.size() - 1).setZero();
+        problem_.delassus.offset(c, -pull * spring);
+      }
+    };
+    for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
+      if (!bonds_.soften(context.materials, problem_.delassus, context.contacts, impulses,
+                         attraction_.pulls(), context.step, change))
+        return;
+      attraction_.offset(context.contacts, free_, problem_.delassus);
+      const int sweeps = report.solve.sweeps;
+      report.solve = solver_.solve(problem_, impulses, workspace_);
+      report.solve.sweeps += sweeps;
+    }
+  }
+
+  /// Counts the energy that bonds took; removes those that broke.
+  void end_bonds([[maybe_unused]] const Context& context, [[maybe_unused]] StepReport& report) {
+    if constexpr (bonding) {
+      const auto losses = [&](std::size_t c) {
+        ContactLosses one;
+        add_losses<S>(context.bodies, context.contacts, c, before_[c],
+                      std::span<const Twist>(after_), one);
+        return one;
+      };
+      bonds_.end_step(context.contacts, losses, springs_, report);
+    }
   }
 
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
@@ -349,6 +412,8 @@ class ImpulseDynamics {
   std::vector<unsigned char> touched_;  // by contacts
   // One entry per contact.
   std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
+  [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
+  [[no_unique_address]] std::conditional_t<bridging, BridgeBits<S, Law>, NoBridges> bridges_;
 };
 
 // Outside of the class: compiled once where a program declares the dynamics extern.
@@ -386,6 +451,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
   report.friction += losses.friction;
   report.rolling += losses.rolling;
   report.dissipation += losses.dissipation;
+  end_bonds(context, report);
   shifts_.turn_spins(correction_.shifts(), after_, team_);
   const std::span<const Twist> after(after_);
   if constexpr (requires {

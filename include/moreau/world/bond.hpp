@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A bond between two bodies, and what is left of it in the list of breakages. The law is in law/bonded.hpp.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/ids.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/core/space.hpp"
+#include "moreau/motion/bodies.hpp"
+
+namespace moreau {
+
+/// A bond. It is fixed to a point and a frame of each body that coincided when it was made. The frame F that turns with
+/// the mean of both rotations has the normal as its first column, from a to b.
+template <class S>
+struct Bond {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Angular = typename S::Angular;
+
+  BodyId a, b;                                         ///< its bodies; a wall is b
+  Vector anchor_a = Vector::Zero();                    ///< its point in the frame of body a [m]
+  Vector anchor_b = Vector::Zero();                    ///< its point in the frame of body b [m]
+  typename S::Matrix frame_a = S::Matrix::Identity();  ///< its frame in that of body a
+  typename S::Matrix frame_b = S::Matrix::Identity();  ///< its frame in that of body b
+  Vector cells = Vector::Zero();   ///< whole numbers of periodic cells from b to its image at a
+  Vector slip = Vector::Zero();    ///< opening and slip where it has yielded, in F [m]
+  Angular bend = Angular::Zero();  ///< rotation where it has yielded, in F [rad]
+  double dissipated = 0;           ///< energy that it has dissipated [J]
+  double elastic = 0;              ///< energy of its springs; 0 without [J]
+  Scalar strength_left = 1;        ///< s: share of its strength that is left [-]
+
+  auto serialized_members() {  ///< see core/serialize.hpp
+    return std::tie(a, b, anchor_a, anchor_b, frame_a, frame_b, cells, slip, bend, dissipated,
+                    elastic, strength_left);
+  }
+};
+
+/// A bond that broke.
+struct Breakage {
+  double time = 0;    ///< at the end of the step in which it broke [s]
+  BodyId a, b;        ///< the bodies that it held together
+  double energy = 0;  ///< that it has dissipated, with that which its springs released [J]
+
+  auto serialized_members() { return std::tie(time, a, b, energy); }  ///< see core/serialize.hpp
+};
+
+namespace detail {
+
+/// Where a bond is, world axes.
+template <class S>
+struct BondPlace {
+  typename S::Matrix frame;     ///< F
+  typename S::Vector middle_a;  ///< from the centre of a to the middle of both points [m]
+  typename S::Vector middle_b;  ///< from the centre of b, or its image, to it [m]
+  typename S::Vector stretch;   ///< from the point of a to that of b [m]
+  typename S::Angular turn;     ///< rotation vector from the frame of a to that of b [rad]
+};
+
+/// The rotation vector of the rotation that takes the orthonormal columns of `from` to those of `to` [rad].
+template <class S>
+typename S::Angular rotation_between(const typename S::Matrix& from, const typename S::Matrix& to) {
+  using Scalar = typename S::Scalar;
+  typename S::Angular sum = S::Angular::Zero();  // 2 sin(angle) along the axis
+  for (int k = 0; k < S::dim; ++k) sum += S::moment(from.col(k), to.col(k));
+  const Scalar sine = sum.norm() / 2;
+  const Scalar cosine = ((from.transpose() * to).trace() - Scalar(S::dim - 2)) / 2;
+  if (sine < Scalar(1e-3) && cosine > 0) return sum / 2 * (1 + sine * sine / 6);
+  return sum * (std::atan2(sine, cosine) / (2 * sine));
+}
+
+/// @param shift from body b to its image at a [m]
+template <class S>
+BondPlace<S> place_of(const Bond<S>& bond, const Bodies<S>& bodies,
+                      const typename S::Vector& shift) {
+  const Pose<S>&a = bodies.pose[bond.a.index()], &b = bodies.pose[bond.b.index()];
+  const typename S::Matrix axes_a = bodies.axes(bond.a.index()),
+                           axes_b = bodies.axes(bond.b.index());
+  const typename S::Matrix of_a = axes_a * bond.frame_a, of_b = axes_b * bond.frame_b;
+  const typename S::Vector at_a = axes_a * bond.anchor_a, at_b = axes_b * bond.anchor_b;
+  const typename S::Vector between = b.position + shift - a.position;
+  BondPlace<S> place;
+  place.stretch = between + at_b - at_a;
+  place.turn = rotation_between<S>(of_a, of_b);
+  place.frame = S::exp(place.turn / 2).toRotationMatrix() * of_a;
+  place.middle_a = at_a + place.stretch / 2;
+  place.middle_b = at_b - place.stretch / 2;
+  return place;
+}
+
+}  // namespace detail
+}  // namespace moreau

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MIT
+// The bonds of a simulation over a step. A bond is one contact in the list of contacts, in place of those that
+// detection has found for its pair:
+//
+//   1. place() writes the bonds to the list of contacts
+//   2. start() gives their contacts the variant with a bond, and offset() adds to b what they are stretched
+//   3. soften() lets the strength of those that yield fall, and the problem is solved again until it stays
+//   4. yield() and end_step() let them yield and break
+//
+// The memory of a bond is the geometry. Let d be the vector from its point on a to that on b less the slip where it has
+// yielded, and t the rotation of b against a likewise, both in the contact frame. With springs in series
+// (law/compliant.hpp) of the compliance c the law is that of p = r + h T n and
+//
+//     u + (d, R t) / h + c r,
+//
+// whose normal entry is the velocity of the points in the next detection. A rigid bond has rate (d, R t) / h with a
+// rate of a fifth, which corrects what the solver and the overlap correction leave.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/contact/effective_mass.hpp"
+#include "moreau/core/erase_at.hpp"
+#include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/solve/concepts.hpp"
+#include "moreau/world/bond.hpp"
+#include "moreau/world/detail/contact_losses.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau::detail {
+
+/// In place of the bonds of a law that has none.
+struct NoBonds {};
+
+/// The bonds of a simulation, sorted by their bodies, and the list of breakages.
+template <class S, class Law>
+class BondList {
+ public:
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
+
+  const std::vector<Bond<S>>& bonds() const { return bonds_; }  ///< sorted by their bodies
+  /// The bonds that broke, in the order of time.
+  const std::vector<Breakage>& breakages() const { return breakages_; }
+
+  /// Bonds pairs that touch and have no bond yet, at the middle of their contact points.
+  /// @param touching contacts in the present configuration
+  /// @param keeps    function: contact -> whether its pair is bonded
+  /// @returns how many bonds were made
+  std::size_t add(const Bodies<S>& bodies, const PeriodicCell<S>& cell, const Contacts<S>& touching,
+                  const auto& keeps) {
+    const std::size_t before = bonds_.size();
+    for (std::size_t first = 0, last; first < touching.size(); first = last) {
+      last = end_of_pair(touching, first);
+      const auto points = std::span(touching.points).subspan(first, last - first);
+      const BodyId a = bodies.id[points[0].a], b = bodies.id[points[0].b];
+      if (std::any_of(points.begin(), points.end(), keeps) && !has(a, b, before))
+        bonds_.push_back(made(bodies, cell, points));
+    }
+    std::sort(bonds_.begin(), bonds_.end(), [](const Bond<S>& l, const Bond<S>& r) {
+      return std::pair(l.a, l.b) < std::pair(r.a, r.b);
+    });
+    return bonds_.size() - before;
+  }
+  /// Erases the bonds of removed bodies.
+  /// @param removed one per body: not 0 if it is removed
+  void erase(std::span<const unsigned char> removed) {
+    erase_at(bonds_, [&](std::size_t i) {
+      return removed[bonds_[i].a.index()] != 0 || removed[bonds_[i].b.index()] != 0;
+    });
+    contact_of_.clear();
+  }
+  /// Whether the bonds, read from a file, are of bodies that exist, and sorted.
+  bool are_valid(const Bodies<S>& bodies) const {
+    const auto exists = [&](BodyId id) {
+      return id.index() < bodies.size() && bodies.id[id.index()] == id;
+    };
+    for (std::size_t i = 0; i < bonds_.size(); ++i)
+      if (!exists(bonds_[i].a) || !exists(bonds_[i].b) ||
+          (i > 0 &&
+           std::pair(bonds_[i - 1].a, bonds_[i - 1].b) >= std::pair(bonds_[i].a, bonds_[i].b)))
+        return false;
+    return true;
+  }
+
+  /// Replaces the contacts of bonded pairs by those of the bonds.
+  /// @param contacts sorted, as detected
+  void place(const Bodies<S>& bodies, const PeriodicCell<S>& cell, Contacts<S>& contacts) {
+    contact_of_.assign(bonds_.size(), none);
+    places_.resize(bonds_.size());
+    softening_.assign(bonds_.size(), {});
+    drifts_.resize(bonds_.size());
+    if (bonds_.empty()) return;
+    merged_.clear();
+    const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
+    std::size_t c = 0;
+    for (std::size_t i = 0; i < bonds_.size(); ++i) {
+      const Bond<S>& bond = bonds_[i];
+      const std::pair pair(bond.a.value, bond.b.value);
+      for (; c < contacts.size() && pair_of(contacts.keys[c]) < pair; ++c) copy(contacts, c);
+      while (c < contacts.size() && pair_of(contacts.keys[c]) == pair) ++c;
+      if (bodies.is_prescribed(bond.a.index()) && bodies.is_prescribed(bond.b.index())) continue;
+      contact_of_[i] = merged_.size();
+      const Vector shift = cell.length().cwiseProduct(bond.cells);
+      places_[i] = place_of(bond, bodies, shift);
+      add_contact(pair.first, pair.second, places_[i]);
+    }
+    for (; c < contacts.size(); ++c) copy(contacts, c);
+    std::swap(contacts, merged_);
+  }
+  /// Gives the contacts of bonds the variant with a bond, and all others that without.
+  void start(Contacts<S>& contacts) const {
+    for (Contact<S>& contact : contacts.points) contact.variant = 0;
+    for_each([&](std::size_t, std::size_t c) { contacts.points[c].variant = 1; });
+  }
+  /// Hides the impulses of bonds, of which springs have no memory, while `use` is called.
+  void hide(std::span<Row> impulses, const auto& use) {
+    hidden_.clear();
+    for_each([&](std::size_t, std::size_t c) {
+      hidden_.push_back(impulses[c]);
+      impulses[c].setZero();
+    });
+    use();
+    std::size_t k = 0;
+    for_each([&](std::size_t, std::size_t c) { impulses[c] = hidden_[k++]; });
+  }
+  /// The attraction of contacts: the tensile strength of bonds that is left [N].
+  void attractions(const Materials<Law>& materials, const Contacts<S>& contacts,
+                   std::vector<Scalar>& forces) const {
+    forces.assign(contacts.size(), 0);
+    for_each([&](std::size_t i, std::size_t c) {
+      forces[c] =
+          bonds_[i].strength_left * materials.laws()[contacts.points[c].law].strength().tension;
+    });
+  }
+  /// Adds to b what bonds are stretched.
+  /// @param pulls h T of each contact [N s]
+  /// @param step  h [s]
+  void offset(Operator& op, std::span<const Scalar> pulls, Scalar step) {
+    for_each([&](std::size_t i, std::size_t c) {
+      const BondPlace<S>& at = places_[i];
+      const typename S::Inertia spin_frame = S::angular_frame(op.frame(c));
+      const Vector stretch = at.stretch - at.frame * bonds_[i].slip;
+      const typename S::Angular turn = at.turn - S::angular_frame(at.frame) * bonds_[i].bend;
+      Row row;
+      linear<S>(row) = op.frame(c).transpose() * stretch;
+      angular<S>(row) = op.radius(c) * (spin_frame.transpose() * turn);
+      row *= (is_compliant ? 1 : rate) / step;
+      drifts_[i] = is_compliant ? Row(Row::Zero()) : row;
+      if constexpr (is_compliant) row[0] -= op.compliance(c)[0] * pulls[c];
+      op.offset(c, row);
+    });
+  }
+
+  /// Lets the strength of bonds that yield fall within the step, after the contact problem was solved with the present
+  /// attraction. Let x be the share that a bond loses in the step by its velocity. Its strength in the step is the mean
+  /// over the opening, s - x / 2, or s^2 / (2 x) if it breaks: it dissipates the area under the line of softening,
+  /// whatever the step. A secant step per bond makes the iteration for one bond end after two solutions.
+  /// @param pulls  impulses of the attraction in the solution [N s]
+  /// @param change function: (contact, change of the impulse of its attraction [N s])
+  /// @returns whether the strength of a bond has changed: the problem must be solved again
+  bool soften(const Materials<Law>& materials, const Operator& op, const Contacts<S>& contacts,
+              std::span<const Row> impulses, std::span<const Scalar> pulls, Scalar step,
+              const auto& change) {
+    bool changed = false;
+    for_each([&](std::size_t i, std::size_t c) {
+      const Law& law = materials.laws()[contacts.points[c].law];
+      const Scalar full = step * law.strength().tension, now = pulls[c] / full;
+      Softening& before = softening_[i];
+      const Scalar found = strength_in_step(i, law, yielding(op, i, c), impulses[c], step);
+      const Scalar slope = before.found < 0 || now == before.now
+                               ? Scalar(0)
+                               : (found - before.found) / (now - before.now);
+      before = {now, found};
+      if (!(std::abs(found - now) > enough)) return;
+      const Scalar next = now + (found - now) / (1 - std::clamp(slope, Scalar(0), Scalar(0.9)));
+      changed = true;
+      change(c, full * (std::clamp(next, Scalar(0), bonds_[i].strength_left) - now));
+    });
+    return changed;
+  }
+  /// Most solutions of a step in which bonds yield.
+  static constexpr int max_solutions = 30;
+
+  /// Lets the bonds yield, and notes those that break.
+  /// @param op       with the velocities of the impulses
+  /// @param impulses p of every contact [N s]
+  /// @param step     h [s]
+  void yield(const Materials<Law>& materials, const Operator& op, const Contacts<S>& contacts,
+             std::span<const Row> impulses, Scalar step) {
+    broken_.assign(bonds_.size(), 0);
+    for_each([&](std::size_t i, std::size_t c) {
+      Bond<S>& bond = bonds_[i];
+      const Contact<S>& contact = contacts.points[c];
+      const Law& law = materials.laws()[contact.law];
+      if (!law.yields(impulses[c])) return;
+      const Row w = yielding(op, i, c);
+      bond.strength_left -= step * law.softening(w);
+      broken_[i] = !(bond.strength_left > 0);
+      if (broken_[i]) bond.strength_left = 0;
+      const typename S::Matrix frame = places_[i].frame.transpose() * op.frame(c);
+      bond.slip += step * (frame * linear<S>(w));
+      bond.bend += step / op.radius(c) *
+                   (S::angular_frame(places_[i].frame).transpose() *
+                    (S::angular_frame(op.frame(c)) * angular<S>(w)));
+    });
+  }
+  /// Moves the energy that the bonds took in the step from friction and rolling to StepReport::fracture, and removes
+  /// those that broke.
+  /// @param losses  function: contact c -> its ContactLosses
+  /// @param springs ContactSprings or NoSprings
+  void end_step(Contacts<S>& contacts, const auto& losses, auto& springs, StepReport& report) {
+    for_each([&](std::size_t i, std::size_t c) {
+      Bond<S>& bond = bonds_[i];
+      const ContactLosses one = losses(c);
+      double taken = one.dissipation + bond.elastic;
+      if constexpr (CompliantLaw<Law, S>) {
+        bond.elastic = broken_[i] ? 0 : springs.energy_after(c);
+        if (broken_[i]) springs.release(c, report);
+      }
+      taken -= bond.elastic;
+      report.friction -= one.friction;
+      report.rolling -= one.rolling;
+      report.fracture += taken;
+      bond.dissipated += taken;
+      if (!broken_[i]) return;
+      contacts.points[c].variant = 0;
+      breakages_.push_back({0, bond.a, bond.b, bond.dissipated});
+      ++new_breakages_;
+    });
+    report.broken_bonds = new_breakages_;
+    report.bonds = bonds_.size() - new_breakages_;
+    if (new_breakages_ == 0) return;
+    erase_at(bonds_, [&](std::size_t i) { return broken_[i] != 0; });
+  }
+  /// Gives the breakages of the last step their time [s].
+  void stamp(double time) {
+    for (; new_breakages_ > 0; --new_breakages_)
+      breakages_[breakages_.size() - new_breakages_].time = time;
+  }
+
+ private:
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(bonds_, breakages_); }
+
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  static constexpr bool is_compliant = CompliantLaw<Law, S>;
+  static constexpr Scalar rate = Scalar(0.2);
+  static constexpr Scalar enough = std::is_same_v<Scalar, float> ? Scalar(1e-4) : Scalar(1e-8);
+
+  /// A strength in the step that the problem was solved with, and that of soften() for its solution; < 0: none.
+  struct Softening {
+    Scalar now = -1, found = -1;
+  };
+  /// @param w velocity of the bond [m/s]
+  /// @param p its impulse [N s]
+  Scalar strength_in_step(std::size_t i, const Law& law, const Row& w, const Row& p,
+                          Scalar step) const {
+    const Scalar s = bonds_[i].strength_left;
+    if (!law.yields(p)) return s;
+    const Scalar x = step * law.softening(w);
+    return !std::isfinite(x) ? s : x < s ? s - x / 2 : s * s / (2 * x);
+  }
+  /// The velocity at which a bond yields: that of its bodies, less that of its springs, without the correction of a
+  /// rigid bond, which counts the motion up to detection as an error.
+  Row yielding(const Operator& op, std::size_t i, std::size_t c) const {
+    return op.velocity(c) - drifts_[i];
+  }
+  /// Calls use(index of the bond, index of its contact).
+  void for_each(const auto& use) const {
+    for (std::size_t i = 0; i < contact_of_.size(); ++i)
+      if (contact_of_[i] != none) use(i, contact_of_[i]);
+  }
+  /// @param count of the bonds that are sorted
+  bool has(BodyId a, BodyId b, std::size_t count) const {
+    const auto end = bonds_.begin() + std::ptrdiff_t(count);
+    const auto at =
+        std::lower_bound(bonds_.begin(), end, std::pair(a, b),
+                         [](const Bond<S>& bond, const std::pair<BodyId, BodyId>& pair) {
+                           return std::pair(bond.a, bond.b) < pair;
+                         });
+    return at != end && at->a == a && at->b == b;
+  }
+  static Bond<S> made(const Bodies<S>& bodies, const PeriodicCell<S>& cell,
+                      std::span<const Contact<S>> points) {
+    Bond<S> bond;
+    Vector lever_a = Vector::Zero(), lever_b = Vector::Zero(), normal = Vector::Zero();
+    for (const Contact<S>& point : points) {
+      lever_a += point.lever_a;
+      lever_b += point.lever_b;
+      normal += point.frame.col(0);
+    }
+    lever_a /= Scalar(points.size());
+    lever_b /= Scalar(points.size());
+    // Normals of several parts that cancel: any will do.
+    normal = normal.norm() > Scalar(0.1) ? normal.normalized() : Vector(points[0].frame.col(0));
+    const std::uint32_t a = points[0].a, b = points[0].b;
+    const typename S::Matrix axes_a = bodies.axes(a), axes_b = bodies.axes(b),
+                             frame = S::contact_frame(normal);
+    bond.a = bodies.id[a];
+    bond.b = bodies.id[b];
+    bond.anchor_a = axes_a.transpose() * lever_a;
+    bond.anchor_b = axes_b.transpose() * lever_b;
+    bond.frame_a = axes_a.transpose() * frame;
+    bond.frame_b = axes_b.transpose() * frame;
+    const Vector shift = bodies.pose[a].position + lever_a - lever_b - bodies.pose[b].position;
+    for (int axis = 0; axis < S::dim; ++axis)
+      if (cell.is_periodic(axis)) bond.cells[axis] = std::round(shift[axis] / cell.length()[axis]);
+    return bond;
+  }
+  void copy(const Contacts<S>& from, std::size_t c) {
+    merged_.points.push_back(from.points[c]);
+    merged_.keys.push_back(from.keys[c]);
+    merged_.classes.push_back(from.classes[c]);
+    merged_.impulses.push_back(from.impulses[c]);
+  }
+  void add_contact(std::uint32_t a, std::uint32_t b, const BondPlace<S>& at) {
+    constexpr std::size_t last = 0xfffffff;  // an index that no feature has
+    merged_.points.push_back({a, b, 0, Scalar(0), at.frame, at.middle_a, at.middle_b, 1});
+    merged_.keys.push_back({a, b, FeatureKey(FeatureKey::Kind::vertex_vertex, last, last)});
+    merged_.classes.push_back(ContactClass::vertex_vertex);
+    merged_.impulses.push_back(Vector::Zero());
+  }
+
+  std::vector<Bond<S>> bonds_;
+  std::vector<Breakage> breakages_;
+  // Of the step.
+  std::vector<std::size_t> contact_of_;  // of each bond, or none
+  std::vector<BondPlace<S>> places_;     // of each bond
+  std::vector<Row> drifts_;              // of each bond: the correction in its offset, see offset()
+  std::vector<unsigned char> broken_;    // of each bond
+  std::vector<Softening> softening_;     // of each bond
+  std::vector<Row> hidden_;
+  Contacts<S> merged_;
+  std::size_t new_breakages_ = 0;
+};
+
+}  // namespace moreau::detail

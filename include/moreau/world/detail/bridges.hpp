@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Bridges between bodies (law/bridges.hpp) and the attraction of contacts.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/contact/effective_mass.hpp"
+#include "moreau/contact/effective_radius.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+
+namespace moreau::detail {
+
+/// The largest gap at which a law attracts beyond the margin [m]; 0 of a law without bridges.
+template <class S, class Law>
+typename S::Scalar reach_of(const Materials<Law>& materials) {
+  typename S::Scalar reach = 0;
+  if constexpr (BridgingLaw<Law, S>)
+    for (const Law& law : materials.laws()) reach = std::max(reach, law.reach());
+  return reach;
+}
+
+/// Which pairs have a bridge.
+template <class S, class Law>
+class Bridges {
+ public:
+  using Scalar = typename S::Scalar;
+
+  /// Forms and breaks bridges after detection, and erases the contacts of pairs without a bridge whose gap exceeds the
+  /// margin. A bridge forms where a gap is closed, or the contact pushed in the step before.
+  /// @param before contacts of the step before, with their impulses
+  /// @param now    contacts of this step, with their laws; out: their variants say whether there is a bridge
+  /// @returns how many pairs are left
+  std::size_t update(const Materials<Law>& materials, const Contacts<S>& before, Contacts<S>& now,
+                     Scalar margin) {
+    gone_.assign(now.size(), 0);
+    std::size_t old = 0, pairs = 0;
+    for (std::size_t first = 0, last; first < now.size(); first = last) {
+      last = end_of_pair(now, first);
+      bool bridged = had_bridge(before, old, now.keys[first]);
+      Scalar least = now.points[first].gap;
+      for (std::size_t c = first; c < last; ++c) least = std::min(least, now.points[c].gap);
+      bridged = (bridged || least <= 0) && least <= materials.laws()[now.points[first].law].reach();
+      for (std::size_t c = first; c < last; ++c) {
+        now.points[c].variant = static_cast<std::uint32_t>(Law::with_bridge(0, bridged));
+        gone_[c] = !bridged && now.points[c].gap > margin;
+      }
+      pairs += bridged || least <= margin;
+    }
+    now.erase([&](std::size_t c) { return gone_[c] != 0; });
+    return pairs;
+  }
+
+ private:
+  /// Whether the pair had a bridge in the step before, or its bodies pushed each other.
+  /// @param at in and out: index into `before`, of this pair or an earlier one
+  static bool had_bridge(const Contacts<S>& before, std::size_t& at, const ContactKey& key) {
+    const auto pair_of = [](const ContactKey& k) { return std::pair(k.a, k.b); };
+    while (at < before.size() && pair_of(before.keys[at]) < pair_of(key)) ++at;
+    bool bridged = false;
+    for (; at < before.size() && pair_of(before.keys[at]) == pair_of(key); ++at)
+      bridged = bridged || Law::is_bridged(before.points[at].variant) || before.impulses[at][0] > 0;
+    return bridged;
+  }
+
+  std::vector<unsigned char> gone_;  // one per contact
+};
+
+/// Which contacts have a bridge in this step, while their variants are carried over from the step before.
+template <class S, class Law>
+class BridgeBits {
+ public:
+  /// Remembers the bridges.
+  void save(const Contacts<S>& contacts) {
+    bridged_.clear();
+    for (const Contact<S>& contact : contacts.points)
+      bridged_.push_back(Law::is_bridged(contact.variant));
+  }
+  /// Gives the variants the bridges of save().
+  void restore(Contacts<S>& contacts) const {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      std::uint32_t& variant = contacts.points[c].variant;
+      variant = static_cast<std::uint32_t>(Law::with_bridge(variant, bridged_[c] != 0));
+    }
+  }
+
+ private:
+  std::vector<unsigned char> bridged_;  // one per contact
+};
+
+/// In place of the bridges of a law that has none.
+struct NoBridges {};
+
+/// The forces with which the bodies of contacts attract each other, >= 0 [N].
+/// @param forces out: one per contact
+template <class S, class Law>
+void attractions(const Bodies<S>& bodies, const Materials<Law>& materials,
+                 const Contacts<S>& contacts, std::vector<typename S::Scalar>& forces) {
+  forces.resize(contacts.size());
+  if constexpr (BridgingLaw<Law, S>) {
+    for (std::size_t first = 0, last; first < contacts.size(); first = last) {
+      last = end_of_pair(contacts, first);
+      for (std::size_t c = first; c < last; ++c) {
+        const Contact<S>& contact = contacts.points[c];
+        forces[c] = 0;
+        if (!Law::is_bridged(contact.variant)) continue;
+        const auto radius_at = [&](std::uint32_t body, const typename S::Vector& lever) {
+          return bodies.grain_mass[body] > 0 ? 1 / (lever.norm() - contact.gap / 2)
+                                             : typename S::Scalar(0);
+        };
+        const auto curvature =
+            radius_at(contact.a, contact.lever_a) + radius_at(contact.b, contact.lever_b);
+        forces[c] = materials.laws()[contact.law].bridge_force(contact.gap, 2 / curvature) /
+                    typename S::Scalar(last - first);
+      }
+    }
+  } else {
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      forces[c] = materials.laws()[contacts.points[c].law].attraction(contacts.points[c].gap);
+  }
+}
+
+}  // namespace moreau::detail

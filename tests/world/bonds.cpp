@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+// Bonds against closed forms: strength in tension, shear, bending and twisting, fracture energy, the deflection of a
+// chain; what they do to momentum, snapshots, removal of grains and periodic cells.
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "moreau/io/snapshot.hpp"
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/compliant.hpp"
+#include "moreau/measure/energy.hpp"
+#include "moreau/measure/energy_balance.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
+#include "moreau/world/simulation.hpp"
+
+#include "types.hpp"
+
+using namespace moreau;
+
+namespace {
+
+constexpr double radius = 0.01, tension = 20, shear = 12, bending = 8, friction = 0.4;
+constexpr double stiffness = 1e6, tangential = 5e5;
+
+template <class Law>
+struct Make {
+  using T = decltype(std::declval<Law>().friction());
+  static Law law(double energy = 0) {
+    const BondStrength<T> strength{T(tension), T(shear), T(bending), T(energy)};
+    if constexpr (std::is_same_v<Law, Bonded<T>>)
+      return Law(strength, T(friction));
+    else
+      return Law(Bonded<T>(strength, T(friction)), T(stiffness), T(tangential));
+  }
+};
+
+ColouredGaussSeidel tight(bool is_float) {
+  ColouredOptions options;
+  options.tolerance = is_float ? 1e-5 : 1e-11;
+  options.max_sweeps = 5000;
+  return ColouredGaussSeidel(options);
+}
+
+/// Whether two numbers differ by less than a share of the second one.
+bool agree(double found, double expected, double share) {
+  return std::abs(found - expected) <= share * std::abs(expected);
+}
+
+/// Grains in a row, from the origin along x; neighbours touch and are bonded, the first one is fixed.
+template <class ShapeT, class Law>
+struct Row {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Angular = typename S::Angular;
+  static constexpr bool is_compliant = CompliantLaw<Law, S>;
+
+  Simulation<ShapeT, Law> world;
+  std::vector<BodyId> grains;
+  /// Of the bonds [m].
+  double effective = radius / 2;
+
+  explicit Row(std::size_t count, double energy = 0, double density = 1000)
+      : world(T(2 * radius), Materials<Law>(1, Make<Law>::law(energy)),
+              tight(std::is_same_v<T, float>)) {
+    ShapeId shape;
+    if constexpr (requires(const ShapeT& s) { s.vertices(); })
+      shape = world.add_shape(cuboid<ShapeT>(Vector(Vector::Constant(T(radius)))));
+    else
+      shape = world.add_shape(ShapeT(T(radius)));
+    for (std::size_t k = 0; k < count; ++k)
+      grains.push_back(world.add_grain(
+          shape, Pose<S>(Vector(T(2 * radius * double(k)) * Vector::UnitX())), T(density)));
+    world.prescribe_motion(grains[0]);
+    CHECK(world.bond_touching(T(1e-5)) == count - 1);
+  }
+  BodyId last() const { return grains.back(); }
+  /// The last component of an angular quantity: about z.
+  static Angular about_z(double torque) {
+    Angular turn = Angular::Zero();
+    turn[S::angular_dim - 1] = T(torque);
+    return turn;
+  }
+  void load(double along, double aside, double about) {
+    Vector force = Vector::Zero();
+    force[0] = T(along), force[1] = T(aside);
+    world.set_force(last(), force);
+    world.set_torque(last(), about_z(about));
+  }
+};
+
+template <class ShapeT, class Law>
+struct Case {
+  using Shape = ShapeT;
+  using LawOf = Law;
+};
+using Rigid = Bonded<double>;
+using Soft = Compliant<Bonded<double>>;
+using Circle = BallIn<Space<2>>;
+using Globe = BallIn<Space<3>>;
+
+/// Share of a load at which the bond breaks if the load grows by `increment` per step.
+template <class X>
+double breaks_at(double increment, const auto& apply) {
+  Row<typename X::Shape, typename X::LawOf> row(2);
+  using T = typename decltype(row)::T;
+  const T h = row.is_compliant ? T(5e-3) : T(1e-4);
+  for (double share = increment; share < 1.5; share += increment) {
+    apply(row, share);
+    const StepReport report = row.world.step(h);
+    if (report.broken_bonds > 0) {
+      CHECK(report.bonds == 0);
+      CHECK(row.world.bonds().empty());
+      CHECK(row.world.breakages().size() == 1);
+      CHECK(row.world.breakages()[0].time == row.world.time());
+      CHECK(row.world.breakages()[0].a == row.grains[0]);
+      return share;
+    }
+    CHECK(report.bonds == 1);
+  }
+  return 0;
+}
+
+}  // namespace
+
+#define BOND_TYPES                                                                               \
+  MOREAU_TYPES(                                                                                  \
+      (Case<Circle, Rigid>, Case<Globe, Soft>),                                                  \
+      (Case<Circle, Soft>, Case<Globe, Rigid>, Case<Polygon<>, Rigid>, Case<Polyhedron<>, Soft>, \
+       Case<Polyhedron<>, Rigid>, Case<BallIn<Space<2, float>>, Bonded<float>>))
+
+TEST_CASE_TEMPLATE("bond: two grains break at the strength in tension, shear, bending and twisting",
+                   X, BOND_TYPES) {
+  const double step = 2e-3;
+  const auto check = [&](double share) {
+    CHECK(share >= 1 - 1e-5);
+    CHECK(share <= 1 + 1.5 * step);
+  };
+  check(breaks_at<X>(step, [](auto& row, double s) { row.load(s * tension, 0, 0); }));
+  // The torque takes the moment of the force at the bond away.
+  check(
+      breaks_at<X>(step, [](auto& row, double s) { row.load(0, s * shear, -s * shear * radius); }));
+  check(breaks_at<X>(step, [](auto& row, double s) {
+    const auto& bond = row.world.bonds()[0];
+    const double arm = 1 / (1 / double(bond.anchor_a.norm()) + 1 / double(bond.anchor_b.norm()));
+    row.load(0, 0, s * bending * arm);
+  }));
+  if constexpr (SpaceOf<typename X::Shape>::dim == 3)
+    check(breaks_at<X>(step, [](auto& row, double s) {
+      using S = SpaceOf<typename X::Shape>;
+      row.world.set_torque(row.last(),
+                           typename S::Angular(s * bending * radius / 2 * S::Angular::UnitX()));
+    }));
+  // Compression makes the bond stronger, and does not break it.
+  CHECK(breaks_at<X>(step, [](auto& row, double s) { row.load(-s * 100, 0, 0); }) == 0);
+  check(breaks_at<X>(step, [](auto& row, double s) {
+    const double limit = s * shear * 2;
+    row.load(-tension, limit, -limit * radius);
+  }));
+}
+
+/// The work until a bond breaks whose bodies move against each other at a constant rate.
+template <class X>
+struct Fracture {
+  using World = Row<typename X::Shape, typename X::LawOf>;
+  using S = typename World::S;
+  using T = typename World::T;
+  enum Mode { opening, sliding, twisting };
+
+  double fracture = 0, drives = 0, imbalance = 0, friction = 0, bond = 0, largest = 0,
+         effective = 0;
+  int steps = 0;
+
+  /// @param count steps in which the bond would lose its strength without springs
+  Fracture(Mode mode, double energy, double count) {
+    World row(2, energy, 1e12);
+    const double strength = mode == opening ? tension : mode == sliding ? shear : bending;
+    const double speed = 0.02, h = 2 * energy / (strength * speed * count),
+                 spin = speed / row.effective;
+    const auto drive = [&] {
+      typename S::Vector velocity = S::Vector::Zero();
+      if (mode == opening) velocity[0] = T(-speed);
+      if (mode == sliding) velocity[1] = T(-speed);
+      if (mode == twisting) {
+        typename S::Angular about = S::Angular::Zero();
+        about[0] = T(spin);
+        row.world.set_spin(row.grains[0], about);
+      }
+      row.world.set_velocity(row.grains[0], velocity);
+    };
+    drive();
+    EnergyBalance<S> balance(row.world);  // it moves already
+    for (; steps < 20 * count && row.world.breakages().empty(); ++steps) {
+      drive();
+      balance.add(row.world, row.world.step(T(h)), T(h));
+      largest = std::max(largest, (balance.terms().drives - drives) / (speed * h * strength));
+      drives = balance.terms().drives;
+    }
+    fracture = balance.terms().fracture, imbalance = balance.imbalance();
+    friction = balance.terms().friction + balance.terms().rolling;
+    if (row.world.breakages().size() == 1) bond = row.world.breakages()[0].energy;
+  }
+};
+
+TEST_CASE_TEMPLATE("bond: the fracture energy is the work up to the end, whatever the step", X,
+                   BOND_TYPES) {
+  using F = Fracture<X>;
+  constexpr bool is_float = std::is_same_v<typename F::T, float>,
+                 springs = CompliantLaw<typename X::LawOf, typename F::S>;
+  const double energy = 1e-3, rounding = (is_float ? 1e-2 : 1e-6) * energy;
+  // Implicit Euler dissipates energy of springs in each step of the load.
+  const double count = springs ? 1000.4 : 25.4, share = springs ? 5e-3 : is_float ? 1e-2 : 1e-4;
+  for (int mode = F::opening; mode <= (F::S::dim == 3 ? F::twisting : F::sliding); ++mode) {
+    CAPTURE(mode);
+    const F found(typename F::Mode(mode), energy, count);
+    CAPTURE(found.largest);
+    CAPTURE(found.fracture);
+    CAPTURE(found.drives);
+    CHECK(std::abs(found.steps - count) < (springs ? 5 : is_float ? 2 : 1));
+    CHECK(agree(found.largest, 1 - 0.5 / count, share));  // the mean over the first step
+    CHECK(agree(found.fracture, energy, share));
+    CHECK(agree(found.drives, energy, share));
+    CHECK(agree(found.bond, energy, share));
+    CHECK(std::abs(found.imbalance) < rounding);
+    CHECK(std::abs(found.friction) < rounding);
+  }
+}
+
+TEST_CASE_TEMPLATE("bond: springs that hold more energy than the fracture takes break it at once",
+                   X, MOREAU_TYPES((Case<Globe, Soft>), (Case<Circle, Soft>))) {
+  const double stored = tension * tension / (2 * stiffness);
+  const Fracture<X> found(Fracture<X>::opening, stored / 10, 100);
+  CHECK(found.bond > 0);
+  CHECK(agree(found.drives, stored, 0.01));
+  CHECK(agree(found.fracture, stored, 0.01));
+  CHECK(std::abs(found.imbalance) < 1e-6 * stored);
+}
+
+TEST_CASE_TEMPLATE("bond: a brittle bond with springs releases their energy", X,
+                   MOREAU_TYPES((Case<Globe, Soft>), (Case<Circle, Soft>))) {
+  using S = SpaceOf<typename X::Shape>;
+  Row<typename X::Shape, Soft> row(2, 0, 1e12);
+  row.world.set_velocity(row.grains[0], typename S::Vector(-2e-3 * S::Vector::UnitX()));
+  EnergyBalance<S> balance(row.world);
+  double stored = 0;
+  for (int k = 0; k < 4000 && row.world.breakages().empty(); ++k) {
+    stored = row.world.bonds()[0].elastic;
+    balance.add(row.world, row.world.step(1e-5), 1e-5);
+  }
+  const double expected = tension * tension / (2 * stiffness);
+  CHECK(agree(double(stored), expected, 0.01));
+  CHECK(agree(double(balance.terms().fracture), expected, 0.01));
+  CHECK(agree(double(balance.terms().drives), expected, 0.01));
+  CHECK(std::abs(balance.terms().elastic) < 1e-6 * expected);
+  CHECK(std::abs(balance.imbalance()) < 1e-6 * expected);
+  REQUIRE(row.world.breakages().size() == 1);
+  CHECK(agree(double(row.world.breakages()[0].energy), expected, 0.01));
+}
+
+TEST_CASE_TEMPLATE(
+    "bond: a chain bends as its springs, and nearly as a beam of Euler and Bernoulli", X,
+    MOREAU_TYPES((Case<Circle, Soft>), (Case<Globe, Soft>))) {
+  const std::size_t count = 11;
+  Row<typename X::Shape, Soft> chain(count);
+  const double force = 0.01, tip = 2 * radius * double(count - 1), arm = radius / 2;
+  chain.load(0, force, 0);
+  for (int k = 0; k < 200; ++k) chain.world.step(0.1);
+  double deflection = 0;
+  for (std::size_t k = 0; k + 1 < count; ++k) {
+    const double lever = tip - radius * double(2 * k + 1);
+    deflection += force / tangential + force * lever * lever / (tangential * arm * arm);
+  }
+  const double found = chain.world.pose(chain.last()).position[1];
+  CHECK(found / deflection == doctest::Approx(1).epsilon(1e-3));
+  const double rigidity = tangential * arm * arm * 2 * radius;  // E I
+  CHECK(agree(double(found), force * tip * tip * tip / (3 * rigidity), 0.02));
+  CHECK(chain.world.bonds().size() == count - 1);
+}
+
+TEST_CASE_TEMPLATE("bond: a bonded pair turns freely under the tension of its motion", X,
+                   BOND_TYPES) {
+  using World = Row<typename X::Shape, typename X::LawOf>;
+  using S = typename World::S;
+  using T = typename World::T;
+  constexpr bool is_float = std::is_same_v<T, float>;
+  World pair(2);
+  pair.world.release(pair.grains[0]);
+  const double rate = 20, h = 1e-4;
+  for (const BodyId grain : pair.grains) {
+    pair.world.set_spin(grain, World::about_z(rate));
+    const double side = grain == pair.grains[0] ? -1 : 1;
+    pair.world.set_velocity(grain,
+                            typename S::Vector(T(side * rate * radius) * S::Vector::Unit(1)));
+  }
+  const auto momentum_of = [&] {
+    return momentum<S>(pair.world.grain_count(), [&](std::size_t k) {
+      const Bodies<S>& bodies = pair.world.bodies();
+      return BodyMotion<S>{bodies.grain_mass[k], bodies.inertia(k, bodies.pose[k].rotation),
+                           bodies.pose[k].position, bodies.velocity[k]};
+    });
+  };
+  const auto before = momentum_of();
+  for (int k = 0; k < 1600; ++k) pair.world.step(T(h));  // half a turn
+  const auto after = momentum_of();
+  const double scale = double(before.angular.norm());
+  CHECK(double((after.angular - before.angular).norm()) < (is_float ? 1e-3 : 1e-6) * scale);
+  const double mass = double(pair.world.bodies().grain_mass[0]);
+  const auto pull = pair.world.contact_impulse(pair.last());
+  CHECK(agree(double(double(pull.norm()) / h), mass * rate * rate * radius, is_float ? 0.1 : 0.01));
+  CHECK(agree(double(double(
+                  (pair.world.pose(pair.grains[0]).position - pair.world.pose(pair.last()).position)
+                      .norm())),
+              2 * radius, 1e-4));
+  CHECK(pair.world.bonds().size() == 1);
+}
+
+TEST_CASE("bond: made as the guide shows") {
+  using S = Space<2>;
+  using Glue = Compliant<Bonded<double>>;
+  const Bonded<double> strong({tension, shear, bending}, friction);
+  Simulation<Circle, Glue> simulation(2 * radius, Materials<Glue>(1, Glue(strong, stiffness)));
+  const ShapeId disk = simulation.add_shape(Circle(radius));
+  const BodyId left = simulation.add_grain(disk, Pose<S>({0, 0}), 1000);
+  const BodyId right = simulation.add_grain(disk, Pose<S>({2 * radius, 0}), 1000);
+  simulation.bond(left, right);    // these two
+  simulation.bond_touching(1e-5);  // all pairs whose gap is at most 1e-5 m
+  CHECK(simulation.bonds().size() == 1);
+  CHECK(simulation.bonds()[0].strength_left == 1);
+}
+
+TEST_CASE("bond: a broken bond is a contact with friction") {
+  Row<Circle, Rigid> row(2);
+  row.load(-10, 40, -40 * radius);  // above the shear strength of 12 + 0.6 * 10
+  row.world.step(1e-4);
+  CHECK(row.world.breakages().size() == 1);
+  row.load(-10, 3.9, -3.9 * radius);
+  row.world.set_velocity(row.last(), {0, 0});
+  row.world.set_spin(row.last(), 0.0);
+  row.world.step(1e-4);
+  const auto& contacts = row.world.contacts();
+  CHECK(contacts.size() == 1);
+  CHECK(contacts.points[0].variant == 0);
+  CHECK(agree(double(contacts.impulses[0][0]), 10e-4, 1e-3));
+  CHECK(agree(double(std::abs(contacts.impulses[0][1])), 3.9e-4, 1e-2));  // 0.4 * 10 would slip
+}
+
+TEST_CASE("bond: snapshots, removed grains, walls, periodic cells, refusals") {
+  using World = Row<Circle, Soft>;
+  World row(4, 1e-3), copy(4, 1e-3);
+  row.load(19, 3, 0);
+  for (int k = 0; k < 30; ++k) row.world.step(1e-4);
+  restore_snapshot(snapshot(row.world), copy.world);
+  for (int k = 0; k < 30; ++k) row.world.step(1e-4), copy.world.step(1e-4);
+  CHECK(snapshot(row.world) == snapshot(copy.world));
+  CHECK(copy.world.bonds().size() == row.world.bonds().size());
+
+  World three(3);
+  three.world.remove_grain(three.grains[1]);
+  CHECK(three.world.bonds().empty());
+  CHECK(three.world.step(1e-4).points == 0);
+  CHECK(three.world.breakages().empty());
+
+  World held(1);
+  const BodyId wall = held.world.add_wall({1, 0}, {-radius, 0});
+  held.world.release(held.last());
+  held.world.bond(wall, held.last());
+  held.world.bond(held.last(), wall);  // has one
+  CHECK(held.world.bonds().size() == 1);
+  CHECK(held.world.bonds()[0].b == wall);
+  held.load(10, 0, 0);
+  for (int k = 0; k < 100; ++k) held.world.step(1e-3);
+  CHECK(agree(double(held.world.pose(held.last()).position[0]), 10 / stiffness, 1e-3));
+  CHECK(held.world.bond_touching(1e-4) == 0);
+  CHECK_THROWS_WITH(held.world.bond_touching(1),
+                    doctest::Contains("Simulation::bond_touching: gap = 1"));
+  CHECK_THROWS_WITH(held.world.bond(wall, wall), doctest::Contains("Simulation::bond: b"));
+
+  // Across the boundary of a cell: the grains at 0 and at 3 diameters of a cell of 4.
+  Simulation<Circle, Rigid> cell(2 * radius, Materials<Rigid>(1, Make<Rigid>::law()));
+  cell.set_periodic(0, -radius, 7 * radius);
+  const ShapeId shape = cell.add_shape(Circle(radius));
+  const BodyId a = cell.add_grain(shape, Pose<Space<2>>({0, 0}), 1000),
+               b = cell.add_grain(shape, Pose<Space<2>>({6 * radius, 0}), 1000);
+  cell.bond(a, b);
+  cell.prescribe_motion(a);
+  cell.set_force(b, {-0.99 * tension, 0});
+  for (int k = 0; k < 20; ++k) cell.step(1e-4);
+  CHECK(agree(double(cell.pose(b).position[0]), 6 * radius, 1e-9));
+  CHECK(cell.bonds().size() == 1);
+  cell.set_force(b, {-1.01 * tension, 0});
+  cell.step(1e-4);
+  CHECK(cell.bonds().empty());
+  using doctest::Contains;
+  CHECK_THROWS_WITH(Bonded<>({0, 1, 1, 0}), Contains("Bonded: tension = 0 must be finite and > 0"));
+  CHECK_THROWS_WITH(Bonded<>({1, -1, 1, 0}), Contains("shear = -1"));
+  CHECK_THROWS_WITH(Bonded<>({1, 1, 0, 0}), Contains("bending = 0"));
+  CHECK_THROWS_WITH(Bonded<>({1, 1, 1, -1}), Contains("fracture_energy = -1"));
+}

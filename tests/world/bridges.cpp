@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// Bridges between grains against closed forms: pull-off force, rupture distance, energy of a cycle.
+#include "moreau/law/bridges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <numbers>
+#include <string>
+#include <type_traits>
+
+#include "moreau/io/snapshot.hpp"
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/frictionless.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/measure/energy_balance.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
+#include "moreau/world/simulation.hpp"
+
+#include "types.hpp"
+
+using namespace moreau;
+
+namespace {
+
+constexpr double radius = 1e-3, tension = 0.07, h = 1e-5;
+/// Whether two numbers differ by less than a share of the second one.
+bool agree(double found, double expected, double share = 1e-9) {
+  return std::abs(found - expected) <= share * std::abs(expected);
+}
+
+/// The bridge of the tests: of liquid, whose reach is a tenth of the radius, or linear.
+template <class Bridge>
+Bridge bridge() {
+  using T = typename Bridge::Scalar;
+  if constexpr (requires(const Bridge& b) { b.volume(); })
+    return Bridge(T(1e-3 * radius * radius * radius), T(tension), T(0.2));
+  else
+    return Bridge(T(4e-4), T(1e-4));
+}
+
+template <class ShapeT>
+ShapeT grain() {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  if constexpr (requires(const ShapeT& s) { s.vertices(); })
+    return cuboid<ShapeT>(typename S::Vector(S::Vector::Constant(T(radius))));
+  else
+    return ShapeT(T(radius));
+}
+
+/// A law of the tests with the bridge.
+template <class Law>
+struct Make;
+template <class Bridge, class Law>
+struct Make<Bridged<Bridge, Law>> {
+  static auto law() { return Bridged<Bridge, Law>(bridge<Bridge>(), Law()); }
+};
+template <class Law>
+struct Make<Compliant<Law>> {
+  static auto law() { return Compliant<Law>(Make<Law>::law(), 1000); }
+};
+
+/// Two equal grains, the first one driven along the line of their centres, the second one heavy.
+template <class ShapeT, class Law>
+struct Two {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+
+  Simulation<ShapeT, Law> world{T(2 * radius), Materials<Law>(1, Make<Law>::law())};
+  BodyId driven, heavy;
+
+  explicit Two(T gap) {
+    const ShapeId shape = world.add_shape(grain<ShapeT>());
+    driven = world.add_grain(shape, Pose<S>(Vector(Vector::Zero())), T(1000));
+    heavy =
+        world.add_grain(shape, Pose<S>(Vector((T(2 * radius) + gap) * Vector::UnitX())), T(1e9));
+    world.prescribe_motion(driven);
+  }
+  StepReport move(T speed) {
+    world.set_velocity(driven, Vector(speed * Vector::UnitX()));
+    return world.step(T(h));
+  }
+  /// Distance of the surfaces [m].
+  T distance() const {
+    return world.pose(heavy).position[0] - world.pose(driven).position[0] - T(2 * radius);
+  }
+  /// Force on the heavy grain towards the driven one in the last step [N].
+  T pull() const { return -world.contact_impulse(heavy)[0] / T(h); }
+  /// The closed form at the detection of the last step.
+  T expected() const {
+    const auto& contacts = world.contacts();
+    if (contacts.size() == 0) return 0;
+    const auto& point = contacts.points[0];
+    const T size = point.lever_a.norm() - point.gap / 2;
+    return world.materials().laws()[0].bridge().force(point.gap, size);
+  }
+};
+
+using Coulomb = SignoriniCoulomb<double>;
+using Wet = Bridged<CapillaryBridge<double>, Coulomb>;
+
+}  // namespace
+
+TEST_CASE("bridge: closed forms of the force") {
+  const CapillaryBridge<> bridge(1e-12, 0.07, 0.2);
+  CHECK(agree(bridge.force(0, 1e-3), 2 * std::numbers::pi * 7e-5 * std::cos(0.2)));
+  CHECK(bridge.force(-1e-5, 1e-3) == bridge.force(0, 1e-3));
+  const double s = 5e-5 * std::sqrt(1e-3 / 1e-12);
+  CHECK(agree(bridge.force(5e-5, 1e-3), bridge.force(0, 1e-3) / (1 + 1.05 * s + 2.5 * s * s)));
+  CHECK(agree(bridge.rupture_distance(), 1.1e-4));
+  const LinearCohesion<> linear(2e-3, 1e-4);
+  CHECK(agree(linear.force(2.5e-5, 1), 1.5e-3));
+  CHECK(linear.force(-1, 1) == 2e-3);
+  CHECK(linear.force(2e-4, 1) == 0);
+  using doctest::Contains;
+  CHECK_THROWS_WITH(CapillaryBridge<>(0), Contains("CapillaryBridge: volume = 0 must be"));
+  CHECK_THROWS_WITH(CapillaryBridge<>(1, -1), Contains("surface_tension = -1"));
+  CHECK_THROWS_WITH(CapillaryBridge<>(1, 1, 2), Contains("contact_angle = 2"));
+  CHECK_THROWS_WITH(LinearCohesion<>(-1, 1), Contains("LinearCohesion: adhesion = -1"));
+  CHECK_THROWS_WITH(LinearCohesion<>(1, 0), Contains("range = 0"));
+}
+
+template <class ShapeT, class Law>
+struct Case {
+  using Shape = ShapeT;
+  using LawOf = Law;
+};
+using Circle = BallIn<Space<2>>;
+using Globe = BallIn<Space<3>>;
+using FloatDisk = BallIn<Space<2, float>>;
+using LinearWet = Bridged<LinearCohesion<double>, Frictionless<double>>;
+using RollingWet = Bridged<CapillaryBridge<double>, RollingResistance<double>>;
+using FloatWet = Bridged<CapillaryBridge<float>, SignoriniCoulomb<float>>;
+
+TEST_CASE_TEMPLATE(
+    "bridge: it forms at contact, has the force of its gap, and breaks at its rupture distance", X,
+    MOREAU_TYPES((Case<Circle, Wet>, Case<Globe, Compliant<Wet>>),
+                 (Case<Globe, Wet>, Case<Circle, Compliant<Wet>>, Case<FloatDisk, FloatWet>,
+                  Case<Polygon<>, Wet>, Case<Polyhedron<>, Wet>, Case<Polyhedron<>, Compliant<Wet>>,
+                  Case<Circle, LinearWet>, Case<Globe, RollingWet>))) {
+  using Law = typename X::LawOf;
+  using T = typename SpaceOf<typename X::Shape>::Scalar;
+  const T reach = Make<Law>::law().reach(), far = T(0.6) * reach;
+  const double rounding = std::is_same_v<T, float> ? 1e-3 : 1e-9;
+  {  // no bridge before the first touch, and no contact above the margin
+    Two<typename X::Shape, Law> two(far);
+    two.move(0);
+    CHECK(two.pull() == 0);
+    CHECK(two.world.contacts().size() == 0);
+    CHECK(two.move(0).points == 0);
+  }
+  Two<typename X::Shape, Law> two(T(-1e-5 * radius));  // touches
+  two.move(0);
+  EnergyBalance<typename Two<typename X::Shape, Law>::S> energy(two.world);
+  double work = 0, error = 0, worst_gap = 0;
+  const T speed = T(1e-2);
+  for (int k = 0; k < 2000 && two.distance() < T(1.2) * reach; ++k) {
+    const StepReport report = two.move(-speed);
+    energy.add(two.world, report, T(h));
+    const double pull = double(two.pull()), expected = double(two.expected());
+    work += pull * double(speed) * h;
+    if (pull > 0) {
+      error = std::max(error, std::abs(pull - expected) / expected);
+      worst_gap = double(two.distance());
+    }
+  }
+  CHECK(error < 1e3 * rounding);
+  // Detection is half a step before the end of the step.
+  CHECK(std::abs(worst_gap - double(reach)) < 1.01 * double(speed) * h + rounding * radius);
+  CHECK(two.world.contacts().size() == 0);
+  // The work of the pull up to the rupture, by Simpson's rule.
+  const auto law = Make<Law>::law();
+  double integral = 0;
+  const int parts = 1000;
+  T size = T(radius);
+  if constexpr (requires(const typename X::Shape& s) { s.vertices(); })
+    size = T(radius * std::sqrt(double(SpaceOf<typename X::Shape>::dim)));
+  for (int k = 0; k <= parts; ++k)
+    integral += (k == 0 || k == parts ? 1
+                 : k % 2              ? 4
+                                      : 2) *
+                double(law.bridge_force(reach * T(k) / T(parts), size)) * double(reach) /
+                (3 * parts);
+  CHECK(agree(work, integral, 0.01));
+  CHECK(std::abs(energy.terms().drives - work) < 1e-4 * work);
+  CHECK(std::abs(energy.imbalance()) < 1e-6 * std::max(work, rounding));
+  // The other way round there is no bridge until they touch.
+  for (int k = 0; k < 50; ++k) {
+    two.move(speed);
+    CHECK(two.pull() == 0);
+  }
+}
+
+TEST_CASE_TEMPLATE("bridge: a grain hangs up to the pull-off force", X,
+                   MOREAU_TYPES((Case<Circle, Wet>, Case<Globe, Compliant<Wet>>),
+                                (Case<Globe, Wet>))) {
+  using Shape = typename X::Shape;
+  using Law = typename X::LawOf;
+  using S = SpaceOf<Shape>;
+  using Vector = typename S::Vector;
+  const double limit = 4 * std::numbers::pi * radius * tension * std::cos(0.2);  // of a plane: 2 R
+  for (const double share : {0.999, 1.001}) {
+    Simulation<Shape, Law> world(2 * radius, Materials<Law>(1, Make<Law>::law()));
+    world.add_wall(Vector(-Vector::Unit(S::dim - 1)), Vector(Vector::Zero()));
+    const BodyId ball = world.add_grain(world.add_shape(Shape(radius)),
+                                        Pose<S>(Vector(-radius * Vector::Unit(S::dim - 1))), 1000);
+    // Slowly: a sudden load would stretch springs twice as far.
+    const int ramp = 2000;
+    for (int k = 0; k < 3 * ramp; ++k) {
+      const double now = limit * share * std::min(1., double(k) / ramp);
+      world.set_force(ball, Vector(-now * Vector::Unit(S::dim - 1)));
+      world.step(h);
+    }
+    const double gap = -radius - world.pose(ball).position[S::dim - 1];
+    CHECK((gap < 1e-6 * radius) == (share < 1));
+  }
+}
+
+TEST_CASE("bridge: a snapshot continues it, and a removed grain takes its bridge along") {
+  Two<Circle, Wet> two(-1e-5 * radius);
+  two.move(0);
+  for (int k = 0; k < 60; ++k) two.move(-1e-3);
+  CHECK(two.pull() > 0);
+  Two<Circle, Wet> copy(0);
+  restore_snapshot(snapshot(two.world), copy.world);
+  for (int k = 0; k < 100; ++k) two.move(-1e-3), copy.move(-1e-3);
+  CHECK(snapshot(two.world) == snapshot(copy.world));
+  Two<Circle, Wet> other(-1e-5 * radius);
+  other.move(0);
+  for (int k = 0; k < 60; ++k) other.move(-1e-3);
+  const Pose<Space<2>> pose = other.world.pose(other.heavy);
+  other.world.remove_grain(other.heavy);
+  CHECK(other.world.contacts().size() == 0);
+  other.heavy = other.world.add_grain(other.world.add_shape(Circle(radius)), pose, 1e9);
+  other.move(0);
+  CHECK(other.pull() == 0);
+}
+
+TEST_CASE("bridge: a periodic cell must have room for its reach") {
+  const Wet wide(CapillaryBridge<>(1e-9), Coulomb());  // reach 1 mm
+  Simulation<Circle, Wet> world(2 * radius, Materials<Wet>(1, wide));
+  world.add_grain(world.add_shape(Circle(radius)), Pose<Space<2>>({0, 0}), 1000);
+  CHECK_THROWS_WITH(world.set_periodic(0, 0, 5.5e-3), doctest::Contains("length of the cell"));
+  world.set_materials(Materials<Wet>(1, Make<Wet>::law()));
+  world.set_periodic(0, 0, 5.5e-3);
+  CHECK_THROWS_WITH(world.set_materials(Materials<Wet>(1, wide)),
+                    doctest::Contains("Simulation::set_materials: length of the cell"));
+  CHECK(world.materials().laws()[0].reach() < 2e-4);
+}
