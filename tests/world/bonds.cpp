@@ -179,7 +179,9 @@ struct Fracture {
 
   /// @param count steps in which the bond would lose its strength without springs
   Fracture(Mode mode, double energy, double count) {
-    World row(2, energy, 1e12);
+    // Some 3e5 kg: so heavy that the bond hardly moves it, so light that the solver, whose tolerance is relative to
+    // the speed, resolves the velocity that the bond gives it.
+    World row(2, energy, S::dim == 2 ? 1e9 : 1e11);
     const double strength = mode == opening ? tension : mode == sliding ? shear : bending;
     const double speed = 0.02, h = 2 * energy / (strength * speed * count),
                  spin = speed / row.effective;
@@ -215,9 +217,11 @@ TEST_CASE_TEMPLATE("bond: the fracture energy is the work up to the end, whateve
                  springs = CompliantLaw<typename X::LawOf, typename F::S>;
   const double energy = 1e-3, rounding = (is_float ? 1e-2 : 1e-6) * energy;
   // Implicit Euler dissipates energy of springs in each step of the load.
-  const double count = springs ? 1000.4 : 25.4, share = springs ? 5e-3 : is_float ? 1e-2 : 1e-4;
+  const double count = springs ? 1000.4 : 25.4;
   for (int mode = F::opening; mode <= (F::S::dim == 3 ? F::twisting : F::sliding); ++mode) {
     CAPTURE(mode);
+    // Sliding turns the free body by its moment about the centre: 1 % of the normal force that the bond then bears.
+    const double share = mode == F::sliding ? 2e-2 : springs ? 5e-3 : is_float ? 1e-2 : 1e-4;
     const F found(typename F::Mode(mode), energy, count);
     CAPTURE(found.largest);
     CAPTURE(found.fracture);
