@@ -289,3 +289,94 @@ TEST_CASE(
   for (auto& facet : bowl.facets) std::swap(facet[0], facet[1]);  // the outside is within
   check_approaches<Polyhedron<>>("bowl", bowl, approaches);
 }
+
+namespace {
+
+/// A floor of small facets with waves. The last coordinate of its vertices is a height, the others are moved
+/// aside by up to 0.3 of a cell.
+template <class S>
+FacetMesh<S> waves(int n, double cell, double wave, double height, std::uint32_t seed) {
+  FacetMesh<S> mesh;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> aside(-0.3 * cell, 0.3 * cell);
+  const double k = 2 * std::numbers::pi / wave;
+  for (int j = 0; j <= (S::dim == 3 ? n : 0); ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = (i - n / 2) * cell + aside(random), y = (j - n / 2) * cell + aside(random);
+      const double z = height * std::sin(k * x) * (S::dim == 3 ? std::cos(k * y) : 1);
+      if constexpr (S::dim == 3)
+        mesh.vertices.push_back({x, y, z});
+      else
+        mesh.vertices.push_back({x, z});
+    }
+  const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
+  for (int i = 0; i < n; ++i)
+    if constexpr (S::dim == 3) {
+      for (int j = 0; j < n; ++j) {
+        mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+    } else {
+      mesh.facets.push_back({at(i + 1, 0), at(i, 0)});
+    }
+  return mesh;
+}
+
+/// Whether a point lies below a floor, by more than `near`: by the facet above or below it.
+template <class S>
+bool is_below(const MeshWall<S>& wall, const typename S::Vector& x, double near) {
+  for (std::uint32_t k = 0; k < wall.size(); ++k) {
+    const auto& side = wall.side(k);
+    typename S::Vector at_plane = x;
+    const double height = (side.normal.dot(x) - side.offset) / side.normal[S::dim - 1];
+    at_plane[S::dim - 1] -= height;
+    const auto corners = typename S::Matrix(side.corners.colwise() - at_plane);
+    if (moreau::detail::nearest_on_facet(corners).norm() < 1e-12) return height < -near;
+  }
+  return false;
+}
+
+/// Grains as deep in a floor as their centre is above it: each vertex below the floor has a contact.
+template <class ShapeT>
+void check_deep(double cell, double wave, double height) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  CAPTURE(cell);
+  CAPTURE(height);
+  static const auto shapes = grains<ShapeT>();
+  const auto mesh = waves<S>(int(0.1 / cell), cell, wave, height, 3);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(mesh, sides);
+    int wanted = 0, missing = 0;
+    for (int t = 0; t < 20 * approaches; ++t) {
+      Vector at = 0.02 * conformance::random_direction<S>(random);
+      at[S::dim - 1] = height * uniform(random) + 0.006 * (1 + uniform(random));
+      if (is_below<S>(wall, at, -1e-4)) continue;
+      const Placed<ShapeT> shape(shapes[std::size_t(t) % shapes.size()],
+                                 {at, random_rotation<S>(random)});
+      const auto found = contacts(shape, wall, margin);
+      for (std::size_t v = 0; v < shape.vertices().size(); ++v) {
+        const Vector x = shape.center() + shape.vertices()[v];
+        if (!is_below<S>(wall, x, 1e-6)) continue;
+        ++wanted;
+        missing += std::none_of(found.begin(), found.end(), [&](const auto& p) {
+          return p.gap < 0 && (p.position + p.gap / 2 * p.normal - x).norm() < 1e-8;
+        });
+      }
+    }
+    CHECK(wanted > 10);
+    CHECK(missing == 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a vertex below a floor of small facets has a contact, however deep it is") {
+  for (const double cell : {0.004, 0.01, 0.02})
+    for (const double height : {0.001, 0.006}) {
+      check_deep<Polyhedron<>>(cell, 0.05, height);
+      check_deep<Polygon<>>(cell, 0.05, height);
+    }
+}

@@ -11,6 +11,8 @@
 //   3. a vertex of the shape and a convex ridge, if the vertex is nearest to the ridge;
 //   4. a tip of the wall (a vertex at which convex ridges end) and the nearest feature of the shape.
 //
+// A vertex that is behind the surface and that no face has touches the nearest facet, alone.
+//
 // A normal of 2, 3 and 4 must lie between the normals of the facets that join there: in the normal
 // cone of the ridge or the tip. The shape must lie on one side of the plane through the point, so that
 // the normal lies in its normal cone as well, or nearly so for 2. Therefore no flat and no concave ridge gives a contact,
@@ -76,6 +78,7 @@ class MeshCollision {
     scratch_.ridges.clear();
     scratch_.tips.clear();
     scratch_.known.clear();
+    scratch_.passed.clear();
     const Aabb<S> around = box.inflated(margin_ - radius_);
     const T beside = std::max(margin_ - radius_, core_.deepest() / 8);
     const FacetRegion<S> region{wall_, near, around, center_, core_.size(), near_, beside};
@@ -87,6 +90,8 @@ class MeshCollision {
       use(near[begin].face);
       touch = true;
     }
+    begin_of_points_ = scratch_.known.size();
+    touch_nearest(region);
     return touch;
   }
   /// Calls use(none) for each contact at a ridge or a tip, a manifold of one point.
@@ -95,7 +100,6 @@ class MeshCollision {
     sort_short(scratch_.ridges);
     sort_short(scratch_.tips);
     auto& known = scratch_.known;
-    const std::size_t begin = known.size();
     const T flatness = wall_.flatness();
     const auto add = [&](const Vector& to_shape, T gap, const Vector& x, FeatureKey key) {
       known.add(Known{x, to_shape, gap, key}, 2 * flatness + 4 * near_ + T(1e-4) * std::abs(gap));
@@ -112,7 +116,7 @@ class MeshCollision {
         if (gap == least && known.is_empty()) add(to_shape, gap, rest...);
       });
     }
-    return use_points(begin, use);
+    return use_points(begin_of_points_, use);
   }
 
  private:
@@ -203,6 +207,7 @@ class MeshCollision {
     core_.for_each_above(normal, above_ - highest - rounding_, [&](std::uint32_t v) {
       const Vector x = core_.vertex(v);
       const T gap_v = above_ - normal.dot(x);
+      if (gap_v < -near_ && passes(region, center_ + x, gap_v)) scratch_.passed.push_back(v);
       if (gap_v < -core_.deepest()) return;
       const Vector projected = center_ + (x + gap_v * normal);
       for (const NearFacet& facet : scratch_.facets) {
@@ -218,6 +223,29 @@ class MeshCollision {
     if (out_.points.empty()) return false;
     out_.contact_class = class_at_plane(S{}, out_.points.size());
     return true;
+  }
+
+  /// Whether the way from the centre to a vertex at x passes a facet of the list.
+  bool passes(const FacetRegion<S>& region, const Vector& x, T gap) const {
+    const Vector at_plane = center_ + above_ / (above_ - gap) * (x - center_);
+    for (const NearFacet& facet : scratch_.facets)
+      if (wall_.box(facet.place).inflated(near_).contains(at_plane) &&
+          region.passes(facet.place, x))
+        return true;
+    return false;
+  }
+  /// The contacts of vertices that are behind the surface and that no facet has.
+  void touch_nearest(const FacetRegion<S>& region) {
+    sort_short(scratch_.passed);
+    for (const std::uint32_t v : scratch_.passed) {
+      const Vector x = core_.vertex(v);
+      if (scratch_.known.has(x, begin_of_points_)) continue;
+      region.touches_nearest(center_ + x, [&](std::uint32_t f, T gap) {
+        const auto& side = wall_.side(f);
+        scratch_.known.add(
+            Known{x, side.normal, gap, FeatureKey(vertex_on_face(S{}), v, side.face)}, near_);
+      });
+    }
   }
 
   /// In the plane a ridge is a tip.
@@ -338,6 +366,7 @@ class MeshCollision {
   Manifold<S>& out_;
   Vector last_direction_ = Vector::Zero();
   T last_reach_ = 0;
+  std::size_t begin_of_points_ = 0;  // of the known contacts, after those in manifolds of faces
   // Of take_face().
   const typename Wall::Side* plane_ = nullptr;
   T above_ = 0, gap_ = 0;  // of the centre above the plane, of the shape [m]

@@ -27,6 +27,11 @@ namespace moreau::detail {
 ///   4. A vertex below a facet does not touch it if it came around it: if the segment from the centre of
 ///      the shape to the vertex passes the face beyond a rim, beyond a concave ridge behind whose other
 ///      facet the centre is, or beyond a convex ridge to whose other facet the vertex is nearer.
+///
+/// Each of 2, 3 and 4 looks at one facet and its neighbours: of a vertex that is deep below a floor of small
+/// facets each facet can say that another has it. Therefore a vertex that no facet has, although the way
+/// from the centre of the shape to it ends behind the surface, touches the nearest facets in front of
+/// which the centre is; see passes() and touches_nearest().
 template <class S>
 struct FacetRegion {
   using T = typename S::Scalar;
@@ -61,12 +66,59 @@ struct FacetRegion {
     const T height = height_above(side, center);
     return inside * (height - gap) > -gap * size || !came_around(facet.place, x, gap, height);
   }
+  /// Whether the segment from the centre to a point passes a facet, from the front to the back.
+  bool passes(std::uint32_t f, const Vector& x) const { return goes_through(f, center, x); }
+  /// Calls use(facet, gap) for the facets nearest to a point that lies below them, if the segment from the
+  /// centre to it leaves the surface behind.
+  /// @param use with the number of the facet and the height of the point above its plane [m], < 0
+  template <class Use>
+  void touches_nearest(const Vector& x, const Use& use) const {
+    if (!is_behind(x)) return;
+    T least = std::numeric_limits<T>::infinity();
+    const auto find = [&](std::uint32_t f, T) {
+      least = std::min(least, std::sqrt(distance2(f, x)));
+    };
+    for_each_over(x, find);
+    for_each_over(x, [&](std::uint32_t f, T gap) {
+      if (std::sqrt(distance2(f, x)) <= least + near) use(f, gap);
+    });
+  }
 
  private:
   using Side = typename Wall::Side;
 
   static T height_above(const Side& side, const Vector& x) {
     return side.normal.dot(x) - side.offset;
+  }
+  /// Whether the segment from one point to another passes a facet, from the front to the back.
+  bool goes_through(std::uint32_t f, const Vector& from, const Vector& to) const {
+    const Side& side = wall.side(f);
+    const T above = height_above(side, from), below = height_above(side, to);
+    if (!(above > 0 && below < 0)) return false;
+    const Vector at_plane = from + above / (above - below) * (to - from);
+    for (std::size_t c = 0; c < side.inward.size(); ++c)
+      if (side.inward[c].dot(at_plane) < side.inward_offset[c] - near) return false;
+    return true;
+  }
+  /// Whether the segment from the centre to a point goes through the surface once more inwards than
+  /// outwards. A surface with two sides has each facet twice: of it the inwards alone count.
+  bool is_behind(const Vector& x) const {
+    int inwards = 0;
+    for (const NearFacet& facet : facets) {
+      if (!wall.box(facet.place).overlaps(around)) continue;
+      inwards += goes_through(facet.place, center, x);
+      if (wall.sides() == WallSides::outside) inwards -= goes_through(facet.place, x, center);
+    }
+    return inwards > 0;
+  }
+  /// Calls use(facet, gap) for the facets with the centre in front and a point behind.
+  template <class Use>
+  void for_each_over(const Vector& x, const Use& use) const {
+    for (const NearFacet& facet : facets) {
+      if (!wall.box(facet.place).overlaps(around)) continue;
+      const T gap = height_above(wall.side(facet.place), x);
+      if (gap < -near && height_above(wall.side(facet.place), center) > 0) use(facet.place, gap);
+    }
   }
   /// Whether a point below a facet would be pushed out of a facet that joins it.
   bool is_nearer_to_another(const Side& side, std::uint32_t f, const Vector& x, T gap) const {

@@ -53,6 +53,13 @@ class KnownContacts {
     }
     add_new(contact);
   }
+  /// Whether one of the first `count` contacts is at a point of the shape.
+  template <class Vector>
+  bool has(const Vector& x, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i)
+      if (of<Vector>(list_[i].x) == x) return true;
+    return false;
+  }
   /// Adds a contact that need not be compared.
   template <class Vector>
   void add_new(const Contact<Vector>& contact) {
@@ -106,6 +113,7 @@ struct MeshScratch {
   std::vector<NearFacet> all;         ///< near the shape, if not known before
   std::vector<std::uint32_t> ridges;  ///< convex ridges near the shape
   std::vector<std::uint32_t> low;     ///< vertices of the shape
+  std::vector<std::uint32_t> passed;  ///< vertices that passed through a facet and do not touch it
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
   detail::KnownContacts known;                                ///< of the shape
 };
