@@ -219,9 +219,9 @@ TEST_CASE_TEMPLATE("a grain stays in a bowl, which turns", ShapeT, Polyhedron<>,
   simulation.set_spin(wall, S::Angular::Constant(3));
   std::vector<BodyId> grains;
   const ShapeId shape = simulation.add_shape(grain<ShapeT>());
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k)  // capsules lie along the first axis
     grains.push_back(
-        simulation.add_grain(shape, {0.062 * (k - 1) * S::Vector::UnitX(), S::identity()}, 2700));
+        simulation.add_grain(shape, {0.062 * (k - 1) * S::Vector::UnitY(), S::identity()}, 2700));
   for (int step = 0; step < 1000; ++step) simulation.step(5e-4);
   for (const BodyId body : grains) CHECK(simulation.pose(body).position.norm() < 0.095);
 }
