@@ -26,7 +26,8 @@ struct Bond {
   using Vector = typename S::Vector;
   using Angular = typename S::Angular;
 
-  BodyId a, b;                                         ///< its bodies; a wall is b
+  BodyId a;                                            ///< its first body
+  BodyId b;                                            ///< its second body; a wall is b
   Vector anchor_a = Vector::Zero();                    ///< its point in the frame of body a [m]
   Vector anchor_b = Vector::Zero();                    ///< its point in the frame of body b [m]
   typename S::Matrix frame_a = S::Matrix::Identity();  ///< its frame in that of body a
@@ -47,7 +48,8 @@ struct Bond {
 /// A bond that broke.
 struct Breakage {
   double time = 0;    ///< at the end of the step in which it broke [s]
-  BodyId a, b;        ///< the bodies that it held together
+  BodyId a;           ///< the first body that it held
+  BodyId b;           ///< the second one
   double energy = 0;  ///< that it has dissipated, with that which its springs released [J]
 
   auto serialized_members() { return std::tie(time, a, b, energy); }  ///< see core/serialize.hpp
