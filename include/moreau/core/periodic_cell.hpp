@@ -1,6 +1,27 @@
 // SPDX-License-Identifier: MIT
 // A periodic cell: a body that leaves the cell on one side enters it on the opposite side.
+//
+// There are two kinds. A box has some periodic axes, parallel to the axes of the world. A lattice is
+// periodic along D vectors, the columns of a matrix H, and can deform: a point x has the images x + H n
+// for all vectors n of whole numbers.
+//
+// Room. Two boxes of grains, each at most w wide, overlap only if the difference d of their centres has
+// components of at most w. Two images of a pair would then differ by a lattice vector H n != 0 with
+// components of at most 2 w. Row k of H^-1 bounds its whole number n_k:
+//
+//     |n_k| <= |row_k(H^-1)|_1 2 w,
+//
+// so no pair overlaps through two images if h_k = 1 / |row_k(H^-1)|_1 > 2 w for all k. For a box h_k is
+// its length.
+//
+// Reduction. A cell that is sheared for long becomes thin, although its lattice stays wide. The same
+// lattice has other vectors: a vector minus whole multiples of another one. Such multiples are subtracted
+// while this makes a vector shorter (in the plane this is the algorithm of Lagrange and Gauss). Each
+// subtraction shortens a vector, so that the algorithm ends.
 #pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -10,29 +31,33 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/value.hpp"
 
 namespace moreau {
 
-/// The periodic axes of the world and the bounds of the cell along them. Until set() is called, no
-/// axis is periodic. The images of a point x are x + k length(axis) Unit(axis) for all integers k
-/// and all periodic axes.
+/// The periodic axes of the world and the bounds of the cell along them, or a lattice. Until set() or
+/// set_vectors() is called, no axis is periodic. The images of a point x in a box are x + k length(axis)
+/// Unit(axis) for all integers k and all periodic axes; in a lattice they are x + vectors() n for all
+/// vectors n of integers.
 template <EuclideanSpace S>
 class PeriodicCell {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
 
   /// Makes an axis periodic. With infinite bounds the axis becomes open (not periodic) again.
   /// @param axis         0 for x, 1 for y, ...
   /// @param lower,upper  bounds of the cell along this axis [m]
   /// @param function     the public function that the caller of the library called, for error
   ///                     messages
-  /// @throws std::invalid_argument if the axis does not exist, or unless lower < upper
+  /// @throws std::invalid_argument if the axis does not exist, unless lower < upper, or for a lattice
   void set(int axis, Scalar lower, Scalar upper, const char* function = "PeriodicCell::set") {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     require(axis >= 0 && axis < S::dim, function, "axis", axis, "must be an axis of the space");
+    require(!is_lattice_, function, "axis", axis, "must not be of a cell given by vectors");
     const bool opens = lower == -infinity && upper == infinity;
     require(opens || std::isfinite(lower), function, "lower", lower, "must be finite");
     require(opens || (std::isfinite(upper) && upper > lower && std::isfinite(upper - lower)),
@@ -41,12 +66,90 @@ class PeriodicCell {
     length_[axis] = opens ? Scalar(0) : upper - lower;
   }
 
+  /// Makes the cell a lattice: the parallelepiped of the vectors at `lower`.
+  /// @param vectors  the vectors of the cell as columns, world axes [m]; linearly independent, right-handed
+  /// @param lower    corner of the cell, world axes [m]
+  /// @param function the public function that the caller of the library called, for error messages
+  /// @throws std::invalid_argument for numbers that are not finite, or a volume that is not positive
+  void set_vectors(const Matrix& vectors, const VectorArgument<S>& lower,
+                   const char* function = "PeriodicCell::set_vectors") {
+    require(all_finite(vectors), function, "vectors", vectors, "must be finite");
+    require(all_finite(lower), function, "lower", lower, "must be finite");
+    const Scalar volume = vectors.determinant();
+    require(std::isfinite(volume) && volume > 0, function, "vectors", vectors,
+            "must have a positive determinant");
+    is_lattice_ = true;
+    lower_ = lower;
+    assign(vectors);
+  }
+  /// Whether the cell is a lattice, which set_vectors() has made.
+  bool is_lattice() const { return is_lattice_; }
+  /// The vectors of the cell as columns, world axes [m]. Of a box they are parallel to the axes, and
+  /// zero along open axes.
+  Value<Matrix> vectors() const { return is_lattice_ ? vectors_ : Matrix(length_.asDiagonal()); }
+  /// Volume of a lattice [m^3], in the plane its area [m^2].
+  Scalar volume() const { return vectors().determinant(); }
+
+  /// Deforms a lattice: its corner stays where it is, its vectors H become map H.
+  /// @param map [-], with a positive determinant
+  void deform(const Matrix& map) { assign(map * vectors_); }
+  /// The place of a point that moves with the deforming lattice, world axes [m].
+  /// @param map as in deform()
+  Value<Vector> deformed(const Matrix& map, const VectorArgument<S>& x) const {
+    return lower_ + product(map, Vector(x - lower_));
+  }
+  /// Replaces the vectors of a lattice by short ones of the same lattice, as the head of this file says.
+  /// @returns whether the vectors have changed
+  bool reduce() {
+    Matrix reduced = vectors_;
+    bool changed = false;
+    for (bool again = true; again;) {
+      again = false;
+      for (int i = 0; i < S::dim; ++i)
+        for (int j = 0; j < S::dim; ++j) {
+          if (i == j) continue;
+          const Scalar along = reduced.col(i).dot(reduced.col(j)) / reduced.col(j).squaredNorm();
+          // Of two vectors of the same length, the one that is there stays.
+          if (!(std::abs(along) > Scalar(0.5) + Scalar(1e-3))) continue;
+          reduced.col(i) -= std::round(along) * reduced.col(j);
+          again = changed = true;
+        }
+    }
+    if (changed) assign(reduced);
+    return changed;
+  }
+
+  /// Displacement by whole numbers of cells, world axes [m].
+  /// @param cells signed numbers of cells along the axes or the vectors, whole numbers
+  Value<Vector> shift(const VectorArgument<S>& cells) const {
+    return is_lattice_ ? product(vectors_, Vector(cells)) : Vector(length_.cwiseProduct(cells));
+  }
+  /// The whole numbers of cells nearest to a displacement [m]; zero along open axes.
+  Value<Vector> cells(const VectorArgument<S>& displacement) const {
+    Vector numbers = Vector::Zero();
+    const Vector parts =
+        is_lattice_ ? product(inverse_, Vector(displacement)) : Vector(displacement);
+    for (int axis = 0; axis < S::dim; ++axis)
+      if (is_periodic(axis))
+        numbers[axis] = std::round(is_lattice_ ? parts[axis] : parts[axis] / length_[axis]);
+    return numbers;
+  }
+  /// The whole numbers of cells by which a point lies from the cell; 0 along open axes.
+  Value<Vector> cell_of(const VectorArgument<S>& x) const {
+    Vector numbers = Vector::Zero();
+    const Vector parts = is_lattice_ ? product(inverse_, Vector(x - lower_)) : Vector(x - lower_);
+    for (int axis = 0; axis < S::dim; ++axis)
+      if (is_periodic(axis))
+        numbers[axis] = std::floor(is_lattice_ ? parts[axis] : parts[axis] / length_[axis]);
+    return numbers;
+  }
+
   bool is_open() const { return length_.isZero(0); }  ///< whether no axis is periodic
   /// whether this axis is periodic (0 for x)
   bool is_periodic(int axis) const { return length_[axis] > 0; }
-  /// Lengths of the cell along the axes [m]; zero along open axes.
+  /// Lengths of a box along the axes [m]; zero along open axes. Of a lattice, the lengths of its vectors.
   const Vector& length() const { return length_; }
-  /// lower bounds along the axes [m]; zero along open axes
+  /// lower bounds along the axes [m]; zero along open axes; corner of a lattice
   const Vector& lower() const { return lower_; }
 
   /// The image of x that lies in the cell, world axes [m].
@@ -54,9 +157,17 @@ class PeriodicCell {
     return image_from(lower_, x);
   }
   /// The image y of x with from <= y < from + length() along the periodic axes. Along open axes, y
-  /// = x. World axes [m].
+  /// = x. In a lattice, the image in the cell whose corner is `from`. World axes [m].
   Value<Vector> image_from(const VectorArgument<S>& from, const VectorArgument<S>& x) const {
     Vector y = x;
+    if (is_lattice_) {
+      Vector parts = product(inverse_, Vector(x - from));
+      for (int axis = 0; axis < S::dim; ++axis) {
+        parts[axis] -= std::floor(parts[axis]);
+        if (!(parts[axis] < 1)) parts[axis] = 0;  // by rounding
+      }
+      return from + product(vectors_, parts);
+    }
     for (int axis = 0; axis < S::dim; ++axis)
       if (is_periodic(axis)) {
         const Scalar cells = std::floor((x[axis] - from[axis]) / length_[axis]);
@@ -65,10 +176,11 @@ class PeriodicCell {
       }
     return y;
   }
-  /// The image of x nearest to the point `to`, world axes [m]. Along every periodic axis it is at
-  /// most half a cell away.
+  /// The image of x nearest to the point `to`, world axes [m]. Along every periodic axis of a box it is
+  /// at most half a cell away. In a lattice it is the nearest if the vectors are reduced (reduce()).
   Value<Vector> nearest(const VectorArgument<S>& x, const VectorArgument<S>& to) const {
     Vector y = x;
+    if (is_lattice_) return nearest_in_lattice(x + shift(cells(to - x)), to);
     for (int axis = 0; axis < S::dim; ++axis)
       if (is_periodic(axis))
         y[axis] += length_[axis] * std::round((to[axis] - x[axis]) / length_[axis]);
@@ -81,6 +193,12 @@ class PeriodicCell {
   /// @param function the public function that the caller of the library called, for error messages
   /// @throws std::invalid_argument if the cell is too short
   void require_room(Scalar width, const char* function) const {
+    if (is_lattice_) {
+      const Scalar height = 1 / inverse_.cwiseAbs().rowwise().sum().maxCoeff();
+      require(height > 2 * width, function, "height of the cell", height,
+              "must be more than two of the widest grain with margin and skin");
+      return;
+    }
     for (int axis = 0; axis < S::dim; ++axis)
       require(!is_periodic(axis) || length_[axis] > 2 * width, function, "length of the cell",
               length_[axis], "must be more than two of the widest grain with margin and skin");
@@ -90,6 +208,7 @@ class PeriodicCell {
   /// @param function the public function that the caller of the library called, for error messages
   /// @throws std::invalid_argument if the wall bounds a periodic axis
   void require_along(const VectorArgument<S>& normal, const char* function) const {
+    require(!is_lattice_, function, "normal", normal, "must not be of a wall: the cell deforms");
     for (int axis = 0; axis < S::dim; ++axis)
       require(!is_periodic(axis) || std::abs(normal[axis]) <= Scalar(1e-5), function, "normal",
               normal, "must be perpendicular to the periodic axes");
@@ -100,6 +219,7 @@ class PeriodicCell {
   /// @param function the public function that the caller of the library called, for error messages
   /// @throws std::invalid_argument if the wall bounds a periodic axis
   void require_around(const AngularArgument<S>& axis, const char* function) const {
+    require(!is_lattice_, function, "axis", axis, "must not be of a cylinder: the cell deforms");
     for (int k = 0; k < S::dim; ++k)
       require(!is_periodic(k) || S::spin(axis, Vector::Unit(k)).norm() <= Scalar(1e-5), function,
               "axis", axis, "must be parallel to the periodic axes");
@@ -107,9 +227,33 @@ class PeriodicCell {
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(lower_, length_); }
+  auto serialized_members() { return std::tie(lower_, length_, is_lattice_, vectors_); }
+  void deserialized() {
+    if (is_lattice_) set_vectors(Matrix(vectors_), Vector(lower_), "PeriodicCell");
+  }
+
+  void assign(const Matrix& vectors) {
+    vectors_ = vectors;
+    inverse_ = vectors.inverse();
+    for (int k = 0; k < S::dim; ++k) length_[k] = vectors.col(k).norm();
+  }
+  /// The image of x nearest to `to` among x and its neighbours.
+  Vector nearest_in_lattice(const Vector& x, const Vector& to) const {
+    Vector best = x;
+    int neighbours = 1;
+    for (int axis = 0; axis < S::dim; ++axis) neighbours *= 3;
+    for (int n = 0; n < neighbours; ++n) {
+      Vector y = x;
+      for (int axis = 0, rest = n; axis < S::dim; ++axis, rest /= 3)
+        y += Scalar(rest % 3 - 1) * vectors_.col(axis);
+      if ((y - to).squaredNorm() < (best - to).squaredNorm()) best = y;
+    }
+    return best;
+  }
 
   Vector lower_ = Vector::Zero(), length_ = Vector::Zero();
+  bool is_lattice_ = false;
+  Matrix vectors_ = Matrix::Zero(), inverse_ = Matrix::Zero();  // H and H^-1 of a lattice
 };
 
 }  // namespace moreau

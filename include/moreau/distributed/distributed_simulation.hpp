@@ -103,6 +103,8 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
     require(options.imbalance > 1, "DistributedSimulation", "imbalance", options.imbalance,
             "must be above 1");
     guarded([&] {
+      require(!world_.cell().is_lattice(), "DistributedSimulation", "cell", "(deforming)",
+              "must be open, or a box of set_periodic()");
       redistribution_.begin();
       require(splits || CompliantLaw<Law, S> || !world_.correction().options().enabled,
               "DistributedSimulation", "correction.enabled", true,

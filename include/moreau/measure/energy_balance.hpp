@@ -3,7 +3,7 @@
 //
 //   kinetic - kinetic at the start = gravity + forces + drives
 //                                    - impacts - friction - rolling - fracture - elastic
-//                                    - correction
+//                                    - correction + cell
 //                                    + imbalance
 //
 //   EnergyBalance<S> energy(world);
@@ -60,11 +60,19 @@ struct EnergyTerms {
   double correction = 0;  ///< work of gravity and forces along the displacements of the overlap
                           ///< correction, which do not change velocities; < 0 if grains are lifted
                           ///< [J]
+  double cell =
+      0;  ///< work of a periodic cell that deforms [J]; kinetic energies are then of velocities
+          ///< relative to the cell. The work of gravity and forces is not that of these velocities
 
+  /// See core/serialize.hpp.
+  auto serialized_members() {
+    return std::tie(gravity, forces, drives, impacts, friction, rolling, fracture, elastic,
+                    correction, cell);
+  }
   /// The increase of the kinetic energy that the terms explain [J].
   double gain() const {
     return gravity + forces + drives - impacts - friction - rolling - fracture - elastic -
-           correction;
+           correction + cell;
   }
 };
 
@@ -119,6 +127,7 @@ class EnergyBalance {
     terms_.rolling += report.rolling;
     terms_.fracture += report.fracture;
     terms_.elastic += report.elastic_work;
+    terms_.cell += report.cell_work;
     terms_.impacts += report.dissipation - report.friction - report.rolling - report.fracture;
     terms_.correction += report.correction.work;
     remember(bodies);

@@ -88,6 +88,8 @@ template <class Simulation, class S = typename Simulation::S>
 typename S::Scalar solid_fraction(const Simulation& simulation, const Aabb<S>& control_volume,
                                   ClipWorkspace<S>& workspace) {
   require_control_volume(control_volume, "solid_fraction");
+  if (simulation.cell().is_lattice())
+    require_within(simulation.cell(), control_volume, "solid_fraction");
   typename S::Scalar solid = 0;
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const auto& shape = simulation.shape_of_grain(k);

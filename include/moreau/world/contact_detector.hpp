@@ -9,7 +9,19 @@
 // All buffers are kept: there is no allocation once they are large enough. In a periodic cell poses
 // are not wrapped: each pair has a shift by whole cells that moves its second grain next to its first.
 // Grains do not jump, so the shift is valid for as long as the list of pairs.
+//
+// In a cell that deforms, far grains move fast relative to each other although near ones do not. Let G
+// be the map by which the cell has deformed since the list was made. The list is valid as long as the box
+// of each grain, moved so that its centre c becomes G^-1 c, and enlarged by
+//
+//     max_k (|1 - G^-1| 1)_k w / 2,
+//
+// lies in its enlarged box. w is the largest width of a grain with the reach of its contacts. Proof: the
+// centres of two grains in contact differ along each axis by at most w, so that G^-1 changes this
+// difference by at most max_k (|1 - G^-1| 1)_k w, which the two enlargements make up for.
 #pragma once
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
@@ -92,9 +104,18 @@ class ContactDetector {
     for (const auto& wall : cylinders_) cell.require_around(wall.placed.axis(), function);
     cell_ = cell;
     shifts_.clear();
+    deformed_.setIdentity();
     stale_ = true;
   }
   const PeriodicCell<S>& cell() const { return cell_; }  ///< open unless set
+  /// Deforms a cell that is a lattice. The poses must be deformed by the same map.
+  void deform_cell(const typename S::Matrix& map) {
+    cells_.resize(shifts_.size());
+    for (std::size_t p = 0; p < shifts_.size(); ++p) cells_[p] = cell_.cells(shifts_[p]);
+    cell_.deform(map);
+    for (std::size_t p = 0; p < shifts_.size(); ++p) shifts_[p] = cell_.shift(cells_[p]);
+    deformed_ = map * deformed_;
+  }
   /// Half the least width of a periodic cell with a grain of this shape [m].
   Scalar room_of(const ShapeT& shape, const DetectionLengths<Scalar>& lengths) const {
     return std::max(widest_, width(shape)) + around(lengths);
@@ -188,7 +209,7 @@ class ContactDetector {
   friend struct SerializationAccess;
   friend struct detail::StateAccess;
   auto serialized_members() {
-    return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_);
+    return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_, deformed_);
   }
 
   static constexpr bool prefetches = requires(Placed<ShapeT> s) { s.prefetch_contact(); };
@@ -248,6 +269,8 @@ class ContactDetector {
                                                      walls_,  cylinders_,    meshes_, bodies,
                                                      motion,  lengths.margin};
   }
+  /// Whether the list of pairs is still valid: no box has left its enlarged box. See the head of this file.
+  bool holds_in_lattice(Scalar reach) const;
   /// Finds the contacts of grain k with later grains and with walls.
   MOREAU_COMPILED_ONCE void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies,
                                       const Contacts<S>& previous, Member& found);
@@ -266,6 +289,8 @@ class ContactDetector {
   PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
+  std::vector<Vector> cells_;   // the same in cells, in deform_cell()
+  typename S::Matrix deformed_ = S::Matrix::Identity();  // map of the cell since the list was made
   detail::PairCaches<ShapeT> caches_;
   ContactPoints kept_points_ = ContactPoints::all;
   Team team_;
@@ -342,10 +367,18 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
     known = true;
     return enlarged_.is_alone(k);
   };
-  for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
-    left = !fat_[k].contains(boxes_[k].inflated(reach)) ||
-           (!caches_.holds(k, grains_[k].placed, reach) && !is_alone(k));
+  if (cell_.is_lattice())
+    left = left || !holds_in_lattice(reach);
+  else
+    for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
+      left = !fat_[k].contains(boxes_[k].inflated(reach)) ||
+             (!caches_.holds(k, grains_[k].placed, reach) && !is_alone(k));
   if (!left) return;
+  if (cell_.is_lattice()) {
+    cell_.reduce();
+    cell_.require_room(widest_ + around(lengths), "Simulation::step");
+    deformed_.setIdentity();
+  }
   stale_ = false;
   order_.invalidate();
   fat_.resize(boxes_.size());
@@ -360,6 +393,21 @@ void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Sca
     images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
   filter_.erase(grains_, pairs_, shifts_);
   caches_.renew(pairs_, old_pairs_, shifts_, grains_, reach + lengths.skin);
+}
+
+template <class ShapeT, class BroadPhaseT>
+bool ContactDetector<ShapeT, BroadPhaseT>::holds_in_lattice(Scalar reach) const {
+  const typename S::Matrix inverse = deformed_.inverse(), change = S::Matrix::Identity() - inverse;
+  const Scalar most = change.cwiseAbs().rowwise().sum().maxCoeff();
+  const Scalar by = reach + most * (widest_ + 2 * reach) / 2;
+  for (std::size_t k = 0; k < boxes_.size(); ++k) {
+    const Vector center = (boxes_[k].lower + boxes_[k].upper) / 2;
+    const Vector back = cell_.deformed(inverse, center) - center;
+    if (!fat_[k].contains(moved(boxes_[k], back).inflated(by)) ||
+        !caches_.holds(k, grains_[k].placed, by, back))
+      return false;
+  }
+  return true;
 }
 
 template <class ShapeT, class BroadPhaseT>

@@ -33,6 +33,8 @@
 #include "moreau/world/assign_laws.hpp"
 #include "moreau/world/body_control.hpp"
 #include "moreau/world/bond.hpp"
+#include "moreau/world/cell_control.hpp"
+#include "moreau/world/cell_motion.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
 #include "moreau/world/detail/bridges.hpp"
@@ -75,6 +77,7 @@ class Simulation : public BodyControl<ShapeT> {
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
   using Twist = typename S::Twist;
   using BodyControl<ShapeT>::bodies;
 
@@ -183,7 +186,37 @@ class Simulation : public BodyControl<ShapeT> {
     detector_.set_cell(cell, lengths(), self);
     assembly_.note_all_placed();
   }
-  const PeriodicCell<S>& cell() const { return detector_.cell(); }  ///< open unless set
+  /// Makes the world periodic along D vectors, with a cell that can deform (control_cell()). Poses are not
+  /// wrapped. Walls, cylinders and meshes do not fit into it. An oblique cell, as after a large shear, gets other
+  /// vectors of the same lattice: read cell().vectors() again after this call and after each step.
+  /// @param vectors of the cell as columns, world axes [m]; with a positive determinant
+  /// @param lower   corner of the cell, world axes [m]; it stays where it is
+  /// @throws std::invalid_argument for vectors that are not finite or without volume, a simulation with walls, or a
+  ///         cell whose height is not more than two of the widest grain with margin and skins (core/periodic_cell.hpp)
+  void set_cell(const Matrix& vectors,
+                const VectorArgument<S>& lower = Vector(Vector::Zero())) requires set_valued {
+    constexpr const char* self = "Simulation::set_cell";
+    require(assembly_.meshes().empty(), self, "cell", "(deforming)", "must be without mesh walls");
+    PeriodicCell<S> cell;
+    cell.set_vectors(vectors, lower, self);
+    cell.reduce();  // an oblique cell may have more room
+    detector_.place_walls(assembly_.bodies().pose);
+    detector_.set_cell(cell, lengths(), self);
+    cell_motion_ = {};
+    assembly_.note_all_placed();
+  }
+  /// Sets how the cell of set_cell() deforms, from the next step on. From then on velocities of bodies are relative
+  /// to the cell: velocity(body) + cell_motion().rate() (x - corner) is that in the world. No velocity changes by the call.
+  /// step() throws std::invalid_argument if the cell becomes too small for the grains.
+  /// @throws std::invalid_argument without such a cell, for numbers that are not finite, or a mass or damping < 0
+  void control_cell(const CellControl<S>& control) requires set_valued {
+    constexpr const char* self = "Simulation::control_cell";
+    require(cell().is_lattice(), self, "cell", "(none)", "must be one of set_cell()");
+    control.check(self);
+    cell_motion_.set_control(control);
+  }
+  const CellMotion<S>& cell_motion() const { return cell_motion_; }  ///< of the cell of set_cell()
+  const PeriodicCell<S>& cell() const { return detector_.cell(); }   ///< open unless set
 
   /// Sets the pose of a body, world axes [m]; its velocity does not change. See allow_overlaps().
   /// @throws std::invalid_argument for a body that is not of this simulation, a pose that is not finite
@@ -276,8 +309,9 @@ class Simulation : public BodyControl<ShapeT> {
   /// @returns results of the step, and how well the contact problem was solved
   /// @throws std::invalid_argument for a step that is not positive or not finite, or a deep overlap of
   ///         a body that was placed since the last step, see allow_overlaps(); nothing has moved then
-  /// @throws std::runtime_error naming a body with a velocity or position that is not finite. The step
-  ///         is then half made: continue from a snapshot
+  /// @throws std::invalid_argument if a cell that deforms has become too small for the grains
+  /// @throws std::runtime_error naming a body with a velocity or position that is not finite. In these two
+  ///         cases the step is half made: continue from a snapshot
   MOREAU_COMPILED_ONCE StepReport step(Scalar step);
 
   double time() const { return time_; }              ///< sum of the steps [s]
@@ -326,7 +360,7 @@ class Simulation : public BodyControl<ShapeT> {
   friend struct detail::StateAccess;
   auto serialized_members() {
     return std::tie(grain_size_, tolerances_, materials_, dynamics_, gravity_, time_, assembly_,
-                    contacts_, detector_, attempts_);
+                    contacts_, detector_, attempts_, cell_motion_);
   }
   void deserialized() {
     const std::size_t laws = materials_.laws().size(), variants = variants_of<Law, S>();
@@ -357,7 +391,9 @@ class Simulation : public BodyControl<ShapeT> {
     Contacts<S> touching;
     detector_.place(std::span<const Pose<S>>(bodies().pose),
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
+    const Matrix vectors = cell().vectors();
     detector_.find_pairs(lengths());
+    if (cell().is_lattice()) dynamics_.bonds().recount_cells(vectors, cell());
     detector_.use_whole_margin();
     detector_.detect(lengths(), bodies(), contacts_, touching);
     return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
@@ -369,7 +405,13 @@ class Simulation : public BodyControl<ShapeT> {
     detector_.place(poses,
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     report.ms_place = clock.lap();
-    detector_.find_pairs(lengths());
+    if constexpr (bonding) {
+      const Matrix vectors = cell().vectors();
+      detector_.find_pairs(lengths());
+      if (cell().is_lattice()) dynamics_.bonds().recount_cells(vectors, cell());
+    } else {
+      detector_.find_pairs(lengths());
+    }
     report.ms_pairs = clock.lap();
     if (narrows_margins() && attempts_.begin())
       detector_.fit_margins(lengths(), bodies(), step);
@@ -398,7 +440,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// process among several are not all pairs of its bodies.
   bool narrows_margins() const {
     if constexpr (detail::acts_where_gaps_close<Law>)
-      return tolerances_.narrows && !dynamics_.shares_bodies();
+      return tolerances_.narrows && !dynamics_.shares_bodies() && !cell_motion_.is_active();
     else
       return false;
   }
@@ -437,56 +479,13 @@ class Simulation : public BodyControl<ShapeT> {
       bridges_;
   detail::ChordVelocities<ShapeT> chords_;
   detail::MarginAttempts attempts_;
+  CellMotion<S> cell_motion_;  // of a periodic cell that can deform
   Team team_;
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
 // What follows is not inline: a program can instantiate it in one source and declare it extern (moreau/instances). A
 // function in the class is inline, and is compiled in each unit that uses it.
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-ShapeId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_shape(const ShapeT& shape) {
-  return assembly_.add_shape(shape);
-}
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_grain(ShapeId shape,
-                                                                     const Pose<S>& pose,
-                                                                     Scalar density,
-                                                                     MaterialId material) {
-  constexpr const char* self = "Simulation::add_grain";
-  assembly_.require_pose(pose, self);
-  const MassProperties<S> mass = assembly_.mass_of(shape, density, grain_size_, self);
-  cell().require_room(detector_.room_of(assembly_.shape(shape), lengths()), self);
-  const BodyId body = assembly_.add_body(pose, material, materials_.count(), self);
-  assembly_.set_grain(body, shape, mass);
-  detector_.add_grain(body, assembly_.shape(shape));
-  return body;
-}
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_wall(const VectorArgument<S>& normal,
-                                                                    const VectorArgument<S>& point,
-                                                                    MaterialId material) {
-  constexpr const char* self = "Simulation::add_wall";
-  require(std::abs(normal.norm() - 1) <= Scalar(1e-5), self, "normal", normal, "must be unit");
-  require(all_finite(point), self, "point", point, "must be finite");
-  cell().require_along(normal, self);
-  const Pose<S> pose{point, S::normalized(typename S::Rotation(S::contact_frame(normal)))};
-  return add_wall_of(HalfSpace<S>(Vector::UnitX()), pose, material, self);
-}
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_cylinder(
-    const VectorArgument<S>& point, const AngularArgument<S>& axis, Scalar radius,
-    MaterialId material) {
-  constexpr const char* self = "Simulation::add_cylinder";
-  require(all_finite(point), self, "point", point, "must be finite");
-  require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
-  require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
-  cell().require_around(axis, self);
-  return add_wall_of(CylinderWall<S>(axis, radius), Pose<S>(point), material, self);
-}
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Scalar grain_size,
@@ -549,6 +548,10 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   assembly_.keep_poses(step);
   if constexpr (set_valued) {
     dynamics_.predict(assembly_.bodies(), step);
+    if (cell().is_lattice()) {
+      cell_motion_.begin(assembly_.bodies(), detector_, step, dynamics_.theta(), team_);
+      context.cell = &cell_motion_;
+    }
   } else {
     if (assembly_.has_changed() || !dynamics_.has_loads_of(assembly_.bodies().size())) {
       detect(report, step);
@@ -567,6 +570,9 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
       context.chords = chords_.update(assembly_, contacts_, step);
       dynamics_.solve_contacts(context, report);
     } while (detect_again(report, context));
+    if (context.cell)
+      cell_motion_.end(assembly_.bodies(), detector_, step, dynamics_.theta(),
+                       dynamics_.measure_cell(context, report), team_);
     dynamics_.finish(context, report);
   } else {
     context.chords = chords_.update(assembly_, contacts_, -step);
@@ -582,3 +588,5 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
 }
 
 }  // namespace moreau
+
+#include "moreau/world/detail/add_bodies.hpp"

@@ -42,6 +42,10 @@ struct StepReport {
   double fracture = 0;    ///< part of it: by bonds, with the energy that their springs release [J]
   std::size_t bonds = 0;  ///< bonds that are left after the step
   std::size_t broken_bonds = 0;  ///< bonds that broke in the step
+  /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x
+  /// step, with the volume at detection, which is that after the step over det(1 + theta step rate). Kinetic
+  /// energies are of velocities relative to the cell (world/cell_control.hpp).
+  double cell_work = 0;
   /// Energy of the springs of compliant contacts after the step [J]; 0 under other laws.
   double elastic_energy = 0;
   double elastic_work = 0;         ///< energy that these springs took in the step [J]

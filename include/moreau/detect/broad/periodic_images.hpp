@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The pairs of boxes that overlap in a periodic cell.
-//   1. Every box is shifted by a whole number of cell lengths along each periodic axis, so that its
-//      centre lies in the cell.
-//   2. Images of the boxes are added: copies shifted by one cell length along one or more axes, as
-//      far as they can overlap a box in the cell.
+// The pairs of boxes that overlap in a periodic cell, a box or a lattice (core/periodic_cell.hpp).
+//   1. Every box is shifted by a whole number of cells along each periodic axis, so that its centre lies
+//      in the cell.
+//   2. Images of the boxes are added: copies shifted by one cell along one or more axes, as far as they
+//      can overlap a box in the cell. Images farther away overlap none: the centres of two boxes that
+//      overlap differ by less than half a cell (PeriodicCell::require_room).
 //   3. Any broad phase finds the overlapping pairs among the boxes and their images.
 #pragma once
 
@@ -29,12 +30,13 @@ class PeriodicImages {
 
   /// Replaces the contents of `pairs` by all pairs of boxes that overlap through some image,
   /// sorted, each pair once. Boxes may lie anywhere. Precondition: along each periodic axis, the sum
-  /// of the extents of any two boxes is less than the length of the cell. A pair then overlaps
-  /// through at most one image. PeriodicCell::require_room checks this for grains.
+  /// of the extents of any two boxes is less than the length of the cell; in a lattice, less than the
+  /// heights in the head of core/periodic_cell.hpp. A pair then overlaps through at most one image.
+  /// PeriodicCell::require_room checks this for grains.
   /// @param boxes       world axes [m]
   /// @param broad_phase a BroadPhase of this space
   /// @param pairs       pairs of indices into `boxes`
-  /// @param shifts      one vector per pair, world axes [m]: a whole number of cell lengths along
+  /// @param shifts      one vector per pair, world axes [m]: a whole number of cells along
   ///                    each axis. The second box of the pair, moved by this vector, overlaps the
   ///                    first box
   template <class Broad>
@@ -48,7 +50,7 @@ class PeriodicImages {
     shifts.clear();
     for (const Image& image : images_) {
       pairs.push_back(image.pair);
-      shifts.push_back(cell.length().cwiseProduct(image.cells));
+      shifts.push_back(cell.shift(image.cells));
     }
   }
 
@@ -66,19 +68,15 @@ class PeriodicImages {
     cells_.clear();
     hull_ = Aabb<S>{};
     for (std::uint32_t k = 0; k < boxes.size(); ++k) {
-      Vector home;
-      for (int axis = 0; axis < S::dim; ++axis) {
-        const auto center = (boxes[k].lower[axis] + boxes[k].upper[axis]) / 2;
-        const auto cells = std::floor((center - cell.lower()[axis]) / cell.length()[axis]);
-        home[axis] = -(cell.is_periodic(axis) ? cells : 0);
-      }
+      const Vector center = (boxes[k].lower + boxes[k].upper) / 2;
+      const Vector home = -cell.cell_of(center);
       add(cell, boxes[k], k, home);
       hull_.merge(boxes_.back().lower);
       hull_.merge(boxes_.back().upper);
     }
   }
   void add(const PeriodicCell<S>& cell, Aabb<S> box, std::uint32_t owner, const Vector& cells) {
-    const Vector shift = cell.length().cwiseProduct(cells);
+    const Vector shift = cell.shift(cells);
     box.lower += shift;
     box.upper += shift;
     boxes_.push_back(box);
@@ -103,7 +101,7 @@ class PeriodicImages {
     }
   }
   void add_images(const PeriodicCell<S>& cell, std::size_t count, const Vector& step) {
-    const Vector shift = cell.length().cwiseProduct(step);
+    const Vector shift = cell.shift(step);
     for (std::uint32_t k = 0; k < count; ++k) {
       Aabb<S> box = boxes_[k];
       box.lower += shift;

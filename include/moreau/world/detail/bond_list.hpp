@@ -100,6 +100,11 @@ class BondList {
     return true;
   }
 
+  /// The cell, a lattice, has other vectors of the same lattice: counts the cells of each bond by these.
+  /// @param before vectors of the cell so far, world axes [m]
+  void recount_cells(const typename S::Matrix& before, const PeriodicCell<S>& cell) {
+    for (Bond<S>& bond : bonds_) bond.cells = cell.cells(product(before, bond.cells));
+  }
   /// Replaces the contacts of bonded pairs by those of the bonds.
   /// @param contacts sorted, as detected
   void place(const Bodies<S>& bodies, const PeriodicCell<S>& cell, Contacts<S>& contacts) {
@@ -118,7 +123,7 @@ class BondList {
       while (c < contacts.size() && pair_of(contacts.keys[c]) == pair) ++c;
       if (bodies.is_prescribed(bond.a.index()) && bodies.is_prescribed(bond.b.index())) continue;
       contact_of_[i] = merged_.size();
-      const Vector shift = cell.length().cwiseProduct(bond.cells);
+      const Vector shift = cell.shift(bond.cells);
       places_[i] = place_of(bond, bodies, shift);
       add_contact(pair.first, pair.second, places_[i]);
     }
@@ -321,8 +326,7 @@ class BondList {
     bond.frame_a = axes_a.transpose() * frame;
     bond.frame_b = axes_b.transpose() * frame;
     const Vector shift = bodies.pose[a].position + lever_a - lever_b - bodies.pose[b].position;
-    for (int axis = 0; axis < S::dim; ++axis)
-      if (cell.is_periodic(axis)) bond.cells[axis] = std::round(shift[axis] / cell.length()[axis]);
+    bond.cells = cell.cells(shift);
     return bond;
   }
   void copy(const Contacts<S>& from, std::size_t c) {

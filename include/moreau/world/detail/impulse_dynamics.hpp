@@ -42,6 +42,7 @@
 #include "moreau/world/detail/body_shifts.hpp"
 #include "moreau/world/detail/bond_list.hpp"
 #include "moreau/world/detail/bridges.hpp"
+#include "moreau/world/detail/cell_jumps.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
@@ -109,6 +110,13 @@ class ImpulseDynamics {
     if constexpr (requires { solver_.set_team(team); }) solver_.set_team(team);
   }
   void set_integrator(const Integrator& integrator) { integrator_ = integrator; }
+  /// The part of a step that comes after detection [-]; 1/2 of an integrator without theta().
+  Scalar theta() const {
+    if constexpr (requires { integrator_.theta(); })
+      return Scalar(integrator_.theta());
+    else
+      return Scalar(0.5);
+  }
   void set_correction(const OverlapCorrectionOptions& options) {
     correction_ = OverlapCorrection<S>(checked(options));
   }
@@ -168,6 +176,17 @@ class ImpulseDynamics {
   }
   /// Undoes the shifts of solve_contacts(), which can then be called with other contacts.
   void undo_shifts(Bodies<S>& bodies) const { shifts_.undo(bodies); }
+  /// In a periodic cell that can deform, between stages 9 and 10.
+  /// @param report out: cell_work
+  /// @returns V sigma, see world/cell_control.hpp [J]
+  typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
+    const Bodies<S>& bodies = context.bodies;
+    const std::span<const Twist> after(after_);
+    if (context.deforms())
+      report.cell_work =
+          jumps_.work(bodies, context.contacts, after, context.cell->rate(), context.step);
+    return CellJumps<S>::moment(bodies, context.contacts, after, context.step);
+  }
   /// Stages 10 and 11.
   void finish(const Context& context, StepReport& report);
 
@@ -217,6 +236,8 @@ class ImpulseDynamics {
       integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step, team_);
     else
       integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step);
+    if (context.deforms())
+      CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
     attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), free);
   }
   /// @returns how many contacts have a predecessor
@@ -293,6 +314,7 @@ class ImpulseDynamics {
   Scalar offset_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
     const auto impulses = unknowns_.impulses(context.contacts);
+    const bool deforms = context.deforms();
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
     return sum_of<Largest>(
@@ -303,6 +325,7 @@ class ImpulseDynamics {
                  problem_.law_of[c] = law_of(contact);
                  before_[c] = BodyDelassus<S>::relative_velocity(
                      contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
+                 if (deforms) before_[c] += jumps_[c];
                  fastest.add({-before_[c][0]});
                  const Scalar approach =
                      before_[c][0] - add_chord(problem_.delassus, context, c, before_[c]);
@@ -404,6 +427,7 @@ class ImpulseDynamics {
   BodyShifts<S> shifts_;  // by the overlap correction
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
   RestitutionLimit<S, Law> limit_;
+  CellJumps<S> jumps_;  // of a periodic cell that deforms
 
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
@@ -432,6 +456,8 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   if (shared_)
     split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
   assemble(context);
+  if (context.deforms())
+    jumps_.add(context.cell->rate(), context.contacts, problem_.delassus, team_);
   report.warm_started = warm_start(context);
   report.ms_assemble += clock.lap();
   report.correction = correct_overlaps(context);
@@ -446,6 +472,8 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
 template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
                                                          StepReport& report) {
+  if (context.deforms())  // the mean of the velocities before and after has the cell's once, too
+    for (std::size_t c = 0; c < before_.size(); ++c) before_[c] += jumps_[c];
   const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
                                                  std::span(before_), std::span(after_));
   report.friction += losses.friction;

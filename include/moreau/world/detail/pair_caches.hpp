@@ -35,6 +35,8 @@ class PairCaches {
   }
   /// Whether the parts of grain k are where renew() left them. A convex grain has no parts.
   static constexpr bool holds(std::size_t, const auto&, Scalar) { return true; }
+  /// The same in a cell that deforms.
+  static constexpr bool holds(std::size_t, const auto&, Scalar, const auto&) { return true; }
   /// Erases the caches of pairs p with is_gone(p).
   void erase_pairs(const auto& is_gone) { erase_at(caches_, is_gone); }
   /// Forgets grains k with is_gone(k).
@@ -101,6 +103,15 @@ class PairCaches<ShapeT> {
     const std::size_t first = begin(box_ends_, k);
     for (std::size_t i = 0; i < grain.part_count(); ++i)
       if (!boxes_[first + i].contains(grain.box(i).inflated(reach))) return false;
+    return true;
+  }
+  /// The same after the grain is moved back by a vector [m], world axes.
+  bool holds(std::size_t k, const Placed<ShapeT>& grain, Scalar reach, const Vector& back) const {
+    const std::size_t first = begin(box_ends_, k);
+    for (std::size_t i = 0; i < grain.part_count(); ++i) {
+      const Aabb<S> box = grain.box(i).inflated(reach);
+      if (!boxes_[first + i].contains(Aabb<S>{box.lower + back, box.upper + back})) return false;
+    }
     return true;
   }
   /// Erases the caches of pairs p with is_gone(p).

@@ -6,6 +6,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
+#include "moreau/world/cell_motion.hpp"
 
 namespace moreau::detail {
 
@@ -23,6 +24,9 @@ struct StepContext {
   /// What second-order terms add to the relative velocity of each contact, world axes [m/s]; empty if
   /// none has any (chord_velocities.hpp).
   std::span<const typename S::Vector> chords = {};
+  const CellMotion<S>* cell = nullptr;  ///< of a periodic cell that can deform; null: none
+  /// Whether the periodic cell deforms in this step.
+  bool deforms() const { return cell != nullptr && !cell->rate().isZero(0); }
 };
 
 }  // namespace moreau::detail

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The motion of a periodic cell that deforms; world/cell_control.hpp has the equations.
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/value.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
+#include "moreau/world/cell_control.hpp"
+
+namespace moreau {
+
+/// The rate of a periodic cell, its stress, and how far it has deformed: Simulation::cell_motion().
+template <class S>
+class CellMotion {
+ public:
+  using Scalar = typename S::Scalar;
+  using Matrix = typename S::Matrix;
+
+  /// As control_cell() has set it.
+  const CellControl<S>& control() const { return control_; }
+  /// Velocity gradient L in the last step, world axes [1/s].
+  const Matrix& rate() const { return rate_; }
+  /// Stress of the grains in the last step, compression positive, world axes [Pa], in the plane [N/m]: that of the
+  /// contacts and of the velocities relative to the cell.
+  const Matrix& stress() const { return stress_; }
+  /// Deformation gradient F since set_cell() [-]: a material line X has become F X. F(0, 1) is the shear strain of a
+  /// cell that is only sheared.
+  const Matrix& deformation() const { return deformation_; }
+  /// Whether the cell deforms or can deform by its stress.
+  bool is_active() const { return !rate_.isZero(0) || !control_.mass.isZero(0); }
+
+  /// For Simulation: sets the control. Components that keep a mass keep their rate.
+  void set_control(const CellControl<S>& control) {
+    for (int k = 0; k < rate_.size(); ++k)
+      if (!(control.mass(k) > 0 && control_.mass(k) > 0)) rate_(k) = control.rate(k);
+    control_ = control;
+  }
+  /// For Simulation, before detection: chooses L of a step, and deforms the cell.
+  /// @param bodies   in, out: their positions
+  /// @param detector ContactDetector with the cell
+  /// @param step     h [s]
+  /// @param theta    part of the step that comes after detection [-]
+  void begin(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Team& team) {
+    choose_rate(step, detector.cell().volume());
+    if (rate_.isZero(0)) return;
+    const Matrix inverse = Matrix::Identity() - (1 - theta) * step * rate_;
+    deform(bodies, detector, inverse.inverse(), team);
+  }
+  /// For Simulation, after the contact problem: stores the stress, and deforms the cell.
+  /// @param moment V sigma [J]
+  void end(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Matrix& moment,
+           const Team& team) {
+    stress_ = moment / detector.cell().volume();
+    if (!rate_.isZero(0)) deform(bodies, detector, Matrix::Identity() + theta * step * rate_, team);
+  }
+
+ private:
+  friend struct SerializationAccess;
+  auto serialized_members() { return std::tie(control_, rate_, stress_, deformation_); }
+  void deserialized() {
+    control_.check("CellMotion");
+    require(all_finite(rate_) && all_finite(stress_) && all_finite(deformation_), "CellMotion",
+            "rate", rate_, "must be finite, and stress and deformation");
+  }
+
+  void choose_rate(Scalar step, Scalar volume) {
+    const Scalar square = std::pow(volume, Scalar(2) / S::dim);
+    for (int i = 0; i < S::dim; ++i)
+      for (int j = 0; j < S::dim; ++j) {
+        if (!(control_.mass(i, j) > 0)) continue;
+        const Scalar push = volume * (stress_(j, i) - control_.stress(i, j));
+        const Scalar change = step * push / (control_.mass(i, j) * square);
+        rate_(i, j) = (rate_(i, j) + change) / (1 + step * control_.damping);
+      }
+  }
+  MOREAU_COMPILED_ONCE static void move_with_cell(Pose<S>& pose, const PeriodicCell<S>& cell,
+                                                  const Matrix& map) {
+    pose.position = cell.deformed(map, pose.position);
+  }
+  /// Deforms the cell, and moves the bodies with it.
+  void deform(Bodies<S>& bodies, auto& detector, const Matrix& map, const Team& team) {
+    team.share_each(bodies.size(), 512,
+                    [&](std::size_t i) { move_with_cell(bodies.pose[i], detector.cell(), map); });
+    detector.deform_cell(map);
+    deformation_ = map * deformation_;
+  }
+
+  CellControl<S> control_;
+  Matrix rate_ = Matrix::Zero(), stress_ = Matrix::Zero(), deformation_ = Matrix::Identity();
+};
+
+}  // namespace moreau

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// What a periodic cell that deforms adds to a step; world/cell_control.hpp has the equations.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
+
+namespace moreau::detail {
+
+/// The velocities of a deforming cell at the contacts of a step, and its work.
+template <class S>
+class CellJumps {
+ public:
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
+  using Twist = typename S::Twist;
+
+  /// Adds -h L p to the free velocities of all bodies whose motion is not prescribed.
+  /// @param rate L [1/s]
+  /// @param step h [s]
+  /// @param free in, out: one per body [m/s, rad/s]
+  static void turn_velocities(const Bodies<S>& bodies, const Matrix& rate, Scalar step,
+                              std::span<Twist> free, const Team& team) {
+    team.share_each(free.size(), 256, [&](std::size_t i) {
+      if (!bodies.is_prescribed(i)) turn_velocity(bodies.velocity[i], rate, step, free[i]);
+    });
+  }
+  /// Computes the velocities of the cell at the contacts, F^T L d, and adds them to the free velocities of
+  /// the operator.
+  /// @param contacts with the frames of the operator
+  void add(const Matrix& rate, const Contacts<S>& contacts, auto& op, const Team& team) {
+    using Row = typename std::decay_t<decltype(op)>::Vector;
+    jumps_.resize(contacts.size());
+    team.share_each(contacts.size(), 256, [&](std::size_t c) {
+      jumps_[c] = jump_at(contacts.points[c], rate);
+      Row row = Row::Zero();
+      for (int k = 0; k < S::dim; ++k) row[k] = jumps_[c][k];
+      op.offset(c, row);
+    });
+  }
+  /// Velocity of the cell at contact c, contact frame [m/s].
+  const Vector& operator[](std::size_t c) const { return jumps_[c]; }
+
+  /// The work of the cell in a step [J], by its velocities, not by the stress.
+  /// @param bodies with the velocities before the step
+  /// @param after  velocities after it, one per body
+  double work(const Bodies<S>& bodies, const Contacts<S>& contacts, std::span<const Twist> after,
+              const Matrix& rate, Scalar step) const {
+    double sum = 0;
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      sum -= double(contacts.impulses[c].dot(jumps_[c]));
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies.is_prescribed(i)) continue;
+      const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;
+      sum -= double(step * bodies.grain_mass[i]) * double(mean.dot(product(rate, p)));
+    }
+    return sum;
+  }
+  /// V sigma of a step [J].
+  static Matrix moment(const Bodies<S>& bodies, const Contacts<S>& contacts,
+                       std::span<const Twist> after, Scalar step) {
+    Matrix sum = Matrix::Zero();
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Contact<S>& contact = contacts.points[c];
+      const Vector between = contact.lever_a - contact.lever_b,
+                   force = product(contact.frame, contacts.impulses[c]) / step;
+      sum += between * force.transpose();
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies.is_prescribed(i)) continue;
+      const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;
+      sum += bodies.grain_mass[i] * p * mean.transpose();
+    }
+    return sum;
+  }
+
+ private:
+  MOREAU_COMPILED_ONCE static void turn_velocity(const Twist& velocity, const Matrix& rate,
+                                                 Scalar step, Twist& free) {
+    const Vector p = linear<S>(velocity);
+    linear<S>(free) -= step * product(rate, p);
+  }
+  MOREAU_COMPILED_ONCE static Vector jump_at(const Contact<S>& contact, const Matrix& rate) {
+    const Vector between = contact.lever_a - contact.lever_b;
+    return transposed_product(contact.frame, product(rate, between));
+  }
+
+  std::vector<Vector> jumps_;  // one per contact
+};
+
+}  // namespace moreau::detail

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// A periodic cell that deforms (world/cell_control.hpp).
+#include <cmath>
+#include <doctest/doctest.h>
+#include <memory>
+#include <random>
+
+#include "moreau/io/snapshot.hpp"
+#include "moreau/measure/energy_balance.hpp"
+
+#include "boundary/grain_of_radius.hpp"
+#include "io/temporary_folder.hpp"
+#include "threads/same_bits.hpp"
+#include "types.hpp"
+#include "world/assemblies.hpp"
+
+using namespace moreau;
+
+namespace {
+
+constexpr double h = 5e-4, spacing = 0.0175;
+template <class S>
+constexpr int side = S::dim == 2 ? 7 : 4;
+
+/// Grains with random velocities and rotations, near the points of a square (cubic) lattice.
+template <class ShapeT>
+struct Gas {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
+  scenes::World<ShapeT> simulation;
+  std::vector<BodyId> grains;
+
+  /// @param place function: number of a grain, its position -> that of the image that is added [m]
+  explicit Gas(const auto& place)
+      : simulation(0.02, Materials<scenes::LawOf<ShapeT>>(1, scenes::LawOf<ShapeT>(0.4)),
+                   solver()) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> jitter(-1, 1);
+    const ShapeId shape = simulation.add_shape(grain_of_radius<ShapeT>(0.008));
+    int count = 1;
+    for (int axis = 0; axis < S::dim; ++axis) count *= side<S>;
+    for (int k = 0; k < count; ++k) {
+      Pose<S> pose;
+      for (int axis = 0, rest = k; axis < S::dim; ++axis, rest /= side<S>)
+        pose.position[axis] = spacing * (rest % side<S> + 0.5) + 4e-4 * jitter(random);
+      pose.position = place(k, pose.position);
+      pose.rotation = S::exp(S::Angular::Constant(jitter(random)));
+      Vector velocity;
+      for (int axis = 0; axis < S::dim; ++axis) velocity[axis] = 0.1 * jitter(random);
+      grains.push_back(simulation.add_grain(shape, pose, 2700));
+      simulation.set_velocity(grains.back(), velocity);
+    }
+  }
+  Gas() : Gas([](int, const Vector& x) { return x; }) {}
+  static ColouredGaussSeidel solver() {
+    ColouredOptions options;
+    options.tolerance = 1e-13;
+    options.max_sweeps = 2000;
+    return ColouredGaussSeidel(options);
+  }
+  static Matrix square() { return side<S> * spacing * Matrix::Identity(); }
+};
+
+/// Shears along x, and changes the volume.
+template <class S>
+CellControl<S> mixed(double rate) {
+  CellControl<S> control;
+  control.rate(0, 1) = 6 * rate;
+  control.rate(1, 0) = -rate;
+  for (int axis = 0; axis < S::dim; ++axis) control.rate(axis, axis) = -rate / (1 + axis);
+  control.rate(S::dim - 1, 0) += rate;
+  return control;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("work of a deforming cell: stress x rate, and the balance of energy", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  Gas<ShapeT> gas;
+  auto& simulation = gas.simulation;
+  simulation.set_cell(Gas<ShapeT>::square());
+  const CellControl<S> control = mixed<S>(1);
+  simulation.control_cell(control);
+  const typename S::Matrix half = S::Matrix::Identity() + h / 2 * control.rate;
+  EnergyBalance<S> energy(simulation);
+  double largest = 0, worst_power = 0, worst_balance = 0;
+  std::size_t points = 0;
+  for (int k = 0; k < 150; ++k) {
+    const StepReport report = simulation.step(h);
+    energy.add(simulation, report, h);
+    const double volume = simulation.cell().volume() / half.determinant();
+    const double power = -volume * (simulation.cell_motion().stress() * control.rate).trace() * h;
+    largest = std::max(largest, std::abs(report.cell_work));
+    worst_power = std::max(worst_power, std::abs(power - report.cell_work));
+    worst_balance = std::max(worst_balance, std::abs(energy.imbalance()));
+    points += report.points;
+  }
+  CHECK(points > 1000);
+  CHECK(worst_power < 1e-9 * largest);
+  CHECK(worst_balance < 1e-9 * largest);
+  CHECK(std::abs(energy.terms().cell) > 2 * largest);
+  const double volume = std::pow(side<S> * spacing, S::dim), rate = control.rate.trace();
+  CHECK(simulation.cell().volume() ==
+        doctest::Approx(volume * std::exp(150 * h * rate)).epsilon(1e-6));
+}
+
+TEST_CASE_TEMPLATE("forces do not depend on the vectors of a lattice or on the images", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
+  const Matrix vectors = Gas<ShapeT>::square();
+  Matrix other = vectors;
+  other.col(1) += 3 * other.col(0);
+  other.col(0) -= 2 * other.col(S::dim - 1);
+  Gas<ShapeT> one, two([&](int k, const Vector&x) {
+    return Vector(x + vectors * Vector::Unit(k % S::dim) * double(k % 5 - 2));
+  });
+  one.simulation.set_cell(vectors);
+  // A thin cell, which has no room for the grains, of the same lattice, which has.
+  two.simulation.set_cell(other, 0.3 * spacing * Vector::Ones());
+  double largest = 0, worst = 0;
+  for (Gas<ShapeT>* gas : {&one, &two}) gas->simulation.control_cell(mixed<S>(1));
+  for (int k = 0; k < 60; ++k) {
+    const StepReport a = one.simulation.step(h), b = two.simulation.step(h);
+    REQUIRE(a.points == b.points);
+    for (std::size_t i = 0; i < one.grains.size(); ++i) {
+      const Vector force = one.simulation.contact_impulse(one.grains[i]);
+      largest = std::max(largest, force.norm());
+      worst = std::max(worst, (force - two.simulation.contact_impulse(two.grains[i])).norm());
+    }
+  }
+  CHECK(largest > 0);
+  CHECK(worst < 1e-7 * largest);
+}
+
+TEST_CASE_TEMPLATE("a cell that does not deform has the bits of a periodic box", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  Gas<ShapeT> one, two;
+  for (int axis = 0; axis < S::dim; ++axis) one.simulation.set_periodic(axis, 0, side<S> * spacing);
+  two.simulation.set_cell(Gas<ShapeT>::square());
+  CHECK(scenes::have_same_bits_after(150, one.simulation, two.simulation));
+  CHECK(one.simulation.contacts().size() > 0);
+}
+
+TEST_CASE_TEMPLATE("a cell is sheared through several reductions", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  Gas<ShapeT> gas;
+  auto& simulation = gas.simulation;
+  simulation.set_cell(Gas<ShapeT>::square());
+  CellControl<S> control;
+  control.rate(0, 1) = 8;
+  simulation.control_cell(control);
+  int reductions = 0;
+  double deepest = 0;
+  typename S::Matrix stress = S::Matrix::Zero();
+  for (int k = 0; k < 700; ++k) {
+    const double before = simulation.cell().vectors()(0, 1);
+    deepest = std::max(deepest, simulation.step(h).max_overlap);
+    reductions += simulation.cell().vectors()(0, 1) < before;
+    stress += simulation.cell_motion().stress();
+  }
+  const double strain = 8 * h * 700;
+  CHECK(reductions == 3);  // at the strains 1/2, 3/2 and 5/2
+  CHECK(simulation.cell_motion().deformation()(0, 1) == doctest::Approx(strain));
+  CHECK(simulation.cell().volume() ==
+        doctest::Approx(std::pow(side<S> * spacing, S::dim)).epsilon(1e-12));
+  CHECK(deepest < 0.02 * 0.02);
+  // The lattice is that of the box after the shear, reduced.
+  CHECK(simulation.cell().vectors()(0, 1) ==
+        doctest::Approx((strain - std::round(strain)) * side<S> * spacing));
+  CHECK(stress(1, 0) < 0);  // it resists
+  CHECK(stress(1, 1) > -stress(1, 0));
+}
+
+TEST_CASE_TEMPLATE("a deforming cell continues from a snapshot and with threads with the same bits",
+                   ShapeT, MOREAU_TYPES((Polygon<>), (Polyhedron<>, Ball<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Law = scenes::LawOf<ShapeT>;
+  Gas<ShapeT> gas, shared;
+  scenes::World<ShapeT> read(0.02, Materials<Law>(1, Law(0.4)));
+  for (Gas<ShapeT>* one : {&gas, &shared}) {
+    one->simulation.set_cell(Gas<ShapeT>::square());
+    one->simulation.control_cell(mixed<S>(2));
+  }
+  shared.simulation.set_team(Team(std::make_shared<threads_test::EagerThreads>(3)));
+  for (int k = 0; k < 60; ++k) gas.simulation.step(h), shared.simulation.step(h);
+  const TemporaryFolder folder("cell");
+  write_snapshot(folder / "cell", gas.simulation);
+  read_snapshot(folder / "cell", read);
+  CHECK(scenes::have_same_bits_after(60, gas.simulation, read));
+  for (int k = 0; k < 60; ++k) shared.simulation.step(h);
+  CHECK(scenes::have_same_bits_after(60, read, shared.simulation));
+}
+
+TEST_CASE("grains that do not touch move with the cell") {
+  using World = scenes::World<Disk<>>;
+  using Vector = Space<2>::Vector;
+  World world(0.02, Materials<SignoriniCoulomb<>>(1, SignoriniCoulomb<>(0.4)));
+  const ShapeId disk = world.add_shape(Disk<>(0.005));
+  const BodyId a = world.add_grain(disk, Pose<Space<2>>(Vector(0.02, 0.05)), 2700),
+               b = world.add_grain(disk, Pose<Space<2>>(Vector(0.06, 0.09)), 2700);
+  world.set_cell(0.1 * Space<2>::Matrix::Identity());
+  world.control_cell(mixed<Space<2>>(-0.2));
+  for (int k = 0; k < 200; ++k) world.step(h);
+  const auto& map = world.cell_motion().deformation();
+  CHECK((world.pose(a).position - map * Vector(0.02, 0.05)).norm() < 1e-14);
+  CHECK((world.pose(b).position - map * Vector(0.06, 0.09)).norm() < 1e-14);
+  CHECK(world.velocity(a).isZero(0));
+}
+
+TEST_CASE("what does not fit into a deforming cell is refused") {
+  using World = scenes::World<Disk<>>;
+  using Vector = Space<2>::Vector;
+  const auto world = [] {
+    World one(0.02, Materials<SignoriniCoulomb<>>(1, SignoriniCoulomb<>(0.4)));
+    one.add_grain(one.add_shape(Disk<>(0.01)), Pose<Space<2>>(Vector(0.05, 0.05)), 2700);
+    return one;
+  };
+  const Space<2>::Matrix unit = Space<2>::Matrix::Identity();
+  const auto refuses = [](const auto& call, const char* message) {
+    CHECK_THROWS_WITH_AS(call(), message, std::invalid_argument);
+  };
+  World one = world();
+  refuses([&] { one.control_cell({}); },
+          "Simulation::control_cell: cell = (none) must be one of set_cell()");
+  Space<2>::Matrix mirrored = 0.1 * unit;
+  mirrored(0, 0) = -0.1;
+  refuses([&] { one.set_cell(mirrored); },
+          "Simulation::set_cell: vectors = (-0.1, 0, 0, 0.1) must have a positive determinant");
+  one.set_cell(0.1 * unit);
+  refuses([&] { one.add_wall(Vector(1, 0), Vector(0, 0)); },
+          "Simulation::add_wall: normal = (1, 0) must not be of a wall: the cell deforms");
+  refuses([&] { one.add_cylinder(Vector(0, 0), Space<2>::Angular(1), 1); },
+          "Simulation::add_cylinder: axis = (1) must not be of a cylinder: the cell deforms");
+  refuses([&] { one.set_periodic(0, 0, 1); },
+          "Simulation::set_periodic: axis = 0 must not be of a cell given by vectors");
+  CellControl<Space<2>> control;
+  control.mass(0, 1) = -1;
+  refuses([&] { one.control_cell(control); },
+          "Simulation::control_cell: mass = (0, -1, 0, 0) must be finite and >= 0");
+  World walled = world();
+  walled.add_wall(Vector(1, 0), Vector(0, 0));
+  CHECK_THROWS_AS(walled.set_cell(0.1 * unit), std::invalid_argument);
+  World small = world();
+  CHECK_THROWS_AS(small.set_cell(0.03 * unit), std::invalid_argument);
+  small.set_cell(0.1 * unit);
+  control = {};
+  control.rate = -20 * unit;
+  small.control_cell(control);
+  const auto crush = [&] {
+    for (int k = 0; k < 1000; ++k) small.step(h);
+  };
+  CHECK_THROWS_AS(crush(), std::invalid_argument);
+}
