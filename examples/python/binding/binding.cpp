@@ -51,9 +51,12 @@ struct Handle {
   World& grow(const char* function) {
     World& used = use(function);
     if (views > 0)
-      throw std::invalid_argument(std::string(function) + ": views = " + std::to_string(views) +
-                                  " must be 0: arrays such as positions look into the memory that "
-                                  "would move; delete them, or copy() them");
+      throw std::invalid_argument(
+          std::string(function) + ": views = " + std::to_string(views) +
+          " must be 0: arrays such as positions look into the memory that "
+          "would move; delete them, or copy() them. An interactive session keeps "
+          "the last result in _ (Jupyter in Out[]), and the last exception "
+          "keeps the variables of its function");
     return used;
   }
 };
@@ -331,17 +334,32 @@ moreau::StepReport run(Handle& handle, double h, long steps) {
   return report;
 }
 
-/// A struct of results, and repr() that shows its fields.
+/// A number of a result with six digits, anything else as Python shows it.
+std::string shown(const py::object& value) {
+  if (py::isinstance<py::float_>(value)) return py::str("{:.6g}").format(value);
+  return py::repr(value);
+}
+
+/// A struct of results: repr() shows its fields on one line, print() one field on each line.
 template <class T>
 class Fields {
  public:
-  Fields(py::module_& m, const char* name) : type_(m, name) {
+  Fields(py::module_& m, const char* name, const char* doc) : type_(m, name, doc) {
     type_.def("__repr__", [of = names_, name = std::string(name)](const py::object& self) {
       std::string text;
       for (const std::string& field : *of)
-        text += (text.empty() ? "" : ", ") + field + "=" +
-                py::repr(self.attr(field.c_str())).cast<std::string>();
+        text += (text.empty() ? "" : ", ") + field + "=" + shown(self.attr(field.c_str()));
       return name + "(" + text + ")";
+    });
+    type_.def("__str__", [of = names_](const py::object& self) {
+      std::string text;
+      for (const std::string& field : *of) {
+        const py::object value = self.attr(field.c_str());
+        const bool is_nested = py::hasattr(value, "converged");
+        text +=
+            field + (is_nested ? ":\n" + std::string(py::str(value)) : " = " + shown(value) + "\n");
+      }
+      return text;
     });
   }
   template <class Member>
@@ -357,21 +375,37 @@ class Fields {
 
 void bind_reports(py::module_& m) {
   using moreau::SolveReport, moreau::StepReport, moreau::Coordination;
-  Fields<SolveReport> solve(m, "SolveReport");
+  Fields<SolveReport> solve(
+      m, "SolveReport",
+      "How well the contact problem was solved. converged: whether the residual is below the "
+      "tolerance; sweeps: of the "
+      "solver; capped: whether it stopped at max_sweeps; residual: relative to the impulses [-]; "
+      "velocity_error: "
+      "estimated error of velocities. All fields: examples/guide/solve-report.md.");
 #define FIELD(name) solve.add(#name, &SolveReport::name)
   FIELD(sweeps), FIELD(converged), FIELD(capped), FIELD(residual), FIELD(relative_approach);
   FIELD(velocity_error), FIELD(islands), FIELD(unsolved_islands), FIELD(quad_dv), FIELD(quad_dvr);
   FIELD(maxm_dv), FIELD(maxm_dvr), FIELD(worst_velocity), FIELD(worst_gap), FIELD(worst_cone);
   FIELD(worst_complementarity), FIELD(wrong_sign_dissipation);
 #undef FIELD
-  Fields<StepReport> step_report(m, "StepReport");
+  Fields<StepReport> step_report(m, "StepReport",
+                                 "Results of one step. pairs, points: in contact or within the "
+                                 "margin; approach: largest approach of a pair in the "
+                                 "step over the margin [-], above 1 the step is too long; "
+                                 "max_overlap, mean_overlap [m]; dissipation, of it "
+                                 "friction and rolling, elastic_energy [J]; ms_...: times [ms]. "
+                                 "All fields: examples/guide/solve-report.md.");
 #define FIELD(name) step_report.add(#name, &StepReport::name)
   FIELD(solve), FIELD(candidate_pairs), FIELD(pairs), FIELD(points), FIELD(warm_started);
   FIELD(approach), FIELD(overlapping), FIELD(max_overlap), FIELD(mean_overlap), FIELD(deepest_a);
   FIELD(deepest_b), FIELD(dissipation), FIELD(friction), FIELD(rolling), FIELD(elastic_energy);
   FIELD(ms_detect), FIELD(ms_solve), FIELD(ms_total);
 #undef FIELD
-  Fields<Coordination> coordination(m, "Coordination");
+  Fields<Coordination> coordination(m, "Coordination",
+                                    "grains: counted; rattlers: removed before; points, pairs: "
+                                    "contact points that push, and pairs of bodies that have "
+                                    "one, each counted once, walls included; neighbours, "
+                                    "points_per_grain: means over the grains [-].");
 #define FIELD(name) coordination.add(#name, &Coordination::name)
   FIELD(grains), FIELD(rattlers), FIELD(points), FIELD(pairs), FIELD(neighbours);
   FIELD(points_per_grain);

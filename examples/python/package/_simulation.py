@@ -25,7 +25,7 @@ CLASSES = ("vertex_vertex", "vertex_edge", "vertex_face", "edge_edge", "edge_fac
 POSITION, ROTATION, VELOCITY, SPIN, FORCE, TORQUE, MASS = range(7)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Contacts:
     """A copy of the contact points of the last step: n points, sorted by their bodies. D is the dimension."""
 
@@ -42,6 +42,9 @@ class Contacts:
 
     def __len__(self) -> int:
         return len(self.gap)
+
+    def __repr__(self) -> str:
+        return f"<moreau.Contacts: {len(self)} points; arrays {', '.join(self.__dataclass_fields__)}>"
 
     @property
     def normal(self) -> Floats:
@@ -501,7 +504,8 @@ class Simulation:
         return self._world.step(h)
 
     def run(self, step: float, count: int, each: Callable[[StepReport], Any] | None = None) -> StepReport:
-        """Makes `count` >= 1 steps and returns the last report. Ctrl-C ends it after the present step.
+        """Makes `count` >= 1 steps and returns the report of the last one alone: what an earlier step reported is
+        seen by `each`. Ctrl-C ends it after the present step.
 
         each: called with the report after every step; if it returns True, the run ends.
         """
@@ -565,8 +569,9 @@ class Simulation:
                                          check.positive(me, "area", area))
 
     def check(self, report: StepReport) -> list[str]:
-        """A sentence for each setting that looks wrong after a step: too long a step, overlaps, other units, a solver
-        that did not converge, a lost grain. Empty if there are none."""
+        """A sentence for each setting that looks wrong in this report, that of one step: too long a step, overlaps,
+        other units, a solver that did not converge, a lost grain. Empty if there are none. The report of grains at rest
+        does not show that the step was too long while they fell: check() then."""
         if not isinstance(report, StepReport):
             check.refuse("Simulation.check", "report", report, "must be what step() returned")
         return self._world.check(report)

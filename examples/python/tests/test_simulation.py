@@ -180,3 +180,8 @@ def test_reports_show_their_fields(disks):
     assert repr(report).startswith("StepReport(solve=SolveReport(sweeps=")
     assert f"converged={report.solve.converged}" in repr(report)
     assert repr(disks.coordination()).startswith(f"Coordination(grains={disks.coordination().grains}, rattlers=")
+    lines = str(report).splitlines()
+    assert lines[0] == "solve:" and f"points = {report.points}" in lines
+    contacts = disks.contacts()
+    assert len(repr(contacts)) < 200 and f"{len(contacts)} points" in repr(contacts)
+    assert all(thing.__doc__ for thing in (type(report), type(report.solve), type(disks.coordination())))
