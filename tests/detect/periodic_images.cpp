@@ -19,6 +19,20 @@ Aabb<S> box_at(const typename S::Vector& center, double half) {
   return {center.array() - half, center.array() + half};
 }
 
+/// Boxes in and around the cells of the tests.
+template <class S>
+std::vector<Aabb<S>> random_boxes() {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> anywhere(-12, 12), size(0.05, 0.6);
+  std::vector<Aabb<S>> boxes;
+  for (int k = 0; k < 60; ++k) {
+    typename S::Vector center;
+    for (int axis = 0; axis < S::dim; ++axis) center[axis] = anywhere(random);
+    boxes.push_back(box_at<S>(center, size(random)));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("pairs across the boundary are those of all images", S, Space<2>, Space<3>) {
@@ -26,14 +40,7 @@ TEST_CASE_TEMPLATE("pairs across the boundary are those of all images", S, Space
   PeriodicCell<S> cell;
   cell.set(0, -1, 3);
   cell.set(S::dim - 1, 2, 5);
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> anywhere(-12, 12), size(0.05, 0.6);
-  std::vector<Aabb<S>> boxes;
-  for (int k = 0; k < 60; ++k) {
-    Vector center;
-    for (int axis = 0; axis < S::dim; ++axis) center[axis] = anywhere(random);
-    boxes.push_back(box_at<S>(center, size(random)));
-  }
+  const std::vector<Aabb<S>> boxes = random_boxes<S>();
   moreau::PeriodicImages<S> images;
   moreau::SweepAndPrune<S> broad_phase;
   std::vector<IndexPair> pairs, expected;
@@ -106,14 +113,7 @@ TEST_CASE_TEMPLATE("pairs in a lattice are those of all images", S, Space<2>, Sp
   PeriodicCell<S> cell;
   cell.set_vectors(oblique<S>(), Vector::Constant(-0.7));
   cell.require_room(1.2, "test");
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> anywhere(-12, 12), size(0.05, 0.6);
-  std::vector<Aabb<S>> boxes;
-  for (int k = 0; k < 60; ++k) {
-    Vector center;
-    for (int axis = 0; axis < S::dim; ++axis) center[axis] = anywhere(random);
-    boxes.push_back(box_at<S>(center, size(random)));
-  }
+  const std::vector<Aabb<S>> boxes = random_boxes<S>();
   moreau::PeriodicImages<S> images;
   moreau::SweepAndPrune<S> broad_phase;
   std::vector<IndexPair> pairs, expected;

@@ -389,6 +389,7 @@ class ImpulseDynamics {
       report.solve = solver_.solve(problem_, impulses, workspace_);
       report.solve.sweeps += sweeps;
     }
+    report.solve.converged = false;  // the strengths still change
   }
 
   /// Counts the energy that bonds took; removes those that broke.
