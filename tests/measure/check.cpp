@@ -70,6 +70,26 @@ TEST_CASE("check: a step too long for the speeds") {
   CHECK(one_contains(all, "overlap of"));
 }
 
+TEST_CASE_TEMPLATE("check: a step in milliseconds, of one grain at rest", ShapeT, Polyhedron<>,
+                   Polygon<>, Ball<>, Disk<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  const Vector up = Vector::Unit(S::dim - 1);
+  for (const double size : {1e-3, 0.02, 0.5})
+    for (const double typed : {1e-4, 1e-3, 5e-3, 0.5, 1.0, 2.0}) {
+      CAPTURE(size);
+      CAPTURE(typed);
+      Simulation<ShapeT, Law> world(size, Materials<Law>(1, Law(0.5)));
+      world.add_grain(world.add_shape(regular_shape<ShapeT>(size)), {}, 2700);
+      world.add_wall(up, Vector(-size / 2 * up));
+      world.set_gravity(-9.81 * up);
+      std::vector<std::string> all;
+      for (int k = 0; k < 3; ++k) all = check(world, world.step(typed));
+      CHECK(one_contains(all, "If it is in ms, type ") == (9.81 * typed * typed > 0.2 * size));
+      CHECK(all.size() == std::size_t(9.81 * typed * typed > 0.2 * size));
+    }
+}
+
 TEST_CASE("check: a grain size in millimetres") {
   World world = cube(20, 0.02);
   CHECK(one_contains(run(world, 1e-3, 1), "grain size 20 m, but the smallest grain"));

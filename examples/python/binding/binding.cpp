@@ -396,7 +396,8 @@ void bind_reports(py::module_& m) {
                                  "friction and rolling, elastic_energy [J]; ms_...: times [ms]. "
                                  "All fields: examples/guide/solve-report.md.");
 #define FIELD(name) step_report.add(#name, &StepReport::name)
-  FIELD(solve), FIELD(candidate_pairs), FIELD(pairs), FIELD(points), FIELD(warm_started);
+  FIELD(step), FIELD(solve), FIELD(candidate_pairs), FIELD(pairs), FIELD(points),
+      FIELD(warm_started);
   FIELD(approach), FIELD(overlapping), FIELD(max_overlap), FIELD(mean_overlap), FIELD(deepest_a);
   FIELD(deepest_b), FIELD(dissipation), FIELD(friction), FIELD(rolling), FIELD(elastic_energy);
   FIELD(ms_detect), FIELD(ms_solve), FIELD(ms_total);

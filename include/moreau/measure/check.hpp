@@ -33,7 +33,8 @@ namespace moreau {
 ///            forces are not accurate to 10 %
 ///          - numbers that look like other units. With a gravity between 9 and 11 m/s^2: a density below
 ///            12 (2.7 g/cm^3 are 2700 kg/m^3), grains all wider than 4 m (mm). A density above 25,000, a
-///            gravity of 981 or 9810 (cm/s^2, mm/s^2), a friction from 5 to 90 (degrees)
+///            gravity of 981 or 9810 (cm/s^2, mm/s^2), a friction from 5 to 90 (degrees). A step so
+///            long that gravity moves a grain at rest by more than a fifth of its size (ms)
 ///          - gravity points along the last axis, and no wall and no obstacle lies there
 ///          - a grain is lost: far from all others, or so far from the origin that the scalar holds its
 ///            position only to more than a thousandth of the grain size
@@ -42,7 +43,7 @@ template <class Simulation>
                                              const StepReport& report) {
   detail::Findings found;
   detail::check_report(found, report, double(simulation.grain_size()));
-  detail::check_units(found, simulation);
+  detail::check_units(found, simulation, report.step);
   detail::check_lost(found, simulation);
   return found.sentences;
 }

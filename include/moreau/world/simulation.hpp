@@ -580,6 +580,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     dynamics_.advance(context);
   }
   assembly_.require_finite("Simulation::step");
+  report.step = double(step);
   time_ += step;
   if constexpr (bonding) dynamics_.bonds().stamp(time_);
   const std::chrono::duration<double, std::milli> again(report.ms_collide - once);

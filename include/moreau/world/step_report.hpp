@@ -15,6 +15,7 @@ namespace moreau {
 
 /// Results of one step. In the plane, energies are per length if densities are.
 struct StepReport {
+  double step = 0;  ///< length h of the step [s]
   /// Pairs of grains in the list of the broad phase, without walls: the boxes of the grains were closer
   /// than margin + 2 skin along every axis when the list was made.
   std::size_t candidate_pairs = 0;

@@ -22,6 +22,7 @@ struct Extremes {
   double heaviest = 0;                                       ///< largest density [kg/m^3]
   double friction = 0;  ///< largest of the laws from 5 to 90, else 0
   double gravity = 0;   ///< its length [m/s^2]
+  double step = 0;      ///< h [s]
 };
 
 [[gnu::cold]] inline void judge(Findings& found, const Extremes& of, double size) {
@@ -51,6 +52,15 @@ struct Extremes {
     if (std::abs(of.gravity / (9.81 * factor) - 1) < 0.02)
       found.say("a gravity of % m/s^2 is % times that of the earth. If it is in % m/s^2, type %",
                 {of.gravity, factor, 1 / factor, of.gravity / factor});
+  // Far above each step that is of use: falling from rest, a grain passes 10 margins of detection (0.02 of the
+  // grain size by default) in its first step. A packing at rest shows nothing of it: nothing approaches.
+  const double fall = of.gravity * of.step * of.step, shortest = std::min(of.width, size);
+  if (grains && fall > 0.2 * shortest)
+    found.say(
+        "a step of % s is too long: in one step a grain at rest falls by g h^2 = % m, which is % "
+        "of the grain "
+        "size. If it is in ms, type %",
+        {of.step, fall, fall / shortest, of.step / 1000});
   if (of.friction > 0)
     found.say("a friction of % looks like an angle in degrees: its tangent is %",
               {of.friction, std::tan(of.friction * std::numbers::pi / 180)});
@@ -82,8 +92,9 @@ template <class Simulation>
 }
 
 template <class Simulation>
-[[gnu::cold]] void check_units(Findings& found, const Simulation& simulation) {
+[[gnu::cold]] void check_units(Findings& found, const Simulation& simulation, double step) {
   Extremes of;
+  of.step = step;
   const auto& bodies = simulation.bodies();
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const auto& shape = simulation.shape_of_grain(k);
