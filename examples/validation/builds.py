@@ -43,9 +43,9 @@ def results_of(compiler, cpu):
            f"-DCMAKE_CXX_COMPILER={COMPILERS[compiler]}", f"-DCMAKE_CXX_FLAGS={flags}",
            "-DMOREAU_BUILD_TESTS=OFF", "-DMOREAU_BUILD_BENCHES=OFF") != 0:
         sys.exit(f"builds.py: {folder.name} cannot be configured")
-    if run("cmake", "--build", str(folder), "--parallel", "1", "--target", "validation") != 0:
+    if run("cmake", "--build", str(folder), "--parallel", "1", "--target", "validation_with_float") != 0:
         sys.exit(f"builds.py: {folder.name} does not build")
-    program = next(folder.rglob("validation"))
+    program = next(folder.rglob("validation_with_float"))
     help_text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
     names = help_text[help_text.index("{") + 1:help_text.index("}")].replace("\n", "").replace(" ", "")
     cases = [name for name in dict.fromkeys(names.split(",")) if name not in PACKINGS]
