@@ -4,10 +4,10 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -135,8 +135,10 @@ class IslandSolver {
     if (one.is_new || one.cost <= cheap_visits) return true;
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
     constexpr int dropped = 44;  // bits of the defect that rounding may change
-    const std::uint64_t hash =
-        ((std::bit_cast<std::uint64_t>(one.defect) >> dropped) * golden) >> 32;
+    std::uint64_t bits;  // not by std::bit_cast, which the C++ library of Debian 12's emscripten lacks
+    static_assert(sizeof bits == sizeof one.defect);
+    std::memcpy(&bits, &one.defect, sizeof bits);
+    const std::uint64_t hash = ((bits >> dropped) * golden) >> 32;
     return std::ldexp(double(hash), -32) * visits < other_visits + sweeps;
   }
   /// Before the sweeps.
