@@ -380,3 +380,59 @@ TEST_CASE("a vertex below a floor of small facets has a contact, however deep it
       check_deep<Polygon<>>(cell, 0.05, height);
     }
 }
+
+namespace {
+
+/// Whether a vertex of a wall lies in a shape, deeper than `depth` below each of its faces.
+template <class ShapeT>
+bool is_pierced(const Placed<ShapeT>& shape, const FacetMesh<SpaceOf<ShapeT>>& mesh, double depth) {
+  const auto is_in = [&](const auto& x) {
+    return moreau::detail::highest_face(shape, x - shape.center()).value < -depth;
+  };
+  return std::any_of(mesh.vertices.begin(), mesh.vertices.end(), is_in);
+}
+
+/// Thin plates into whose lower face crests reach, up to beyond the middle of the plate: a contact leads out.
+template <class ShapeT>
+void check_pierced(double cell, double height) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  CAPTURE(cell);
+  CAPTURE(height);
+  const auto mesh = waves<S>(int(0.1 / cell), cell, 0.05, height, 5);
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(mesh, sides);
+    int wanted = 0, missing = 0;
+    for (int t = 0; t < 40 * approaches; ++t) {
+      Vector half = Vector::Constant(0.01), at = 0.02 * conformance::random_direction<S>(random);
+      half[S::dim - 1] = t % 2 != 0 ? 0.002 : 0.001;
+      at[S::dim - 1] = height + 0.002 * uniform(random);
+      typename S::Angular turn;
+      for (auto& x : turn) x = 0.2 * uniform(random);
+      const ShapeT plate = cuboid<ShapeT>(half);
+      const Placed<ShapeT> shape(plate, {at, S::exp(turn)});
+      if (is_below<S>(wall, at, -1e-4) || !is_pierced(shape, mesh, 3e-4)) continue;
+      ++wanted;
+      const auto found = contacts(shape, wall, margin);
+      missing += std::none_of(found.begin(), found.end(), [&](const auto& p) {
+        return p.gap < -1.5e-4 && p.normal[S::dim - 1] > 0.3;
+      });
+    }
+    CHECK(wanted > 3);
+    // With two sides, where the centre of the plate is below a neighbouring slope, which side counts is open.
+    CHECK(missing <= (sides == WallSides::both ? wanted / 20 : 0));
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a crest that reaches into a thin plate has a contact that leads out, also beyond its middle") {
+  for (const double cell : {0.004, 0.01})
+    for (const double height : {0.002, 0.006}) {
+      check_pierced<Polyhedron<>>(cell, height);
+      check_pierced<Polygon<>>(cell, height);
+    }
+}

@@ -20,50 +20,18 @@
 #include "conformance/random_direction.hpp"
 #include "detect/mesh_surfaces.hpp"
 #include "io/temporary_folder.hpp"
+#include "world/mesh_floor.hpp"
 
 namespace {
 
 using namespace moreau;
+using mesh_floor::floor_of;
 using Plane = Space<2, double>;
 using Volume = Space<3, double>;
 using Law = SignoriniCoulomb<double>;
 template <class ShapeT>
 using World = Simulation<ShapeT, Law>;
 
-/// A floor of n x n squares of two triangles each, or in the plane of n segments, from -size to size.
-/// The last coordinate is height(x), the inner vertices are moved aside by up to 0.3 squares.
-template <class Height>
-FacetMesh<Volume> floor_of(Volume, double size, int n, const Height& height) {
-  FacetMesh<Volume> mesh;
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> aside(-0.3, 0.3);
-  const double cell = 2 * size / n;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const bool inner = i > 0 && j > 0 && i < n && j < n;
-      const double x = (i + (inner ? aside(random) : 0)) * cell - size;
-      const double y = (j + (inner ? aside(random) : 0)) * cell - size;
-      mesh.vertices.push_back({x, y, height(Eigen::Vector3d(x, y, 0))});
-    }
-  const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  return mesh;
-}
-template <class Height>
-FacetMesh<Plane> floor_of(Plane, double size, int n, const Height& height) {
-  FacetMesh<Plane> mesh;
-  for (int i = 0; i <= n; ++i) {
-    const double x = 2 * size * i / n - size;
-    mesh.vertices.push_back({x, height(Eigen::Vector2d(x, 0))});
-    // The outside is on the right of a segment: a floor runs to the left.
-    if (i > 0) mesh.facets.push_back({std::uint32_t(i), std::uint32_t(i - 1)});
-  }
-  return mesh;
-}
 const auto flat = [](const auto&) { return 0.0; };
 
 template <class ShapeT>

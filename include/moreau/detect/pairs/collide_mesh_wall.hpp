@@ -2,7 +2,8 @@
 // A convex shape against a mesh wall, in the frame of the wall.
 //
 // Only the outside of the wall counts: a facet takes part if the centre of the shape lies in front of
-// its plane. The contact points are those at which the features of the two surfaces can touch first:
+// its plane, or would lie there if it were moved out of the wall by less than the inradius. The contact
+// points are those at which the features of the two surfaces can touch first:
 //
 //   1. a vertex of the shape above a facet, or below it by a small depth. The normal is that of the
 //      facet. All points on one face of the wall (facets in one plane that are connected) make one
@@ -11,7 +12,8 @@
 //   3. a vertex of the shape and a convex ridge, if the vertex is nearest to the ridge;
 //   4. a tip of the wall (a vertex at which convex ridges end) and the nearest feature of the shape.
 //
-// A vertex that is behind the surface and that no face has touches the nearest facet, alone.
+// A vertex that is behind the surface and that no face has touches the nearest facet, alone. A tip in the shape
+// touches the nearest face whose normal is possible at the tip, and not the far side of a thin shape.
 //
 // A normal of 2, 3 and 4 must lie between the normals of the facets that join there: in the normal
 // cone of the ridge or the tip. The shape must lie on one side of the plane through the point, so that
@@ -64,6 +66,7 @@ class MeshCollision {
       : core_(a),
         wall_(wall),
         center_(core_.center()),
+        reference_(center_),
         radius_(radius),
         margin_(margin + radius),
         rounding_((core_.size() + radius) * DetectionTolerance<T>::rounding),
@@ -81,7 +84,8 @@ class MeshCollision {
     scratch_.passed.clear();
     const Aabb<S> around = box.inflated(margin_ - radius_);
     const T beside = std::max(margin_ - radius_, core_.deepest() / 8);
-    const FacetRegion<S> region{wall_, near, around, center_, core_.size(), near_, beside};
+    const FacetRegion<S> region{wall_, near, around, reference_, core_.size(), near_, beside};
+    move_reference(region);
     bool touch = false;
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
       while (end < near.size() && near[end].face == near[begin].face) ++end;
@@ -105,7 +109,9 @@ class MeshCollision {
       known.add(Known{x, to_shape, gap, key}, 2 * flatness + 4 * near_ + T(1e-4) * std::abs(gap));
     };
     for (const std::uint32_t r : scratch_.ridges) touch_ridge(S{}, r, add);
+    scratch_.pierced.clear();
     touch_tips(aligned, add);
+    touch_pierced(add);
     if (radius_ > 0 && known.is_empty()) {
       // High above a corner of faces whose vertices lie near their planes only, normal cones that were
       // computed from these planes can leave a gap.
@@ -148,6 +154,35 @@ class MeshCollision {
   }
   /// Height of the centre above the plane of a facet [m].
   T height(const typename Wall::Side& side) const { return side.normal.dot(center_) - side.offset; }
+  /// Height of the reference point above the plane of a facet [m].
+  T reference_height(const typename Wall::Side& side) const {
+    return side.normal.dot(reference_) - side.offset;
+  }
+  /// Moves the reference point in front of a surface with one side, if the centre is behind the surface, less deep
+  /// than the inradius: the centre of a thin shape passes the surface where a crest reaches into the shape, and the
+  /// rest of the shape is still in front.
+  void move_reference(const FacetRegion<S>& region) {
+    if (wall_.sides() == WallSides::both) return;
+    const T deepest = core_.deepest();
+    T least = deepest, highest = 0;  // distance of the nearest facet, height above its plane [m]
+    Vector to_facet = Vector::Zero();
+    std::uint32_t place = 0;
+    for (const NearFacet& facet : region.facets) {
+      if (!wall_.box(facet.place).inflated(least + near_).contains(center_)) continue;
+      const auto& side = wall_.side(facet.place);
+      const Vector nearest = nearest_on_facet(typename S::Matrix(side.corners.colwise() - center_));
+      const T distance = nearest.norm(), above = height(side);
+      if (distance > least + near_) continue;
+      // Of several facets that are nearest, the one that the centre sees under the largest angle counts.
+      if (distance >= least - near_ && std::abs(above) <= std::abs(highest)) continue;
+      least = std::min(least, distance);
+      highest = above;
+      to_facet = nearest;
+      place = facet.place;
+    }
+    if (highest < 0 && least > near_ && !region.is_beyond_rim(place, center_))
+      reference_ += (1 + deepest / (8 * least)) * to_facet;
+  }
   /// Whether a convex set, of which `nearest` is the point nearest to the centre, may be within the
   /// margin: the plane through this point, perpendicular to its direction, separates the set.
   /// @param nearest relative to the centre [m]
@@ -175,7 +210,7 @@ class MeshCollision {
       if (!plane_) {
         plane_ = &wall_.side(facet.place);
         above_ = height(*plane_);
-        if (!(above_ > 0)) return false;
+        if (!(reference_height(*plane_) > 0)) return false;
         gap_ = above_ - reach(-plane_->normal);
         if (gap_ > margin_) return false;
       }
@@ -225,9 +260,10 @@ class MeshCollision {
     return true;
   }
 
-  /// Whether the way from the centre to a vertex at x passes a facet of the list.
+  /// Whether the way from the reference point to a vertex at x passes a facet of the list.
   bool passes(const FacetRegion<S>& region, const Vector& x, T gap) const {
-    const Vector at_plane = center_ + above_ / (above_ - gap) * (x - center_);
+    const T above = reference_height(*plane_);
+    const Vector at_plane = reference_ + above / (above - gap) * (x - reference_);
     for (const NearFacet& facet : scratch_.facets)
       if (wall_.box(facet.place).inflated(near_).contains(at_plane) &&
           region.passes(facet.place, x))
@@ -325,14 +361,57 @@ class MeshCollision {
     const auto found = core_.distance(x, margin_);
     if (!is_near(found.distance)) return;
     const Vector d = -found.outward;
-    if (!wall_.is_top(v, d, tolerance)) return;
-    bool is_outside = false;
+    if (wall_.is_top(v, d, tolerance) && is_outside(first, d))
+      return add(d, found.distance, Vector(x - found.distance * found.outward),
+                 FeatureKey(found.feature.kind(), found.feature.a(), v));
+    if (found.distance < -core_.deepest() / 8) scratch_.pierced.push_back(first);
+  }
+  /// Whether a direction at a tip leads out of one of its facets that are near the shape.
+  bool is_outside(std::size_t first, const Vector& d) const {
+    const std::uint32_t v = scratch_.tips[first].first;
+    bool is = false;
     for (std::size_t k = first; k < scratch_.tips.size() && scratch_.tips[k].first == v; ++k)
-      is_outside = is_outside || d.dot(wall_.side(scratch_.tips[k].second).normal) >= -aligned ||
-                   wall_.has_rim_at(scratch_.tips[k].second, v);
-    if (!is_outside) return;
-    add(d, found.distance, Vector(x - found.distance * found.outward),
-        FeatureKey(found.feature.kind(), found.feature.a(), v));
+      is = is || d.dot(wall_.side(scratch_.tips[k].second).normal) >= -aligned ||
+           wall_.has_rim_at(scratch_.tips[k].second, v);
+    return is;
+  }
+  /// The contacts of tips deep in the shape, if the normal of the nearest face of the shape is not in the normal
+  /// cone of the tip: a crest is beyond the middle of a thin shape, or higher than its neighbours along this
+  /// normal. The nearest face counts whose normal is in the cone, otherwise the nearest one that leads out of the
+  /// facets at the tip.
+  template <class Add>
+  void touch_pierced(const Add& add) {
+    const auto bounds = [&](const Known& other) { return is_lowest(other.x, other.to_shape); };
+    for (const std::size_t first : scratch_.pierced) {
+      const std::uint32_t v = scratch_.tips[first].first;
+      const Vector x = wall_.vertex(v) - center_;
+      int best = 0;
+      Known contact{x, x, -std::numeric_limits<T>::infinity(), FeatureKey()};
+      core_.for_each_face([&](std::uint32_t f, const Vector& outward, T offset) {
+        const T gap = outward.dot(x) - offset;
+        const int rank = rank_of(first, -outward);
+        if (rank < std::max(best, 1) || (rank == best && !(gap > contact.gap))) return;
+        best = rank;
+        contact = {x - gap * outward, -outward, gap,
+                   FeatureKey(vertex_on_face(S{}), v, f).swapped()};
+      });
+      if (best > 0 && !scratch_.known.frees(contact, near_, bounds))
+        add(contact.to_shape, contact.gap, contact.x, contact.feature);
+    }
+  }
+  /// 2 if a direction is in the normal cone of a tip; 1 if it leads out of all facets at the tip that are near the
+  /// shape, or of a surface with two sides out of the facet above which the centre is highest; otherwise 0.
+  int rank_of(std::size_t first, const Vector& d) const {
+    const std::uint32_t v = scratch_.tips[first].first;
+    if (wall_.is_top(v, d, aligned) && is_outside(first, d)) return 2;
+    T least = 1, highest = 0, of_highest = 0;  // cosines, and a height [m]
+    for (std::size_t k = first; k < scratch_.tips.size() && scratch_.tips[k].first == v; ++k) {
+      const auto& side = wall_.side(scratch_.tips[k].second);
+      const T cosine = d.dot(side.normal), above = reference_height(side);
+      least = std::min(least, cosine);
+      if (above > highest) highest = above, of_highest = cosine;
+    }
+    return (wall_.sides() == WallSides::both ? of_highest : least) >= T(0.5) ? 1 : 0;
   }
   bool is_near(T gap) const { return gap <= margin_ && gap >= -core_.deepest(); }
   /// Whether a contact point x of the shape with a ridge counts: where a face comes down on the ridge, each end
@@ -361,6 +440,7 @@ class MeshCollision {
   const MeshCore<ShapeT> core_;
   const Wall& wall_;
   const Vector center_;
+  Vector reference_;  // says on which side of a facet the shape is
   const T radius_, margin_, rounding_, near_;
   MeshScratch& scratch_;
   Manifold<S>& out_;

@@ -58,6 +58,13 @@ class MeshCore {
       }
     }
   }
+  /// Calls use(f, normal, offset) for each face; the shape lies where normal . x <= offset [m].
+  template <class Use>
+  void for_each_face(const Use& use) const {
+    for (Eigen::Index f = 0; f < shape_.shape().face_offsets().size(); ++f)
+      use(std::uint32_t(f), Vector(shape_.normals()[std::size_t(f)]),
+          shape_.offset(std::size_t(f)));
+  }
   /// Whether a segment meets the shape, whose faces are moved outwards by `near` [m].
   bool meets(const Vector& from, const Vector& to, T near) const {
     T first = 0, last = 1;  // of the part of the segment that is behind all faces
@@ -102,6 +109,8 @@ class MeshCore<BallIn<S>> {
   }
   template <class Use>
   void for_each_edge_at(std::uint32_t, const Use&) const {}
+  template <class Use>
+  void for_each_face(const Use&) const {}
   bool meets(const Vector&, const Vector&, T) const { return true; }  // has no edges: is not asked
   CoreDistance<S> distance(const Vector& x, T) const {
     const T distance = x.norm();
@@ -135,6 +144,8 @@ class MeshCore<Segment<S>> {
   void for_each_edge_at(std::uint32_t v, const Use& use) const {
     use(0U, 1 - v);
   }
+  template <class Use>
+  void for_each_face(const Use&) const {}
   bool meets(const Vector&, const Vector&, T) const { return true; }  // has no inside
   CoreDistance<S> distance(const Vector& x, T) const {
     const Vector half = shape_.half();

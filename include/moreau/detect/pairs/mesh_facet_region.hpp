@@ -41,10 +41,10 @@ struct FacetRegion {
   const Wall& wall;
   std::span<const NearFacet> facets;  ///< near the shape
   const Aabb<S>& around;              ///< the box of the shape, inflated by the margin [m]
-  const Vector& center;               ///< of the shape [m]
-  T size;                             ///< of the shape around its centre [m]
-  T near;                             ///< lengths below it count as 0 [m]
-  T beside;                           ///< see above [m]
+  const Vector& center;  ///< of the shape, or a point beside it in front of the wall [m]
+  T size;                ///< of the shape around its centre [m]
+  T near;                ///< lengths below it count as 0 [m]
+  T beside;              ///< see above [m]
 
   /// Whether a vertex of the shape touches a facet.
   /// @param gap of the vertex above the plane of the facet [m]
@@ -65,6 +65,15 @@ struct FacetRegion {
     // The segment to the centre moves aside by at most size |gap| / (height of the centre - gap).
     const T height = height_above(side, center);
     return inside * (height - gap) > -gap * size || !came_around(facet.place, x, gap, height);
+  }
+  /// Whether a point is beyond a rim of a facet.
+  bool is_beyond_rim(std::uint32_t f, const Vector& x) const {
+    const Side& side = wall.side(f);
+    bool is = false;
+    for (std::size_t c = 0; c < side.inward.size(); ++c)
+      is = is || (wall.neighbour(f, c) == Wall::none &&
+                  side.inward[c].dot(x) < side.inward_offset[c] - near);
+    return is;
   }
   /// Whether the segment from the centre to a point passes a facet, from the front to the back.
   bool passes(std::uint32_t f, const Vector& x) const { return goes_through(f, center, x); }
@@ -161,14 +170,6 @@ struct FacetRegion {
       least = std::min(least, distance);
     }
     return is_beyond || height > 0 ? -least : least;
-  }
-  bool is_beyond_rim(std::uint32_t f, const Vector& x) const {
-    const Side& side = wall.side(f);
-    bool is = false;
-    for (std::size_t c = 0; c < side.inward.size(); ++c)
-      is = is || (wall.neighbour(f, c) == Wall::none &&
-                  side.inward[c].dot(x) < side.inward_offset[c] - near);
-    return is;
   }
   T distance2(std::uint32_t f, const Vector& x) const {
     return nearest_on_facet(typename S::Matrix(wall.side(f).corners.colwise() - x)).squaredNorm();

@@ -115,7 +115,9 @@ struct MeshScratch {
   std::vector<std::uint32_t> low;     ///< vertices of the shape
   std::vector<std::uint32_t> passed;  ///< vertices that passed through a facet and do not touch it
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
-  detail::KnownContacts known;                                ///< of the shape
+  std::vector<std::size_t>
+      pierced;                  ///< places in `tips` of tips in the shape, without a contact there
+  detail::KnownContacts known;  ///< of the shape
 };
 
 }  // namespace moreau
