@@ -6,9 +6,9 @@
 //     change of the gap by d >= rate (-gap - slop)   where gap < -slop
 //     change of the gap by d >= -(gap + slop)        elsewhere (no new overlap)
 //
-// by a few projected Gauss-Seidel sweeps over the normals. The sweeps carry a shift over few contacts. The shifts of
-// columns, arches and other small islands in which no more pairs touch than there are bodies are those of a direct
-// method: d is a motion under frictionless impulses with the free normal velocity -rate depth
+// by a few projected Gauss-Seidel sweeps over the normals (detail/overlap_sweeps.hpp). The sweeps carry a shift over few
+// contacts. The shifts of columns, arches and other small islands in which no more pairs touch than there are bodies are
+// those of a direct method: d is a motion under frictionless impulses with the free normal velocity -rate depth
 // (solve/island_newton.hpp).
 //
 // No body is moved by more than max_shift in a step: the gaps are linear in d, and contacts beyond the margin
@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -32,6 +33,7 @@
 #include "moreau/solve/contact_islands.hpp"
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
+#include "moreau/world/detail/overlap_sweeps.hpp"
 #include "moreau/world/detail/point_geometry.hpp"
 
 namespace moreau {
@@ -92,24 +94,24 @@ class OverlapCorrection {
     OverlapCorrectionReport report;
     shifts_.assign(op.body_count(), S::Twist::Zero());
     if (!options_.enabled) return report;
-    const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size;
-    rows_.resize(contacts.size());
-    team.share_each(contacts.size(), 512, [&](std::size_t c) {
-      const Contact<S>& contact = contacts[c];
-      rows_[c] = {-(contact.gap + slop), 0, contact.a, contact.b, false};
-    });
-    const Scalar rate = static_cast<Scalar>(options_.rate);
-    const Scalar largest = static_cast<Scalar>(options_.max_shift) * grain_size;
-    for (const Row& row : rows_) {
-      report.corrected += row.depth > 0;
-      report.limited += rate * row.depth > largest;
-    }
+    const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size,
+                 largest = static_cast<Scalar>(options_.max_shift) * grain_size;
+    const Depths depths = find_depths(op, contacts, slop, largest, team);
+    report.corrected = depths.corrected;
+    report.limited = depths.limited;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
-    sweep(op, contacts, largest, shared);
+    sweeps_.start(op.inverse_masses(), contacts.size());
+    if (options_.islands && !shared) correct_islands(op, contacts, largest);
+    const Scalar guess =
+        5 * depths.asked / static_cast<Scalar>(std::max<std::size_t>(1, depths.corrected));
+    sweeps_.run(
+        options_.sweeps, op, contacts, candidates_, guess, std::sqrt(depths.longest),
+        [&](Scalar depth) { return target(depth, largest); }, team, shared);
+    std::copy(sweeps_.shifts().begin(), sweeps_.shifts().end(), shifts_.begin());
     limit(largest, grain_size / 2);
     team.share_each(contacts.size(), 512, [&](std::size_t c) {
-      const Row& row = rows_[c];
-      if (moved_[row.a] || moved_[row.b]) contacts[c].gap += closing(contacts[c]);
+      Contact<S>& contact = contacts[c];
+      if (moved_[contact.a] || moved_[contact.b]) contact.gap += closing(contact);
     });
     return report;
   }
@@ -124,35 +126,49 @@ class OverlapCorrection {
   friend struct detail::StateAccess;
   auto serialized_members() { return std::tie(options_, shifts_); }
 
-  /// A contact in the sweeps.
-  struct Row {
-    Scalar depth;        // overlap beyond the slop, < 0 if there is none [m]
-    Scalar push;         // multiplier, >= 0
-    std::uint32_t a, b;  // its bodies
-    bool done = false;   // by the direct method
+  using Candidate = typename detail::OverlapSweeps<S>::Candidate;
+
+  /// Of all contacts.
+  struct Depths {
+    std::size_t corrected = 0, limited = 0;  // as in the report
+    Scalar longest = 0;  // square of the longest lever of a body that rotates [m^2]
+    Scalar asked = 0;    // sum of the changes of gaps that deep contacts ask for [m]
+    void add(const Depths& other) {
+      asked += other.asked;
+      corrected += other.corrected;
+      limited += other.limited;
+      longest = std::max(longest, other.longest);
+    }
   };
+  /// Fills candidates_ with all contacts.
+  template <class Operator>
+  Depths find_depths(const Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
+                     Scalar largest, const Team& team) {
+    turns_.resize(op.body_count());
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+      const auto& angular = op.inverse_mass(i).angular();
+      turns_[i] = std::any_of(angular.begin(), angular.end(), [](Scalar x) { return x != 0; });
+    }
+    candidates_.resize(contacts.size());
+    return detail::sum_of<Depths>(team, contacts.size(), [&](Depths& depths, std::size_t c) {
+      const Contact<S>& contact = contacts[c];
+      const Scalar depth = -(contact.gap + slop);
+      candidates_[c] = {depth, contact.a, contact.b, static_cast<std::uint32_t>(c)};
+      depths.add({depth > 0, static_cast<Scalar>(options_.rate) * depth > largest,
+                  std::max(turns_[contact.a] ? contact.lever_a.squaredNorm() : Scalar(0),
+                           turns_[contact.b] ? contact.lever_b.squaredNorm() : Scalar(0)),
+                  depth > 0 ? target(depth, largest) : Scalar(0)});
+    });
+  }
 
   /// First-order change of the gap of a contact by the present shifts [m].
   Scalar closing(const Contact<S>& contact) const {
     return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
   }
-  /// Pushes a body at a point.
-  /// @param push  mass times displacement, world axes [kg m]
-  /// @param lever from the centre of the body to the point [m]
-  template <class Operator>
-  void shift(const Operator& op, std::uint32_t body, const typename S::Vector& push,
-             const typename S::Vector& lever) {
-    const InverseMass<S>& mass = op.inverse_mass(body);
-    linear<S>(shifts_[body]) += mass.velocity_of(push);
-    angular<S>(shifts_[body]) += mass.spin_of(S::moment(lever, push));
-    moved_[body] = !shifts_[body].isZero(0);
-  }
-
   /// What the change of a gap must not be below [m].
   /// @param largest displacement that one contact asks for at most [m]
-  Scalar target(const Row& row, Scalar largest) const {
-    return row.depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * row.depth)
-                         : row.depth;
+  Scalar target(Scalar depth, Scalar largest) const {
+    return depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * depth) : depth;
   }
 
   /// Corrects the small islands by the direct method, as far as it succeeds.
@@ -164,9 +180,9 @@ class OverlapCorrection {
     const detail::PointGeometry<S> points{contacts, op.inverse_masses()};
     islands_.find(points);
     pushes_.assign(contacts.size(), S::Vector::Zero());
-    const auto is_deep = [&](std::uint32_t c) { return rows_[c].depth > 0; };
+    const auto is_deep = [&](std::uint32_t c) { return candidates_[c].depth > 0; };
     const auto free = [&](std::size_t c) {
-      return typename S::Vector(-target(rows_[c], largest) * S::Vector::Unit(0));
+      return typename S::Vector(-target(candidates_[c].depth, largest) * S::Vector::Unit(0));
     };
     const auto frictionless = [](std::size_t) { return 0.0; };
     for (std::size_t k = 0; k < islands_.size(); ++k) {
@@ -181,54 +197,27 @@ class OverlapCorrection {
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);
       for (const std::uint32_t c : own) {
-        rows_[c].done = true;
+        candidates_[c].depth = -std::numeric_limits<Scalar>::infinity();  // never taken
         if (pushes_[c][0] == 0) continue;
         const typename S::Vector along_normal = pushes_[c][0] * contacts[c].frame.col(0);
-        shift(op, contacts[c].b, along_normal, contacts[c].lever_b);
-        shift(op, contacts[c].a, -along_normal, contacts[c].lever_a);
+        const std::uint32_t a = contacts[c].a, b = contacts[c].b;
+        sweeps_.push(op.inverse_mass(b), b, along_normal, contacts[c].lever_b);
+        sweeps_.push(op.inverse_mass(a), a, -along_normal, contacts[c].lever_a);
       }
-    }
-  }
-
-  /// @param largest displacement that one contact asks for at most [m]
-  template <class Operator>
-  void sweep(const Operator& op, std::span<const Contact<S>> contacts, Scalar largest,
-             SharedBodies* shared) {
-    moved_.assign(op.body_count(), 0);
-    if (options_.islands && !shared) correct_islands(op, contacts, largest);
-    for (int k = 0; k < options_.sweeps; ++k) {
-      for (std::size_t c = 0; c < rows_.size(); ++c) {
-        Row& row = rows_[c];
-        // Most contacts are not too deep and between bodies that do not move: nothing to do.
-        if (row.done || (!(row.depth > 0) && !moved_[row.a] && !moved_[row.b])) continue;
-        const Contact<S>& contact = contacts[c];
-        const Scalar missing = target(row, largest) - closing(contact);
-        const Scalar push = std::max(Scalar(0), row.push + missing / op.normal(c));
-        const Scalar change = push - row.push;
-        if (change == Scalar(0)) continue;
-        row.push = push;
-        const typename S::Vector along_normal = change * contact.frame.col(0);
-        shift(op, row.b, along_normal, contact.lever_b);
-        shift(op, row.a, -along_normal, contact.lever_a);
-      }
-      if (shared) average(*shared);
     }
   }
 
   /// Shortens shifts by which a body would move farther than `largest` [m].
   /// @param radius distance from the centre at which rotations are measured [m]
   void limit(Scalar largest, Scalar radius) {
-    for (typename S::Twist& shift : shifts_) {
+    moved_.assign(shifts_.size(), 0);
+    for (std::size_t i = 0; i < shifts_.size(); ++i) {
+      typename S::Twist& shift = shifts_[i];
+      if (shift.isZero(0)) continue;
+      moved_[i] = 1;
       const Scalar length = std::max(linear<S>(shift).norm(), radius * angular<S>(shift).norm());
       if (length > largest) shift *= largest / length;
     }
-  }
-
-  void average(SharedBodies& shared) {
-    shared.average(
-        std::span(shifts_.empty() ? nullptr : shifts_[0].data(), shifts_.size() * S::dofs),
-        S::dofs);
-    for (std::size_t i = 0; i < shifts_.size(); ++i) moved_[i] = !shifts_[i].isZero(0);
   }
 
   using Newton = detail::IslandNewton<S>;
@@ -237,8 +226,10 @@ class OverlapCorrection {
   detail::ContactIslands islands_;
   Newton newton_;
   std::vector<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
-  std::vector<unsigned char> moved_;        // bodies with a contact that pushed
-  std::vector<Row> rows_;
+  std::vector<unsigned char> turns_;        // bodies that can rotate
+  std::vector<unsigned char> moved_;        // bodies with a shift
+  std::vector<Candidate> candidates_;       // contacts
+  detail::OverlapSweeps<S> sweeps_;
   std::vector<typename S::Twist> shifts_;
 };
 
