@@ -144,9 +144,10 @@ void add_state(Hash& hash, const World& world) {
     hash.add(contacts.points[c].lever_b);
     hash.add(contacts.keys[c].feature.value);
     hash.add(contacts.classes[c]);
-    hash.add(contacts.impulses[c]);
+    hash.add(contacts.impulse(c));
   }
-  for (const auto& couple : contacts.couples) hash.add(couple);
+  if constexpr (std::decay_t<decltype(contacts)>::has_couples)
+    for (std::size_t c = 0; c < contacts.size(); ++c) hash.add(contacts.couple(c));
 }
 void add_report(Hash& hash, const StepReport& report) {
   hash.add(report.candidate_pairs);

@@ -149,7 +149,7 @@ SolveReport measured_on_one_rank(World before, const World& after) {
   before.set_solver(SolverIn<World>(options));
   before.step(after.time() - before.time());
   SolveReport report;
-  const Contacts<S>&mine = before.contacts(), &found = after.contacts();
+  const auto &mine = before.contacts(), &found = after.contacts();
   if (mine.keys != found.keys) {
     report.residual = INFINITY;
     return report;
@@ -160,10 +160,10 @@ SolveReport measured_on_one_rank(World before, const World& after) {
   for (std::size_t c = 0; c < mine.size(); ++c) {
     Row& row = impulses.emplace_back();
     const typename S::Matrix &my_frame = mine.points[c].frame, &found_frame = found.points[c].frame;
-    linear<S>(row) = my_frame.transpose() * (found_frame * found.impulses[c]);
+    linear<S>(row) = my_frame.transpose() * (found_frame * found.impulse(c));
     if constexpr (Rolls<LawIn<World>>)
       angular<S>(row) = S::angular_frame(my_frame).transpose() *
-                        (S::angular_frame(found_frame) * found.couples[c]) /
+                        (S::angular_frame(found_frame) * found.couple(c)) /
                         problem.delassus.radius(c);
   }
   problem.delassus.clear();

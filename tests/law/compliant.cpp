@@ -243,7 +243,7 @@ TEST_CASE_TEMPLATE("compliant: a normal force that turns makes no tangential for
   add(now, 0.1);
   before.impulses = {typename S::Vector(S::Vector::Unit(0) * 3 + S::Vector::Unit(1))};
   const std::vector<typename S::Twist> at_rest(2, S::Twist::Zero());
-  CHECK(remember_springs(before, now, SpringTurn<S>{at_rest, 1}) == 1);
+  CHECK(carry(before, now, before.impulses, now.impulses, SpringTurn<S>{at_rest, 1}) == 1);
   CHECK(now.impulses[0][0] == 3);
   const typename S::Vector tangential =
       now.points[0].frame * now.impulses[0] - 3 * now.points[0].frame.col(0);

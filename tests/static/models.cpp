@@ -113,6 +113,7 @@ static_assert(ContactSolver<ColouredGaussSeidel, RollingResistance<>, S>);
 static_assert(ContactSolver<NonlinearGaussSeidel, RollingResistance<>, S>);
 static_assert(std::same_as<OperatorOf<SignoriniCoulomb<>, S>, BodyDelassus<S>>);
 static_assert(std::same_as<OperatorOf<RollingResistance<>, S>, BodyDelassus<S, true>>);
+static_assert(std::same_as<ContactsOf<RollingResistance<>, S>, Contacts<S, S::dofs>>);
 static_assert(
     std::same_as<OperatorOf<Compliant<SignoriniCoulomb<>>, S>, BodyDelassus<S, false, true>>);
 }  // namespace solve

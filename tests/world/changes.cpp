@@ -287,8 +287,9 @@ TEST_CASE(
 TEST_CASE_TEMPLATE(
     "couples and impulses of keys that are gone go to the nearest contact of the pair", T, Space<2>,
     Space<3>) {
-  Contacts<T> before, now;
-  const auto add = [](Contacts<T>& contacts, std::uint32_t b, std::size_t feature, double x,
+  using List = Contacts<T, T::dofs>;
+  List before, now;
+  const auto add = [](List& contacts, std::uint32_t b, std::size_t feature, double x,
                       double angle) {
     Contact<T> contact{};
     contact.a = 0, contact.b = b;
@@ -298,24 +299,23 @@ TEST_CASE_TEMPLATE(
     contact.frame = T::contact_frame(typename T::Vector(T::exp(turn) * T::Vector::Unit(1)));
     contacts.points.push_back(contact);
     contacts.keys.push_back({0, b, FeatureKey(FeatureKey::Kind::vertex_edge, feature, 0)});
-    contacts.impulses.push_back(T::Vector::Zero());
-    contacts.couples.push_back(T::Angular::Zero());
+    contacts.impulses.push_back(T::Twist::Zero());
   };
   for (const double x : {0.0, 1.0, 2.0}) add(before, 1, std::size_t(x), x, 0.1 * x);
-  for (std::size_t c = 0; c < 3; ++c) before.couples[c].setConstant(1 + double(c));
+  for (std::size_t c = 0; c < 3; ++c) angular<T>(before.impulses[c]).setConstant(1 + double(c));
   add(now, 1, 1, 1, 0.3);     // the same
   add(now, 1, 5, 0.1, 0.2);   // nearest to the first
   add(now, 1, 6, 1.9, -0.2);  // nearest to the last
   add(now, 2, 0, 2, 0);       // another pair
-  carry_couples(before, now, before.couples, now.couples,
-                [](const auto& contact, const auto&) { return contact.frame; });
-  const auto in_world = [](const Contacts<T>& contacts, std::size_t c) {
-    return typename T::Angular(T::angular_frame(contacts.points[c].frame) * contacts.couples[c]);
+  CHECK(warm_start(before, now) == 1);
+  CHECK(hand_over(before, now, ImpulseTurn<T>()) == 2);
+  const auto in_world = [](const List& contacts, std::size_t c) {
+    return typename T::Angular(T::angular_frame(contacts.points[c].frame) * contacts.couple(c));
   };
   CHECK((in_world(now, 0) - in_world(before, 1)).norm() < 1e-15);
   CHECK((in_world(now, 1) - in_world(before, 0)).norm() < 1e-15);
   CHECK((in_world(now, 2) - in_world(before, 2)).norm() < 1e-15);
-  CHECK(now.couples[3].isZero(0));
+  CHECK(now.impulses[3].isZero(0));
 }
 
 TEST_CASE("a grain without a pair makes the list of pairs new some twenty times on its way") {

@@ -424,8 +424,9 @@ ContactArrays Instance<ShapeT, LawT>::contacts() const {
     const bool from_a = simulation_.is_grain(contact.a);
     append(out.point, Vector(bodies.pose[from_a ? contact.a : contact.b].position +
                              (from_a ? contact.lever_a : contact.lever_b)));
-    append(out.impulse, contacts.impulses[c]);
-    if (!contacts.couples.empty()) append(out.couple, contacts.couples[c]);
+    append(out.impulse, contacts.impulse(c));
+    if constexpr (std::decay_t<decltype(contacts)>::has_couples)
+      append(out.couple, contacts.couple(c));
     out.contact_class.push_back(static_cast<std::uint8_t>(contacts.classes[c]));
   }
   return out;

@@ -199,6 +199,15 @@ class BodyDelassus {
     }
   }
 
+  /// Makes the rows r = (impulse, couple / R) of impulses with couples, Contacts::impulses; nothing without couples.
+  void to_rows(std::span<Vector> impulses, const Team& team) const {
+    scale_couples(impulses, team, [](auto& couple, Scalar radius) { couple /= radius; });
+  }
+  /// Makes impulses with couples of the rows r.
+  void from_rows(std::span<Vector> impulses, const Team& team) const {
+    scale_couples(impulses, team, [](auto& couple, Scalar radius) { couple *= radius; });
+  }
+
   /// @name All impulses at once
   /// Momenta are added up for each body, and then divided by its mass, which takes less time than
   /// apply() for every contact. Between clear() and move() only these functions may be called.
@@ -257,6 +266,15 @@ class BodyDelassus {
   }
 
  private:
+  void scale_couples([[maybe_unused]] std::span<Vector> impulses, const Team& team,
+                     const auto& scale) const {
+    if constexpr (Couples)
+      team.share_each(impulses.size(), 256, [&](std::size_t c) {
+        typename S::Angular couple = angular<S>(impulses[c]);
+        scale(couple, points_[c].radius);
+        angular<S>(impulses[c]) = couple;
+      });
+  }
   using Lanes = detail::ContactLanes<S>;
   struct Point : detail::CoupleArm<S, Couples> {
     typename S::Matrix frame;

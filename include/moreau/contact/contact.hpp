@@ -4,16 +4,22 @@
 // Conventions: the first column of the frame F is the normal, a unit vector from body a to body b
 // in world axes. With the levers l_a, l_b from the centres of mass to the contact point, the
 // relative velocity is u = F^T (v_b + lever(l_b) w_b - v_a - lever(l_a) w_a): u_n > 0 separates.
-// The impulse r acts on b, in the frame: r_n > 0 pushes. Body a receives -F r.
+// The impulse r acts on b, in the frame: r_n > 0 pushes. Body a receives -F r. Under a law with couples, r has A
+// more entries: the couple on b, in the angular frame.
 #pragma once
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/core/value.hpp"
 #include "moreau/detect/manifold.hpp"
 
@@ -57,24 +63,61 @@ struct ContactKey {
   }
 };
 
-/// The contacts of one step: arrays with one entry per point, sorted by (a, b, parts, feature).
+/// The contacts that detection finds in a step: arrays with one entry per point, sorted by (a, b, parts, feature).
 template <class S>
-struct Contacts {
+struct DetectedContacts {
   std::vector<Contact<S>> points;     ///< geometry and law
   std::vector<ContactKey> keys;       ///< one per point
   std::vector<ContactClass> classes;  ///< class of the pair, one per point
-  /// Impulse on b, in the contact frame, normal first, > 0 pushes [N s].
-  std::vector<typename S::Vector> impulses;
-  /// Couple of rolling and twisting resistance on b, in the contact frame [N m s]; empty for a law
-  /// without couples.
-  std::vector<typename S::Angular> couples;
 
   std::size_t size() const { return points.size(); }  ///< number of points
-  /// Whether all arrays have one size (couples may be empty), and bodies, laws and variants are below
-  /// these numbers.
+  /// Removes points; keeps the order of the others, and the memory.
+  /// @param is_gone function: index before the removal -> whether the point is removed
+  void erase(const auto& is_gone) {
+    erase_at(points, is_gone);
+    erase_at(keys, is_gone);
+    erase_at(classes, is_gone);
+  }
+  /// Removes all points; keeps the memory.
+  void clear() {
+    points.clear();
+    keys.clear();
+    classes.clear();
+  }
+};
+
+/// The contacts of a step with their impulses.
+/// @tparam Rows entries of an impulse: D, or D + A under a law with couples
+template <class S, int Rows = S::dim>
+struct Contacts : DetectedContacts<S> {
+  static_assert(Rows == S::dim || Rows == S::dofs);
+  /// Whether the law has couples.
+  static constexpr bool has_couples = Rows > S::dim;
+  /// Impulse on b [N s], in the contact frame, normal first, > 0 pushes; then, if has_couples, the couple of rolling and
+  /// twisting resistance on b [N m s], in the angular frame.
+  using Impulse = Eigen::Matrix<typename S::Scalar, Rows, 1>;
+
+  std::vector<Impulse> impulses;  ///< one per point
+
+  using DetectedContacts<S>::size;
+  using DetectedContacts<S>::points;
+  /// Impulse on b without the couple, in the contact frame, normal first, > 0 pushes [N s].
+  decltype(auto) impulse(std::size_t c) const {
+    if constexpr (has_couples)
+      return typename S::Vector(linear<S>(impulses[c]));
+    else
+      return (impulses[c]);
+  }
+  /// Couple on b, in the angular frame [N m s]; 0 of a law without couples.
+  typename S::Angular couple(std::size_t c) const {
+    if constexpr (has_couples)
+      return angular<S>(impulses[c]);
+    else
+      return S::Angular::Zero();
+  }
+  /// Whether all arrays have one size, and bodies, laws and variants are below these numbers.
   bool are_valid(std::size_t bodies, std::size_t laws, std::size_t variants) const {
-    if (keys.size() != size() || classes.size() != size() || impulses.size() != size() ||
-        (!couples.empty() && couples.size() != size()))
+    if (this->keys.size() != size() || this->classes.size() != size() || impulses.size() != size())
       return false;
     return std::all_of(points.begin(), points.end(), [&](const Contact<S>& point) {
       return point.a < bodies && point.b < bodies && point.law < laws && point.variant < variants;
@@ -86,28 +129,23 @@ struct Contacts {
     for (std::size_t c = 0; c < size(); ++c) {
       const Contact<S>& point = points[c];
       if (point.a != body && point.b != body) continue;
-      const typename S::Vector impulse = point.frame * impulses[c];
+      const typename S::Vector impulse = point.frame * this->impulse(c);
       sum += point.b == body ? impulse : typename S::Vector(-impulse);
     }
     return sum;
   }
-  /// Removes points; keeps the order of the others, and the memory.
-  /// @param is_gone function: index before the removal -> whether the point is removed
+  /// Removes points, as DetectedContacts::erase(), and their impulses.
   void erase(const auto& is_gone) {
-    erase_at(points, is_gone);
-    erase_at(keys, is_gone);
-    erase_at(classes, is_gone);
+    DetectedContacts<S>::erase(is_gone);
     erase_at(impulses, is_gone);
-    erase_at(couples, is_gone);
   }
   /// Removes all points; keeps the memory.
   void clear() {
-    points.clear();
-    keys.clear();
-    classes.clear();
+    DetectedContacts<S>::clear();
     impulses.clear();
-    couples.clear();
   }
+  /// All arrays, see core/serialize.hpp.
+  auto serialized_members() { return std::tie(points, this->keys, this->classes, impulses); }
 };
 
 }  // namespace moreau

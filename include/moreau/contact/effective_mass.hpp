@@ -47,7 +47,7 @@ typename S::Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i,
 
 /// One past the last contact of the pair of bodies of contact `first`.
 template <class S>
-std::size_t end_of_pair(const Contacts<S>& contacts, std::size_t first) {
+std::size_t end_of_pair(const DetectedContacts<S>& contacts, std::size_t first) {
   std::size_t last = first + 1;
   while (last < contacts.size() && contacts.points[last].a == contacts.points[first].a &&
          contacts.points[last].b == contacts.points[first].b)

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,13 +19,20 @@
 
 namespace moreau {
 
-/// A vector in the frame of a contact of the step before, in the frame of the contact in this step:
-/// through world axes. It is the first guess of an impulse.
+/// How impulses change from step to step: not at all in world axes. They are the first guess of rigid contacts.
 template <class S>
-MOREAU_COMPILED_ONCE typename S::Vector turned(const Contact<S>& before, const Contact<S>& now,
-                                               const typename S::Vector& vector) {
-  return transposed_product(now.frame, product(before.frame, vector));
-}
+struct ImpulseTurn {
+  /// The frame of a contact of the step before.
+  const typename S::Matrix& axes(const Contact<S>& before, const Contact<S>&) const {
+    return before.frame;
+  }
+  /// A vector in the frame of a contact of the step before, in the frame of the contact in this step.
+  MOREAU_COMPILED_ONCE typename S::Vector operator()(const Contact<S>& before,
+                                                     const Contact<S>& now,
+                                                     const typename S::Vector& vector) const {
+    return transposed_product(now.frame, product(before.frame, vector));
+  }
+};
 
 /// How the springs of contacts turn between two detections. A spring in the tangential plane turns
 /// with the mean of the rotations of the two bodies, about the normal as well, and then by the least
@@ -63,18 +71,38 @@ struct SpringTurn {
   }
 };
 
-/// Carries vectors in contact frames, and the variants of the laws, over to the contacts of the same keys.
-/// Contacts without a predecessor get zero.
+namespace detail {
+
+/// A vector in the frame of a contact of the step before, or an impulse with a couple, in the frame of this step.
+/// @param turn ImpulseTurn or SpringTurn
+template <class S, class Row>
+Row carried(const auto& turn, const Contact<S>& before, const Contact<S>& now, const Row& row) {
+  if constexpr (std::is_same_v<Row, typename S::Vector>) {
+    return turn(before, now, row);
+  } else {
+    Row result = Row::Zero();
+    linear<S>(result) = turn(before, now, typename S::Vector(linear<S>(row)));
+    if (!angular<S>(row).isZero(0))
+      angular<S>(result) = S::angular_frame(now.frame).transpose() *
+                           (S::angular_frame(turn.axes(before, now)) * angular<S>(row));
+    return result;
+  }
+}
+
+}  // namespace detail
+
+/// Carries vectors in contact frames, or impulses with couples, and the variants of the laws, over to the contacts of
+/// the same keys. Contacts without a predecessor get zero.
 /// @param before,now each sorted by its keys
 /// @param old        one per contact of `before`
 /// @param out        out: one per contact of `now`
-/// @param turn       turned() or a SpringTurn
+/// @param turn       ImpulseTurn or SpringTurn
 /// @param team       threads that share the work
 /// @returns how many contacts have a predecessor
-template <class S, class Turn>
-std::size_t carry(const Contacts<S>& before, Contacts<S>& now,
-                  const std::vector<typename S::Vector>& old, std::vector<typename S::Vector>& out,
-                  const Turn& turn, const Team& team = {}) {
+template <class S, class Row>
+std::size_t carry(const DetectedContacts<S>& before, DetectedContacts<S>& now,
+                  const std::vector<Row>& old, std::vector<Row>& out, const auto& turn,
+                  const Team& team = {}) {
   struct Count {
     std::size_t value = 0;
     void add(const Count& other) { value += other.value; }
@@ -84,7 +112,7 @@ std::size_t carry(const Contacts<S>& before, Contacts<S>& now,
              team, now.size(),
              [&](std::size_t begin, std::size_t end) -> Count {
                std::fill(out.begin() + std::ptrdiff_t(begin), out.begin() + std::ptrdiff_t(end),
-                         S::Vector::Zero());
+                         Row(Row::Zero()));
                if (begin == end) return {};
                const auto first =
                    std::lower_bound(before.keys.begin(), before.keys.end(), now.keys[begin]);
@@ -94,7 +122,8 @@ std::size_t carry(const Contacts<S>& before, Contacts<S>& now,
                                   [&](std::size_t i, std::size_t j) {
                                     i += begin;
                                     j += skipped;
-                                    out[i] = turn(before.points[j], now.points[i], old[j]);
+                                    out[i] = detail::carried<S>(turn, before.points[j],
+                                                                now.points[i], old[j]);
                                     now.points[i].variant = before.points[j].variant;
                                   })};
              })
@@ -104,18 +133,10 @@ std::size_t carry(const Contacts<S>& before, Contacts<S>& now,
 /// Makes the impulses of the step before [N s] the first guess of this step.
 /// @param before,now each sorted by its keys
 /// @returns how many contacts have a predecessor
-template <class S>
-std::size_t warm_start(const Contacts<S>& before, Contacts<S>& now, const Team& team = {}) {
-  return carry(before, now, before.impulses, now.impulses, turned<S>, team);
-}
-
-/// Makes the impulses of the step before [N s] the memory of the springs in this step.
-/// @param before,now each sorted by its keys
-/// @returns how many contacts have a predecessor
-template <class S>
-std::size_t remember_springs(const Contacts<S>& before, Contacts<S>& now, const SpringTurn<S>& turn,
-                             const Team& team = {}) {
-  return carry(before, now, before.impulses, now.impulses, turn, team);
+template <class S, int Rows>
+std::size_t warm_start(const Contacts<S, Rows>& before, Contacts<S, Rows>& now,
+                       const Team& team = {}) {
+  return carry(before, now, before.impulses, now.impulses, ImpulseTurn<S>(), team);
 }
 
 namespace detail {
@@ -126,8 +147,8 @@ namespace detail {
 /// @param before,now each sorted by its keys
 /// @param memory     vectors, one per contact of `before`
 template <class S>
-void for_each_heir(const Contacts<S>& before, const Contacts<S>& now, const auto& memory,
-                   const auto& may_receive, const auto& receive) {
+void for_each_heir(const DetectedContacts<S>& before, const DetectedContacts<S>& now,
+                   const auto& memory, const auto& may_receive, const auto& receive) {
   const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
   const auto begin = now.keys.begin(), end = now.keys.end();
   auto next = begin;  // the first contact whose key is not below
@@ -155,17 +176,18 @@ void for_each_heir(const Contacts<S>& before, const Contacts<S>& now, const auto
 /// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
 /// contact. A contact without an impulse of its own takes the variant of the law, too.
 /// @param before,now each sorted by its keys; the impulses of `now` are those of
-///                   warm_start() or remember_springs()
-/// @param turn       turned() or a SpringTurn
+///                   warm_start(), or of carry() with a SpringTurn
+/// @param turn       ImpulseTurn or SpringTurn
 /// @returns how many contacts handed their impulse over
-template <class S, class Turn>
-std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now, const Turn& turn) {
+template <class S, int Rows>
+std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, const auto& turn) {
   std::size_t count = 0;
   detail::for_each_heir<S>(
       before, now, before.impulses, [](const ContactKey&) { return true; },
       [&](std::size_t i, std::size_t j) {
         if (now.impulses[i].isZero(0)) now.points[i].variant = before.points[j].variant;
-        now.impulses[i] += turn(before.points[j], now.points[i], before.impulses[j]);
+        now.impulses[i] +=
+            detail::carried<S>(turn, before.points[j], now.points[i], before.impulses[j]);
         ++count;
       });
   return count;
@@ -178,7 +200,7 @@ std::size_t hand_over(const Contacts<S>& before, Contacts<S>& now, const Turn& t
 /// @param old        memory, one per contact of `before`
 /// @param out        in and out: one per contact of `now`, as carry() left it
 template <class S>
-void hand_over_stretches(const Contacts<S>& before, const Contacts<S>& now,
+void hand_over_stretches(const DetectedContacts<S>& before, const DetectedContacts<S>& now,
                          const std::vector<typename S::Vector>& old,
                          std::vector<typename S::Vector>& out, const SpringTurn<S>& turn) {
   detail::for_each_heir<S>(
@@ -190,25 +212,6 @@ void hand_over_stretches(const Contacts<S>& before, const Contacts<S>& now,
       [&](std::size_t i, std::size_t j) {
         out[i] = turn(before.points[j], now.points[i], old[j]);
       });
-}
-
-/// Carries couples [N m s] over, as carry() does impulses, and hands those of contacts whose key is gone
-/// over, as hand_over() does: A numbers each, in the angular frame.
-/// @param axes function: contact before, contact now -> the frame of the contact before, turned into
-///             this step
-template <class S>
-void carry_couples(const Contacts<S>& before, const Contacts<S>& now,
-                   const std::vector<typename S::Angular>& old,
-                   std::vector<typename S::Angular>& out, const auto& axes) {
-  const auto add = [&](std::size_t i, std::size_t j) {
-    if (old[j].isZero(0)) return;
-    out[i] += S::angular_frame(now.points[i].frame).transpose() *
-              (S::angular_frame(axes(before.points[j], now.points[i])) * old[j]);
-  };
-  out.assign(now.size(), S::Angular::Zero());
-  merge_join(now.keys, before.keys, add);
-  detail::for_each_heir<S>(
-      before, now, old, [](const ContactKey&) { return true; }, add);
 }
 
 }  // namespace moreau

@@ -36,7 +36,7 @@ class CoordinationCounter {
  public:
   /// Counts the contacts with normal impulse > 0.
   /// @param points     contact points, sorted by (a, b) as in Contacts
-  /// @param impulses   impulse of each point in its contact frame, normal component first [N s]
+  /// @param impulses   impulse of each point in its contact frame, normal component first [N s]: Contacts::impulses
   /// @param body_count number of bodies, including walls
   /// @param is_grain   function: index of a body -> true for a grain, false for a wall
   /// @param fewest     grains with fewer neighbours than this are rattlers. They are removed with
@@ -44,9 +44,8 @@ class CoordinationCounter {
   ///                   grains are counted. Use S::dim + 1 for frictionless rigid spheres. With
   ///                   friction two contacts can hold a grain.
   /// @throws std::invalid_argument if the numbers of points and impulses differ
-  Coordination count(std::span<const Contact<S>> points,
-                     std::span<const typename S::Vector> impulses, std::size_t body_count,
-                     const auto& is_grain, std::size_t fewest = 0) {
+  Coordination count(std::span<const Contact<S>> points, const auto& impulses,
+                     std::size_t body_count, const auto& is_grain, std::size_t fewest = 0) {
     require(points.size() == impulses.size(), "CoordinationCounter::count", "impulses.size()",
             impulses.size(), "must be the number of points");
     find_pairs(points, impulses, body_count);
@@ -76,7 +75,7 @@ class CoordinationCounter {
     std::size_t points;
   };
 
-  void find_pairs(std::span<const Contact<S>> points, std::span<const typename S::Vector> impulses,
+  void find_pairs(std::span<const Contact<S>> points, const auto& impulses,
                   std::size_t body_count) {
     pairs_.clear();
     neighbours_.assign(body_count, 0);

@@ -186,13 +186,14 @@ class EnergyBalance {
       work += double(angular<S>(bodies.velocity[i]).dot(S::moment(lever, impulse) + couple));
     return work;
   }
-  static double work_of_drives(const Bodies<S>& bodies, const Contacts<S>& contacts) {
+  static double work_of_drives(const Bodies<S>& bodies, const auto& contacts) {
     double work = 0;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
-      const Vector impulse = contact.frame * contacts.impulses[c];
-      typename S::Angular couple = S::Angular::Zero();
-      if (!contacts.couples.empty()) couple = S::angular_frame(contact.frame) * contacts.couples[c];
+      const Vector impulse = contact.frame * contacts.impulse(c);
+      typename S::Angular couple = contacts.couple(c);
+      if constexpr (std::remove_cvref_t<decltype(contacts)>::has_couples)
+        couple = S::angular_frame(contact.frame) * couple;
       work -= work_on(bodies, contact.b, contact.lever_b, impulse, couple) -
               work_on(bodies, contact.a, contact.lever_a, impulse, couple);
     }

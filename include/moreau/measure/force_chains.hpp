@@ -40,13 +40,13 @@ struct ContactSegment {
 /// @param cell        periodic cell of the simulation. The segment begins at the position of a and
 ///                    ends at the image of b that a is in contact with
 /// @throws std::invalid_argument if c is not smaller than the number of contact points
-template <class S>
-ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
+template <class S, int Rows>
+ContactSegment<S> contact_segment(const Contacts<S, Rows>& contacts, std::size_t c,
                                   typename S::Scalar step, const auto& position_of,
                                   const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   require(c < contacts.size(), "contact_segment", "c", c, "must be below the number of contacts");
   const Contact<S>& contact = contacts.points[c];
-  const typename S::Vector& impulse = contacts.impulses[c];
+  const typename S::Vector& impulse = contacts.impulse(c);
   const std::uint32_t grain = is_grain(contact.a) ? contact.a : contact.b;
   const typename S::Vector point =
       position_of(grain) + (grain == contact.a ? contact.lever_a : contact.lever_b);
@@ -68,10 +68,10 @@ ContactSegment<S> contact_segment(const Contacts<S>& contacts, std::size_t c,
 /// Replaces the contents of `segments` by the segments of all contact points with normal force > 0,
 /// in the order of `contacts`. The arguments are those of contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
-template <class S>
-void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
-                  const auto& is_grain, std::vector<ContactSegment<S>>& segments,
-                  const PeriodicCell<S>& cell = {}) {
+template <class S, int Rows>
+void force_chains(const Contacts<S, Rows>& contacts, typename S::Scalar step,
+                  const auto& position_of, const auto& is_grain,
+                  std::vector<ContactSegment<S>>& segments, const PeriodicCell<S>& cell = {}) {
   require(std::isfinite(step) && step > 0, "force_chains", "step", step, "must be finite and > 0");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
@@ -82,10 +82,10 @@ void force_chains(const Contacts<S>& contacts, typename S::Scalar step, const au
 /// Replaces the contents of `segments` by the segments of all contact points, including points
 /// without force. The arguments are those of contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
-template <class S>
-void contact_segments(const Contacts<S>& contacts, typename S::Scalar step, const auto& position_of,
-                      const auto& is_grain, std::vector<ContactSegment<S>>& segments,
-                      const PeriodicCell<S>& cell = {}) {
+template <class S, int Rows>
+void contact_segments(const Contacts<S, Rows>& contacts, typename S::Scalar step,
+                      const auto& position_of, const auto& is_grain,
+                      std::vector<ContactSegment<S>>& segments, const PeriodicCell<S>& cell = {}) {
   require(std::isfinite(step) && step > 0, "contact_segments", "step", step,
           "must be finite and > 0");
   segments.clear();

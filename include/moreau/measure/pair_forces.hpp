@@ -37,8 +37,8 @@ struct PairForce {
 /// Replaces the contents of `pairs` by the pairs that carry force, in the order of `contacts`.
 /// @param step length of the step [s], > 0, by which impulses are divided
 /// @throws std::invalid_argument if the step is not positive
-template <class S>
-void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,
+template <class S, int Rows>
+void pair_forces(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                  std::vector<PairForce<S>>& pairs) {
   require(std::isfinite(step) && step > 0, "pair_forces", "step", step, "must be finite and > 0");
   pairs.clear();
@@ -61,7 +61,7 @@ void pair_forces(const Contacts<S>& contacts, typename S::Scalar step,
     pair.normal += push * contact.frame.col(0);
     pair.lever_a += push * contact.lever_a;
     pair.lever_b += push * contact.lever_b;
-    pair.force += contact.frame * contacts.impulses[c] / step;
+    pair.force += contact.frame * contacts.impulse(c) / step;
     pair.normal_force += push;
   }
   for (PairForce<S>& pair : pairs) {

@@ -122,7 +122,7 @@ class RestTest {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& point = contacts.points[c];
       if (carries(point.a) == carries(point.b)) continue;
-      const Vector impulse = point.frame * contacts.impulses[c];
+      const Vector impulse = point.frame * contacts.impulse(c);
       carried += carries(point.b) ? impulse : Vector(-impulse);
     }
     carried /= static_cast<typename S::Scalar>(step);

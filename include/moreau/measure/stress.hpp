@@ -39,8 +39,8 @@ namespace moreau {
 ///         inverted, not finite, or longer than the periodic cell
 /// Source: J. Weber, Bull. Liaison Ponts-et-Chaussees 20 (1966); B. Cambou, C. R. Acad. Sci.
 /// (1998).
-template <class S>
-Value<typename S::Matrix> contact_stress(const Contacts<S>& contacts, typename S::Scalar step,
+template <class S, int Rows>
+Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                                          const Aabb<S>& control_volume, const auto& position_of,
                                          const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   using Vector = typename S::Vector;
@@ -59,7 +59,7 @@ Value<typename S::Matrix> contact_stress(const Contacts<S>& contacts, typename S
     Vector branch = Vector::Zero();
     if (a_is_grain) branch += contact.lever_a;
     if (b_is_grain) branch -= contact.lever_b;
-    sum += branch * (contact.frame * contacts.impulses[c]).transpose();
+    sum += branch * (contact.frame * contacts.impulse(c)).transpose();
   }
   return sum / (step * volume(control_volume));
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/contact.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -16,6 +17,10 @@ namespace moreau {
 /// place of W for a law with springs in series.
 template <class Law, class S>
 using OperatorOf = BodyDelassus<S, RollingLaw<Law, S>, CompliantLaw<Law, S>>;
+
+/// The contacts of a step under a law, set-valued or regularized: with couples for a law that rolls.
+template <class Law, class S>
+using ContactsOf = Contacts<S, RollingLaw<Law, S> ? S::dofs : S::dim>;
 
 /// Finds the impulses of all contacts.
 ///

@@ -15,8 +15,8 @@ namespace moreau {
 /// @param bodies all bodies of the contacts, with materials that exist; not checked
 /// @param team   threads that share the work
 template <class S, class Law>
-void assign_laws(const Bodies<S>& bodies, const Materials<Law>& materials, Contacts<S>& contacts,
-                 const Team& team = {}) {
+void assign_laws(const Bodies<S>& bodies, const Materials<Law>& materials,
+                 DetectedContacts<S>& contacts, const Team& team = {}) {
   team.share_each(contacts.size(), 512, [&](std::size_t c) {
     Contact<S>& contact = contacts.points[c];
     contact.law = static_cast<std::uint32_t>(

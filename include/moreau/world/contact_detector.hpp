@@ -176,8 +176,12 @@ class ContactDetector {
   /// @param previous  contacts of the step before: where a contact between faces has more
   ///                  points than are kept, those of the step before are chosen first
   /// @param out       replaced
+  template <int Rows>
   void detect(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
-              const Contacts<S>& previous, Contacts<S>& out);
+              const Contacts<S, Rows>& previous, Contacts<S, Rows>& out) {
+    detect_points(lengths, bodies, detail::PreviousContacts<S>(previous), out);
+    out.impulses.assign(out.size(), Contacts<S, Rows>::Impulse::Zero());
+  }
 
   /// Replaces grains and walls after their shapes have been read from a file; keeps the pairs.
   /// @param add_all adds grains and walls in the order in which they were added at first
@@ -271,9 +275,12 @@ class ContactDetector {
   }
   /// Whether the list of pairs is still valid: no box has left its enlarged box. See the head of this file.
   bool holds_in_lattice(Scalar reach) const;
+  /// detect() without the impulses.
+  void detect_points(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+                     const detail::PreviousContacts<S>& previous, DetectedContacts<S>& out);
   /// Finds the contacts of grain k with later grains and with walls.
   MOREAU_COMPILED_ONCE void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies,
-                                      const Contacts<S>& previous, Member& found);
+                                      const detail::PreviousContacts<S>& previous, Member& found);
 
   std::vector<Grain> grains_;  // ascending by body
   std::vector<Grain> spare_;   // of removed grains; what they have allocated is used again
@@ -411,9 +418,9 @@ bool ContactDetector<ShapeT, BroadPhaseT>::holds_in_lattice(Scalar reach) const 
 }
 
 template <class ShapeT, class BroadPhaseT>
-void ContactDetector<ShapeT, BroadPhaseT>::detect(const DetectionLengths<Scalar>& lengths,
-                                                  const Bodies<S>& bodies,
-                                                  const Contacts<S>& previous, Contacts<S>& out) {
+void ContactDetector<ShapeT, BroadPhaseT>::detect_points(
+    const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+    const detail::PreviousContacts<S>& previous, DetectedContacts<S>& out) {
   members_.resize(std::size_t(team_.size()));
   for (Member& member : members_)
     member.start(double(lengths.resolution), kept_points_ == ContactPoints::few);
@@ -458,7 +465,8 @@ bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margin,
                                                      const Bodies<S>& bodies,
-                                                     const Contacts<S>& previous, Member& found) {
+                                                     const detail::PreviousContacts<S>& previous,
+                                                     Member& found) {
   Manifold<S>& manifold = found.manifold();
   const std::span<const Pose<S>> poses(bodies.pose);
   const Grain& a = grains_[k];

@@ -317,7 +317,7 @@ class Simulation : public BodyControl<ShapeT> {
   double time() const { return time_; }              ///< sum of the steps [s]
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
   /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
-  const Contacts<S>& contacts() const { return contacts_; }
+  const ContactsOf<Law, S>& contacts() const { return contacts_; }
   const Materials<Law>& materials() const { return materials_; }  ///< of all pairs
   /// The overlap correction, with the shifts of the last step.
   const OverlapCorrection<S>& correction() const requires set_valued {
@@ -388,7 +388,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// Makes bonds of contacts in the present configuration.
   /// @param keeps function: contact -> whether its pair is bonded
   std::size_t add_bonds(const auto& keeps) {
-    Contacts<S> touching;
+    ContactsOf<Law, S> touching;
     detector_.place(std::span<const Pose<S>>(bodies().pose),
                     [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
     const Matrix vectors = cell().vectors();
@@ -473,7 +473,7 @@ class Simulation : public BodyControl<ShapeT> {
   double time_ = 0;
   using BodyControl<ShapeT>::assembly_;
   ContactDetector<ShapeT, Broad> detector_;
-  Contacts<S> contacts_, previous_;
+  ContactsOf<Law, S> contacts_, previous_;
   [[no_unique_address]] std::conditional_t<BridgingLaw<Law, S>, detail::Bridges<S, Law>,
                                            detail::NoBridges>
       bridges_;

@@ -94,7 +94,7 @@ struct StepReport {
   };
   /// Fills the overlaps from the gaps of the contacts [m].
   template <class S>
-  void measure_overlaps(const Contacts<S>& contacts) {
+  void measure_overlaps(const DetectedContacts<S>& contacts) {
     overlapping = 0;
     max_overlap = mean_overlap = 0;
     for (const Contact<S>& contact : contacts.points) {

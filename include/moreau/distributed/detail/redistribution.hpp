@@ -89,7 +89,7 @@ class Redistribution {
   using Parts = WorldParts<World>;
   using ShapeT = std::remove_cvref_t<decltype(std::declval<World&>().shape_of_grain(0))>;
   using Grains = BodyList<S>;
-  using ContactsOnTheWay = ContactsOf<World>;
+  using ContactsOnTheWay = detail::ContactsOnTheWay<World>;
 
   std::size_t ranks() const { return std::size_t(processes_.size()); }
   void redistribute(Scalar slack, double imbalance);
@@ -235,7 +235,7 @@ void Redistribution<World>::migrate(Grains& grains, ContactsOnTheWay& contacts) 
   std::vector<ContactsOnTheWay> leaving_contacts(ranks());
   for (const std::uint32_t i : own_)
     leaving[std::size_t(owner[i])].add(bodies, i, ids_[i], ShapeId(shape[i]));
-  const Contacts<S>& all = parts.contacts();
+  const auto& all = parts.contacts();
   for (std::size_t c = 0; c < all.size(); ++c) {
     const std::uint32_t a = all.points[c].a, b = all.points[c].b;
     const int to = RankTopology::owner_of_contact(owner[a], owner[b]);

@@ -21,9 +21,10 @@ namespace moreau::detail {
 
 /// What the contacts of a simulation are on their way.
 template <class World>
-using ContactsOf = ContactList<typename World::S,
-                               std::remove_cv_t<typename decltype(std::declval<WorldParts<World>&>()
-                                                                      .energies())::element_type>>;
+using ContactsOnTheWay =
+    ContactList<std::remove_cvref_t<decltype(WorldParts<World>(std::declval<World&>()).contacts())>,
+                std::remove_cv_t<typename decltype(std::declval<WorldParts<World>&>()
+                                                       .energies())::element_type>>;
 
 /// Makes the whole simulation of the parts of all processes. Rank 0 keeps what they do not have: all
 /// shapes, and the places of removed bodies.
@@ -80,8 +81,8 @@ std::string WholeSimulation<World>::packed_part(World& world, const RankTopology
   BodyList<S> grains;
   for (const std::uint32_t i : own)
     grains.add(parts.bodies(), i, topology.ids[i], ShapeId(shape[i]));
-  ContactsOf<World> contacts;
-  const Contacts<S>& all = parts.contacts();
+  ContactsOnTheWay<World> contacts;
+  const auto& all = parts.contacts();
   for (std::size_t c = 0; c < all.size(); ++c)
     contacts.add(all, parts.energies(), c, topology.ids[all.points[c].a].value,
                  topology.ids[all.points[c].b].value);
@@ -113,10 +114,10 @@ std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& 
       processes.gather(packed_part(world, topology, shape_ids, own));
   if (processes.rank() != 0) return std::nullopt;
   BodyList<S> list;
-  ContactsOf<World> contacts;
+  ContactsOnTheWay<World> contacts;
   for (const std::string& bytes : in) {
     BodyList<S> grains;
-    ContactsOf<World> more;
+    ContactsOnTheWay<World> more;
     unpack(bytes, grains, more);
     list.add_all(grains);
     contacts.add_all(more);

@@ -158,14 +158,15 @@ struct BodyList {
 };
 
 /// Contacts on their way, with the bodies of the whole simulation, and the energies of their springs.
-template <class S, class Energy>
+/// @tparam List Contacts
+template <class List, class Energy>
 struct ContactList {
-  Contacts<S> contacts;
+  List contacts;
   std::vector<Energy> energies;  ///< one per contact, or none
 
   /// @param a,b bodies of the contact in the list
-  void add(const Contacts<S>& from, std::span<const Energy> from_energies, std::size_t c,
-           std::uint32_t a, std::uint32_t b) {
+  void add(const List& from, std::span<const Energy> from_energies, std::size_t c, std::uint32_t a,
+           std::uint32_t b) {
     contacts.points.push_back(from.points[c]);
     contacts.points.back().a = a;
     contacts.points.back().b = b;
@@ -174,7 +175,6 @@ struct ContactList {
     contacts.keys.back().b = b;
     contacts.classes.push_back(from.classes[c]);
     contacts.impulses.push_back(from.impulses[c]);
-    if (!from.couples.empty()) contacts.couples.push_back(from.couples[c]);
     if (!from_energies.empty()) energies.push_back(from_energies[c]);
   }
   void add_all(const ContactList& from) {

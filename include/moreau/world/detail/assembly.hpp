@@ -150,7 +150,7 @@ class Assembly {
   /// Checks the contacts of bodies that were placed since the last step.
   /// @throws std::invalid_argument for an overlap deeper than half of the smallest width of a grain
   ///         of the contact, unless overlaps are allowed; the poses are then those before the step
-  void require_no_deep_overlap(const Contacts<S>& contacts, const char* function) {
+  void require_no_deep_overlap(const DetectedContacts<S>& contacts, const char* function) {
     if (!any_placed_) return;
     placed_.resize(bodies_.size());
     for (const Contact<S>& contact : contacts.points) {

@@ -36,7 +36,7 @@ class Attraction {
   /// @param free  in, out: velocities without contacts, one per body [m/s, rad/s]
   void apply(const StepContext<S, Law>& context, [[maybe_unused]] const auto& bonds,
              std::span<const MobilityRoot<S>> roots, std::span<Twist> free) {
-    const Contacts<S>& contacts = context.contacts;
+    const ContactsOf<Law, S>& contacts = context.contacts;
     if constexpr (BondingLaw<Law, S>)
       bonds.attractions(context.materials, contacts, pulls_);
     else
@@ -53,7 +53,7 @@ class Attraction {
   /// Changes the attraction of a contact while the problem is being solved; offset() must follow.
   /// @param change of its impulse [N s]
   /// @param push   in, out: the unknown of the contact, which stays the same impulse on b [N s]
-  void change(std::size_t c, Scalar change, const Contacts<S>& contacts,
+  void change(std::size_t c, Scalar change, const ContactsOf<Law, S>& contacts,
               std::span<const MobilityRoot<S>> roots, auto& push) {
     const Contact<S>& contact = contacts.points[c];
     const Vector pull = -change * contact.frame.col(0);
@@ -66,7 +66,7 @@ class Attraction {
   /// Adds what change() has changed to the free velocities of bodies and contacts.
   /// @param free in, out: one per body [m/s, rad/s]
   /// @param op   in, out: operator of contacts with couples
-  void offset(const Contacts<S>& contacts, std::span<Twist> free, auto& op) {
+  void offset(const ContactsOf<Law, S>& contacts, std::span<Twist> free, auto& op) {
     for (std::size_t i = 0; i < changes_.size(); ++i) free[i] += changes_[i];
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
@@ -90,8 +90,8 @@ class Attraction {
   }
   /// The contacts of the step before with their pushes against the attraction that they had then.
   /// @param last_step h of the step before [s]
-  const Contacts<S>& pushes_before(const StepContext<S, Law>& context,
-                                   [[maybe_unused]] Scalar last_step) {
+  const ContactsOf<Law, S>& pushes_before(const StepContext<S, Law>& context,
+                                          [[maybe_unused]] Scalar last_step) {
     if constexpr (BondingLaw<Law, S>) {  // bonds have no memory of impulses
       return context.previous;
     } else {
@@ -114,7 +114,7 @@ class Attraction {
 
   std::vector<Scalar> pulls_;         // one per contact: impulse of the attraction [N s]
   std::vector<Scalar> pulls_before_;  // one per contact of the step before: the attraction [N]
-  Contacts<S> pushes_;                // see pushes_before()
+  ContactsOf<Law, S> pushes_;         // see pushes_before()
   std::vector<Twist> changes_;        // one per body: by change()
 };
 
@@ -124,7 +124,7 @@ struct NoAttraction {
   void apply(const auto&, const auto&, const auto&, const auto&) const {}
   void add_to(const auto&) const {}
   void take_from(const auto&) const {}
-  const Contacts<S>& pushes_before(const StepContext<S, Law>& context, const auto&) const {
+  const ContactsOf<Law, S>& pushes_before(const StepContext<S, Law>& context, const auto&) const {
     return context.previous;
   }
   std::span<const typename S::Scalar> pulls() const { return {}; }

@@ -64,8 +64,8 @@ class BondList {
   /// @param touching contacts in the present configuration
   /// @param keeps    function: contact -> whether its pair is bonded
   /// @returns how many bonds were made
-  std::size_t add(const Bodies<S>& bodies, const PeriodicCell<S>& cell, const Contacts<S>& touching,
-                  const auto& keeps) {
+  std::size_t add(const Bodies<S>& bodies, const PeriodicCell<S>& cell,
+                  const ContactsOf<Law, S>& touching, const auto& keeps) {
     const std::size_t before = bonds_.size();
     for (std::size_t first = 0, last; first < touching.size(); first = last) {
       last = end_of_pair(touching, first);
@@ -107,7 +107,7 @@ class BondList {
   }
   /// Replaces the contacts of bonded pairs by those of the bonds.
   /// @param contacts sorted, as detected
-  void place(const Bodies<S>& bodies, const PeriodicCell<S>& cell, Contacts<S>& contacts) {
+  void place(const Bodies<S>& bodies, const PeriodicCell<S>& cell, ContactsOf<Law, S>& contacts) {
     contact_of_.assign(bonds_.size(), none);
     places_.resize(bonds_.size());
     softening_.assign(bonds_.size(), {});
@@ -131,7 +131,7 @@ class BondList {
     std::swap(contacts, merged_);
   }
   /// Gives the contacts of bonds the variant with a bond, and all others that without.
-  void start(Contacts<S>& contacts) const {
+  void start(ContactsOf<Law, S>& contacts) const {
     for (Contact<S>& contact : contacts.points) contact.variant = 0;
     for_each([&](std::size_t, std::size_t c) { contacts.points[c].variant = 1; });
   }
@@ -147,7 +147,7 @@ class BondList {
     for_each([&](std::size_t, std::size_t c) { impulses[c] = hidden_[k++]; });
   }
   /// The attraction of contacts: the tensile strength of bonds that is left [N].
-  void attractions(const Materials<Law>& materials, const Contacts<S>& contacts,
+  void attractions(const Materials<Law>& materials, const ContactsOf<Law, S>& contacts,
                    std::vector<Scalar>& forces) const {
     forces.assign(contacts.size(), 0);
     for_each([&](std::size_t i, std::size_t c) {
@@ -181,9 +181,9 @@ class BondList {
   /// @param pulls  impulses of the attraction in the solution [N s]
   /// @param change function: (contact, change of the impulse of its attraction [N s])
   /// @returns whether the strength of a bond has changed: the problem must be solved again
-  bool soften(const Materials<Law>& materials, const Operator& op, const Contacts<S>& contacts,
-              std::span<const Row> impulses, std::span<const Scalar> pulls, Scalar step,
-              const auto& change) {
+  bool soften(const Materials<Law>& materials, const Operator& op,
+              const ContactsOf<Law, S>& contacts, std::span<const Row> impulses,
+              std::span<const Scalar> pulls, Scalar step, const auto& change) {
     bool changed = false;
     for_each([&](std::size_t i, std::size_t c) {
       const Law& law = materials.laws()[contacts.points[c].law];
@@ -208,8 +208,8 @@ class BondList {
   /// @param op       with the velocities of the impulses
   /// @param impulses p of every contact [N s]
   /// @param step     h [s]
-  void yield(const Materials<Law>& materials, const Operator& op, const Contacts<S>& contacts,
-             std::span<const Row> impulses, Scalar step) {
+  void yield(const Materials<Law>& materials, const Operator& op,
+             const ContactsOf<Law, S>& contacts, std::span<const Row> impulses, Scalar step) {
     broken_.assign(bonds_.size(), 0);
     for_each([&](std::size_t i, std::size_t c) {
       Bond<S>& bond = bonds_[i];
@@ -231,7 +231,8 @@ class BondList {
   /// those that broke.
   /// @param losses  function: contact c -> its ContactLosses
   /// @param springs ContactSprings or NoSprings
-  void end_step(Contacts<S>& contacts, const auto& losses, auto& springs, StepReport& report) {
+  void end_step(ContactsOf<Law, S>& contacts, const auto& losses, auto& springs,
+                StepReport& report) {
     for_each([&](std::size_t i, std::size_t c) {
       Bond<S>& bond = bonds_[i];
       const ContactLosses one = losses(c);
@@ -329,7 +330,7 @@ class BondList {
     bond.cells = cell.cells(shift);
     return bond;
   }
-  void copy(const Contacts<S>& from, std::size_t c) {
+  void copy(const ContactsOf<Law, S>& from, std::size_t c) {
     merged_.points.push_back(from.points[c]);
     merged_.keys.push_back(from.keys[c]);
     merged_.classes.push_back(from.classes[c]);
@@ -340,7 +341,7 @@ class BondList {
     merged_.points.push_back({a, b, 0, Scalar(0), at.frame, at.middle_a, at.middle_b, 1});
     merged_.keys.push_back({a, b, FeatureKey(FeatureKey::Kind::vertex_vertex, last, last)});
     merged_.classes.push_back(ContactClass::vertex_vertex);
-    merged_.impulses.push_back(Vector::Zero());
+    merged_.impulses.push_back(Row::Zero());
   }
 
   std::vector<Bond<S>> bonds_;
@@ -352,7 +353,7 @@ class BondList {
   std::vector<unsigned char> broken_;    // of each bond
   std::vector<Softening> softening_;     // of each bond
   std::vector<Row> hidden_;
-  Contacts<S> merged_;
+  ContactsOf<Law, S> merged_;
   std::size_t new_breakages_ = 0;
 };
 

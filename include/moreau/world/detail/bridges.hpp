@@ -37,8 +37,8 @@ class Bridges {
   /// @param before contacts of the step before, with their impulses
   /// @param now    contacts of this step, with their laws; out: their variants say whether there is a bridge
   /// @returns how many pairs are left
-  std::size_t update(const Materials<Law>& materials, const Contacts<S>& before, Contacts<S>& now,
-                     Scalar margin) {
+  std::size_t update(const Materials<Law>& materials, const ContactsOf<Law, S>& before,
+                     ContactsOf<Law, S>& now, Scalar margin) {
     gone_.assign(now.size(), 0);
     std::size_t old = 0, pairs = 0;
     for (std::size_t first = 0, last; first < now.size(); first = last) {
@@ -60,7 +60,7 @@ class Bridges {
  private:
   /// Whether the pair had a bridge in the step before, or its bodies pushed each other.
   /// @param at in and out: index into `before`, of this pair or an earlier one
-  static bool had_bridge(const Contacts<S>& before, std::size_t& at, const ContactKey& key) {
+  static bool had_bridge(const ContactsOf<Law, S>& before, std::size_t& at, const ContactKey& key) {
     const auto pair_of = [](const ContactKey& k) { return std::pair(k.a, k.b); };
     while (at < before.size() && pair_of(before.keys[at]) < pair_of(key)) ++at;
     bool bridged = false;
@@ -77,13 +77,13 @@ template <class S, class Law>
 class BridgeBits {
  public:
   /// Remembers the bridges.
-  void save(const Contacts<S>& contacts) {
+  void save(const ContactsOf<Law, S>& contacts) {
     bridged_.clear();
     for (const Contact<S>& contact : contacts.points)
       bridged_.push_back(Law::is_bridged(contact.variant));
   }
   /// Gives the variants the bridges of save().
-  void restore(Contacts<S>& contacts) const {
+  void restore(ContactsOf<Law, S>& contacts) const {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       std::uint32_t& variant = contacts.points[c].variant;
       variant = static_cast<std::uint32_t>(Law::with_bridge(variant, bridged_[c] != 0));
@@ -101,7 +101,7 @@ struct NoBridges {};
 /// @param forces out: one per contact
 template <class S, class Law>
 void attractions(const Bodies<S>& bodies, const Materials<Law>& materials,
-                 const Contacts<S>& contacts, std::vector<typename S::Scalar>& forces) {
+                 const ContactsOf<Law, S>& contacts, std::vector<typename S::Scalar>& forces) {
   forces.resize(contacts.size());
   if constexpr (BridgingLaw<Law, S>) {
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {

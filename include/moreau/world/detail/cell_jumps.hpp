@@ -38,7 +38,7 @@ class CellJumps {
   /// Computes the velocities of the cell at the contacts, F^T L d, and adds them to the free velocities of
   /// the operator.
   /// @param contacts with the frames of the operator
-  void add(const Matrix& rate, const Contacts<S>& contacts, auto& op, const Team& team) {
+  void add(const Matrix& rate, const DetectedContacts<S>& contacts, auto& op, const Team& team) {
     using Row = typename std::decay_t<decltype(op)>::Vector;
     jumps_.resize(contacts.size());
     team.share_each(contacts.size(), 256, [&](std::size_t c) {
@@ -54,11 +54,11 @@ class CellJumps {
   /// The work of the cell in a step [J], by its velocities, not by the stress.
   /// @param bodies with the velocities before the step
   /// @param after  velocities after it, one per body
-  double work(const Bodies<S>& bodies, const Contacts<S>& contacts, std::span<const Twist> after,
+  double work(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
               const Matrix& rate, Scalar step) const {
     double sum = 0;
     for (std::size_t c = 0; c < contacts.size(); ++c)
-      sum -= double(contacts.impulses[c].dot(jumps_[c]));
+      sum -= double(contacts.impulse(c).dot(jumps_[c]));
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
       const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;
@@ -67,13 +67,13 @@ class CellJumps {
     return sum;
   }
   /// V sigma of a step [J].
-  static Matrix moment(const Bodies<S>& bodies, const Contacts<S>& contacts,
-                       std::span<const Twist> after, Scalar step) {
+  static Matrix moment(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
+                       Scalar step) {
     Matrix sum = Matrix::Zero();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       const Vector between = contact.lever_a - contact.lever_b,
-                   force = product(contact.frame, contacts.impulses[c]) / step;
+                   force = product(contact.frame, contacts.impulse(c)) / step;
       sum += between * force.transpose();
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {

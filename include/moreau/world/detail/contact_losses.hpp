@@ -25,27 +25,27 @@ struct ContactLosses {
   }
 };
 
-template <class S>
-void add_losses(const Bodies<S>& bodies, const Contacts<S>& contacts, std::size_t c,
+template <class S, int Rows>
+void add_losses(const Bodies<S>& bodies, const Contacts<S, Rows>& contacts, std::size_t c,
                 const typename S::Vector& before, std::span<const typename S::Twist> after,
                 ContactLosses& sum) {
   constexpr int tangents = S::dim - 1;
   const Contact<S>& contact = contacts.points[c];
   const std::uint32_t a = contact.a, b = contact.b;
-  const typename S::Vector& impulse = contacts.impulses[c];
-  if (impulse.isZero(0) && (contacts.couples.empty() || contacts.couples[c].isZero(0))) return;
+  const typename S::Vector& impulse = contacts.impulse(c);
+  if (contacts.impulses[c].isZero(0)) return;
   typename S::Vector mean = BodyDelassus<S>::relative_velocity(contact, after[a], after[b]);
   for (int k = 0; k < S::dim; ++k) mean[k] = (before[k] + mean[k]) / 2;
   const double friction =
       -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
   sum.friction += friction;
   sum.dissipation += friction - double(impulse[0] * mean[0]);
-  if (contacts.couples.empty()) return;
+  if constexpr (!Contacts<S, Rows>::has_couples) return;
   typename S::Twist turn;
   for (int k = 0; k < S::dofs; ++k)
     turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after[b][k] - after[a][k]) / 2;
   const double rolling =
-      -double((S::angular_frame(contact.frame) * contacts.couples[c]).dot(angular<S>(turn)));
+      -double((S::angular_frame(contact.frame) * contacts.couple(c)).dot(angular<S>(turn)));
   sum.rolling += rolling;
   sum.dissipation += rolling;
 }
@@ -54,8 +54,9 @@ void add_losses(const Bodies<S>& bodies, const Contacts<S>& contacts, std::size_
 /// @param bodies with the velocities before the step
 /// @param before one per contact: relative velocity before the step, contact frame [m/s]
 /// @param after  one per body: velocity after the step
-template <class S>
-ContactLosses contact_losses(const Team& team, const Bodies<S>& bodies, const Contacts<S>& contacts,
+template <class S, int Rows>
+ContactLosses contact_losses(const Team& team, const Bodies<S>& bodies,
+                             const Contacts<S, Rows>& contacts,
                              std::span<const typename S::Vector> before,
                              std::span<const typename S::Twist> after) {
   return sum_of<ContactLosses>(team, contacts.size(), [&](ContactLosses& sum, std::size_t c) {

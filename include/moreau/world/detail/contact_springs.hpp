@@ -69,7 +69,7 @@ class ContactSprings {
   /// that the stiffness does not jump when a point comes near; l is the default margin (Tolerances), or
   /// the margin of the simulation if it is smaller.
   std::span<const Row> compliances(const StepContext<S, Law>& context) {
-    const Contacts<S>& contacts = context.contacts;
+    const ContactsOf<Law, S>& contacts = context.contacts;
     compliance_.resize(contacts.size());
     const Scalar length = open_length(context);
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
@@ -105,7 +105,7 @@ class ContactSprings {
     const Scalar ratio = last_step_ > 0 ? context.step / last_step_ : Scalar(1);
     last_step_ = context.step;
     for (Row& impulse : impulses) impulse *= ratio;
-    const Contacts<S>&now = context.contacts, &before = context.previous;
+    const ContactsOf<Law, S>&now = context.contacts, &before = context.previous;
     const Scalar length = open_length(context);
     const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
     std::size_t old = 0, end = 0;
@@ -243,8 +243,8 @@ class ContactSprings {
   /// How many springs a pair has, at least 1; open points count in part.
   /// @param first its first contact
   /// @param last  out: the one after its last contact
-  static Scalar count_pair(const Contacts<S>& contacts, std::size_t first, std::size_t& last,
-                           Scalar length) {
+  static Scalar count_pair(const DetectedContacts<S>& contacts, std::size_t first,
+                           std::size_t& last, Scalar length) {
     Scalar count = 0;
     for (last = first; last < contacts.size(); ++last) {
       const Contact<S>&point = contacts.points[first], &other = contacts.points[last];

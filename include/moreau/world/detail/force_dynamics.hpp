@@ -57,7 +57,7 @@ class ForceDynamics {
   /// @param report  out: warm_started; dissipation and friction are added to
   void evaluate(const StepContext<S, Law>& context, Scalar elapsed, StepReport& report) {
     const Bodies<S>& bodies = context.bodies;
-    Contacts<S>& contacts = context.contacts;
+    ContactsOf<Law, S>& contacts = context.contacts;
     loads_.assign(bodies.size(), Twist::Zero());
     const SpringTurn<S> turn{bodies.velocity, elapsed};
     report.warm_started = carry(context.previous, contacts, memory_, next_, turn);

@@ -13,6 +13,24 @@
 
 namespace moreau::detail {
 
+/// The contacts of the step before, of which detection keeps the points that pushed most.
+template <class S>
+struct PreviousContacts {
+  std::span<const ContactKey> keys;            ///< sorted
+  const typename S::Scalar* pushes = nullptr;  ///< the first entry of the first impulse [N s]
+  std::size_t stride = 0;                      ///< entries of an impulse
+
+  template <int Rows>
+  explicit PreviousContacts(const Contacts<S, Rows>& contacts)
+      : keys(contacts.keys), stride(std::size_t(Rows)) {
+    using Impulse = typename Contacts<S, Rows>::Impulse;
+    static_assert(sizeof(Impulse) == std::size_t(Rows) * sizeof(typename S::Scalar));
+    if (!contacts.impulses.empty()) pushes = contacts.impulses[0].data();
+  }
+  /// Normal entry of the impulse of a contact [N s].
+  typename S::Scalar push(std::size_t c) const { return pushes[c * stride]; }
+};
+
 /// The contacts that one thread finds in a step, with the buffers that it needs for it. Threads write
 /// to neighbouring objects all the time: each has cache lines of its own.
 ///
@@ -55,7 +73,7 @@ class alignas(64) FoundContacts {
   /// @param a,b      body and placed shape of each side
   /// @param previous contacts of the step before; its points are kept first
   /// @param collide_each calls its argument for each manifold, returns whether there was one
-  void add(const auto& a, const auto& b, const Contacts<S>& previous, auto&& collide_each) {
+  void add(const auto& a, const auto& b, const PreviousContacts<S>& previous, auto&& collide_each) {
     touching_ += collide_each([&] {
       if (few_) keep_few(a.body.value, b.body.value, previous);
       add_all(a, b);
@@ -82,18 +100,16 @@ class alignas(64) FoundContacts {
   /// @param runs  one per grain
   /// @param place out: index of the first contact of each grain; at the end, their number
   static void make_room(const std::vector<Run>& runs, std::vector<std::size_t>& place,
-                        Contacts<S>& out) {
+                        DetectedContacts<S>& out) {
     place.assign(1, 0);
     for (const Run& run : runs) place.push_back(place.back() + run.points);
     out.points.resize(place.back());
     out.keys.resize(place.back());
     out.classes.resize(place.back());
-    out.impulses.resize(place.back());
-    out.couples.clear();
   }
-  /// Writes the contacts of a grain, sorted by key, with zero impulses.
+  /// Writes the contacts of a grain, sorted by key.
   /// @param at index of the first of them in the list
-  void write(const Run& run, std::uint32_t a, std::size_t at, Contacts<S>& out) {
+  void write(const Run& run, std::uint32_t a, std::size_t at, DetectedContacts<S>& out) {
     const std::size_t begin = at;
     // Pointers of their own: the compiler need not expect that writing a number changes them.
     const Pair* const pairs = pairs_.data();
@@ -101,7 +117,6 @@ class alignas(64) FoundContacts {
     Contact<S>* const points = out.points.data();
     ContactKey* const keys_out = out.keys.data();
     ContactClass* const classes = out.classes.data();
-    Vector* const impulses = out.impulses.data();
     for (std::uint32_t k = run.first; k < run.last; ++k) {
       const Pair& pair = pairs[k];
       const typename S::Matrix frame = S::contact_frame(pair.normal);
@@ -117,7 +132,6 @@ class alignas(64) FoundContacts {
         for (int d = 0; d < S::dim; ++d) {
           contact.lever_a[d] = point.position[d] - pair.center_a[d];
           contact.lever_b[d] = point.position[d] - pair.center_b[d];
-          impulses[at][d] = 0;
         }
         keys_out[at] = {a, pair.b, point.feature, pair.part_a, pair.part_b};
         classes[at] = pair.contact_class;
@@ -146,10 +160,10 @@ class alignas(64) FoundContacts {
                       manifold_.normal, a.placed.center(), b.placed.center()});
   }
   /// Reduces the manifold of two parts to D points, if possible those of the step before.
-  void keep_few(std::uint32_t a, std::uint32_t b, const Contacts<S>& previous) {
+  void keep_few(std::uint32_t a, std::uint32_t b, const PreviousContacts<S>& previous) {
     kept_.clear();
     if (manifold_.points.size() > S::dim) {
-      const auto& keys = previous.keys;
+      const std::span keys = previous.keys;
       const ContactKey from{a, b, FeatureKey(), manifold_.part_a, manifold_.part_b};
       const bool is_first = previous_ <= keys.size() &&
                             (previous_ == 0 || keys[previous_ - 1].a < a) &&
@@ -160,12 +174,12 @@ class alignas(64) FoundContacts {
                         keys.begin());
       for (std::size_t c = previous_; c < keys.size() && keys[c].a == a && keys[c].b <= b; ++c)
         if (keys[c].is_of_parts_of(from))
-          kept_.push_back({keys[c].feature, std::max(0.0, double(previous.impulses[c][0]))});
+          kept_.push_back({keys[c].feature, std::max(0.0, double(previous.push(c)))});
     }
     reduce(manifold_, S::dim, std::span<const KeptPoint>(kept_), reduction_);
   }
   /// Sorts by key the contacts of a pair with several manifolds.
-  void sort(std::size_t begin, std::size_t end, Contacts<S>& out) {
+  void sort(std::size_t begin, std::size_t end, DetectedContacts<S>& out) {
     for (std::size_t at = begin + 1; at < end; ++at)
       for (std::size_t c = at; c > begin && out.keys[c] < out.keys[c - 1]; --c) {
         std::swap(out.points[c], out.points[c - 1]);

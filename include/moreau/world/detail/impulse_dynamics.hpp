@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/warm_start.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
@@ -46,7 +47,6 @@
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
-#include "moreau/world/detail/contact_unknowns.hpp"
 #include "moreau/world/detail/restitution_limit.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/detail/step_margins.hpp"
@@ -75,8 +75,8 @@ class ImpulseDynamics {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   using Twist = typename S::Twist;
-  using Unknowns = ContactUnknowns<S, Law>;
-  using Operator = typename Unknowns::Operator;
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
   using Problem = ContactProblem<Operator, Law>;
   using Context = StepContext<S, Law>;
 
@@ -244,14 +244,14 @@ class ImpulseDynamics {
   std::size_t warm_start(const Context& context) {
     if constexpr (!compliant) {
       const std::size_t found = start(context, context.previous);
-      attraction_.add_to(unknowns_.impulses(context.contacts));
+      attraction_.add_to(std::span<Row>(context.contacts.impulses));
       if constexpr (bonding) bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
       return found;
     } else {
       // The springs bear the pushes.
       const std::size_t found =
           start(context, attraction_.pushes_before(context, springs_.last_step()));
-      const auto impulses = unknowns_.impulses(context.contacts);
+      const std::span<Row> impulses(context.contacts.impulses);
       springs_.scale(context, impulses);
       if constexpr (bonding) {
         bonds_.hide(impulses, [&] { springs_.relax(context, impulses, problem_.delassus); });
@@ -263,10 +263,25 @@ class ImpulseDynamics {
       return found;
     }
   }
-  std::size_t start(const Context& context, const Contacts<S>& before) {
+  /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of the springs of
+  /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact.
+  /// @returns how many contacts have a predecessor
+  std::size_t carry_impulses(const Context& context, const ContactsOf<Law, S>& before) {
+    const auto carry_by = [&](const auto& turn) {
+      const std::size_t found =
+          carry(before, context.contacts, before.impulses, context.contacts.impulses, turn, team_);
+      hand_over(before, context.contacts, turn);
+      return found;
+    };
+    if constexpr (compliant)
+      return carry_by(springs_.turn(context, integrator_));
+    else
+      return carry_by(ImpulseTurn<S>());
+  }
+  std::size_t start(const Context& context, const ContactsOf<Law, S>& before) {
     if constexpr (bridging) bridges_.save(context.contacts);
-    const std::size_t found = unknowns_.start(problem_.delassus, before, context.contacts,
-                                              springs_.turn(context, integrator_), team_);
+    const std::size_t found = carry_impulses(context, before);
+    problem_.delassus.to_rows(context.contacts.impulses, team_);
     if constexpr (bridging) bridges_.restore(context.contacts);
     if constexpr (bonding) bonds_.start(context.contacts);
     return found;
@@ -289,12 +304,11 @@ class ImpulseDynamics {
   }
   /// Chooses the laws of the next step, from impulses that still are those of the laws.
   template <class L>  // clang would instantiate a function that is no template with the class
-  void choose_variants(const Materials<L>& materials, Contacts<S>& contacts) {
-    const auto impulses = unknowns_.impulses(contacts);
+  void choose_variants(const Materials<L>& materials, ContactsOf<Law, S>& contacts) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       Contact<S>& contact = contacts.points[c];
       contact.variant = static_cast<std::uint32_t>(materials.laws()[contact.law].variant_after(
-          contact.variant, typename S::Vector(impulses[c].template head<S::dim>())));
+          contact.variant, Vector(contacts.impulse(c))));
     }
   }
 
@@ -313,7 +327,7 @@ class ImpulseDynamics {
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context) {
     const Bodies<S>& bodies = context.bodies;
-    const auto impulses = unknowns_.impulses(context.contacts);
+    const std::span<Row> impulses(context.contacts.impulses);
     const bool deforms = context.deforms();
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
@@ -342,7 +356,7 @@ class ImpulseDynamics {
   /// @param approach u_n before the step, without the chord of a turning wall [m/s]
   template <class L>  // explicit instantiations would instantiate a function that is no template
   void bounce_aside(std::size_t c, const L& law, Scalar gap, Scalar approach) {
-    typename Unknowns::Row aside = law.tangential_share(gap, approach) * before_[c];
+    Row aside = law.tangential_share(gap, approach) * before_[c];
     aside[0] = 0;
     problem_.delassus.offset(c, aside);
     limit_.set_aside(c, aside);
@@ -353,7 +367,7 @@ class ImpulseDynamics {
   };
 
   void solve(const Context& context, StepReport& report) {
-    const auto impulses = unknowns_.impulses(context.contacts);
+    const std::span<Row> impulses(context.contacts.impulses);
     report.solve = solver_.solve(problem_, impulses, workspace_);
     if constexpr (bonding) soften_bonds(context, report);
     if (!shared_) limit_.apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
@@ -364,13 +378,13 @@ class ImpulseDynamics {
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
     if constexpr (stateful) choose_variants(context.materials, context.contacts);
     attraction_.take_from(impulses);
-    unknowns_.finish(problem_.delassus, context.contacts, team_);
+    problem_.delassus.from_rows(impulses, team_);
   }
 
   /// Solves the problem again while the strength of bonds that yield falls within the step.
   template <class C>  // clang would instantiate a function that is no template with the class
   void soften_bonds(const C& context, StepReport& report) {
-    const auto impulses = unknowns_.impulses(context.contacts);
+    const std::span<Row> impulses(context.contacts.impulses);
     const auto change = [&](std::size_t c, Scalar pull) {
       attraction_.change(c, pull, context.contacts, std::span<const MobilityRoot<S>>(roots_),
                          impulses[c]);
@@ -420,7 +434,6 @@ class ImpulseDynamics {
   OverlapCorrection<S> correction_;
   Integrator integrator_;
   Problem problem_;
-  Unknowns unknowns_;
   [[no_unique_address]] std::conditional_t<compliant, ContactSprings<S, Law>, NoSprings> springs_;
   [[no_unique_address]] std::conditional_t<AttractiveLaw<Law, S>, Attraction<S, Law>,
                                            NoAttraction<S, Law>>

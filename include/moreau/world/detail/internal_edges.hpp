@@ -51,7 +51,7 @@ class InternalEdges {
   /// @param margin     largest gap of a contact [m]
   /// @param contacts   in: as detected; out: with contacts replaced or removed
   void replace(const auto& grains, const Bodies<S>& bodies, Scalar resolution, Scalar margin,
-               Contacts<S>& contacts) {
+               DetectedContacts<S>& contacts) {
     const auto is_obstacle = [&](const auto& grain) {
       return bodies.is_prescribed(grain.body.index());
     };
@@ -98,7 +98,7 @@ class InternalEdges {
   };
 
   [[gnu::cold, gnu::noinline]] void find_views(const Bodies<S>& bodies, bool has_obstacles,
-                                               const Contacts<S>& contacts) {
+                                               const DetectedContacts<S>& contacts) {
     views_.clear();
     const auto count = static_cast<std::uint32_t>(contacts.size());
     for (std::uint32_t first = 0, last = 0; first < count; first = last) {
@@ -116,18 +116,19 @@ class InternalEdges {
     std::sort(views_.begin(), views_.end());
   }
   /// Whether two contact points belong to one manifold.
-  static bool are_of_one(std::uint32_t c, std::uint32_t d, const Contacts<S>& contacts) {
+  static bool are_of_one(std::uint32_t c, std::uint32_t d, const DetectedContacts<S>& contacts) {
     return contacts.keys[c].is_of_parts_of(contacts.keys[d]) &&
            contacts.points[c].frame.col(0) == contacts.points[d].frame.col(0);
   }
   static bool has_one_manifold(std::uint32_t first, std::uint32_t last,
-                               const Contacts<S>& contacts) {
+                               const DetectedContacts<S>& contacts) {
     while (first + 1 < last && are_of_one(first, last - 1, contacts)) ++first;
     return first + 1 == last;
   }
   /// Adds the manifolds of a pair.
   [[gnu::cold, gnu::noinline]] void add_views(std::uint32_t first, std::uint32_t last, bool is_a,
-                                              std::uint32_t group, const Contacts<S>& contacts) {
+                                              std::uint32_t group,
+                                              const DetectedContacts<S>& contacts) {
     for (std::uint32_t end = first; first < last; first = end) {
       const ContactKey& key = contacts.keys[first];
       while (end < last && are_of_one(first, end, contacts)) ++end;
@@ -137,7 +138,7 @@ class InternalEdges {
   }
 
   /// Normal out of the other body, towards X.
-  static Vector outward(const View& view, const Contacts<S>& contacts) {
+  static Vector outward(const View& view, const DetectedContacts<S>& contacts) {
     const auto normal = contacts.points[view.first].frame.col(0);
     return view.is_a ? Vector(-normal) : Vector(normal);
   }
@@ -148,7 +149,7 @@ class InternalEdges {
     Scalar gap;     ///< of the contact [m]
   };
   [[gnu::cold, gnu::noinline]] static Surface surface_of(const View& view,
-                                                         const Contacts<S>& contacts) {
+                                                         const DetectedContacts<S>& contacts) {
     Surface surface{outward(view, contacts), 0, 0};
     for (std::uint32_t c = view.first; c < view.last; ++c) {
       const Contact<S>& point = contacts.points[c];
@@ -173,7 +174,7 @@ class InternalEdges {
     Scalar x, other;
   };
   static Heights heights(const View& view, const Vector& normal, const auto& placed_of,
-                         const Contacts<S>& contacts) {
+                         const DetectedContacts<S>& contacts) {
     const Contact<S>& point = contacts.points[view.first];
     const ContactKey& key = contacts.keys[view.first];
     const Vector between =
@@ -186,7 +187,7 @@ class InternalEdges {
 
   /// Whether a normal can be that of an internal edge: of a side, or between two nearest vertices or edges
   /// of polytopes, not that of a face.
-  static bool is_candidate(const View& view, Scalar cosine, const Contacts<S>& contacts) {
+  static bool is_candidate(const View& view, Scalar cosine, const DetectedContacts<S>& contacts) {
     if (cosine < Scalar(0.7)) return true;
     if (cosine > Scalar(1 - 1e-6)) return false;
     const ContactClass found = contacts.classes[view.first];
@@ -198,7 +199,7 @@ class InternalEdges {
   /// Whether the surface of another contact separates X from the other body of a contact.
   [[gnu::cold, gnu::noinline]] static bool is_separated(const View& view, const Surface& surface,
                                                         Scalar flush, const auto& placed_of,
-                                                        const Contacts<S>& contacts,
+                                                        const DetectedContacts<S>& contacts,
                                                         Heights& found) {
     const ContactKey& key = contacts.keys[view.first];
     if (!placed_of(key.a) || !placed_of(key.b)) return false;  // a wall
@@ -210,10 +211,9 @@ class InternalEdges {
   /// The contact to replace if another one's surface separates X from the other body, or nothing.
   /// @param t         index of the view, from begin to end
   /// @param kept_only whether surfaces of contacts that are replaced themselves do not count
-  [[gnu::cold, gnu::noinline]] std::optional<Found> separating(std::size_t t, std::size_t begin,
-                                                               std::size_t end, bool kept_only,
-                                                               Scalar flush, const auto& placed_of,
-                                                               const Contacts<S>& contacts) const {
+  [[gnu::cold, gnu::noinline]] std::optional<Found> separating(
+      std::size_t t, std::size_t begin, std::size_t end, bool kept_only, Scalar flush,
+      const auto& placed_of, const DetectedContacts<S>& contacts) const {
     const View& view = views_[t];
     const Vector normal = outward(view, contacts);
     std::optional<Found> best;
@@ -235,7 +235,8 @@ class InternalEdges {
   /// the side of a block can separate X from the block diagonal to it, but the contact with this side is
   /// replaced as well: surfaces of contacts that stay have precedence.
   [[gnu::cold, gnu::noinline]] void compare(std::size_t begin, std::size_t end, Scalar flush,
-                                            const auto& placed_of, const Contacts<S>& contacts) {
+                                            const auto& placed_of,
+                                            const DetectedContacts<S>& contacts) {
     is_replaced_.assign(end - begin, 0);
     const auto find = [&](std::size_t t, bool kept_only) {
       return separating(t, begin, end, kept_only, flush, placed_of, contacts);
@@ -253,7 +254,7 @@ class InternalEdges {
 
   /// Gives a contact the normal m; of points that then coincide only the first stays.
   [[gnu::cold, gnu::noinline]] void apply(const Found& found, Scalar near, Scalar margin,
-                                          Contacts<S>& contacts) {
+                                          DetectedContacts<S>& contacts) {
     const Vector old = outward(found.view, contacts);
     const Vector normal = found.view.is_a ? Vector(-found.normal) : found.normal;
     const auto frame = S::contact_frame(normal);

@@ -64,8 +64,8 @@ class MeshWalls {
   }
   /// Finds the contacts of a grain.
   void detect(const GrainInWorld<ShapeT>& grain, Scalar margin, const Bodies<S>& bodies,
-              const PairFilter& filter, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
-              FoundContacts<S>& found) {
+              const PairFilter& filter, const PreviousContacts<S>& previous,
+              MeshBuffers<ShapeT>& buffers, FoundContacts<S>& found) {
     if (!walls_.empty()) detect_(*this, grain, margin, bodies, filter, previous, buffers, found);
   }
 
@@ -90,7 +90,7 @@ class MeshWalls {
   }
   static void detect_all(MeshWalls& self, const GrainInWorld<ShapeT>& grain, Scalar margin,
                          const Bodies<S>& bodies, const PairFilter& filter,
-                         const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
+                         const PreviousContacts<S>& previous, MeshBuffers<ShapeT>& buffers,
                          FoundContacts<S>& found) {
     const std::size_t body = grain.body.index();
     for (Wall& wall : self.walls_) {
@@ -105,8 +105,8 @@ class MeshWalls {
     }
   }
   static void detect_at(const GrainInWorld<ShapeT>& grain, const Pose<S>& pose, Wall& wall,
-                        Scalar margin, const Contacts<S>& previous, MeshBuffers<ShapeT>& buffers,
-                        FoundContacts<S>& found) {
+                        Scalar margin, const PreviousContacts<S>& previous,
+                        MeshBuffers<ShapeT>& buffers, FoundContacts<S>& found) {
     const Pose<S>& frame = wall.placed.pose;
     const Pose<S> local(frame.to_body(pose.position),
                         S::normalized(frame.rotation.inverse() * pose.rotation));
@@ -143,7 +143,7 @@ class MeshWalls {
 
   std::vector<Wall> walls_;
   void (*detect_)(MeshWalls&, const GrainInWorld<ShapeT>&, Scalar, const Bodies<S>&,
-                  const PairFilter&, const Contacts<S>&, MeshBuffers<ShapeT>&,
+                  const PairFilter&, const PreviousContacts<S>&, MeshBuffers<ShapeT>&,
                   FoundContacts<S>&) = nullptr;
 };
 

@@ -16,11 +16,11 @@ struct StepContext {
   Bodies<S>& bodies;
   const typename S::Vector& gravity;  ///< world axes [m/s^2]
   const Materials<Law>& materials;
-  const Contacts<S>& previous;    ///< contacts of the step before, with their impulses
-  Contacts<S>& contacts;          ///< contacts of this step
-  typename S::Scalar grain_size;  ///< length that tolerances are relative to [m]
-  typename S::Scalar step;        ///< h [s]
-  typename S::Scalar margin;      ///< largest gap at which a contact is made [m]
+  const ContactsOf<Law, S>& previous;  ///< contacts of the step before, with their impulses
+  ContactsOf<Law, S>& contacts;        ///< contacts of this step
+  typename S::Scalar grain_size;       ///< length that tolerances are relative to [m]
+  typename S::Scalar step;             ///< h [s]
+  typename S::Scalar margin;           ///< largest gap at which a contact is made [m]
   /// What second-order terms add to the relative velocity of each contact, world axes [m/s]; empty if
   /// none has any (chord_velocities.hpp).
   std::span<const typename S::Vector> chords = {};
