@@ -225,9 +225,11 @@ class TwoBodies {
       dynamics_.evaluate(context, h, report);
       dynamics_.advance(context);
     } else {
-      dynamics_.predict(bodies, h);
+      dynamics_.predict_configuration(bodies, h);
       detect();
-      dynamics_.advance(context, report);
+      dynamics_.find_free_velocities(context, report);
+      dynamics_.solve_contacts(context, report);
+      dynamics_.finish(context, report);
     }
     time += h;
   }

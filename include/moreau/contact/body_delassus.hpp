@@ -26,12 +26,10 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/contact_lanes.hpp"
-#include "moreau/contact/effective_radius.hpp"
+#include "moreau/contact/detail/operator_point.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/law/local_block.hpp"
-#include "moreau/law/rolling_block.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/simd/prefetch.hpp"
@@ -39,15 +37,6 @@
 namespace moreau {
 
 namespace detail {
-
-/// What a contact with a couple has beside its point; nothing without couples.
-template <class S, bool Couples>
-struct CoupleArm {};
-template <class S>
-struct CoupleArm<S, true> {
-  typename S::Inertia axes;   ///< R times the axes of rotation of the frame, world axes [m]
-  typename S::Scalar radius;  ///< R [m]
-};
 
 /// D of the contacts with springs, and what their impulses have stretched; nothing without springs.
 template <class Vector, bool Springs>
@@ -69,9 +58,9 @@ class BodyDelassus {
   using Space = S;
   using Scalar = typename S::Scalar;
   /// W_cc.
-  using Block = std::conditional_t<Couples, RollingBlock<S>, LocalBlock<S>>;
+  using Block = typename detail::OperatorPoint<S, Couples>::Block;
   using Vector = typename Block::Vector;  ///< the rows of a contact
-  using Matrix = Eigen::Matrix<Scalar, Vector::RowsAtCompileTime, Vector::RowsAtCompileTime>;
+  using Matrix = typename detail::OperatorPoint<S, Couples>::Matrix;
   /// Generalized velocity padded to whole SIMD lanes; the padding stays zero.
   static constexpr int width = (S::dofs + 3) / 4 * 4;
   using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
@@ -138,11 +127,11 @@ class BodyDelassus {
   Scalar trace(std::size_t c) const { return heads_[c].trace; }
   /// The part of W_cc that belongs to body a: what the impulse at c does to the velocity of a [1/kg].
   Matrix block_of_a(std::size_t c) const {
-    return block_of(points_[c], points_[c].lever_a, masses_[points_[c].a]);
+    return points_[c].block_of(points_[c].lever_a, masses_[points_[c].a]);
   }
   /// The part of W_cc that belongs to body b.
   Matrix block_of_b(std::size_t c) const {
-    return block_of(points_[c], points_[c].lever_b, masses_[points_[c].b]);
+    return points_[c].block_of(points_[c].lever_b, masses_[points_[c].b]);
   }
   /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
   /// [m/s].
@@ -189,11 +178,11 @@ class BodyDelassus {
   /// The same without the springs.
   void apply_to_bodies(std::size_t c, const Vector& impulse) {
     const Point& point = points_[c];
-    const typename S::Vector push = product(point.frame, part_of_point(impulse)), opposite = -push;
+    const typename S::Vector push = point.push_of(impulse), opposite = -push;
     add_change(point.b, push, S::moment(point.lever_b, push));
     add_change(point.a, opposite, S::moment(point.lever_a, opposite));
     if constexpr (Couples) {
-      const typename S::Angular couple = couple_of(point, impulse);
+      const typename S::Angular couple = point.couple_of(impulse);
       angular<S>(changes_[point.b]) += masses_[point.b].spin_of(couple);
       angular<S>(changes_[point.a]) += masses_[point.a].spin_of(-couple);
     }
@@ -221,16 +210,18 @@ class BodyDelassus {
   /// Gives both bodies the momentum of an impulse at contact c, in its frame [N s], and stretches its
   /// springs.
   void push(std::size_t c, const Vector& impulse) {
-    const Momentum momentum = momentum_of(c, impulse);
+    const Momentum momentum = points_[c].momentum_of(impulse);
     take(points_[c].b, momentum);
     give(points_[c].a, momentum);
     stretch(c, impulse);
   }
   /// Gives body a the momentum of an impulse, with the bits of push().
-  void push_a(std::size_t c, const Vector& impulse) { give(points_[c].a, momentum_of(c, impulse)); }
+  void push_a(std::size_t c, const Vector& impulse) {
+    give(points_[c].a, points_[c].momentum_of(impulse));
+  }
   /// Gives body b the momentum of an impulse, with the bits of push(), and stretches the springs.
   void push_b(std::size_t c, const Vector& impulse) {
-    take(points_[c].b, momentum_of(c, impulse));
+    take(points_[c].b, points_[c].momentum_of(impulse));
     stretch(c, impulse);
   }
   /// Makes velocities of the momenta.
@@ -260,50 +251,30 @@ class BodyDelassus {
   /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
   static typename S::Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
                                               const typename S::Twist& b) {
-    typename S::Vector difference = point_velocity(b, contact.lever_b);
-    difference -= point_velocity(a, contact.lever_a);
+    typename S::Vector difference = detail::velocity_at<S>(b, contact.lever_b);
+    difference -= detail::velocity_at<S>(a, contact.lever_a);
     return transposed_product(contact.frame, difference);
   }
 
  private:
-  void scale_couples([[maybe_unused]] std::span<Vector> impulses, const Team& team,
-                     const auto& scale) const {
-    if constexpr (Couples)
-      team.share_each(impulses.size(), 256, [&](std::size_t c) {
-        typename S::Angular couple = angular<S>(impulses[c]);
-        scale(couple, points_[c].radius);
-        angular<S>(impulses[c]) = couple;
-      });
-  }
   using Lanes = detail::ContactLanes<S>;
-  struct Point : detail::CoupleArm<S, Couples> {
-    typename S::Matrix frame;
-    typename S::Vector lever_a, lever_b;
-    Block block;
-    Vector free;
-    std::uint32_t a, b;
-  };
+  using Point = detail::OperatorPoint<S, Couples>;
+  using Momentum = typename Point::Momentum;
   /// What passes over all contacts need that do not need the points: less memory to read.
   struct Head {
     std::array<std::uint32_t, 2> bodies;
     Scalar trace;
   };
 
-  /// What an impulse at a contact gives body b, and takes from body a, world axes.
-  struct Momentum {
-    typename S::Vector push;  // [N s]
-    typename S::Angular moment_a, moment_b,
-        couple;  // about their centres [N m s]; couple: if Couples
-  };
-  /// One thread adds the momenta up contact by contact, several body by body.
-  MOREAU_COMPILED_ONCE Momentum momentum_of(std::size_t c, const Vector& impulse) const {
-    const Point& point = points_[c];
-    Momentum momentum;
-    momentum.push = product(point.frame, part_of_point(impulse));
-    momentum.moment_a = S::moment(point.lever_a, momentum.push);
-    momentum.moment_b = S::moment(point.lever_b, momentum.push);
-    if constexpr (Couples) momentum.couple = couple_of(point, impulse);
-    return momentum;
+  /// Calls scale(couple of an impulse, R of its contact) for each contact.
+  void scale_couples([[maybe_unused]] std::span<Vector> impulses, [[maybe_unused]] const Team& team,
+                     [[maybe_unused]] const auto& scale) const {
+    if constexpr (Couples)
+      team.share_each(impulses.size(), 256, [&](std::size_t c) {
+        typename S::Angular couple = angular<S>(impulses[c]);
+        scale(couple, points_[c].radius);
+        angular<S>(impulses[c]) = couple;
+      });
   }
   void give(std::uint32_t a, const Momentum& momentum) {
     linear<S>(changes_[a]) -= momentum.push;
@@ -314,17 +285,6 @@ class BodyDelassus {
     linear<S>(changes_[b]) += momentum.push;
     angular<S>(changes_[b]) += momentum.moment_b;
     if constexpr (Couples) angular<S>(changes_[b]) += momentum.couple;
-  }
-  /// The impulse at the point.
-  static decltype(auto) part_of_point(const Vector& impulse) {
-    if constexpr (Couples)
-      return typename S::Vector(linear<S>(impulse));
-    else
-      return (impulse);
-  }
-  /// The couple of an impulse on b, world axes [N m s].
-  static typename S::Angular couple_of(const Point& point, const Vector& impulse) {
-    return point.axes * angular<S>(impulse);
   }
   void stretch([[maybe_unused]] std::size_t c, [[maybe_unused]] const Vector& impulse) {
     if constexpr (Springs) stretch_spring(springs_.stretch[c], springs_.compliance[c], impulse);
@@ -375,58 +335,18 @@ class BodyDelassus {
                        std::span<const MobilityRoot<S>> roots,
                        std::span<const typename S::Twist> free) {
     Point& point = points_[c];
+    point.assemble_couple(contact, roots, masses_[point.a], masses_[point.b], free);
     Block& block = point.block;
-    const auto is_round = [&](std::uint32_t body) {
-      return roots[body].grain || !roots[body].angular.isZero(0);
-    };
-    point.radius = effective_radius(contact, is_round(contact.a), is_round(contact.b));
-    point.axes = point.radius * S::angular_frame(contact.frame);
-    angular<S>(point.free) =
-        point.axes.transpose() * (angular<S>(free[contact.b]) - angular<S>(free[contact.a]));
-    for (int k = 0; k < S::angular_dim; ++k) {
-      const typename S::Angular spin_a = masses_[point.a].spin_of(point.axes.col(k)),
-                                spin_b = masses_[point.b].spin_of(point.axes.col(k));
-      block.spin.col(k) = point.axes.transpose() * (spin_a + spin_b);
-      block.coupling.col(k) = point.frame.transpose() *
-                              (S::spin(spin_a, point.lever_a) + S::spin(spin_b, point.lever_b));
-    }
     if constexpr (Springs) block.spin.diagonal() += angular<S>(springs_.compliance[c]);
     // Two bodies whose rotation is prescribed: any positive value will do, see ContactLanes.
     if (block.spin.isZero(0)) block.spin.diagonal().setConstant(block.point.normal);
     heads_[c].trace = block.trace();
   }
 
-  /// The rows of a contact by unit impulses at the point of a body along the axes of the frame, and by unit
-  /// couples / R.
-  static Matrix block_of(const Point& point, const typename S::Vector& lever,
-                         const InverseMass<S>& mass) {
-    Matrix block;
-    const auto set_column = [&](int k, const typename S::Vector& centre,
-                                const typename S::Angular& spin) {
-      const typename S::Vector velocity = centre + S::spin(spin, lever);
-      block.col(k).template head<S::dim>() = transposed_product(point.frame, velocity);
-      if constexpr (Couples)
-        block.col(k).template tail<S::angular_dim>() = point.axes.transpose() * spin;
-    };
-    for (int k = 0; k < S::dim; ++k) {
-      const typename S::Vector push = point.frame.col(k);
-      set_column(k, mass.velocity_of(push), mass.spin_of(S::moment(lever, push)));
-    }
-    if constexpr (Couples)
-      for (int k = 0; k < S::angular_dim; ++k)
-        set_column(S::dim + k, S::Vector::Zero(), mass.spin_of(point.axes.col(k)));
-    return block;
-  }
-  /// @param twist (v, w), or a longer vector that begins with it
-  static typename S::Vector point_velocity(const auto& twist, const typename S::Vector& lever) {
-    typename S::Vector velocity = S::spin(angular<S>(twist), lever);
-    for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
-    return velocity;
-  }
   /// Change of the relative velocity by the impulses, world axes [m/s].
   typename S::Vector change_between(const Point& point) const {
-    typename S::Vector difference = point_velocity(changes_[point.b], point.lever_b);
-    difference -= point_velocity(changes_[point.a], point.lever_a);
+    typename S::Vector difference = detail::velocity_at<S>(changes_[point.b], point.lever_b);
+    difference -= detail::velocity_at<S>(changes_[point.a], point.lever_a);
     return difference;
   }
   void add_change(std::size_t body, const typename S::Vector& push,

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The part of a step around the contacts, for laws that give impulses (contact dynamics):
 //
-//   1. predict the detection configuration; Simulation then detects the contacts and assigns laws
-//   2. free velocities: of every body at the end of the step without contacts, attraction included;
-//      bodies that other processes share are split
-//   3. assemble the Delassus operator
-//   4. warm start from the impulses of the step before
-//   5. correct overlaps: bodies and gaps move, velocities do not
-//   6. variants: the law of each contact in this step, where it depends on the step before
-//   7. offset velocities: what each law adds to the normal velocity, from the corrected gaps
-//   8. solve the contact problem, by default with solve/coloured_gauss_seidel.hpp; limit the restitution
-//   9. velocities after the impulses
-//  10. measure the dissipation
-//  11. advance to the end of the step
+//   1. predict_configuration(): that of detection; Simulation then detects the contacts and assigns laws
+//   2. find_free_velocities(): of every body at the end of the step without contacts, attraction included
+//   3. assemble(): the Delassus operator; bodies that other processes share are split
+//   4. warm_start(): from the impulses of the step before
+//   5. correct_overlaps(): bodies and gaps move, velocities do not
+//   6. ContactLaws::list_variants(): the laws of this step, where they depend on the step before
+//   7. ContactLaws::offset_velocities(): what each law adds to the normal velocity, from the corrected gaps
+//   8. solve(): the contact problem, by default with solve/coloured_gauss_seidel.hpp; limits the restitution
+//   9. find_velocities(): after the impulses
+//  10. measure_losses(): the dissipation
+//  11. advance_configuration(): to the end of the step
 #pragma once
 
 #include <algorithm>
@@ -45,9 +44,10 @@
 #include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/cell_jumps.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
+#include "moreau/world/detail/contact_laws.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
-#include "moreau/world/detail/restitution_limit.hpp"
+#include "moreau/world/detail/integrate.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/overlap_correction.hpp"
@@ -139,30 +139,18 @@ class ImpulseDynamics {
   }
 
   /// Stage 1.
-  void predict(Bodies<S>& bodies, Scalar step) {
+  void predict_configuration(Bodies<S>& bodies, Scalar step) {
     momentum_.resize(bodies.size());
     free_.resize(bodies.size());
     after_.resize(bodies.size());
     roots_.resize(bodies.size());
     shifts_.resize(bodies.size());
-    const std::span momentum(momentum_);
-    if constexpr (requires { integrator_.predict_configuration(bodies, momentum, step, team_); })
-      integrator_.predict_configuration(bodies, momentum, step, team_);
-    else
-      integrator_.predict_configuration(bodies, momentum, step);
-  }
-
-  /// Stages 2 to 11 with the contacts of the context.
-  /// @param report out: all but the results of detection, and the times
-  void advance(const Context& context, StepReport& report) {
-    free_velocities(context, report);
-    solve_contacts(context, report);
-    finish(context, report);
+    detail::predict_configuration<S>(integrator_, bodies, momentum_, step, team_);
   }
   /// Whether other processes share bodies.
   bool shares_bodies() const { return shared_ != nullptr; }
   /// Stage 2.
-  void free_velocities(const Context& context, StepReport& report);
+  void find_free_velocities(const Context& context, StepReport& report);
   /// Stages 3 to 9.
   /// @param report out: all but the results of detection and of stage 10, and the times
   void solve_contacts(const Context& context, StepReport& report);
@@ -206,7 +194,6 @@ class ImpulseDynamics {
 
   void deserialized() { forget_problem(); }
 
-  static constexpr bool stateful = StatefulLaw<Law, S>;
   static constexpr bool compliant = CompliantLaw<Law, S>;
   static constexpr bool bridging = BridgingLaw<Law, S>;
   static constexpr bool bonding = BondingLaw<Law, S>;
@@ -219,27 +206,14 @@ class ImpulseDynamics {
   }
 
   void assemble(const Context& context) {
+    if (shared_)
+      split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
     problem_.delassus.assemble(context.contacts.points, roots_, free_,
                                springs_.compliances(context), team_);
+    if (context.deforms())
+      jumps_.add(context.cell->rate(), context.contacts, problem_.delassus, team_);
   }
 
-  void find_free_velocities(const Context& context) {
-    const Bodies<S>& bodies = context.bodies;
-    team_.share_each(bodies.size(), 128,
-                     [&](std::size_t i) { roots_[i] = bodies.mobility_root(i); });
-    const std::span momentum(momentum_);
-    const std::span free(free_);
-    if constexpr (requires {
-                    integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step,
-                                              team_);
-                  })
-      integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step, team_);
-    else
-      integrator_.free_velocity(bodies, context.gravity, momentum, free, context.step);
-    if (context.deforms())
-      CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
-    attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), free);
-  }
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
     if constexpr (!compliant) {
@@ -286,31 +260,6 @@ class ImpulseDynamics {
     if constexpr (bonding) bonds_.start(context.contacts);
     return found;
   }
-  void prepare_laws(const Context& context) {
-    problem_.law_of.resize(context.contacts.size());
-    problem_.laws.clear();
-    for (const Law& law : context.materials.laws())
-      if constexpr (stateful)
-        for (std::size_t k = 0; k < Law::variants; ++k) problem_.laws.push_back(law.variant(k));
-      else
-        problem_.laws.push_back(law);
-  }
-  /// The law of a contact in this step: index into problem_.laws.
-  static std::uint32_t law_of(const Contact<S>& contact) {
-    if constexpr (stateful)
-      return contact.law * static_cast<std::uint32_t>(Law::variants) + contact.variant;
-    else
-      return contact.law;
-  }
-  /// Chooses the laws of the next step, from impulses that still are those of the laws.
-  template <class L>  // clang would instantiate a function that is no template with the class
-  void choose_variants(const Materials<L>& materials, ContactsOf<Law, S>& contacts) {
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      Contact<S>& contact = contacts.points[c];
-      contact.variant = static_cast<std::uint32_t>(materials.laws()[contact.law].variant_after(
-          contact.variant, Vector(contacts.impulse(c))));
-    }
-  }
 
   OverlapCorrectionReport correct_overlaps(const Context& context) {
     OverlapCorrectionReport report = correction_.solve(problem_.delassus, context.contacts.points,
@@ -322,61 +271,18 @@ class ImpulseDynamics {
     return report;
   }
 
-  /// Chooses the law of each contact, fills the relative velocities before the step and adds the
-  /// offsets of the laws to b.
-  /// @returns the largest approach velocity before the step, >= 0 [m/s]
-  Scalar offset_velocities(const Context& context) {
-    const Bodies<S>& bodies = context.bodies;
-    const std::span<Row> impulses(context.contacts.impulses);
-    const bool deforms = context.deforms();
-    before_.resize(context.contacts.size());
-    limit_.resize(context.contacts.size());
-    return sum_of<Largest>(
-               team_, context.contacts.size(),
-               [&](Largest& fastest, std::size_t c) {
-                 const Contact<S>& contact = context.contacts.points[c];
-                 const Law& law = context.materials.laws()[contact.law];
-                 problem_.law_of[c] = law_of(contact);
-                 before_[c] = BodyDelassus<S>::relative_velocity(
-                     contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
-                 if (deforms) before_[c] += jumps_[c];
-                 fastest.add({-before_[c][0]});
-                 const Scalar approach =
-                     before_[c][0] - add_chord(problem_.delassus, context, c, before_[c]);
-                 const Scalar offset = law.velocity_offset(contact.gap, approach, context.step);
-                 limit_.set(c, law, contact.gap, approach, context.step, offset);
-                 if constexpr (TangentialRestitutionLaw<Law, S>)
-                   bounce_aside(c, law, contact.gap, approach);
-                 if (!std::isfinite(offset)) impulses[c].setZero();
-                 problem_.delassus.offset_normal(c, offset);
-               })
-        .value;
-  }
-  /// Adds beta0 u_t^- of an impact to u_t.
-  /// @param approach u_n before the step, without the chord of a turning wall [m/s]
-  template <class L>  // explicit instantiations would instantiate a function that is no template
-  void bounce_aside(std::size_t c, const L& law, Scalar gap, Scalar approach) {
-    Row aside = law.tangential_share(gap, approach) * before_[c];
-    aside[0] = 0;
-    problem_.delassus.offset(c, aside);
-    limit_.set_aside(c, aside);
-  }
-  struct Largest {
-    Scalar value = 0;
-    void add(const Largest& other) { value = std::max(value, other.value); }
-  };
-
   void solve(const Context& context, StepReport& report) {
     const std::span<Row> impulses(context.contacts.impulses);
     report.solve = solver_.solve(problem_, impulses, workspace_);
     if constexpr (bonding) soften_bonds(context, report);
-    if (!shared_) limit_.apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
+    if (!shared_)
+      laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
       springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
     if constexpr (bonding)
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
-    if constexpr (stateful) choose_variants(context.materials, context.contacts);
+    laws_.choose_variants(context.materials, context.contacts);
     attraction_.take_from(impulses);
     problem_.delassus.from_rows(impulses, team_);
   }
@@ -411,7 +317,7 @@ class ImpulseDynamics {
     if constexpr (bonding) {
       const auto losses = [&](std::size_t c) {
         ContactLosses one;
-        add_losses<S>(context.bodies, context.contacts, c, before_[c],
+        add_losses<S>(context.bodies, context.contacts, c, laws_.velocities_before()[c],
                       std::span<const Twist>(after_), one);
         return one;
       };
@@ -419,8 +325,18 @@ class ImpulseDynamics {
     }
   }
 
+  void measure_losses(const Context& context, StepReport& report) {
+    // The mean of the velocities before and after has the cell's once, too.
+    if (context.deforms()) laws_.add_jumps(jumps_);
+    const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
+                                                   laws_.velocities_before(), std::span(after_));
+    report.friction += losses.friction;
+    report.rolling += losses.rolling;
+    report.dissipation += losses.dissipation;
+    end_bonds(context, report);
+  }
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
-  void velocities_after() {
+  void find_velocities() {
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
       after_[i] = free_[i] + problem_.delassus.velocity_change(i);
       if (!all_finite(after_[i]))
@@ -440,7 +356,7 @@ class ImpulseDynamics {
       attraction_;
   BodyShifts<S> shifts_;  // by the overlap correction
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
-  RestitutionLimit<S, Law> limit_;
+  ContactLaws<S, Law> laws_;
   CellJumps<S> jumps_;  // of a periodic cell that deforms
 
   // One entry per body.
@@ -448,18 +364,22 @@ class ImpulseDynamics {
   std::vector<Twist> free_, after_;            // velocities without and with the impulses
   std::vector<MobilityRoot<S>> roots_;
   std::vector<unsigned char> touched_;  // by contacts
-  // One entry per contact.
-  std::vector<Vector> before_;  // relative velocity before the step, contact frame [m/s]
   [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
   [[no_unique_address]] std::conditional_t<bridging, BridgeBits<S, Law>, NoBridges> bridges_;
 };
 
 // Outside of the class: compiled once where a program declares the dynamics extern.
 template <class S, class Law, class Integrator, class Solver>
-void ImpulseDynamics<S, Law, Integrator, Solver>::free_velocities(const Context& context,
-                                                                  StepReport& report) {
+void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Context& context,
+                                                                       StepReport& report) {
   StepReport::StageClock clock;
-  find_free_velocities(context);
+  const Bodies<S>& bodies = context.bodies;
+  team_.share_each(bodies.size(), 128, [&](std::size_t i) { roots_[i] = bodies.mobility_root(i); });
+  const std::span free(free_);
+  free_velocity<S>(integrator_, bodies, context.gravity, momentum_, free, context.step, team_);
+  if (context.deforms())
+    CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
+  attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), free);
   report.ms_assemble += clock.lap();
 }
 
@@ -467,41 +387,26 @@ template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& context,
                                                                  StepReport& report) {
   StepReport::StageClock clock;
-  if (shared_)
-    split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
   assemble(context);
-  if (context.deforms())
-    jumps_.add(context.cell->rate(), context.contacts, problem_.delassus, team_);
   report.warm_started = warm_start(context);
   report.ms_assemble += clock.lap();
   report.correction = correct_overlaps(context);
   report.ms_correct += clock.lap();
-  prepare_laws(context);
-  report.approach = double(offset_velocities(context) * context.step / context.margin);
+  laws_.list_variants(context, problem_);
+  const Scalar approach =
+      laws_.offset_velocities(context, problem_, context.contacts.impulses, jumps_, team_);
+  report.approach = double(approach * context.step / context.margin);
   solve(context, report);
   report.ms_contacts += clock.lap();
-  velocities_after();
+  find_velocities();
 }
 
 template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
                                                          StepReport& report) {
-  if (context.deforms())  // the mean of the velocities before and after has the cell's once, too
-    for (std::size_t c = 0; c < before_.size(); ++c) before_[c] += jumps_[c];
-  const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
-                                                 std::span(before_), std::span(after_));
-  report.friction += losses.friction;
-  report.rolling += losses.rolling;
-  report.dissipation += losses.dissipation;
-  end_bonds(context, report);
+  measure_losses(context, report);
   shifts_.turn_spins(correction_.shifts(), after_, team_);
-  const std::span<const Twist> after(after_);
-  if constexpr (requires {
-                  integrator_.advance_configuration(context.bodies, after, context.step, team_);
-                })
-    integrator_.advance_configuration(context.bodies, after, context.step, team_);
-  else
-    integrator_.advance_configuration(context.bodies, after, context.step);
+  advance_configuration<S>(integrator_, context.bodies, after_, context.step, team_);
 }
 
 }  // namespace moreau::detail

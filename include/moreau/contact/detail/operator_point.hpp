@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "moreau/contact/contact.hpp"
+#include "moreau/contact/effective_radius.hpp"
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/twist.hpp"
+#include "moreau/law/local_block.hpp"
+#include "moreau/law/rolling_block.hpp"
+#include "moreau/motion/mobility.hpp"
+
+namespace moreau::detail {
+
+/// Velocity of a point of a body, world axes [m/s].
+/// @param twist (v, w) [m/s, rad/s], or a longer vector that begins with it
+/// @param lever from the centre of the body to the point, world axes [m]
+template <class S>
+typename S::Vector velocity_at(const auto& twist, const typename S::Vector& lever) {
+  typename S::Vector velocity = S::spin(angular<S>(twist), lever);
+  for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
+  return velocity;
+}
+
+/// What a contact with a couple has beside its point; nothing without couples.
+template <class S, bool Couples>
+struct CoupleArm {};
+template <class S>
+struct CoupleArm<S, true> {
+  typename S::Inertia axes;   ///< R times the axes of rotation of the frame, world axes [m]
+  typename S::Scalar radius;  ///< R [m]
+};
+
+/// What BodyDelassus stores of a contact.
+template <class S, bool Couples>
+struct OperatorPoint : CoupleArm<S, Couples> {
+  using Block = std::conditional_t<Couples, RollingBlock<S>, LocalBlock<S>>;  ///< W_cc
+  using Vector = typename Block::Vector;
+  using Matrix =
+      Eigen::Matrix<typename S::Scalar, Vector::RowsAtCompileTime, Vector::RowsAtCompileTime>;
+
+  typename S::Matrix frame;             ///< columns n, t[, s], world axes
+  typename S::Vector lever_a, lever_b;  ///< from the centres to the point, world axes [m]
+  Block block;                          ///< W_cc + D_cc [1/kg]
+  Vector free;                          ///< b, with the offset of the law [m/s]
+  std::uint32_t a, b;                   ///< the bodies
+
+  /// What an impulse at the contact gives body b, and takes from body a, world axes.
+  struct Momentum {
+    typename S::Vector push;  ///< [N s]
+    /// About their centres [N m s]; couple: with couples.
+    typename S::Angular moment_a, moment_b, couple;
+  };
+  /// One thread adds the momenta up contact by contact, several body by body.
+  MOREAU_COMPILED_ONCE Momentum momentum_of(const Vector& impulse) const {
+    Momentum momentum;
+    momentum.push = push_of(impulse);
+    momentum.moment_a = S::moment(lever_a, momentum.push);
+    momentum.moment_b = S::moment(lever_b, momentum.push);
+    if constexpr (Couples) momentum.couple = couple_of(impulse);
+    return momentum;
+  }
+  /// The impulse on b at the point, world axes [N s].
+  typename S::Vector push_of(const Vector& impulse) const {
+    if constexpr (Couples)
+      return product(frame, typename S::Vector(linear<S>(impulse)));
+    else
+      return product(frame, impulse);
+  }
+  /// The couple of an impulse on b, world axes [N m s].
+  typename S::Angular couple_of(const Vector& impulse) const requires Couples {
+    return this->axes * angular<S>(impulse);
+  }
+  /// Computes the rows of the couple, after those of the point.
+  void assemble_couple(const Contact<S>& contact, std::span<const MobilityRoot<S>> roots,
+                       const InverseMass<S>& mass_a, const InverseMass<S>& mass_b,
+                       std::span<const typename S::Twist> velocities) requires Couples {
+    const auto is_round = [&](std::uint32_t body) {
+      return roots[body].grain || !roots[body].angular.isZero(0);
+    };
+    this->radius = effective_radius(contact, is_round(contact.a), is_round(contact.b));
+    this->axes = this->radius * S::angular_frame(contact.frame);
+    angular<S>(free) = this->axes.transpose() *
+                       (angular<S>(velocities[contact.b]) - angular<S>(velocities[contact.a]));
+    for (int k = 0; k < S::angular_dim; ++k) {
+      const typename S::Angular spin_a = mass_a.spin_of(this->axes.col(k)),
+                                spin_b = mass_b.spin_of(this->axes.col(k));
+      block.spin.col(k) = this->axes.transpose() * (spin_a + spin_b);
+      block.coupling.col(k) =
+          frame.transpose() * (S::spin(spin_a, lever_a) + S::spin(spin_b, lever_b));
+    }
+  }
+  /// The part of W_cc that belongs to a body: its rows by unit impulses at the point along the axes of the frame, and
+  /// by unit couples / R.
+  /// @param lever lever_a or lever_b
+  /// @param mass  of that body
+  Matrix block_of(const typename S::Vector& lever, const InverseMass<S>& mass) const {
+    Matrix part;
+    const auto set_column = [&](int k, const typename S::Vector& centre,
+                                const typename S::Angular& spin) {
+      const typename S::Vector velocity = centre + S::spin(spin, lever);
+      part.col(k).template head<S::dim>() = transposed_product(frame, velocity);
+      if constexpr (Couples)
+        part.col(k).template tail<S::angular_dim>() = this->axes.transpose() * spin;
+    };
+    for (int k = 0; k < S::dim; ++k) {
+      const typename S::Vector push = frame.col(k);
+      set_column(k, mass.velocity_of(push), mass.spin_of(S::moment(lever, push)));
+    }
+    if constexpr (Couples)
+      for (int k = 0; k < S::angular_dim; ++k)
+        set_column(S::dim + k, S::Vector::Zero(), mass.spin_of(this->axes.col(k)));
+    return part;
+  }
+};
+
+}  // namespace moreau::detail

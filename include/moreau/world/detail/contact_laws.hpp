@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The laws of the contacts in a step: stages 6 and 7 of impulse_dynamics.hpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/contact.hpp"
+#include "moreau/law/concepts.hpp"
+#include "moreau/law/materials.hpp"
+#include "moreau/motion/bodies.hpp"
+#include "moreau/parallel/team.hpp"
+#include "moreau/solve/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
+#include "moreau/world/detail/cell_jumps.hpp"
+#include "moreau/world/detail/chord_velocities.hpp"
+#include "moreau/world/detail/restitution_limit.hpp"
+#include "moreau/world/detail/step_context.hpp"
+
+namespace moreau::detail {
+
+/// Which law each contact has in a step, and what the laws add to the relative velocities.
+template <class S, class Law>
+class ContactLaws {
+ public:
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
+  using Problem = ContactProblem<Operator, Law>;
+  using Context = StepContext<S, Law>;
+
+  /// Fills the table of laws: the variants of the first law of the materials, then those of the second, ...
+  void list_variants(const Context& context, Problem& problem) {
+    problem.law_of.resize(context.contacts.size());
+    problem.laws.clear();
+    for (const Law& law : context.materials.laws())
+      if constexpr (stateful)
+        for (std::size_t k = 0; k < Law::variants; ++k) problem.laws.push_back(law.variant(k));
+      else
+        problem.laws.push_back(law);
+  }
+  /// Chooses the law of each contact, computes the relative velocities before the step and adds the
+  /// offsets of the laws to b.
+  /// @param impulses out: 0 where the law says that the contact cannot act
+  /// @param jumps    of the cell, if it deforms
+  /// @returns the largest approach velocity before the step, >= 0 [m/s]
+  Scalar offset_velocities(const Context& context, Problem& problem, std::span<Row> impulses,
+                           const CellJumps<S>& jumps, const Team& team) {
+    const Bodies<S>& bodies = context.bodies;
+    const bool deforms = context.deforms();
+    before_.resize(context.contacts.size());
+    limit_.resize(context.contacts.size());
+    return sum_of<Largest>(
+               team, context.contacts.size(),
+               [&](Largest& fastest, std::size_t c) {
+                 const Contact<S>& contact = context.contacts.points[c];
+                 const Law& law = context.materials.laws()[contact.law];
+                 problem.law_of[c] = law_of(contact);
+                 before_[c] = BodyDelassus<S>::relative_velocity(
+                     contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
+                 if (deforms) before_[c] += jumps[c];
+                 fastest.add({-before_[c][0]});
+                 const Scalar approach =
+                     before_[c][0] - add_chord(problem.delassus, context, c, before_[c]);
+                 const Scalar offset = law.velocity_offset(contact.gap, approach, context.step);
+                 limit_.set(c, law, contact.gap, approach, context.step, offset);
+                 if constexpr (TangentialRestitutionLaw<Law, S>)
+                   bounce_aside(problem, c, law, contact.gap, approach);
+                 if (!std::isfinite(offset)) impulses[c].setZero();
+                 problem.delassus.offset_normal(c, offset);
+               })
+        .value;
+  }
+  /// Chooses the variants of the next step, from impulses that still are those of the laws.
+  template <
+      class Contacts>  // clang would instantiate a function that is no template with the class
+  void choose_variants(const Materials<Law>& materials, Contacts& contacts) const {
+    if constexpr (stateful)
+      for (std::size_t c = 0; c < contacts.size(); ++c) {
+        Contact<S>& contact = contacts.points[c];
+        contact.variant = static_cast<std::uint32_t>(materials.laws()[contact.law].variant_after(
+            contact.variant, Vector(contacts.impulse(c))));
+      }
+  }
+
+  /// Relative velocity of each contact before the step, with that of the cell, contact frame [m/s].
+  std::span<const Vector> velocities_before() const { return before_; }
+  /// Adds the velocities of the cell to velocities_before() once more.
+  void add_jumps(const CellJumps<S>& jumps) {
+    for (std::size_t c = 0; c < before_.size(); ++c) before_[c] += jumps[c];
+  }
+  /// The limit of the restitution, for the offsets of the step.
+  RestitutionLimit<S, Law>& limit() { return limit_; }
+
+ private:
+  static constexpr bool stateful = StatefulLaw<Law, S>;
+  struct Largest {
+    Scalar value = 0;
+    void add(const Largest& other) { value = std::max(value, other.value); }
+  };
+
+  /// Index into the table of laws.
+  static std::uint32_t law_of(const Contact<S>& contact) {
+    if constexpr (stateful)
+      return contact.law * static_cast<std::uint32_t>(Law::variants) + contact.variant;
+    else
+      return contact.law;
+  }
+  /// Adds beta0 u_t^- of an impact to u_t.
+  /// @param approach u_n before the step, without the chord of a turning wall [m/s]
+  template <class L>  // explicit instantiations would instantiate a function that is no template
+  void bounce_aside(Problem& problem, std::size_t c, const L& law, Scalar gap, Scalar approach) {
+    Row aside = law.tangential_share(gap, approach) * before_[c];
+    aside[0] = 0;
+    problem.delassus.offset(c, aside);
+    limit_.set_aside(c, aside);
+  }
+
+  RestitutionLimit<S, Law> limit_;
+  std::vector<Vector> before_;  // one per contact
+};
+
+}  // namespace moreau::detail
