@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The oracle of Coulomb's local problem: a solution of its own, written for one contact, by a root of
-// phi(alpha) = |r_t| - mu r_n in a bracket. SignoriniCoulomb::solve and its lanes must agree with it.
+// phi(alpha) = |r_t| - mu r_n in a bracket. SignoriniCoulomb::solve and its lanes must agree with it,
+// and RollingResistance::solve and its lanes with the same beside a couple.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +12,14 @@
 #include <limits>
 
 #include "moreau/core/space.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/local_block.hpp"
+#include "moreau/law/rolling_block.hpp"
 
 namespace law_oracle {
 
 using moreau::LocalBlock;
+using moreau::RollingBlock;
 using moreau::Space;
 
 /// The impulse of slip in the plane: r_t = s mu r_n, where the sign s of r_t does not depend on
@@ -125,6 +129,38 @@ typename S::Vector solve_coulomb(const LocalBlock<S>& block, const typename S::V
           : r.template tail<tangents>().stableNorm() <= friction * r[0])
     return r;
   return solve_slip<T>(block, b, friction, guess);
+}
+
+/// The couple m / R with Q m + c = -beta m, |m| <= limit, beta >= 0, and beta = 0 if |m| < limit, for Q = q I.
+template <class Vector>
+Vector solve_couple(typename Vector::Scalar q, const Vector& c, typename Vector::Scalar limit) {
+  const Vector rests = -c / q;
+  const auto length = rests.norm();
+  return length <= limit || !(length > 0) ? rests : Vector(rests * (limit / length));
+}
+
+/// The impulse that solves Coulomb's law and the law of rolling for u = W r + b, for a round block: the two in turn,
+/// each with the impulse of the other.
+template <class S>
+typename RollingBlock<S>::Vector solve_rolling(const RollingBlock<S>& block,
+                                               const typename RollingBlock<S>::Vector& b,
+                                               typename S::Scalar friction,
+                                               typename S::Scalar rolling) {
+  using Row = typename RollingBlock<S>::Vector;
+  using T = typename S::Scalar;
+  Row r = Row::Zero();
+  for (int turn = 0; turn < 4000; ++turn) {
+    const Row before = r;
+    const typename S::Vector b_point =
+        moreau::linear<S>(b) + block.coupling * moreau::angular<S>(r);
+    moreau::linear<S>(r) =
+        solve_coulomb<S>(block.point, b_point, friction, typename S::Vector(moreau::linear<S>(r)));
+    const typename S::Angular c =
+        moreau::angular<S>(b) + block.coupling.transpose() * moreau::linear<S>(r);
+    moreau::angular<S>(r) = solve_couple(block.spin(0, 0), c, T(rolling * r[0]));
+    if ((r - before).norm() <= std::numeric_limits<T>::epsilon() / 4 * r.norm()) break;
+  }
+  return r;
 }
 
 }  // namespace law_oracle

@@ -11,9 +11,11 @@
 #include <limits>
 #include <random>
 
+#include "law/random_blocks.hpp"
 #include "types.hpp"
 
 using namespace moreau;
+using law_oracle::round_block;
 using S = Space<3>;
 using Row = RollingBlock<S>::Vector;
 
@@ -47,35 +49,6 @@ RollingBlock<S> eccentric_block(std::mt19937_64& random) {
   w = q.transpose() * w * q;
   block.coupling = w.topRightCorner<3, 3>();
   block.spin = w.bottomRightCorner<3, 3>();
-  return block;
-}
-
-/// W of two balls, or of a ball and a wall, that touch on the line of their centres. The mass lies
-/// anywhere between the centre and the surface.
-template <class Space>
-RollingBlock<Space> round_block(std::mt19937_64& random) {
-  using T = typename Space::Scalar;
-  using Vector = typename Space::Vector;
-  std::uniform_real_distribution<double> part(0, 1);
-  const double radii[] = {0.2 + part(random), 0.2 + part(random)};
-  const bool wall = part(random) < 0.3;
-  const double radius = wall ? radii[0] : 1 / (1 / radii[0] + 1 / radii[1]);
-  double normal = 0, slip = 0, cross = 0, spin = 0;
-  for (const int sign : {1, -1}) {
-    if (wall && sign < 0) continue;
-    const double r = radii[sign < 0], mass = std::pow(r, Space::dim);
-    const double turn = 1 / (mass * r * r * (0.1 + 0.9 * part(random)));
-    normal += 1 / mass;
-    slip += 1 / mass + r * r * turn;
-    cross += sign * radius * r * turn;
-    spin += radius * radius * turn;
-  }
-  RollingBlock<Space> block;
-  block.point.normal = T(normal);
-  block.point.coupling.setZero();
-  block.point.slip.setConstant(T(slip));
-  block.coupling = T(cross) * Space::lever(Vector(Vector::Unit(0)));
-  block.spin = T(spin) * Space::Inertia::Identity();
   return block;
 }
 

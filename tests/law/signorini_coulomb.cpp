@@ -13,8 +13,10 @@
 #include "moreau/law/materials.hpp"
 
 #include "law/oracle.hpp"
+#include "law/random_blocks.hpp"
 #include "types.hpp"
 
+using law_oracle::random_problem;
 using moreau::LocalBlock;
 using moreau::SignoriniCoulomb;
 using moreau::Space;
@@ -22,31 +24,6 @@ using moreau::Space;
 static_assert(moreau::SetValuedLaw<SignoriniCoulomb<double>, Space<2>>);
 static_assert(moreau::SetValuedLaw<SignoriniCoulomb<double>, Space<3>>);
 static_assert(moreau::SetValuedLaw<SignoriniCoulomb<float>, Space<3, float>>);
-
-namespace {
-
-/// A random block with a condition number of at most about 1e4, and a random velocity.
-template <class S>
-struct LocalProblem {
-  LocalBlock<S> block;
-  typename S::Vector velocity;
-};
-
-template <class S>
-LocalProblem<S> random_problem(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  LocalProblem<S> problem;
-  typename S::Matrix a;
-  for (auto& x : a.reshaped()) x = static_cast<typename S::Scalar>(normal(random));
-  for (auto& x : problem.velocity) x = static_cast<typename S::Scalar>(normal(random));
-  typename S::Matrix w = a * a.transpose() + typename S::Scalar(1e-3) * S::Matrix::Identity();
-  w /= w.trace();
-  Eigen::Matrix<typename S::Scalar, S::dim - 1, S::dim - 1> turn;
-  problem.block = moreau::align_tangents<S>(w, turn);
-  return problem;
-}
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("the local solution satisfies the law, whatever the guess", S,
                    MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
