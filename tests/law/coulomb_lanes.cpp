@@ -25,15 +25,15 @@ template <class S>
 struct Lanes {
   using T = typename S::Scalar;
   using Block = LaneBlock<S>;
-  using W = typename Block::Number;
-  static constexpr std::size_t count = std::size_t{W::lanes};
+  using Number = typename Block::Number;
+  static constexpr std::size_t count = std::size_t{Number::lanes};
 
   std::array<LocalBlock<S>, count> blocks;
   std::array<typename S::Vector, count> velocities;
   std::array<T, count> frictions;
   Block block = Block::unit();
   typename Block::Vector velocity{};
-  typename W::Values friction{}, alpha{};
+  typename Number::Values friction{}, alpha{};
 
   explicit Lanes(std::mt19937_64& random, T scale) {
     std::normal_distribution<double> normal;
@@ -123,16 +123,16 @@ TEST_CASE_TEMPLATE("loads of any size have finite impulses in the cone", S,
                    MOREAU_TYPES((Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   using Block = LaneBlock<S>;
-  using W = typename Block::Number;
+  using Number = typename Block::Number;
   const Block block = Block::unit();
-  const auto friction = W::broadcast(T(0.5));
+  const auto friction = Number::broadcast(T(0.5));
   for (const double speed : {0.0, 1e-9, 1e-3, 1.0})
     for (double load = 1; load > 1e-46; load /= 10)
       for (const double start : {0.0, 1.0, 1e10, 1e30}) {
-        typename Block::Vector b{W::broadcast(static_cast<T>(-load)),
-                                 W::broadcast(static_cast<T>(speed)),
-                                 W::broadcast(static_cast<T>(speed / 2))};
-        auto alpha = W::broadcast(static_cast<T>(start));
+        typename Block::Vector b{Number::broadcast(static_cast<T>(-load)),
+                                 Number::broadcast(static_cast<T>(speed)),
+                                 Number::broadcast(static_cast<T>(speed / 2))};
+        auto alpha = Number::broadcast(static_cast<T>(start));
         const auto r = detail::CoulombLanes<S>::solve(block, b, friction, alpha, true);
         const double tangential = std::hypot(double(r[1][0]), double(r[2][0]));
         INFO("load ", load, ", speed ", speed, ", alpha ", start);

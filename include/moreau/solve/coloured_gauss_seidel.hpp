@@ -261,15 +261,15 @@ class ColouredGaussSeidel {
     const int next = report.sweeps < early
                          ? early
                          : options_.check_interval - report.sweeps % options_.check_interval;
-    const int block = std::min(next, max_sweeps - report.sweeps);
-    for (int k = 1; k < block; ++k)
+    const int count = std::min(next, max_sweeps - report.sweeps);
+    for (int k = 1; k < count; ++k)
       if (report.sweeps < options_.check_interval &&
           std::has_single_bit(unsigned(report.sweeps + k)))
         sweeps.sweep_all(team_);
       else
         sweeps.sweep_active(team_);
     sweeps.plain_sweep(team_).write(report);
-    report.sweeps += block;
+    report.sweeps += count;
   }
 
   bool is_solved(const SolveReport& report) const {

@@ -68,8 +68,8 @@ TEST_CASE_TEMPLATE("points: a million problems", S, Space<2>, Space<3>, Space<2,
                    Space<3, float>) {
   using T = typename S::Scalar;
   using Block = LaneBlock<S>;
-  using W = typename Block::Number;
-  constexpr std::size_t lanes = std::size_t{W::lanes};
+  using Number = typename Block::Number;
+  constexpr std::size_t lanes = std::size_t{Number::lanes};
   std::mt19937_64 random(21);
   std::normal_distribution<double> normal;
   Agreement<T> alone, in_lanes;
@@ -79,7 +79,7 @@ TEST_CASE_TEMPLATE("points: a million problems", S, Space<2>, Space<3>, Space<2,
     std::array<typename S::Vector, lanes> expected;
     Block block = Block::unit();
     typename Block::Vector b{}, r{};
-    typename W::Values mu{}, alpha{};
+    typename Number::Values mu{}, alpha{};
     for (std::size_t l = 0; l < lanes; ++l) {
       problems[l] = law_oracle::random_problem<S>(random);
       friction[l] = (done + l) % 50 == 0 ? T(0) : static_cast<T>(std::abs(normal(random)));

@@ -14,7 +14,7 @@
 #include <limits>
 #include <vector>
 
-#include "moreau/law/coulomb_block.hpp"
+#include "moreau/solve/detail/coulomb_block.hpp"
 #include "moreau/solve/friction_problem.hpp"
 
 namespace moreau::detail {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One contact with any block, including asymmetric ones: the solution satisfies the law, and for
 // symmetric blocks it equals the solution of SignoriniCoulomb.
-#include "moreau/law/coulomb_block.hpp"
+#include "moreau/solve/detail/coulomb_block.hpp"
 
 #include <doctest/doctest.h>
 #include <random>
