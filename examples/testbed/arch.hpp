@@ -106,12 +106,12 @@ class Arch final : public Scene<ShapeT> {
   }
 
   void record(const moreau::StepReport& report) override {
-    const moreau::Contacts<S>& contacts = simulation_.contacts();
+    const auto& contacts = simulation_.contacts();
     const std::uint32_t floor = simulation_.walls()[0].value, springer = simulation_.grain(0).value;
     Vector on_floor = Vector::Zero();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& contact = contacts.points[c];
-      const Vector impulse = contact.frame * contacts.impulses[c];
+      const Vector impulse = contact.frame * contacts.impulse(c);
       if (contact.a == springer && contact.b == floor) on_floor += impulse;
       if (contact.b == springer && contact.a == floor) on_floor -= impulse;
     }

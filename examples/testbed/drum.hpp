@@ -118,7 +118,7 @@ class Drum final : public Scene<ShapeT> {
       const auto& contact = contacts.points[c];
       const bool is_a = contact.a == drum_.value;
       if (!is_a && contact.b != drum_.value) continue;
-      const Vector impulse = contact.frame * contacts.impulses[c];
+      const Vector impulse = contact.frame * contacts.impulse(c);
       const Vector lever = is_a ? contact.lever_a : contact.lever_b;
       moment += (is_a ? 1 : -1) * axis().dot(S::moment(lever, impulse));
     }

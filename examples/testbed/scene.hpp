@@ -279,7 +279,7 @@ class Scene : public AnyScene {
   /// Force chains, and the colours of the grains: the sum of the normal forces on a grain, and the
   /// largest residual of its contacts.
   void write_contacts() {
-    const moreau::Contacts<S>& contacts = simulation_.contacts();
+    const auto& contacts = simulation_.contacts();
     const std::size_t bodies = simulation_.bodies().size();
     force_.assign(bodies, 0), residual_.assign(bodies, 0);
     const auto position_of = [&](std::size_t body) {
@@ -309,15 +309,14 @@ class Scene : public AnyScene {
     }
   }
   /// The norm of the natural map of each contact, as a velocity.
-  void measure_residuals(const moreau::Contacts<S>& contacts) {
+  void measure_residuals(const auto& contacts) {
     const auto& problem = simulation_.contact_problem();
     if (problem.size() != contacts.size()) return;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Vector u = problem.delassus.velocity(c);
       if (!std::isfinite(u[0])) continue;
       const double scale = problem.delassus.block(c).trace() / S::dim;
-      const double left =
-          problem.law(c).natural_map(u, Vector(scale * contacts.impulses[c])).norm();
+      const double left = problem.law(c).natural_map(u, Vector(scale * contacts.impulse(c))).norm();
       for (const std::uint32_t body : {contacts.points[c].a, contacts.points[c].b})
         residual_[body] = std::max(residual_[body], left);
     }

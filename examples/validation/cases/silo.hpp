@@ -83,7 +83,7 @@ struct Silo {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& contact = contacts.points[c];
       if (world.is_grain(contact.b) || std::abs(contact.frame(up, 0)) > 0.5) continue;
-      const Vector force = contact.frame * contacts.impulses[c] / -h;
+      const Vector force = contact.frame * contacts.impulse(c) / -h;
       const double height = bodies.pose[contact.a].position[up] + contact.lever_a[up];
       add(friction, height, force[up]);
       add(push, height, contacts.impulses[c][0] / h);

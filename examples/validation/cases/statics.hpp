@@ -26,8 +26,8 @@ Balance balance(const World<ShapeT>& world, double h) {
   const auto& contacts = world.contacts();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts.points[c];
-    all += contacts.impulses[c].norm() / h;
-    const typename S::Vector force = contact.frame * contacts.impulses[c] / h;
+    all += contacts.impulse(c).norm() / h;
+    const typename S::Vector force = contact.frame * contacts.impulse(c) / h;
     load[contact.b].template head<S::dim>() += force;
     load[contact.b].template tail<S::angular_dim>() += S::moment(contact.lever_b, force);
     load[contact.a].template head<S::dim>() -= force;
