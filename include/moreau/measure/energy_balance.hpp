@@ -27,6 +27,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"

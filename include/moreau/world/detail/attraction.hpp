@@ -16,6 +16,7 @@
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
+#include "moreau/solve/concepts.hpp"
 #include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/step_context.hpp"
 

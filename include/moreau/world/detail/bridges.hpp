@@ -14,6 +14,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
+#include "moreau/solve/concepts.hpp"
 
 namespace moreau::detail {
 

@@ -6,6 +6,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
+#include "moreau/solve/concepts.hpp"
 #include "moreau/world/cell_motion.hpp"
 
 namespace moreau::detail {
