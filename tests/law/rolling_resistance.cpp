@@ -66,7 +66,7 @@ TEST_CASE_TEMPLATE("round contacts: lanes visited again and again have the scala
   std::normal_distribution<double> normal;
   double worst = 0;
   int open = 0, rolls = 0, slips = 0, both = 0, neither = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (std::size_t done = 0; done < 3200; done += lanes) {
     Block block = Block::unit();
     typename Block::Vector b{}, r{};
     std::array<Values, 2> parameters{};
