@@ -184,3 +184,34 @@ TEST_CASE_TEMPLATE("images of a point in a lattice", S, Space<2>, Space<3>) {
   CHECK(cell.deformed(map, lower) == lower);
   CHECK_THROWS_AS(cell.set(0, 0, 1), std::invalid_argument);
 }
+
+TEST_CASE(
+    "a reduced lattice has its shortest vectors, also where vectors have angles near 120 degrees") {
+  using S = Space<3>;
+  using Vector = S::Vector;
+  S::Matrix star;  // all scalar products are about -0.45: only the sum of all three is shorter
+  star << 1, -0.45, -0.45, 0, 0.893, -0.73, 0, 0, 0.514;
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    S::Matrix vectors = star;
+    if (trial > 0)
+      for (int k = 0; k < 9; ++k) vectors(k) = number(random);
+    if (vectors.determinant() < 0) vectors.col(0) = -vectors.col(0);
+    if (vectors.determinant() < 0.02) continue;
+    PeriodicCell<S> cell;
+    cell.set_vectors(vectors, Vector(Vector::Zero()));
+    const bool changed = cell.reduce();
+    if (trial == 0) CHECK(changed);
+    const S::Matrix reduced = cell.vectors();
+    CHECK(reduced.determinant() == doctest::Approx(vectors.determinant()));
+    double shortest = 1e9, found = 1e9;
+    for_cells<S>(4, [&](const Vector& n) {
+      if (!n.isZero(0)) shortest = std::min(shortest, (reduced * n).norm());
+      for (int k = 0; k < 3; ++k)  // Minkowski's conditions
+        if (std::abs(n[k]) == 1) CHECK((reduced * n).norm() > 0.98 * reduced.col(k).norm());
+    });
+    for (int k = 0; k < 3; ++k) found = std::min(found, reduced.col(k).norm());
+    CHECK(found == doctest::Approx(shortest).epsilon(0.01));
+  }
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program of which one process fails in a step: all end, after one message.
+// A program of which one process fails in a step: all end, after one message. With an argument the simulation has a cell
+// that deforms, which is refused.
 #include <cstdio>
 #include <stdexcept>
 
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   const ShapeId shape = world.add_shape(Ball<>(0.01));
   for (int k = 0; k < 9; ++k)
     world.add_grain(shape, {{0.03 * k, 0, 0}, Space<3>::Rotation::Identity()}, 2700);
+  if (argc > 1) world.set_cell(Space<3>::Matrix::Identity());
   DistributedSimulation<World> packing(MPI_COMM_WORLD, world);
   packing.step(1e-3);
   std::puts("goes on");

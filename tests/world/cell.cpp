@@ -7,6 +7,8 @@
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy_balance.hpp"
+#include "moreau/measure/region.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 
 #include "boundary/grain_of_radius.hpp"
 #include "io/temporary_folder.hpp"
@@ -177,6 +179,99 @@ TEST_CASE_TEMPLATE("a cell is sheared through several reductions", ShapeT,
   CHECK(stress(1, 1) > -stress(1, 0));
 }
 
+TEST_CASE_TEMPLATE("control volumes that tile an oblique cell have its stress and solid fraction",
+                   ShapeT, MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  Gas<ShapeT> gas;
+  auto& simulation = gas.simulation;
+  simulation.set_cell(Gas<ShapeT>::square());
+  CellControl<S> control;
+  control.rate(0, 1) = 10;
+  simulation.control_cell(control);
+  for (int k = 0; k < 80; ++k) simulation.step(h);
+  const double length = side<S> * spacing, volume = simulation.cell().volume();
+  CHECK(simulation.cell().vectors()(0, 1) == doctest::Approx(0.4 * length));
+  // A box of the lengths of the cell tiles space with the lattice of a shear along x; so do its parts.
+  typename S::Matrix stress = S::Matrix::Zero(), whole = S::Matrix::Zero();
+  double fraction = 0, grains = 0, solid = 0;
+  const int parts = 1 << S::dim;
+  for (int part = 0; part < parts; ++part) {
+    Aabb<S> box{Vector(Vector::Constant(0.3 * length)), Vector(Vector::Constant(0.8 * length))};
+    for (int axis = 0; axis < S::dim; ++axis)
+      if ((part >> axis & 1) != 0) box.lower[axis] += length / 2, box.upper[axis] += length / 2;
+    const Region<S> region = measure_region(simulation, h, box);
+    stress += region.stress / parts;
+    fraction += region.solid_fraction / parts;
+    grains += double(region.grains);
+  }
+  const auto& contacts = simulation.contacts();
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    whole += (contacts.points[c].lever_a - contacts.points[c].lever_b) *
+             (contacts.points[c].frame * contacts.impulse(c)).transpose() / (h * volume);
+  for (const double mass : simulation.bodies().grain_mass) solid += mass / 2700;
+  CHECK(whole.norm() > 0);
+  CHECK((stress - whole).norm() < 1e-9 * whole.norm());
+  CHECK(fraction == doctest::Approx(solid / volume).epsilon(1e-9));
+  CHECK(grains == double(simulation.grain_count()));
+}
+
+TEST_CASE_TEMPLATE("rigid grains under a prescribed stress jam and bear it, also sheared", ShapeT,
+                   MOREAU_TYPES((Polygon<>), (Ball<>, Polyhedron<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Matrix = typename S::Matrix;
+  const double pressure =
+      S::dim == 2 ? 1e3 : 1e4;  // the inertial time d sqrt(rho / P) has some 30 steps
+  Gas<ShapeT> gas;
+  auto& simulation = gas.simulation;
+  ColouredOptions options;
+  options.tolerance = 1e-4;
+  options.max_sweeps = 20000;
+  simulation.set_solver(ColouredGaussSeidel(options));
+  simulation.set_cell(Gas<ShapeT>::square());
+  double mass = 0;
+  for (const double one : simulation.bodies().grain_mass) mass += one;
+  CellControl<S> control;
+  control.mass = mass * Matrix::Identity();
+  control.stress = pressure * Matrix::Identity();
+  control.damping = 50;
+  simulation.control_cell(control);
+  EnergyBalance<S> energy(simulation);
+  int unsolved = 0, sweeps = 0;
+  double deepest = 0, worst = 0;
+  Matrix mean = Matrix::Zero();
+  const auto run = [&](int steps) {
+    mean.setZero();
+    for (int k = 0; k < steps; ++k) {
+      const StepReport report = simulation.step(h);
+      energy.add(simulation, report, h);
+      unsolved += !report.solve.converged;
+      sweeps += report.solve.sweeps;
+      deepest = std::max(deepest, report.max_overlap);
+      worst = std::max(worst, std::abs(energy.imbalance()));
+      mean += simulation.cell_motion().stress() / steps;
+    }
+  };
+  run(1200);
+  run(100);
+  for (int axis = 0; axis < S::dim; ++axis)
+    CHECK(mean(axis, axis) == doctest::Approx(pressure).epsilon(0.05));
+  CHECK(simulation.cell_motion().rate().norm() < 0.05);
+  CHECK(simulation.contacts().size() > simulation.grain_count());
+  control.mass(0, 0) = 0;  // its width stays, its height has the stress
+  control.rate(0, 1) = 2;
+  simulation.control_cell(control);
+  run(100);
+  run(150);
+  CHECK(mean(1, 1) == doctest::Approx(pressure).epsilon(0.1));
+  CHECK(-mean(1, 0) > 0.1 * mean(1, 1));
+  CHECK(-mean(1, 0) < mean(1, 1));
+  CAPTURE(sweeps);
+  CHECK(unsolved == 0);
+  CHECK(deepest < 2e-3 * 0.016);
+  CHECK(worst < 1e-9 * energy.terms().cell);
+}
+
 TEST_CASE_TEMPLATE("a deforming cell continues from a snapshot and with threads with the same bits",
                    ShapeT, MOREAU_TYPES((Polygon<>), (Polyhedron<>, Ball<>, Disk<>))) {
   using S = SpaceOf<ShapeT>;
@@ -237,6 +332,18 @@ TEST_CASE("what does not fit into a deforming cell is refused") {
           "Simulation::add_wall: normal = (1, 0) must not be of a wall: the cell deforms");
   refuses([&] { one.add_cylinder(Vector(0, 0), Space<2>::Angular(1), 1); },
           "Simulation::add_cylinder: axis = (1) must not be of a cylinder: the cell deforms");
+  refuses(
+      [&] {
+        one.add_mesh_wall(FacetMesh<Space<2>>{{{0, 0}, {0.1, 0}}, {{0, 1}}});
+      },
+      "Simulation::add_mesh_wall: cell = (periodic) must be open: walls have no images");
+  refuses(
+      [&] {
+        (void)contact_stress(one, 1e-3, {{0, 0}, {0.05, 0.11}});
+      },
+      "contact_stress: control_volume = [(0, 0), (0.05, 0.11)] must not be longer than the "
+      "periodic "
+      "cell");
   refuses([&] { one.set_periodic(0, 0, 1); },
           "Simulation::set_periodic: axis = 0 must not be of a cell given by vectors");
   CellControl<Space<2>> control;

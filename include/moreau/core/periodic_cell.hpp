@@ -114,6 +114,8 @@ class PeriodicCell {
           reduced.col(i) -= std::round(along) * reduced.col(j);
           again = changed = true;
         }
+      again = shorten(reduced) || again;
+      changed = changed || again;
     }
     if (changed) assign(reduced);
     return changed;
@@ -176,6 +178,23 @@ class PeriodicCell {
       }
     return y;
   }
+  /// The image of x that lies in a box, if one does; otherwise any image. World axes [m].
+  /// @param box not longer than the cell, see fits()
+  Value<Vector> image_in(const Aabb<S>& box, const VectorArgument<S>& x) const {
+    if (!is_lattice_) return image_from(box.lower, x);
+    const Vector middle = (box.lower + box.upper) / 2;
+    return image_from(Vector(middle - product(vectors_, Vector(Vector::Constant(Scalar(0.5))))), x);
+  }
+  /// Whether at most one image of a point lies in a box of these lengths [m]: they are not longer than those of the
+  /// cell; in a lattice, sum_i |H^-1_ki| length_i <= 1 for all k (see Room in the head of this file). The lower side of
+  /// the next image may lie on the upper side of the box, and rounding does not count.
+  /// @param rounding relative [-]
+  bool fits(const VectorArgument<S>& lengths, Scalar rounding) const {
+    if (is_lattice_) return (inverse_.cwiseAbs() * lengths).maxCoeff() <= 1 + rounding;
+    for (int axis = 0; axis < S::dim; ++axis)
+      if (is_periodic(axis) && lengths[axis] > (1 + rounding) * length_[axis]) return false;
+    return true;
+  }
   /// The image of x nearest to the point `to`, world axes [m]. Along every periodic axis of a box it is
   /// at most half a cell away. In a lattice it is the nearest if the vectors are reduced (reduce()).
   Value<Vector> nearest(const VectorArgument<S>& x, const VectorArgument<S>& to) const {
@@ -232,6 +251,24 @@ class PeriodicCell {
     if (is_lattice_) set_vectors(Matrix(vectors_), Vector(lower_), "PeriodicCell");
   }
 
+  /// Replaces a vector by its sum with others, each once or minus once, if that is shorter.
+  /// @returns whether there was one
+  static bool shorten(Matrix& vectors) {
+    int combinations = 1;
+    for (int axis = 0; axis < S::dim; ++axis) combinations *= 3;
+    for (int n = 0; n < combinations; ++n) {
+      Vector parts;
+      for (int axis = 0, rest = n; axis < S::dim; ++axis, rest /= 3)
+        parts[axis] = Scalar(rest % 3 - 1);
+      const Vector sum = product(vectors, parts);
+      for (int k = 0; k < S::dim; ++k)
+        if (parts[k] == 1 && sum.squaredNorm() < Scalar(0.99) * vectors.col(k).squaredNorm()) {
+          vectors.col(k) = sum;
+          return true;
+        }
+    }
+    return false;
+  }
   void assign(const Matrix& vectors) {
     vectors_ = vectors;
     inverse_ = vectors.inverse();

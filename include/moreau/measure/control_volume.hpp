@@ -49,17 +49,20 @@ void require_control_volume(const Aabb<S>& box, std::string_view function) {
 }
 
 /// Checks that a control volume is not longer than a periodic cell, so that at most one image of a point
-/// lies in it. The lower side of the next image may lie on its upper side. A cell given by vectors has no
-/// control volumes.
+/// lies in it. The lower side of the next image may lie on its upper side. In a cell given by vectors, an
+/// oblique one, a box is "longer" already if it is wider than PeriodicCell::fits() says.
 /// @throws std::invalid_argument naming the function and the control volume
 template <class S>
 void require_within(const PeriodicCell<S>& cell, const Aabb<S>& control_volume,
                     std::string_view function) {
   using Scalar = typename S::Scalar;
   constexpr Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon();
-  if (cell.is_lattice())
-    throw_invalid(function, "control_volume", detail::describe(control_volume),
-                  "must not be in a cell that deforms: its stress is cell_motion().stress()");
+  if (cell.is_lattice()) {
+    if (!cell.fits(control_volume.upper - control_volume.lower, rounding))
+      throw_invalid(function, "control_volume", detail::describe(control_volume),
+                    "must not be longer than the periodic cell");
+    return;
+  }
   for (int axis = 0; axis < S::dim; ++axis) {
     const Scalar lower = control_volume.lower[axis], upper = control_volume.upper[axis];
     if (cell.is_periodic(axis) &&

@@ -54,8 +54,8 @@ Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_vol
   Fabric<S> result;
   for (const PairForce<S>& pair : pairs) {
     if (!is_grain(pair.a) || !is_grain(pair.b)) continue;
-    const typename S::Vector point = cell.image_from(
-        control_volume.lower, typename S::Vector(position_of(pair.a) + pair.lever_a));
+    const typename S::Vector point =
+        cell.image_in(control_volume, typename S::Vector(position_of(pair.a) + pair.lever_a));
     if (!control_volume.contains(point)) continue;
     result.tensor += pair.normal * pair.normal.transpose();
     ++result.pairs;

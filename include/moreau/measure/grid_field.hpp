@@ -73,7 +73,7 @@ class GridField {
     require(all_finite(position), self, "position", position, "must be finite");
     require(all_finite(value), self, "value", value, "must be finite");
     require(std::isfinite(weight) && weight > 0, self, "weight", weight, "must be finite and > 0");
-    const Vector image = periodic.image_from(box_.lower, position);
+    const Vector image = periodic.image_in(box_, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
     std::size_t index = 0;

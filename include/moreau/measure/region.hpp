@@ -23,7 +23,7 @@ struct Region {
       S::Matrix::Zero();  ///< contact_stress(), compression > 0 [Pa; in the plane N/m]
   typename S::Vector velocity =
       S::Vector::Zero();  ///< momentum over mass of these grains, world axes [m/s]; 0 without
-                          ///< grains
+                          ///< grains; relative to a cell that deforms
 
   Scalar pressure() const {
     return stress.trace() / S::dim;
@@ -51,7 +51,7 @@ Region<typename Simulation::S> measure_region(const Simulation& simulation,
     const std::size_t i = simulation.grain(k).index();
     const auto& bodies = simulation.bodies();
     if (!control_volume.contains(
-            simulation.cell().image_from(control_volume.lower, bodies.pose[i].position)))
+            simulation.cell().image_in(control_volume, bodies.pose[i].position)))
       continue;
     ++region.grains;
     mass += bodies.grain_mass[i];

@@ -2,6 +2,8 @@
 // The fraction of a control volume that is filled by grains, computed exactly, without sampling.
 #pragma once
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <cstddef>
 
@@ -77,6 +79,31 @@ void for_images(const PeriodicCell<S>& cell, int axis, const Aabb<S>& bounds, co
   }
 }
 
+/// The same in a lattice, in which any image may reach into the control volume.
+template <class S>
+void for_images_in_lattice(const PeriodicCell<S>& cell, const Aabb<S>& bounds, const Pose<S>& pose,
+                           const Aabb<S>& control_volume, const auto& use) {
+  using Vector = typename S::Vector;
+  const typename S::Matrix inverse = cell.vectors().inverse();
+  const Vector between =
+                   (control_volume.lower + control_volume.upper - bounds.lower - bounds.upper) / 2,
+               reach =
+                   (control_volume.upper - control_volume.lower + bounds.upper - bounds.lower) / 2,
+               middle = inverse * between, spread = inverse.cwiseAbs() * reach;
+  const Vector first = (middle - spread).array().ceil(), last = (middle + spread).array().floor(),
+               counts = (last - first).array() + 1;
+  if (!(counts.minCoeff() >= 1)) return;
+  const int all = int(counts.prod());
+  for (int code = 0; code < all; ++code) {
+    Vector n;
+    for (int axis = 0, rest = code; axis < S::dim; rest /= int(counts[axis]), ++axis)
+      n[axis] = first[axis] + typename S::Scalar(rest % int(counts[axis]));
+    const Vector shift = cell.shift(n);
+    const Aabb<S> moved{bounds.lower + shift, bounds.upper + shift};
+    if (moved.overlaps(control_volume)) use(Pose<S>(pose.position + shift, pose.rotation));
+  }
+}
+
 }  // namespace detail
 
 /// The solid fraction of the grains of a simulation in a control volume [-]; see above. In a periodic
@@ -88,16 +115,18 @@ template <class Simulation, class S = typename Simulation::S>
 typename S::Scalar solid_fraction(const Simulation& simulation, const Aabb<S>& control_volume,
                                   ClipWorkspace<S>& workspace) {
   require_control_volume(control_volume, "solid_fraction");
-  if (simulation.cell().is_lattice())
-    require_within(simulation.cell(), control_volume, "solid_fraction");
   typename S::Scalar solid = 0;
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const auto& shape = simulation.shape_of_grain(k);
     const Pose<S>& pose = simulation.pose(simulation.grain(k));
-    detail::for_images(simulation.cell(), 0, shape.bounding_box(pose), pose, control_volume,
-                       [&](const Pose<S>& image) {
-                         solid += clipped_volume(shape, image, control_volume, workspace);
-                       });
+    const auto add = [&](const Pose<S>& image) {
+      solid += clipped_volume(shape, image, control_volume, workspace);
+    };
+    const Aabb<S> bounds = shape.bounding_box(pose);
+    if (simulation.cell().is_lattice())
+      detail::for_images_in_lattice(simulation.cell(), bounds, pose, control_volume, add);
+    else
+      detail::for_images(simulation.cell(), 0, bounds, pose, control_volume, add);
   }
   return solid / volume(control_volume);
 }

@@ -52,9 +52,9 @@ Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, type
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<S>& contact = contacts.points[c];
     const bool a_is_grain = is_grain(contact.a), b_is_grain = is_grain(contact.b);
-    const Vector point = cell.image_from(
-        control_volume.lower, a_is_grain ? Vector(position_of(contact.a) + contact.lever_a)
-                                         : Vector(position_of(contact.b) + contact.lever_b));
+    const Vector point = cell.image_in(
+        control_volume, a_is_grain ? Vector(position_of(contact.a) + contact.lever_a)
+                                   : Vector(position_of(contact.b) + contact.lever_b));
     if (!control_volume.contains(point)) continue;
     Vector branch = Vector::Zero();
     if (a_is_grain) branch += contact.lever_a;

@@ -76,7 +76,7 @@ class VelocityField {
     constexpr const char* self = "VelocityField::add";
     require(all_finite(position), self, "position", position, "must be finite");
     require(all_finite(velocity), self, "velocity", velocity, "must be finite");
-    const Vector image = periodic.image_from(box_.lower, position);
+    const Vector image = periodic.image_in(box_, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;
     Cell& cell = cells_[index(share[S::dim - 1], rows_) * columns_ + index(share[0], columns_)];

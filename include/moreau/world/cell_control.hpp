@@ -19,7 +19,7 @@
 // continuum, without contacts. The relative velocity of a contact between the bodies a and b is that of p
 // and of the spins, and L d, d being the vector from the centre of a to that of the image of b.
 //
-// One step of h: L is constant. Positions x and vectors H are multiplied by (1 - (1 - theta) h L)^-1 before
+// One step of h: a prescribed L is constant. Positions x and vectors H are multiplied by (1 - (1 - theta) h L)^-1 before
 // the contacts are detected and by 1 + theta h L after the contact problem is solved. With theta = 1/2 a
 // cell with the rates e and -e along two axes keeps its volume to rounding.
 //
@@ -37,10 +37,11 @@
 //
 //     m_ij V^(2/D) dL_ij/dt = V (sigma_ji - sigma0_ij) - c m_ij V^(2/D) L_ij.
 //
-// The equation is explicit: sigma is that of the step before. The contacts must therefore be softer than
-// the cell is heavy: let the law be Compliant, with the normal stiffness k per contact, and let h be well
-// below sqrt(m_ij / k). Contacts without compliance between jammed grains resist any rate at once; the
-// rate then changes its sign from step to step.
+// The equation is implicit: sigma has the contact forces of the step, and the velocities of the contacts are those with
+// the rate L+ at the end of the step. The cell is a body with the velocity L that all contacts touch, so that jammed
+// grains without compliance can bear a stress. detail/cell_servo.hpp solves both together. Between L before the step and
+// L+, the cell moves as a body does: with L up to the detection, with L+ from then on; the work of the contacts has the
+// mean of both.
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
 #include <cstddef>
 #include <tuple>
 
@@ -46,22 +45,28 @@ class CellMotion {
       if (!(control.mass(k) > 0 && control_.mass(k) > 0)) rate_(k) = control.rate(k);
     control_ = control;
   }
-  /// For Simulation, before detection: chooses L of a step, and deforms the cell.
+  /// Volume of the cell at the detection of the last step [m^3], in the plane its area [m^2].
+  Scalar volume() const { return volume_; }
+
+  /// For Simulation, before detection: deforms the cell by its rate.
   /// @param bodies   in, out: their positions
   /// @param detector ContactDetector with the cell
   /// @param step     h [s]
   /// @param theta    part of the step that comes after detection [-]
   void begin(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Team& team) {
-    choose_rate(step, detector.cell().volume());
-    if (rate_.isZero(0)) return;
-    const Matrix inverse = Matrix::Identity() - (1 - theta) * step * rate_;
-    deform(bodies, detector, inverse.inverse(), team);
+    if (!rate_.isZero(0)) {
+      const Matrix inverse = Matrix::Identity() - (1 - theta) * step * rate_;
+      deform(bodies, detector, inverse.inverse(), team);
+    }
+    volume_ = detector.cell().volume();
   }
-  /// For Simulation, after the contact problem: stores the stress, and deforms the cell.
+  /// For Simulation, after the contact problem: stores rate and stress, and deforms the cell.
+  /// @param rate   L at the end of the step [1/s]; only of a cell that is active
   /// @param moment V sigma [J]
-  void end(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Matrix& moment,
-           const Team& team) {
-    stress_ = moment / detector.cell().volume();
+  void end(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Matrix& rate,
+           const Matrix& moment, const Team& team) {
+    stress_ = moment / volume_;
+    if (is_active()) rate_ = rate;
     if (!rate_.isZero(0)) deform(bodies, detector, Matrix::Identity() + theta * step * rate_, team);
   }
 
@@ -74,16 +79,6 @@ class CellMotion {
             "rate", rate_, "must be finite, and stress and deformation");
   }
 
-  void choose_rate(Scalar step, Scalar volume) {
-    const Scalar square = std::pow(volume, Scalar(2) / S::dim);
-    for (int i = 0; i < S::dim; ++i)
-      for (int j = 0; j < S::dim; ++j) {
-        if (!(control_.mass(i, j) > 0)) continue;
-        const Scalar push = volume * (stress_(j, i) - control_.stress(i, j));
-        const Scalar change = step * push / (control_.mass(i, j) * square);
-        rate_(i, j) = (rate_(i, j) + change) / (1 + step * control_.damping);
-      }
-  }
   MOREAU_COMPILED_ONCE static void move_with_cell(Pose<S>& pose, const PeriodicCell<S>& cell,
                                                   const Matrix& map) {
     pose.position = cell.deformed(map, pose.position);
@@ -98,6 +93,7 @@ class CellMotion {
 
   CellControl<S> control_;
   Matrix rate_ = Matrix::Zero(), stress_ = Matrix::Zero(), deformation_ = Matrix::Identity();
+  Scalar volume_ = 0;
 };
 
 }  // namespace moreau

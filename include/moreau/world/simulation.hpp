@@ -271,12 +271,21 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Bonds all pairs of bodies whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
   /// contact points. The laws of their materials have the strengths.
+  /// @param among only pairs of these bodies; empty: of all
   /// @returns how many bonds were made
   /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin
-  std::size_t bond_touching(Scalar gap) requires BondingLaw<Law, SpaceOf<ShapeT>> {
-    require(gap >= 0 && gap <= lengths().margin, "Simulation::bond_touching", "gap", gap,
-            "must lie in [0, margin]");
-    return add_bonds([&](const Contact<S>& contact) { return contact.gap <= gap; });
+  std::size_t bond_touching(Scalar gap, std::span<const BodyId> among = {}) requires
+      BondingLaw<Law, SpaceOf<ShapeT>> {
+    constexpr const char* self = "Simulation::bond_touching";
+    require(gap >= 0 && gap <= lengths().margin, self, "gap", gap, "must lie in [0, margin]");
+    std::vector<bool> listed(bodies().size(), among.empty());
+    for (const BodyId body : among) {
+      assembly_.require_body(body, self);
+      listed[body.index()] = true;
+    }
+    return add_bonds([&](const Contact<S>& contact) {
+      return contact.gap <= gap && listed[contact.a] && listed[contact.b];
+    });
   }
   /// Bonds two bodies at the middle of their contact points, unless they have a bond.
   /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
@@ -385,8 +394,7 @@ class Simulation : public BodyControl<ShapeT> {
     return lengths;
   }
 
-  /// Makes bonds of contacts in the present configuration.
-  /// @param keeps function: contact -> whether its pair is bonded
+  /// Bonds the pairs of contacts, in the present configuration, for which keeps(contact) is true.
   std::size_t add_bonds(const auto& keeps) {
     ContactsOf<Law, S> touching;
     detector_.place(std::span<const Pose<S>>(bodies().pose),

@@ -2,6 +2,8 @@
 // What a periodic cell that deforms adds to a step; world/cell_control.hpp has the equations.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -48,17 +50,35 @@ class CellJumps {
       op.offset(c, row);
     });
   }
+  /// Replaces the velocities of the cell by those of another rate.
+  /// @returns the largest change [m/s]
+  Scalar change(const Matrix& rate, const auto& contacts, auto& op) {
+    using Row = typename std::decay_t<decltype(op)>::Vector;
+    Scalar largest = 0;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Vector jump = jump_at(contacts.points[c], rate), change = jump - jumps_[c];
+      Row row = Row::Zero();
+      for (int k = 0; k < S::dim; ++k) row[k] = change[k];
+      op.offset(c, row);
+      jumps_[c] = jump;
+      largest = std::max(largest, change.squaredNorm());
+    }
+    return std::sqrt(largest);
+  }
   /// Velocity of the cell at contact c, contact frame [m/s].
   const Vector& operator[](std::size_t c) const { return jumps_[c]; }
 
   /// The work of the cell in a step [J], by its velocities, not by the stress.
   /// @param bodies with the velocities before the step
   /// @param after  velocities after it, one per body
-  double work(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
-              const Matrix& rate, Scalar step) const {
+  /// @param rate   L before the step [1/s]
+  /// @param next   L after it [1/s]
+  static double work(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
+                     const Matrix& rate, const Matrix& next, Scalar step) {
     double sum = 0;
+    const Matrix between = (rate + next) / 2;
     for (std::size_t c = 0; c < contacts.size(); ++c)
-      sum -= double(contacts.impulse(c).dot(jumps_[c]));
+      sum -= double(contacts.impulse(c).dot(jump_at(contacts.points[c], between)));
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
       const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;
@@ -66,16 +86,23 @@ class CellJumps {
     }
     return sum;
   }
-  /// V sigma of a step [J].
-  static Matrix moment(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
-                       Scalar step) {
+  /// V sigma of the contacts of a step [J], from impulses that may still be those of the solver.
+  /// @param impulse function: contact -> impulse on b, contact frame [N s]
+  static Matrix moment_of_contacts(const auto& contacts, const auto& impulse, Scalar step) {
     Matrix sum = Matrix::Zero();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       const Vector between = contact.lever_a - contact.lever_b,
-                   force = product(contact.frame, contacts.impulse(c)) / step;
+                   force = product(contact.frame, Vector(impulse(c))) / step;
       sum += between * force.transpose();
     }
+    return sum;
+  }
+  /// V sigma of a step [J].
+  static Matrix moment(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
+                       Scalar step) {
+    Matrix sum = moment_of_contacts(
+        contacts, [&](std::size_t c) { return contacts.impulse(c); }, step);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
       const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;

@@ -36,13 +36,16 @@
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/split_shared_bodies.hpp"
+#include "moreau/solve/stop_test.hpp"
 #include "moreau/world/detail/attraction.hpp"
 #include "moreau/world/detail/body_shifts.hpp"
 #include "moreau/world/detail/bond_list.hpp"
 #include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/cell_jumps.hpp"
+#include "moreau/world/detail/cell_servo.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_laws.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
@@ -171,10 +174,12 @@ class ImpulseDynamics {
     const Bodies<S>& bodies = context.bodies;
     const std::span<const Twist> after(after_);
     if (context.deforms())
-      report.cell_work =
-          jumps_.work(bodies, context.contacts, after, context.cell->rate(), context.step);
+      report.cell_work = CellJumps<S>::work(bodies, context.contacts, after, context.cell->rate(),
+                                            servo_.rate(), context.step);
     return CellJumps<S>::moment(bodies, context.contacts, after, context.step);
   }
+  /// L of the periodic cell after the step, once the contact problem is solved [1/s].
+  const typename S::Matrix& cell_rate() const { return servo_.rate(); }
   /// Stages 10 and 11.
   void finish(const Context& context, StepReport& report);
 
@@ -197,6 +202,12 @@ class ImpulseDynamics {
   static constexpr bool compliant = CompliantLaw<Law, S>;
   static constexpr bool bridging = BridgingLaw<Law, S>;
   static constexpr bool bonding = BondingLaw<Law, S>;
+  /// Whether the solver can be made to run a few sweeps at a time.
+  static constexpr bool moves_cells = requires(Solver solver) {
+    solver.options().max_sweeps;
+    solver.options().check_interval;
+    Solver(solver.options());
+  };
 
   static const OverlapCorrectionOptions& checked(const OverlapCorrectionOptions& correction) {
     require(!compliant || !correction.enabled, "Simulation", "correction.enabled",
@@ -210,8 +221,10 @@ class ImpulseDynamics {
       split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
     problem_.delassus.assemble(context.contacts.points, roots_, free_,
                                springs_.compliances(context), team_);
-    if (context.deforms())
+    if (context.deforms()) {
+      servo_.start(*context.cell, context.bodies, context.step);
       jumps_.add(context.cell->rate(), context.contacts, problem_.delassus, team_);
+    }
   }
 
   /// @returns how many contacts have a predecessor
@@ -273,7 +286,7 @@ class ImpulseDynamics {
 
   void solve(const Context& context, StepReport& report) {
     const std::span<Row> impulses(context.contacts.impulses);
-    report.solve = solver_.solve(problem_, impulses, workspace_);
+    solve_problem(context, report);
     if constexpr (bonding) soften_bonds(context, report);
     if (!shared_)
       laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
@@ -285,6 +298,55 @@ class ImpulseDynamics {
     laws_.choose_variants(context.materials, context.contacts);
     attraction_.take_from(impulses);
     problem_.delassus.from_rows(impulses, team_);
+  }
+
+  /// Solves the contact problem, and the equation of a cell that moves by its stress with it.
+  void solve_problem(const Context& context, StepReport& report) {
+    const std::span<Row> impulses(context.contacts.impulses);
+    const bool moves = context.deforms() && servo_.moves();
+    if constexpr (moves_cells)
+      if (moves) return solve_with_cell(context, report);
+    report.solve = solver_.solve(problem_, impulses, workspace_);
+    if (moves) move_cell(context);
+  }
+  /// The iteration in the head of cell_servo.hpp.
+  template <class C>  // clang would instantiate a function that is no template with the class
+  void solve_with_cell(const C& context, StepReport& report) {
+    const std::span<Row> impulses(context.contacts.impulses);
+    auto options = solver_.options();
+    const double tolerance = options.tolerance;
+    const int most = options.max_sweeps;
+    options.max_sweeps = servo_.sweeps(context.contacts, problem_.delassus);
+    options.check_interval = std::min(options.check_interval, options.max_sweeps);
+    if constexpr (requires { options.accelerate; }) options.accelerate = options.islands = false;
+    Solver part(options);
+    if constexpr (requires { part.set_team(team_); }) part.set_team(team_);
+    int sweeps = 0;
+    move_cell(context);
+    for (bool solved = false; !solved && sweeps < most;) {
+      report.solve = part.solve(problem_, impulses, workspace_);
+      sweeps += std::max(1, report.solve.sweeps);
+      move_cell(context);
+      measure_residual(problem_, std::span<const Row>(impulses), report.solve, team_);
+      solved = report.solve.residual <= tolerance && is_closed(report.solve);
+      report.solve.converged = solved;
+    }
+    report.solve.sweeps = sweeps;
+    report.solve.capped = !report.solve.converged;
+  }
+  /// Sets the rate of the cell by the impulses of its contacts, and the velocities of the contacts by the rate.
+  void move_cell(const Context& context) {
+    const std::span<Row> impulses(context.contacts.impulses);
+    const std::span<const Scalar> pulls = attraction_.pulls();
+    servo_.move(CellJumps<S>::moment_of_contacts(
+        context.contacts,
+        [&](std::size_t c) {
+          Vector impulse = impulses[c].template head<S::dim>();
+          if (!pulls.empty()) impulse[0] -= pulls[c];
+          return impulse;
+        },
+        Scalar(1)));
+    jumps_.change(servo_.rate(), context.contacts, problem_.delassus);
   }
 
   /// Solves the problem again while the strength of bonds that yield falls within the step.
@@ -306,7 +368,7 @@ class ImpulseDynamics {
         return;
       attraction_.offset(context.contacts, free_, problem_.delassus);
       const int sweeps = report.solve.sweeps;
-      report.solve = solver_.solve(problem_, impulses, workspace_);
+      solve_problem(context, report);
       report.solve.sweeps += sweeps;
     }
     report.solve.converged = false;  // the strengths still change
@@ -358,6 +420,7 @@ class ImpulseDynamics {
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
   ContactLaws<S, Law> laws_;
   CellJumps<S> jumps_;  // of a periodic cell that deforms
+  CellServo<S> servo_;  // of one that can move by its stress
 
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]

@@ -58,7 +58,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
     } while (detect_again(report, context));
     if (context.cell)
       cell_motion_.end(assembly_.bodies(), detector_, step, dynamics_.theta(),
-                       dynamics_.measure_cell(context, report), team_);
+                       dynamics_.cell_rate(), dynamics_.measure_cell(context, report), team_);
     dynamics_.finish(context, report);
   } else {
     context.chords = chords_.update(assembly_, contacts_, -step);

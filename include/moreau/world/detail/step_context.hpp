@@ -27,7 +27,7 @@ struct StepContext {
   std::span<const typename S::Vector> chords = {};
   const CellMotion<S>* cell = nullptr;  ///< of a periodic cell that can deform; null: none
   /// Whether the periodic cell deforms in this step.
-  bool deforms() const { return cell != nullptr && !cell->rate().isZero(0); }
+  bool deforms() const { return cell != nullptr && cell->is_active(); }
 };
 
 }  // namespace moreau::detail
