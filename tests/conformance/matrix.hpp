@@ -93,6 +93,20 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   SUBCASE("RollingResistance") {
     world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
   }
+  SUBCASE("Compliant Bridged") {
+    using Wet = moreau::Bridged<moreau::LinearCohesion<T>, moreau::RollingResistance<T>>;
+    const Wet wet(moreau::LinearCohesion<T>(T(1e-4), T(1e-4)),
+                  moreau::RollingResistance<T>(T(0.4), T(0.1)));
+    world(shapes, moreau::Compliant<Wet>(wet, T(1e9) * mass), size);
+  }
+  SUBCASE("Compliant Bonded") {
+    const auto law_of = [mass](T strength) {
+      const moreau::Bonded<T> bonds({strength, strength, strength, T(1e-9)}, T(0.4), T(0.1));
+      return moreau::Compliant<moreau::Bonded<T>>(bonds, T(1e9) * mass);
+    };
+    world(shapes, law_of(T(1)), size);
+    bonded(shapes, law_of, size);
+  }
   SUBCASE("Cohesive with rolling resistance") {
     const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
     world(shapes, moreau::Cohesive<moreau::RollingResistance<T>>(rolling, T(1e-3)), size);

@@ -43,18 +43,85 @@ void write_walls(const std::filesystem::path& path, const World& world) {
   data.write(path);
 }
 
+/// Writes bonds as lines with the arrays `strength_left`, `dissipated` and `elastic` [J], `a` and `b` (BodyId).
+template <class World>
+void write_bonds(const std::filesystem::path& path, const World& world) {
+  using S = typename World::S;
+  VtkPolyData data;
+  std::vector<float> strengths, dissipated, elastic;
+  std::vector<std::int32_t> a, b;
+  for (const Bond<S>& bond : world.bonds()) {
+    const Pose<S>& pose = world.bodies().pose[bond.a.index()];
+    const typename S::Vector from = world.cell().wrap(pose.position),
+                             point = from + pose.rotation * bond.anchor_a;
+    typename S::Vector to = point;
+    if (world.is_grain(bond.b.index()))
+      to = world.cell().nearest(world.bodies().pose[bond.b.index()].position, point);
+    const std::int32_t ends[] = {data.add_point(from), data.add_point(to)};
+    data.add_cell(VtkPolyData::Cells::lines, ends);
+    strengths.push_back(static_cast<float>(bond.strength_left));
+    dissipated.push_back(static_cast<float>(bond.dissipated));
+    elastic.push_back(static_cast<float>(bond.elastic));
+    a.push_back(static_cast<std::int32_t>(bond.a.value));
+    b.push_back(static_cast<std::int32_t>(bond.b.value));
+  }
+  constexpr auto cells = VtkPolyData::On::cells;
+  data.add_array<float>(cells, "strength_left", 1, strengths);
+  data.add_array<float>(cells, "dissipated", 1, dissipated);
+  data.add_array<float>(cells, "elastic", 1, elastic);
+  data.add_array<std::int32_t>(cells, "a", 1, a);
+  data.add_array<std::int32_t>(cells, "b", 1, b);
+  data.write(path);
+}
+
+/// Writes the edges of a deforming cell with the arrays `stress` [Pa], `rate` [1/s] and `deformation`: matrices of 3 by
+/// 3 numbers, row by row.
+template <class World>
+void write_cell(const std::filesystem::path& path, const World& world) {
+  using S = typename World::S;
+  VtkPolyData data;
+  const typename S::Matrix vectors = world.cell().vectors();
+  for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {
+    typename S::Vector x = world.cell().lower();
+    for (int k = 0; k < S::dim; ++k)
+      if ((corner >> k & 1u) != 0) x += vectors.col(k);
+    data.add_point(x);
+  }
+  for (unsigned corner = 0; corner < 1u << S::dim; ++corner)
+    for (int k = 0; k < S::dim; ++k) {
+      if ((corner >> k & 1u) != 0) continue;
+      const std::int32_t ends[] = {static_cast<std::int32_t>(corner),
+                                   static_cast<std::int32_t>(corner | 1u << k)};
+      data.add_cell(VtkPolyData::Cells::lines, ends);
+    }
+  const auto add = [&](const char* name, const typename S::Matrix& matrix) {
+    std::vector<float> values;
+    for (std::size_t edge = 0; edge < data.cell_count(); ++edge)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          values.push_back(i < S::dim && j < S::dim ? static_cast<float>(matrix(i, j)) : 0.0f);
+    data.add_array<float>(VtkPolyData::On::cells, name, 9, values);
+  };
+  add("stress", world.cell_motion().stress());
+  add("rate", world.cell_motion().rate());
+  add("deformation", world.cell_motion().deformation());
+  data.write(path);
+}
+
 }  // namespace detail
 
-/// Writes a simulation for ParaView into four files that begin with the same path:
+/// Writes a simulation for ParaView into files files that begin with the same path:
 ///
 ///     write_paraview("out/run_0010", simulation, h);
 ///
 /// | file                       | content                                                         |
 /// |----------------------------|-----------------------------------------------------------------|
-/// | out/run_0010.vtm           | names the other three: open this file in ParaView               |
+/// | out/run_0010.vtm           | names the others: open this file in ParaView               |
 /// | out/run_0010_grains.vtp    | surfaces with the arrays of VtkWriter::write_grains()           |
 /// | out/run_0010_walls.vtp     | all walls with the arrays `id` and `velocity`                   |
 /// | out/run_0010_contacts.vtp  | lines with the arrays of VtkWriter::write_contacts()            |
+/// | out/run_0010_bonds.vtp     | under a law with bonds: lines with `strength_left`, `dissipated` and `elastic` [J], `a`, `b` |
+/// | out/run_0010_cell.vtp      | with a cell of set_cell(): its edges with `stress` [Pa], `rate` [1/s], `deformation` |
 ///
 /// The array `id` of the grains is their position in grains(). It changes when a grain with a lower id
 /// is removed.
@@ -109,8 +176,17 @@ void write_paraview(const std::filesystem::path& path, const World& simulation, 
   std::string list =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\">\n"
       "<vtkMultiBlockDataSet>\n";
+  std::vector<std::string> parts{"grains", "walls", "contacts"};
+  if constexpr (requires { simulation.bonds(); }) {
+    detail::write_bonds(stem.string() + "_bonds.vtp", simulation);
+    parts.push_back("bonds");
+  }
+  if (cell.is_lattice()) {
+    detail::write_cell(stem.string() + "_cell.vtp", simulation);
+    parts.push_back("cell");
+  }
   int index = 0;
-  for (const std::string part : {"grains", "walls", "contacts"})
+  for (const std::string& part : parts)
     list += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + part + "\" file=\"" +
             name + "_" + part + ".vtp\"/>\n";
   write_atomically(stem.string() + ".vtm", list + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
