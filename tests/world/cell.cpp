@@ -261,8 +261,8 @@ TEST_CASE_TEMPLATE("rigid grains under a prescribed stress jam and bear it, also
   control.mass(0, 0) = 0;  // its width stays, its height has the stress
   control.rate(0, 1) = 2;
   simulation.control_cell(control);
-  run(100);
-  run(150);
+  run(300);
+  run(300);
   CHECK(mean(1, 1) == doctest::Approx(pressure).epsilon(0.1));
   CHECK(-mean(1, 0) > 0.1 * mean(1, 1));
   CHECK(-mean(1, 0) < mean(1, 1));
