@@ -269,9 +269,8 @@ class Simulation : public BodyControl<ShapeT> {
     assembly_.set_changed();
   }
 
-  /// Bonds all pairs of bodies whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
+  /// Bonds all pairs of bodies, or of those in `among`, whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
   /// contact points. The laws of their materials have the strengths.
-  /// @param among only pairs of these bodies; empty: of all
   /// @returns how many bonds were made
   /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin
   std::size_t bond_touching(Scalar gap, std::span<const BodyId> among = {}) requires
