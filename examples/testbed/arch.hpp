@@ -120,6 +120,8 @@ class Arch final : public Scene<ShapeT> {
                   report.solve.sweeps, report.solve.residual);
   }
   bool can_act() const override { return acted_ < 0; }
+  /// The plots show the keystone and the left springer. Blocks keep their numbers only if none is removed.
+  bool needs(moreau::BodyId) const override { return true; }
   std::string stage() const override {
     return std::abs(crown_ - position(keystone)[up]) < block ? "the arch carries itself"
                                                              : "the arch has fallen";

@@ -5,7 +5,7 @@
 #   examples/testbed/build.sh [folder]
 #
 # Installs what is missing (Debian: emscripten, libeigen3-dev; npm: what web/package.json pins). Takes about
-# two minutes the first time. CXXFLAGS are added to those of the compiler.
+# five minutes the first time. CXXFLAGS are added to those of the compiler.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../.." && pwd)
 work=$top/build/testbed
@@ -36,7 +36,7 @@ emcc "${flags[@]}" "${objects[@]}" --no-entry -sSTANDALONE_WASM -sINITIAL_MEMORY
 
 # The packages live outside the sources. Without network, an earlier installation is used.
 mkdir -p "$work/web"
-cp "$here"/web/*.{js,html,css,json} "$work/web/"
+cp "$here"/web/*.{js,mjs,html,css,json} "$work/web/"
 cd "$work/web"
 cmp -s package.json node_modules/.installed || {
   echo "installing the packages of web/package.json"
@@ -45,5 +45,11 @@ cmp -s package.json node_modules/.installed || {
 }
 npx esbuild main.js worker.js --bundle --minify --format=esm --outdir="$page" --log-level=warning
 cp index.html "$page/"
-du -bc "$page"/* | awk '{ printf "%8.0f kB %s\n", $1 / 1000, $2 }'
+# States from which the scenes in space begin. They belong to this testbed.wasm; one process for each shape.
+if [ "$page/testbed.wasm" -nt "$page/packed/box-ball.state" ]; then
+  echo "letting the scenes in space settle"
+  printf '%s\n' {box,column,drum}-{polyhedron,ball} |
+    xargs -P "$(nproc)" -n 1 node pack.mjs "$page/testbed.wasm" "$page/packed"
+fi
+du -bc "$page"/testbed.wasm "$page"/*.{js,css,html} "$page"/packed/* | awk '{ printf "%8.0f kB %s\n", $1 / 1000, $2 }'
 echo "built $page; examples/testbed/serve.sh serves it"

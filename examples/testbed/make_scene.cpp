@@ -103,6 +103,10 @@ std::string describe() {
         .number("rebuilds", entry.rebuilds)
         .number("scenes", entry.scenes);
   });
+  json.list("stages", stages, [&](const char* stage) { json.text("label", stage); });
+  json.list("inSpace", space_defaults, [&](const SpaceDefault& entry) {
+    json.text("key", entry.key).number("value", entry.value);
+  });
   return json.close('}').str();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene: grains and walls with settings that can be changed while it runs. AnyScene is what the page
-// and the native program see; Scene<Shape> is the common part of the scenes of box.hpp, column.hpp,
-// drum.hpp and arch.hpp, for each shape.
+// and the native program see; Scene<Shape> is the common part of all scenes (box.hpp, column.hpp, ...),
+// for each shape.
 //
 // The contacts are compliant (moreau/law/compliant.hpp): an error of a step is felt as a force in the
 // next, so that a step can be ended after a few hundred sweeps and a packing under load still does not
@@ -12,10 +12,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +32,7 @@
 #include "moreau/sample/compound_ballast.hpp"
 #include "moreau/sample/random_rotation.hpp"
 #include "moreau/sample/size_distribution.hpp"
+#include "moreau/shape/circumradius.hpp"
 
 #include "settings.hpp"
 #include "view.hpp"
@@ -51,6 +55,14 @@ class AnyScene {
   /// Pulls a grain towards a point of the page, from now on until release().
   virtual void pull(std::size_t grain, const std::array<double, 3>& target) = 0;
   virtual void release() = 0;
+  /// Lets the pulled grain go with a velocity of the page [m/s].
+  virtual void throw_grain(const std::array<double, 3>& velocity) = 0;
+  /// Adds a grain at rest, as high in the picture as a few hundred random places allow.
+  /// @throws std::invalid_argument if none of them has room
+  virtual void add() = 0;
+  /// Removes a grain.
+  /// @throws std::invalid_argument if it is none, or one that the scene needs
+  virtual void remove(std::size_t grain) = 0;
 
   const std::vector<Mesh>& meshes() const { return meshes_; }
   const std::vector<Placement>& placements() const { return placements_; }  ///< of each grain
@@ -58,7 +70,8 @@ class AnyScene {
   const std::vector<PlotSpec>& plots() const { return plots_; }
   const std::array<double, 6>& bounds() const {
     return bounds_;
-  }  ///< of the picture: lower, upper [m]
+  }                                                 ///< of the picture: lower, upper [m]
+  const Floats& ground() const { return ground_; }  ///< triangles of a wall, 9 numbers each
   const Frame& frame() const { return frame_; }
   const Status& status() const { return status_; }
   /// Rows of channels(), one per step, since clear_samples().
@@ -71,6 +84,7 @@ class AnyScene {
   std::vector<Channel> channels_;
   std::vector<PlotSpec> plots_;
   std::array<double, 6> bounds_{};
+  Floats ground_;
   Frame frame_;
   Status status_;
   std::vector<double> samples_;
@@ -123,6 +137,39 @@ class Scene : public AnyScene {
     pulled_.reset();
     status_.hand = 0;
   }
+  void throw_grain(const std::array<double, 3>& velocity) final {
+    if (!pulled_) return;
+    const moreau::BodyId grain = pulled_->grain;
+    release();
+    Vector v = from_page<Vector>(velocity);
+    if (const double speed = v.norm(); speed > fastest_throw) v *= fastest_throw / speed;
+    simulation_.set_velocity(grain, v);
+  }
+  void add() final {
+    const std::size_t like =
+        std::uniform_int_distribution<std::size_t>(0, placements_.size() - 1)(random_);
+    const Placement placement = placements_[like];
+    const double radius = moreau::circumradius(bases_[placement.mesh]) * placement.scale;
+    std::optional<Vector> best;
+    for (int k = 0; k < 300; ++k)
+      if (const Vector x = random_place(); (!best || x[up] > (*best)[up]) && has_room(x, radius))
+        best = x;
+    moreau::require(best.has_value(), "testbed", "grain", placement.mesh,
+                    "found no room for another grain");
+    add_grain(placement.mesh, placement.scale, moreau::Pose<S>(*best));
+  }
+  void remove(std::size_t grain) final {
+    moreau::require(grain < simulation_.grain_count(), "testbed", "grain", grain,
+                    "must be the number of a grain");
+    const moreau::BodyId id = simulation_.grain(grain);
+    moreau::require(simulation_.grain_count() > 1 && !needs(id), "testbed", "grain", grain,
+                    "must be one that the scene does not need");
+    if (pulled_ && pulled_->grain == id) release();
+    volume_ -= simulation_.shape_of_grain(grain).volume();
+    simulation_.remove_grain(id);
+    placements_.erase(placements_.begin() + std::ptrdiff_t(grain));
+    ++status_.version;
+  }
   void write_frame() final {
     frame_.clear();
     for (const moreau::BodyId grain : simulation_.grains()) {
@@ -139,6 +186,13 @@ class Scene : public AnyScene {
     status_.fault = fault();
     status_.mass = mass();
     status_.paths_from = paths_from();
+    status_.hash = hash();
+    status_.ms = {last_.ms_place + last_.ms_pairs,
+                  last_.ms_collide,
+                  last_.ms_assemble,
+                  last_.ms_contacts,
+                  last_.ms_correct,
+                  last_.ms_total};
     status_.advice.clear();
     for (const std::string& sentence : moreau::check(simulation_, last_))
       status_.advice += (status_.advice.empty() ? "" : "; ") + sentence;
@@ -146,11 +200,13 @@ class Scene : public AnyScene {
 
  protected:
   /// @param size   of the smallest grain [m]
-  /// @param margin of detection, relative to the size; at the default step it is the way of 2.5 m/s
+  /// @param margin of detection at a step of 0.5 ms, relative to the size: 0.05 is the way of 2.5 m/s. In longer
+  ///               steps it is larger in proportion.
   Scene(const Settings& settings, double size, double margin = 0.05)
       : settings_(settings),
         random_(static_cast<std::uint64_t>(settings.seed)),
-        simulation_(size, materials(settings), solver_of(settings), tolerances(margin)) {
+        simulation_(size, materials(settings), solver_of(settings),
+                    tolerances(margin * std::clamp(settings.step / 5e-4, 1., 4.))) {
     require_whole(settings);
   }
 
@@ -164,6 +220,9 @@ class Scene : public AnyScene {
   virtual std::string fault() const { return ""; }  ///< Status::fault
   virtual double paths_from() const { return 0; }   ///< Status::paths_from
   virtual void write_walls() = 0;
+  virtual bool needs(moreau::BodyId) const {
+    return false;
+  }  ///< whether a grain must not be removed
 
   /// Materials of bodies: grains, walls with friction, walls without.
   static moreau::MaterialId grain_material() { return moreau::MaterialId(0); }
@@ -186,9 +245,15 @@ class Scene : public AnyScene {
   }
   moreau::BodyId add_grain(std::size_t base, double scale, const moreau::Pose<S>& pose) {
     const ShapeT shape = bases_[base].scaled(scale);
-    placements_.push_back({static_cast<std::uint32_t>(base), static_cast<float>(scale)});
     volume_ += shape.volume();
-    return simulation_.add_grain(simulation_.add_shape(shape), pose, density);
+    const moreau::BodyId id = simulation_.add_grain(simulation_.add_shape(shape), pose, density);
+    // A grain that is added later can take the place of one that was removed.
+    std::size_t k = simulation_.grain_count() - 1;
+    while (simulation_.grain(k) != id) --k;
+    placements_.insert(placements_.begin() + std::ptrdiff_t(k),
+                       {static_cast<std::uint32_t>(base), static_cast<float>(scale)});
+    ++status_.version;
+    return id;
   }
   /// Circumradii of the grains, of the sizes of the study (2.5, 3.75 and 5 cm) [m].
   std::vector<double> draw_radii() {
@@ -225,6 +290,50 @@ class Scene : public AnyScene {
     (samples_.push_back(double(values)), ...);
   }
 
+  /// A block with these half lengths [m]: a cuboid; of concave grains a beam with a waist; of round ones a ball.
+  static ShapeT block_of(const Vector& half) {
+    if constexpr (is_round) {
+      return ShapeT(half.minCoeff());
+    } else if constexpr (moreau::CompoundShape<ShapeT>) {
+      using Part = moreau::PartOf<ShapeT>;
+      Vector low = -half, high = half, waist = 0.6 * half;
+      high[up] = -half[up] / 3, waist[up] = half[up] / 3;
+      const std::vector<Part> parts{cuboid<Part>(low, high), cuboid<Part>(-waist, waist),
+                                    cuboid<Part>(-high, -low)};
+      return ShapeT{std::span<const Part>(parts)};
+    } else {
+      return cuboid<ShapeT>(-half, half);
+    }
+  }
+  template <class Part>
+  static Part cuboid(const Vector& lower, const Vector& upper) {
+    std::vector<Vector> corners(std::size_t{1} << S::dim, lower);
+    for (std::size_t bits = 0; bits < corners.size(); ++bits)
+      for (int axis = 0; axis < S::dim; ++axis)
+        if ((bits >> axis & 1) != 0) corners[bits][axis] = upper[axis];
+    return Part(std::span<const Vector>(corners));
+  }
+
+  /// Whether a ball overlaps neither grain nor wall [m].
+  bool has_room(const Vector& x, double radius) const {
+    const auto& bodies = simulation_.bodies();
+    for (const moreau::BodyId wall : simulation_.walls())
+      if (bodies.axes(wall.index()).col(0).dot(x - Vector(simulation_.pose(wall).position)) <
+          radius)
+        return false;
+    for (const auto& cylinder : simulation_.cylinders()) {
+      Vector way = x - Vector(simulation_.pose(cylinder.body).position);
+      for (int k = 1; k < up; ++k) way[k] = 0;  // the axis
+      if (way.norm() + radius > cylinder.shape.radius()) return false;
+    }
+    for (std::size_t k = 0; k < placements_.size(); ++k) {
+      const double other = moreau::circumradius(bases_[placements_[k].mesh]) * placements_[k].scale;
+      if ((Vector(simulation_.pose(simulation_.grain(k)).position) - x).norm() < radius + other)
+        return false;
+    }
+    return ground_.empty() || x[up] > radius;
+  }
+
   static constexpr bool is_round = std::same_as<ShapeT, moreau::BallIn<S>>;
 
   Settings settings_;
@@ -241,6 +350,42 @@ class Scene : public AnyScene {
   std::optional<Pull> pulled_;
 
  private:
+  static constexpr double fastest_throw = 4;  // [m/s]
+
+  /// A place in the picture.
+  Vector random_place() {
+    const Vector lower = from_page<Vector>({bounds_[0], bounds_[1], bounds_[2]});
+    Vector x = from_page<Vector>({bounds_[3], bounds_[4], bounds_[5]});
+    for (int axis = 0; axis < S::dim; ++axis)
+      x[axis] = std::uniform_real_distribution<double>(
+          lower[axis], std::max(x[axis], lower[axis] + 1e-9))(random_);
+    return x;
+  }
+  /// FNV-1a over the bits of the time, of poses and velocities of all bodies, and of the impulses of the contacts.
+  std::string hash() const {
+    std::uint64_t h = 14695981039346656037u;
+    const auto add = [&](double x) {
+      std::uint64_t bits;
+      std::memcpy(&bits, &x, sizeof bits);
+      for (int k = 0; k < 64; k += 8) h = (h ^ (bits >> k & 255)) * 1099511628211u;
+    };
+    const auto add_all = [&](const auto& vector) {
+      for (Eigen::Index k = 0; k < vector.size(); ++k) add(vector[k]);
+    };
+    add(simulation_.time());
+    const auto& bodies = simulation_.bodies();
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      // Where the body has put its origin and its axes.
+      add_all(bodies.pose[k].position);
+      for (int axis = 0; axis < S::dim; ++axis) add_all(bodies.pose[k](Vector(Vector::Unit(axis))));
+      add_all(bodies.velocity[k]);
+    }
+    for (const Vector& impulse : simulation_.contacts().impulses) add_all(impulse);
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(h));
+    return digits;
+  }
+
   static moreau::Materials<Law> materials(const Settings& settings) {
     const auto law = [&](double friction) {
       return Law(moreau::SignoriniCoulomb<double>(friction), settings.stiffness);
@@ -297,6 +442,7 @@ class Scene : public AnyScene {
       const double friction = simulation_.materials().laws()[contacts.points[c].law].friction();
       const bool slides = segment.friction_force >= 0.999 * friction * segment.normal_force;
       frame_.segments.push_back(slides ? 1 : 0);
+      push(frame_.segments, Vector(contacts.points[c].frame.col(0)));
       force_[segment.a] += segment.normal_force;
       force_[segment.b] += segment.normal_force;
     }

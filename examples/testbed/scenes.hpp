@@ -7,8 +7,11 @@
 #include "arch.hpp"
 #include "box.hpp"
 #include "column.hpp"
+#include "dominoes.hpp"
 #include "drum.hpp"
 #include "make_scene.hpp"
+#include "plate.hpp"
+#include "pyramid.hpp"
 
 namespace testbed {
 
@@ -27,6 +30,15 @@ std::unique_ptr<AnyScene> make_scene_of(SceneKind kind, const Settings& settings
       break;
     case SceneKind::arch:
       scene = std::make_unique<Arch<Shape>>(settings);
+      break;
+    case SceneKind::pyramid:
+      scene = std::make_unique<Pyramid<Shape>>(settings);
+      break;
+    case SceneKind::dominoes:
+      scene = std::make_unique<Dominoes<Shape>>(settings);
+      break;
+    case SceneKind::plate:
+      scene = std::make_unique<Plate<Shape>>(settings);
       break;
   }
   scene->apply(settings);

@@ -15,7 +15,7 @@
 namespace testbed {
 
 /// The scenes, in the order of `scenes`.
-enum class SceneKind : std::uint8_t { box, column, drum, arch };
+enum class SceneKind : std::uint8_t { box, column, drum, arch, pyramid, dominoes, plate };
 
 struct SceneEntry {
   const char* key;
@@ -23,7 +23,7 @@ struct SceneEntry {
   const char* try_this;  ///< what the page proposes to try
   const char* action;    ///< label of the button that calls AnyScene::act()
 };
-inline constexpr std::array<SceneEntry, 4> scenes{{
+inline constexpr std::array<SceneEntry, 7> scenes{{
     {"box", "Ratcheting box",
      "A lid packs the grains, then the wall on the right is pushed by the force f(t). x > 0 is "
      "outwards. In each period the wall comes in while f is large and is pushed out while f is "
@@ -44,6 +44,21 @@ inline constexpr std::array<SceneEntry, 4> scenes{{
      "The blocks carry one another by contact and friction alone. Pull a block out by hand, or "
      "lower the friction until the arch slides apart. Concave blocks have teeth.",
      "Pull out the keystone"},
+    {"pyramid", "Pyramid",
+     "Blocks stand on one another; round grains lie between walls that hold the lowest layer. "
+     "Shoot a "
+     "block at it, pull one out, or lower the friction.",
+     "Shoot a block"},
+    {"dominoes", "Dominoes",
+     "The first domino is pushed at 0.5 s and the row falls. Change the friction. Round grains do "
+     "not "
+     "fall: they roll.",
+     "Push the first"},
+    {"plate", "Plate of triangles",
+     "The plate is a wall of triangles, in the plane of segments. It has an edge, over which "
+     "grains fall "
+     "to the floor. Change the friction, and add grains.",
+     "Tilt gravity for 1 s"},
 }};
 
 /// The shapes, in the order of `shapes`.
@@ -72,7 +87,7 @@ inline constexpr std::array<ShapeEntry, 6> shapes{{
 
 /// The values of all sliders. SI units.
 struct Settings {
-  double grains = 300;      ///< number of grains; of the blocks of the arch
+  double grains = 300;      ///< number of grains
   double seed = 1;          ///< of shapes, sizes and positions
   double friction = 0.4;    ///< of grains with grains and with the walls that have friction [-]
   double gravity = 9.81;    ///< [m/s^2]
@@ -102,7 +117,9 @@ struct SettingEntry {
   unsigned scenes;
   const char* help;
 };
-inline constexpr unsigned in_box = 1, in_column = 2, in_drum = 4, in_arch = 8, in_all = 15;
+inline constexpr unsigned in_box = 1, in_column = 2, in_drum = 4, in_arch = 8, in_pyramid = 16,
+                          in_dominoes = 32, in_plate = 64, in_all = 127,
+                          of_grains = in_box | in_column | in_drum | in_plate;
 inline constexpr std::array<SettingEntry, 15> setting_table{{
     {"frequency", "Frequency ν", "Hz", &Settings::frequency, 0.5, 20, true, false, false, in_box,
      "of the force on the wall, f = fmax (1 - sin 2πνt)/2"},
@@ -124,9 +141,9 @@ inline constexpr std::array<SettingEntry, 15> setting_table{{
      "downward"},
     {"hand", "Strength of the hand", "N", &Settings::hand, 0.1, 10000, true, false, false, in_all,
      "largest force with which the pointer pulls a grain"},
-    {"grains", "Grains", "", &Settings::grains, 20, 1000, true, true, true, in_all & ~in_arch,
+    {"grains", "Grains", "", &Settings::grains, 20, 1000, true, true, true, of_grains,
      "a change begins the scene anew"},
-    {"seed", "Seed", "", &Settings::seed, 1, 100, false, true, true, in_all & ~in_arch,
+    {"seed", "Seed", "", &Settings::seed, 1, 100, false, true, true, of_grains,
      "of shapes, sizes and positions; a change begins the scene anew"},
     {"step", "Time step h", "s", &Settings::step, 1e-4, 2e-3, true, false, false, in_all,
      "a shorter step is more exact and slower"},
@@ -138,6 +155,16 @@ inline constexpr std::array<SettingEntry, 15> setting_table{{
     {"sweeps", "Most sweeps per step", "", &Settings::sweeps, 20, 2000, true, true, false, in_all,
      "then the step is left with the residual that it has"},
 }};
+
+/// Other defaults of the scenes in space: steps of a millisecond, so that 300 polyhedra run at a tenth of real time.
+/// Stiffness and tolerance are such that the residual stays below a tenth of 1 / (k h^2 W_nn): forces are then
+/// known to a tenth (moreau::check()).
+struct SpaceDefault {
+  const char* key;
+  double value;
+};
+inline constexpr std::array<SpaceDefault, 3> space_defaults{
+    {{"step", 1e-3}, {"stiffness", 1e6}, {"tolerance", 5e-5}}};
 
 /// Throws what the library does not check: whole numbers, and numbers of grains that would fill the
 /// memory of a page. Force, friction, gravity, ... are checked by the types that they are given to.

@@ -111,7 +111,7 @@ inline constexpr std::size_t colour_width = 3;  ///< speed [m/s], force [N], res
 inline constexpr std::size_t wall_width =
     8;  ///< kind, centre, half lengths (or radius, half depth, angle), moves
 inline constexpr std::size_t segment_width =
-    11;  ///< from, to, point, normal force [N], whether it slides
+    14;  ///< from, to, point, normal force [N], whether it slides, unit normal
 
 /// The buffers of a frame. They keep their memory.
 struct Frame {
@@ -128,6 +128,11 @@ struct Frame {
   }
 };
 
+/// Stages of a step whose times Status::ms has.
+inline constexpr std::array<const char*, 6> stages{{"broad phase and placing", "contact points",
+                                                    "operator and warm start", "contact solver",
+                                                    "overlaps", "whole step"}};
+
 /// How the last step went, for the line below the picture.
 struct Status {
   double time = 0;         ///< [s]
@@ -137,9 +142,12 @@ struct Status {
   bool can_act = true;     ///< whether the button of the scene has an effect
   double mass = 0;         ///< of the grains [kg]
   double paths_from = 0;   ///< a plot that is a path shows the steps from this time on [s]
-  std::string fault;       ///< a clause, if the state was one that grains cannot have
-  std::string stage;       ///< of the scene, e.g. "packing"
-  std::string advice;      ///< sentences of moreau::check() on the last step
+  std::array<double, stages.size()> ms{};  ///< of the last step [ms]
+  std::size_t version = 0;                 ///< increases when grains are added or removed
+  std::string hash;                        ///< of the state, 16 hexadecimal digits
+  std::string fault;   ///< a clause, if the state was one that grains cannot have
+  std::string stage;   ///< of the scene, e.g. "packing"
+  std::string advice;  ///< sentences of moreau::check() on the last step
 };
 
 }  // namespace testbed

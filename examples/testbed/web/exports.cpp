@@ -76,6 +76,15 @@ TESTBED_EXPORT(testbed_pull) int testbed_pull(int grain, double x, double y, dou
 TESTBED_EXPORT(testbed_release) void testbed_release() {
   scene->release();
 }
+TESTBED_EXPORT(testbed_throw) int testbed_throw(double x, double y, double z) {
+  return fails([&] { scene->throw_grain({x, y, z}); });
+}
+TESTBED_EXPORT(testbed_add) int testbed_add() {
+  return fails([] { scene->add(); });
+}
+TESTBED_EXPORT(testbed_remove) int testbed_remove(int grain) {
+  return fails([&] { scene->remove(static_cast<std::size_t>(grain)); });
+}
 /// Fills the buffers of the frame.
 TESTBED_EXPORT(testbed_frame) int testbed_frame() {
   return fails([] { scene->write_frame(); });
@@ -128,6 +137,23 @@ TESTBED_EXPORT(testbed_grain_count) std::size_t testbed_grain_count() {
   return scene->placements().size();
 }
 
+TESTBED_EXPORT(testbed_ground) const float* testbed_ground() {
+  return scene->ground().data();
+}
+TESTBED_EXPORT(testbed_ground_size) std::size_t testbed_ground_size() {
+  return scene->ground().size();
+}
+
+/// Time of stage k of the last step [ms].
+TESTBED_EXPORT(testbed_ms) double testbed_ms(int k) {
+  return scene->status().ms[static_cast<std::size_t>(k)];
+}
+TESTBED_EXPORT(testbed_version) std::size_t testbed_version() {
+  return scene->status().version;
+}
+TESTBED_EXPORT(testbed_hash) const char* testbed_hash() {
+  return scene->status().hash.c_str();
+}
 TESTBED_EXPORT(testbed_time) double testbed_time() {
   return scene->status().time;
 }

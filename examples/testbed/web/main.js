@@ -125,17 +125,37 @@ const shapeIndex = () => tables.shapes.findIndex((shape) => shape.dimension === 
 function load() {
   view.letLoose();
   showBuilding();
+  adaptDefaults();
   sendLoad();
+  describeScene();
+  writeAddress();
+}
+function describeScene() {
   const scene = tables.scenes[state.scene];
   element("tryThis").textContent = scene.tryThis;
   element("action").textContent = scene.action;
-  element("newSeed").disabled = scene.key === "arch";
+  const hasSample = tables.settings.find(({ key }) => key === "seed").scenes & (1 << state.scene);
+  element("newSeed").disabled = !hasSample;
   element("hint").textContent = element("touchHint").textContent = state.dimension === 3
-    ? "Drag a grain to pull it. Drag beside the grains to turn the picture, wheel to zoom."
-    : "Drag a grain to pull it. Drag beside the grains to move the picture, wheel to zoom.";
+    ? "Drag a grain to pull or throw it, double-click to remove it. Drag beside the grains to turn the picture, wheel to zoom."
+    : "Drag a grain to pull or throw it, double-click to remove it. Drag beside the grains to move the picture, wheel to zoom.";
   for (const setting of tables.settings) setting.holder.hidden = (setting.scenes & (1 << state.scene)) === 0;
-  writeAddress();
 }
+/** The default of a setting in the dimension that is shown, or in another. */
+function defaultOf(key, dimension = state.dimension) {
+  const inSpace = tables.inSpace.find((entry) => entry.key === key);
+  return dimension === 3 && inSpace ? inSpace.value : tables.settings.find((entry) => entry.key === key).value;
+}
+/** After a change of the dimension: what had the default takes the default there. */
+function adaptDefaults(given = []) {
+  if (adapted === state.dimension) return;
+  for (const { key } of tables.inSpace)
+    if (!given.includes(key) && state.values[key] === defaultOf(key, adapted)) setValue(key, defaultOf(key));
+  adapted = state.dimension;
+  // In space grains are opaque until one wants to look into them.
+  if (!given.includes("show")) showOption("chains", state.dimension === 2);
+}
+let adapted = 2;
 /** One scene is built at a time. Of the choices made meanwhile only the last is built. */
 function sendLoad() {
   wanted = loading;
@@ -229,7 +249,7 @@ function draw(now) {
   const force = plots.last("f");
   view.update(
     {
-      poses: got[0], colours: got[1], walls: got[2], wallCount: sizes[2] / 8, segments: got[3], segmentCount: sizes[3] / 11,
+      poses: got[0], colours: got[1], walls: got[2], wallCount: sizes[2] / 8, segments: got[3], segmentCount: sizes[3] / 14,
     },
     force === null ? null : { now: force, most: state.values.fmax },
     steps * state.values.step);
@@ -249,6 +269,8 @@ function draw(now) {
 }
 
 let fault = "";
+let saved = null, quietSave = false; // the state that was saved last
+let stageTimes = null; // [ms]
 
 /** The speed of the clock as text. */
 function speedText(factor) {
@@ -256,6 +278,14 @@ function speedText(factor) {
   if (factor >= 0.1) return `slow motion: ${factor.toPrecision(2)} × real time`;
   const [value, unit] = factor > 1 / 120 ? [1 / factor, "s"] : factor > 1 / 7200 ? [1 / 60 / factor, "min"] : [1 / 3600 / factor, "h"];
   return `slow motion: 1 s takes ${Number.isFinite(value) ? Number(value.toPrecision(2)) : "very many"} ${unit}`;
+}
+/** Times of the stages of a step, smoothed, and the hash of the state if the clock stands still. */
+function showStages({ ms, hash }, steps) {
+  if (steps > 0) stageTimes = stageTimes?.map((mean, k) => mean + 0.1 * (ms[k] - mean)) ?? ms;
+  else stageTimes ??= ms;
+  const parts = tables.stages.slice(0, -1).map(({ label }, k) => `${label} ${stageTimes[k].toFixed(2)}`);
+  element("stages").textContent = `ms per step: ${stageTimes.at(-1).toFixed(2)} (${parts.join(", ")})` +
+    (state.playing ? "" : `; hash of the state ${hash}`);
 }
 function showStatus(status, steps, now) {
   rate.steps += steps;
@@ -279,6 +309,7 @@ function showStatus(status, steps, now) {
     `<span>${residual === null ? "" : `residual ${residual.toExponential(0)}`}</span>` +
     (status.hand > 0 ? `<span class="hand">the hand pulls with ${short(status.hand)} N${status.hand > 0.99 * state.values.hand ? ", its full strength" : ""}</span>` : "") +
     (status.capped > 0 ? `<span>${status.capped} steps not solved to the tolerance</span>` : "");
+  showStages(status, steps);
   element("action").disabled = !status.canAct;
   element("advice").textContent = status.advice;
   const colour = view.options.colour;
@@ -306,13 +337,17 @@ worker.onmessage = ({ data }) => {
       load();
       break;
     case "scene":
-      if (loadWanted()) break;
+      if (!data.kept && loadWanted()) break;
       generation = data.generation;
       latest = null;
-      view.load(data.shapes, data.description, tables.shapes[data.shape].dimension === 3);
+      view.load(data.shapes, data.description, tables.shapes[data.shape].dimension === 3, data.ground);
+      refresh = true;
+      if (data.kept) break; // the same scene with other grains
+      showLoaded(data);
       plots.load(data.description);
       isNew = true;
       fault = "";
+      stageTimes = null;
       element("error").hidden = true;
       if (addressFault) showError(addressFault);
       addressFault = "";
@@ -338,6 +373,11 @@ worker.onmessage = ({ data }) => {
       }
       break;
     }
+    case "saved":
+      saved = data;
+      if (!quietSave) download(data.bytes, data.name);
+      quietSave = false;
+      break;
     case "error":
       waiting = false;
       if (!loading || !loadWanted()) hideBuilding();
@@ -356,23 +396,44 @@ worker.onmessage = ({ data }) => {
 };
 worker.onerror = (event) => (element("loading").textContent = `The simulation could not be started: ${event.message}`);
 
+/** Takes over scene, shape and values of a state that was loaded from a file. */
+function showLoaded({ scene, shape, values }) {
+  const { dimension, label } = tables.shapes[shape];
+  const other = scene !== state.scene || dimension !== state.dimension || label !== state.label;
+  Object.assign(state, { scene, dimension, label });
+  Object.assign(state.values, values);
+  adapted = dimension;
+  if (other) makeControls();
+  for (const setting of tables.settings) setting.show(state.values[setting.key]);
+  describeScene();
+  writeAddress();
+}
 /** #scene=column&shape=disk&grains=500. What the page does not know is said once the scene is shown. */
 function readAddress() {
-  for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
+  const entries = [...new URLSearchParams(location.hash.slice(1))], given = entries.map(([key]) => key);
+  for (const [key, value] of entries) {
     const scene = tables.scenes.findIndex((entry) => entry.key === value);
     const shape = tables.shapes.find((entry) => entry.key === value);
     const number = value.trim() === "" ? NaN : Number(value);
     if (key === "scene" && scene >= 0) state.scene = scene;
     else if (key === "shape" && shape) Object.assign(state, { dimension: shape.dimension, label: shape.label });
+    else if (key === "show" && value.split(",").every((name) => name === "" || shown.includes(name)))
+      for (const name of shown) showOption(name, value.split(",").includes(name));
+    else if (key === "colour" && [...element("colour").options].some((option) => option.value === value)) showOption("colour", value);
     else if (tables.settings.some((setting) => setting.key === key) && !Number.isNaN(number)) setValue(key, number);
     else addressFault = `The address has ${key}=${value}, which this page does not know.`;
   }
+  adaptDefaults(given);
 }
-/** Keeps the scene, the shape and all settings that are not the defaults in the address. */
+const shown = ["chains", "contacts", "normals", "boxes"];
+/** Keeps the scene, the shape, all settings that are not the defaults, and what is shown in the address. */
 function writeAddress() {
   const address = new URLSearchParams({ scene: tables.scenes[state.scene].key, shape: tables.shapes[shapeIndex()].key });
-  for (const { key, value } of tables.settings)
-    if (state.values[key] !== value) address.set(key, String(Number(state.values[key].toPrecision(9))));
+  for (const { key } of tables.settings)
+    if (state.values[key] !== defaultOf(key)) address.set(key, String(Number(state.values[key].toPrecision(9))));
+  const list = shown.filter((name) => view.options[name]).join(",");
+  if (list !== (state.dimension === 2 ? "chains" : "")) address.set("show", list);
+  if (view.options.colour !== "size") address.set("colour", view.options.colour);
   location.replace(`#${address}`);
 }
 let addressFault = "";
@@ -383,6 +444,7 @@ view.onPull = (grain, { x, y, z }) => {
   worker.postMessage({ type: "pull", grain, x, y, z });
   for (const id of ["hint", "touchHint"]) element(id).classList.add("used");
 };
+view.onThrow = ({ x, y, z }) => worker.postMessage({ type: "throw", x, y, z });
 view.onRelease = () => worker.postMessage({ type: "release" });
 const actions = {
   play: () => play(!state.playing),
@@ -398,13 +460,42 @@ const actions = {
   action: () => worker.postMessage({ type: "act" }),
   camera: () => view.frameScene(),
   defaults() {
-    for (const { key, value } of tables.settings) setValue(key, value);
+    for (const { key } of tables.settings) setValue(key, defaultOf(key));
     load();
   },
+  add() {
+    worker.postMessage({ type: "add" });
+    refresh = true;
+  },
+  save: () => worker.postMessage({ type: "save" }),
+  open: () => element("file").click(),
   closeError: () => (element("error").hidden = true),
 };
 for (const [id, act] of Object.entries(actions)) element(id).addEventListener("click", () => tables && act());
-const keys = { " ": "play", s: "step", r: "reset", n: "newSeed", c: "camera" };
+function removeGrain(grain) {
+  view.letLoose();
+  worker.postMessage({ type: "remove", grain });
+  refresh = true;
+}
+element("canvas").addEventListener("dblclick", (event) => {
+  const grain = view.grainAt(event);
+  if (grain >= 0) removeGrain(grain);
+});
+element("file").addEventListener("change", async ({ target }) => {
+  const [file] = target.files;
+  target.value = "";
+  if (!file) return;
+  const bytes = await file.arrayBuffer();
+  worker.postMessage({ type: "open", bytes }, [bytes]);
+});
+function download(bytes, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+const keys = { " ": "play", s: "step", r: "reset", n: "newSeed", c: "camera", a: "add" };
 addEventListener("keydown", (event) => {
   const at = document.activeElement;
   if (event.ctrlKey || event.metaKey || event.altKey || at?.matches("input[type=text], select")) return;
@@ -420,14 +511,20 @@ addEventListener("click", (event) => {
   const at = document.activeElement;
   if (event.detail > 0 && at?.matches("button, summary, input:not([type=text])")) at.blur();
 });
-element("chains").addEventListener("change", (event) => showOption("chains", event.target.checked));
-element("contacts").addEventListener("change", (event) => showOption("contacts", event.target.checked));
+for (const name of shown)
+  element(name).addEventListener("change", (event) => {
+    showOption(name, event.target.checked);
+    writeAddress();
+  });
 element("colour").addEventListener("change", (event) => {
   showOption("colour", event.target.value);
+  writeAddress();
   event.target.blur();
 });
 function showOption(name, value) {
   view.options[name] = value;
+  if (name === "colour") element(name).value = value;
+  else element(name).checked = value;
   view.colourMax = 0;
   refresh = true;
 }
@@ -445,10 +542,23 @@ window.testbed = {
     state.scene = tables.scenes.findIndex((entry) => entry.key === scene);
     const { dimension, label } = tables.shapes.find((entry) => entry.key === shape);
     Object.assign(state, { dimension, label });
-    for (const { key, value } of tables.settings) setValue(key, values[key] ?? value);
+    adapted = dimension;
+    showOption("chains", dimension === 2);
+    for (const { key } of tables.settings) setValue(key, values[key] ?? defaultOf(key));
     makeControls();
     load();
   },
+  hash: () => memory.hash,
+  refresh: () => (refresh = true),
+  /** The bytes of the state. */
+  save() {
+    quietSave = true;
+    saved = null;
+    worker.postMessage({ type: "save" });
+  },
+  saved: () => saved?.bytes,
+  open: (bytes) => worker.postMessage({ type: "open", bytes: bytes.slice().buffer }),
+  send: (message) => worker.postMessage(message),
   /** Steps without frames. */
   run: (steps) =>
     new Promise((resolve) => {

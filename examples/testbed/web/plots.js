@@ -45,7 +45,7 @@ class History {
   }
 }
 
-const label = ({ label: text, unit }) => (unit === "-" ? text : `${text} [${unit}]`);
+const label = ({ label: text, unit }) => (unit === "-" || unit === "" ? text : `${text} [${unit}]`);
 
 /** Texts of ticks with as many digits as their distance needs; large values with a prefix or an exponent. */
 function ticks(splits, step, unit) {

@@ -2,7 +2,7 @@
 // The picture: grains as instances of their base shapes, walls, force chains, contact points, and the
 // hand that pulls a grain. It draws what the buffers of view.hpp contain; x to the right, z up.
 import {
-  AmbientLight, BoxGeometry, BufferAttribute, BufferGeometry, Color, ColorManagement,
+  AmbientLight, BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, ColorManagement,
   CylinderGeometry, DirectionalLight, DoubleSide, DynamicDrawUsage, EdgesGeometry, Group, InstancedMesh,
   LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
   OrthographicCamera, PerspectiveCamera, Plane, Quaternion, Raycaster, Scene, SphereGeometry, Vector2,
@@ -14,6 +14,7 @@ import { scaleColour, stoneColour } from "./colours.js";
 // Colours are given and shown as they are, without conversion.
 ColorManagement.enabled = false;
 
+const edgeColour = 0x30343b;
 const background = 0xf3f4f6, wallColour = 0x8a93a0, movingColour = 0x2f6fb3;
 const heldColour = new Color(0xf06595);
 const stickColour = new Color(0x1f4e79), slideColour = new Color(0xe07b00);
@@ -33,27 +34,32 @@ export class View {
     const sun = new DirectionalLight(0xffffff, 1.9);
     sun.position.set(0.5, -1, 1.6);
     this.scene.add(sun);
-    this.options = { chains: true, contacts: false, colour: "size" };
+    this.options = { chains: true, contacts: false, normals: false, boxes: false, colour: "size" };
     this.quality = 1; // pixels along a side, relative to those of the screen
     this.colourMax = 0; // upper end of the colour scale
     this.moved = false; // whether the user has moved the camera
     this.stale = false; // whether the camera or the hand has moved since the picture was drawn
     this.meshes = [];
+    this.rims = []; // the contours of round grains in space
     this.makeWalls();
     this.makeSegments();
     this.makeHand();
+    this.normals = this.makeLines(0x1f7a3d);
+    this.boxes = this.makeLines(0x7048b6);
     this.setSpace(true);
     // Before the controls of the camera, which do not see a pointer that holds a grain.
     canvas.parentElement.addEventListener("pointerdown", (event) => this.grab(event), { capture: true });
     window.addEventListener("pointermove", (event) => this.drag(event));
     for (const name of ["pointerup", "pointercancel", "blur"])
-      window.addEventListener(name, () => this.letLoose());
+      window.addEventListener(name, (event) => this.letLoose(event));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
 
   /** Called with the grain and the point to which it is pulled, and when the hand opens. */
   onPull = () => {};
   onRelease = () => {};
+  /** Called before onRelease with the velocity of a grain that is thrown [m/s]. */
+  onThrow = () => {};
 
   setSpace(isSpace) {
     this.isSpace = isSpace;
@@ -77,9 +83,9 @@ export class View {
   }
 
   /** Takes a new scene: meshes of the shapes, placements of the grains, bounds. */
-  load({ meshes, mesh, scale }, description, isSpace) {
+  load({ meshes, mesh, scale }, description, isSpace, ground) {
     this.letLoose();
-    for (const old of this.meshes) {
+    for (const old of [...this.meshes, ...this.rims]) {
       this.scene.remove(old);
       old.geometry.dispose();
       old.material.dispose();
@@ -96,6 +102,9 @@ export class View {
     this.grainsOf = meshes.map((_, m) => new Uint32Array(numbers[m]));
     for (let k = 0; k < this.count; ++k) this.grainsOf[mesh[k]][this.slotOf[k]] = k;
     this.meshes = meshes.map((shape, m) => this.makeGrains(shape, numbers[m]));
+    this.rims = isSpace && meshes[0].isRound ? this.meshes.map((grains) => this.makeRim(grains)) : [];
+    this.cornersOf = meshes.map(({ triangles }) => cornersOf(triangles));
+    this.makeGround(ground);
     this.sizeOf = meshes.map(({ triangles }) => triangles.reduce((most, x) => Math.max(most, Math.abs(x)), 0));
     this.grainSize = 1e9; // of the smallest grain
     for (let k = 0; k < this.count; ++k)
@@ -123,7 +132,9 @@ export class View {
     geometry.setAttribute("color", new BufferAttribute(shades, 3));
     if (this.isSpace) geometry.computeVertexNormals();
     const material = this.isSpace
-      ? new MeshLambertMaterial({ flatShading: !shape.isRound, vertexColors: true })
+      ? new MeshLambertMaterial({
+          flatShading: !shape.isRound, vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+        })
       : new MeshBasicMaterial({ side: DoubleSide });
     if (shape.isRound && this.isSpace) smoothNormals(geometry);
     const grains = new InstancedMesh(geometry, material, Math.max(1, count));
@@ -136,6 +147,33 @@ export class View {
     this.scene.add(grains);
     return grains;
   }
+  /** The contour of round grains: dark balls a little larger, of which the side away from the eye is drawn. */
+  makeRim(grains) {
+    const rim = new InstancedMesh(grains.geometry.clone().scale(1.05, 1.05, 1.05), new MeshBasicMaterial({ color: edgeColour, side: BackSide }), grains.instanceMatrix.count);
+    rim.instanceMatrix = grains.instanceMatrix;
+    rim.count = grains.count;
+    rim.frustumCulled = false;
+    rim.visible = false;
+    this.scene.add(rim);
+    return rim;
+  }
+  /** The wall of triangles of a scene, which does not move. */
+  makeGround(triangles) {
+    if (this.ground) {
+      this.scene.remove(this.ground);
+      this.ground.geometry.dispose();
+      this.ground.material.dispose();
+    }
+    this.ground = null;
+    if (!triangles?.length) return;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(triangles, 3));
+    geometry.computeVertexNormals();
+    this.ground = new Mesh(geometry, this.isSpace
+      ? new MeshLambertMaterial({ color: 0x9aa5b8, side: DoubleSide, flatShading: true })
+      : new MeshBasicMaterial({ color: wallColour, side: DoubleSide }));
+    this.scene.add(this.ground);
+  }
   /** All outlines are one set of lines, which is computed anew for every frame. */
   makeOutlines(meshes) {
     if (this.outlines) {
@@ -143,14 +181,13 @@ export class View {
       this.outlines.geometry.dispose();
     }
     this.outlines = null;
-    // In space they help to see the blocks of the arch; among many grains they would be in the way.
-    if (this.isSpace && (this.count > 50 || meshes[0].isRound)) return;
+    if (this.isSpace && meshes[0].isRound) return; // these have rims
     this.outlineOf = meshes.map((shape) => visibleOutline(shape, this.isSpace));
     let numbers = 0;
     for (let k = 0; k < this.count; ++k) numbers += this.outlineOf[this.meshOf[k]].length;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(numbers), 3).setUsage(DynamicDrawUsage));
-    this.outlines = new LineSegments(geometry, new LineBasicMaterial({ color: 0x30343b }));
+    this.outlines = new LineSegments(geometry, new LineBasicMaterial({ color: edgeColour }));
     this.outlines.frustumCulled = false;
     this.outlines.visible = false;
     this.scene.add(this.outlines);
@@ -191,6 +228,29 @@ export class View {
     instances.dispose();
     instances.material.dispose();
     return this.makeInstances(instances.geometry, 2 * count);
+  }
+  makeLines(color) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(0), 3));
+    const lines = new LineSegments(geometry, new LineBasicMaterial({ color }));
+    lines.frustumCulled = false;
+    lines.visible = false;
+    lines.renderOrder = 3;
+    this.scene.add(lines);
+    return lines;
+  }
+  /** The array of lines with room for so many ends; it is kept. */
+  endsOf(lines, count) {
+    let { position } = lines.geometry.attributes;
+    if (position.count < count) {
+      lines.geometry.dispose();
+      position = new BufferAttribute(new Float32Array(6 * count), 3).setUsage(DynamicDrawUsage);
+      lines.geometry.setAttribute("position", position);
+    }
+    lines.geometry.setDrawRange(0, count);
+    lines.visible = count > 0;
+    position.needsUpdate = true;
+    return position.array;
   }
   makeHand() {
     const paint = new MeshBasicMaterial({ color: 0xd6336c, depthTest: false, transparent: true });
@@ -318,21 +378,48 @@ export class View {
       else if (which === undefined) stoneColour(k, out, 3 * slot);
       else scaleColour(this.colourMax > 0 ? colours[3 * k + which] / this.colourMax : 0, out, 3 * slot);
     }
-    const faded = this.options.chains || this.options.contacts;
+    // In the plane what is shown lies in front of the grains; in space they let it be seen.
+    const { chains, contacts, normals } = this.options, clear = this.isSpace && (chains || contacts || normals);
+    // Colours that mean something are faded less.
+    const opacity = !clear ? 1 : which === undefined ? 0.33 : 0.6;
     for (const mesh of this.meshes) {
       mesh.visible = true;
       mesh.instanceMatrix.needsUpdate = true;
       mesh.instanceColor.needsUpdate = true;
-      // Colours that mean something are faded less.
-      const opacity = !faded ? 1 : which === undefined ? (this.isSpace ? 0.33 : 0.45) : this.isSpace ? 0.6 : 0.75;
       if (mesh.material.opacity !== opacity) {
         mesh.material.opacity = opacity;
-        mesh.material.transparent = opacity < 1;
-        mesh.material.depthWrite = opacity === 1;
+        mesh.material.transparent = clear;
+        mesh.material.depthWrite = !clear;
         mesh.material.needsUpdate = true;
       }
     }
-    if (this.outlines) this.updateOutlines();
+    for (const rim of this.rims) rim.visible = !clear;
+    if (this.outlines && clear && this.count > 50) this.outlines.visible = false; // among many grains in the way
+    else if (this.outlines) this.updateOutlines();
+    this.updateBoxes();
+  }
+  /** The box around each grain with axes parallel to the world. */
+  updateBoxes() {
+    const edges = this.isSpace ? boxEdges : boxEdges.slice(0, 4);
+    const out = this.endsOf(this.boxes, this.options.boxes ? 2 * edges.length * this.count : 0);
+    if (!this.options.boxes) return;
+    const { position, matrix, low, high } = scratch;
+    let at = 0;
+    for (let k = 0; k < this.count; ++k) {
+      const m = this.meshOf[k], corners = this.cornersOf[m];
+      matrix.fromArray(this.meshes[m].instanceMatrix.array, 16 * this.slotOf[k]);
+      low.setScalar(Infinity), high.setScalar(-Infinity);
+      for (let i = 0; i < corners.length; i += 3) {
+        position.fromArray(corners, i).applyMatrix4(matrix);
+        low.min(position), high.max(position);
+      }
+      for (const edge of edges)
+        for (const end of edge) {
+          out[at++] = end & 1 ? high.x : low.x;
+          out[at++] = this.isSpace ? (end & 4 ? high.y : low.y) : -0.03;
+          out[at++] = end & 2 ? high.z : low.z;
+        }
+    }
   }
   updateOutlines() {
     const out = this.outlines.geometry.attributes.position.array;
@@ -433,12 +520,24 @@ export class View {
     this.chains.count = this.points.count = 0;
     if (this.options.chains) this.updateChains(segments, count);
     if (this.options.contacts) this.updatePoints(segments, count);
+    this.updateNormals(segments, this.options.normals ? count : 0);
+  }
+  /** From each contact point, the normal: from the first body to the second. */
+  updateNormals(segments, count) {
+    const out = this.endsOf(this.normals, 2 * count);
+    const length = 0.6 * this.grainSize, front = this.isSpace ? 0 : -0.04;
+    for (let k = 0; k < count; ++k)
+      for (let c = 0; c < 3; ++c) {
+        const x = segments[14 * k + 6 + c] + (c === 1 ? front : 0);
+        out[6 * k + c] = x;
+        out[6 * k + 3 + c] = x + length * segments[14 * k + 11 + c];
+      }
   }
   updateChains(segments, count) {
     const { position, size, turn, matrix, way, colour } = scratch;
     this.chains = this.withRoom(this.chains, count);
     let sum = 0;
-    for (let k = 0; k < count; ++k) sum += segments[11 * k + 9];
+    for (let k = 0; k < count; ++k) sum += segments[14 * k + 9];
     const mean = count > 0 ? sum / count : 0;
     // The mean over about 0.05 s of simulated time. The scale is held until it is wrong by a factor of 2.
     this.meanForce = this.meanForce === 0 ? mean : this.meanForce + (1 - Math.exp(-this.passed / 0.05)) * (mean - this.meanForce);
@@ -447,7 +546,7 @@ export class View {
     const most = this.fullForce, front = this.isSpace ? 0 : -0.02;
     let shown = 0;
     for (let k = 0; k < count; ++k) {
-      const s = 11 * k, strength = Math.min(1, segments[s + 9] / most);
+      const s = 14 * k, strength = Math.min(1, segments[s + 9] / most);
       if (!(strength > 0.01)) continue;
       way.set(segments[s + 3] - segments[s], segments[s + 4] - segments[s + 1], segments[s + 5] - segments[s + 2]);
       const length = way.length();
@@ -473,7 +572,7 @@ export class View {
     turn.identity();
     size.setScalar(Math.max(0.14 * this.grainSize, 2.2 * this.pixel()));
     for (let k = 0; k < count; ++k) {
-      const s = 11 * k;
+      const s = 14 * k;
       position.set(segments[s + 6], segments[s + 7] + front, segments[s + 8]);
       matrix.compose(position, turn, size).toArray(this.points.instanceMatrix.array, 16 * k);
       (segments[s + 10] !== 0 ? slideColour : stickColour).toArray(this.points.instanceColor.array, 3 * k);
@@ -500,21 +599,38 @@ export class View {
     caster.setFromCamera(at, this.camera);
     return caster;
   }
+  /** The grain that is seen under the pointer and the point of it, or null: the first that the ray meets; else the
+   *  one that it misses least, by 6 pixels at most. */
+  hit(caster) {
+    for (const mesh of this.meshes) mesh.computeBoundingSphere();
+    const [first] = caster.intersectObjects(this.meshes, false);
+    if (first) return { grain: this.grainsOf[this.meshes.indexOf(first.object)][first.instanceId], point: first.point };
+    const reach = 6 * this.pixel();
+    let best = null, least = reach;
+    for (let k = 0; k < this.count; ++k) {
+      const centre = this.centreOf(k), near = caster.ray.closestPointToPoint(centre, new Vector3());
+      const miss = near.distanceTo(centre) - this.scaleOf[k] * this.sizeOf[this.meshOf[k]];
+      if (miss < least) (least = miss), (best = { grain: k, point: near });
+    }
+    return best;
+  }
+  /** The grain under the pointer, or -1. */
+  grainAt(event) {
+    return this.isPlaced && event.target === this.canvas ? (this.hit(this.ray(event))?.grain ?? -1) : -1;
+  }
   grab(event) {
     if (event.target !== this.canvas || event.button !== 0 || !this.isPlaced || event.shiftKey) return;
-    const caster = this.ray(event);
-    for (const mesh of this.meshes) mesh.computeBoundingSphere();
-    const [hit] = caster.intersectObjects(this.meshes, false);
+    const caster = this.ray(event), hit = this.hit(caster);
     if (!hit) return;
-    const grain = this.grainsOf[this.meshes.indexOf(hit.object)][hit.instanceId];
+    const { grain, point } = hit;
     event.stopPropagation();
     event.preventDefault();
     const normal = this.camera.getWorldDirection(new Vector3());
     const centre = this.centreOf(grain);
     this.held = {
       grain,
-      plane: new Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
-      offset: hit.point.clone().sub(centre),
+      plane: new Plane().setFromNormalAndCoplanarPoint(normal, point),
+      offset: point.clone().sub(centre),
       target: centre,
     };
     this.canvas.style.cursor = "grabbing";
@@ -525,12 +641,21 @@ export class View {
     const point = this.ray(event).ray.intersectPlane(this.held.plane, new Vector3());
     if (!point) return;
     this.held.target = point.sub(this.held.offset);
+    const now = performance.now(), trace = (this.held.trace ??= []);
+    trace.push({ now, x: this.held.target.clone() });
+    while (now - trace[0].now > 100) trace.shift();
     this.onPull(this.held.grain, this.held.target);
     this.stale = true;
     this.updateHand();
   }
-  letLoose() {
+  /** Opens the hand. A grain that the pointer was moving flies on with the velocity of the pointer. */
+  letLoose(event) {
     if (!this.held) return;
+    const trace = this.held.trace ?? [], first = trace[0], last = trace[trace.length - 1];
+    if (event?.type === "pointerup" && trace.length > 2 && performance.now() - last.now < 60) {
+      const velocity = last.x.clone().sub(first.x).divideScalar(Math.max(0.02, (last.now - first.now) / 1000));
+      if (velocity.length() > 0.5) this.onThrow(velocity);
+    }
     this.held = null;
     this.canvas.style.cursor = "";
     this.hand.visible = false;
@@ -573,8 +698,20 @@ export class View {
 const upright = new Vector3(0, 1, 0);
 const scratch = {
   position: new Vector3(), turn: new Quaternion(), size: new Vector3(), matrix: new Matrix4(),
-  way: new Vector3(), colour: new Color(),
+  way: new Vector3(), colour: new Color(), low: new Vector3(), high: new Vector3(),
 };
+/** Edges of a box between corners whose bits say which end of x (1), z (2) and y (4); first those of the plane. */
+const boxEdges = [[0, 1], [1, 3], [3, 2], [2, 0], [4, 5], [5, 7], [7, 6], [6, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+/** The corners of triangles, each once. */
+function cornersOf(triangles) {
+  const seen = new Map();
+  for (let k = 0; k < triangles.length; k += 3) {
+    const x = triangles.subarray(k, k + 3);
+    seen.set(Array.from(x, (c) => c.toFixed(6)).join(), x);
+  }
+  return Float32Array.from([...seen.values()].flatMap((x) => [...x]));
+}
 
 function shadeOctants(triangles, shades) {
   for (let k = 0; k < triangles.length; k += 9) {

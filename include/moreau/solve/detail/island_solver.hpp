@@ -135,7 +135,8 @@ class IslandSolver {
     if (one.is_new || one.cost <= cheap_visits) return true;
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
     constexpr int dropped = 44;  // bits of the defect that rounding may change
-    std::uint64_t bits;  // not by std::bit_cast, which the C++ library of Debian 12's emscripten lacks
+    // Not std::bit_cast, which the C++ library of Debian 12's emscripten lacks.
+    std::uint64_t bits;
     static_assert(sizeof bits == sizeof one.defect);
     std::memcpy(&bits, &one.defect, sizeof bits);
     const std::uint64_t hash = ((bits >> dropped) * golden) >> 32;
