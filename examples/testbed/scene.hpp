@@ -150,13 +150,15 @@ class Scene : public AnyScene {
         std::uniform_int_distribution<std::size_t>(0, placements_.size() - 1)(random_);
     const Placement placement = placements_[like];
     const double radius = moreau::circumradius(bases_[placement.mesh]) * placement.scale;
-    std::optional<Vector> best;
-    for (int k = 0; k < 300; ++k)
-      if (const Vector x = random_place(); (!best || x[up] > (*best)[up]) && has_room(x, radius))
-        best = x;
-    moreau::require(best.has_value(), "testbed", "grain", placement.mesh,
-                    "found no room for another grain");
-    add_grain(placement.mesh, placement.scale, moreau::Pose<S>(*best));
+    Vector best = Vector::Zero();
+    bool found = false;
+    for (int k = 0; k < 300; ++k) {
+      const Vector x = random_place();
+      if ((found && x[up] <= best[up]) || !has_room(x, radius)) continue;
+      best = x, found = true;
+    }
+    moreau::require(found, "testbed", "grain", placement.mesh, "found no room for another grain");
+    add_grain(placement.mesh, placement.scale, moreau::Pose<S>(best));
   }
   void remove(std::size_t grain) final {
     moreau::require(grain < simulation_.grain_count(), "testbed", "grain", grain,
