@@ -10,59 +10,15 @@
 #include "moreau/measure/region.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
 
-#include "boundary/grain_of_radius.hpp"
 #include "io/temporary_folder.hpp"
 #include "threads/same_bits.hpp"
 #include "types.hpp"
-#include "world/assemblies.hpp"
+#include "world/gas_cell.hpp"
 
 using namespace moreau;
+using namespace gas_cell;
 
 namespace {
-
-constexpr double h = 5e-4, spacing = 0.0175;
-template <class S>
-constexpr int side = S::dim == 2 ? 7 : 4;
-
-/// Grains with random velocities and rotations, near the points of a square (cubic) lattice.
-template <class ShapeT>
-struct Gas {
-  using S = SpaceOf<ShapeT>;
-  using Vector = typename S::Vector;
-  using Matrix = typename S::Matrix;
-  scenes::World<ShapeT> simulation;
-  std::vector<BodyId> grains;
-
-  /// @param place function: number of a grain, its position -> that of the image that is added [m]
-  explicit Gas(const auto& place)
-      : simulation(0.02, Materials<scenes::LawOf<ShapeT>>(1, scenes::LawOf<ShapeT>(0.4)),
-                   solver()) {
-    std::mt19937_64 random(5);
-    std::uniform_real_distribution<double> jitter(-1, 1);
-    const ShapeId shape = simulation.add_shape(grain_of_radius<ShapeT>(0.008));
-    int count = 1;
-    for (int axis = 0; axis < S::dim; ++axis) count *= side<S>;
-    for (int k = 0; k < count; ++k) {
-      Pose<S> pose;
-      for (int axis = 0, rest = k; axis < S::dim; ++axis, rest /= side<S>)
-        pose.position[axis] = spacing * (rest % side<S> + 0.5) + 4e-4 * jitter(random);
-      pose.position = place(k, pose.position);
-      pose.rotation = S::exp(S::Angular::Constant(jitter(random)));
-      Vector velocity;
-      for (int axis = 0; axis < S::dim; ++axis) velocity[axis] = 0.1 * jitter(random);
-      grains.push_back(simulation.add_grain(shape, pose, 2700));
-      simulation.set_velocity(grains.back(), velocity);
-    }
-  }
-  Gas() : Gas([](int, const Vector& x) { return x; }) {}
-  static ColouredGaussSeidel solver() {
-    ColouredOptions options;
-    options.tolerance = 1e-13;
-    options.max_sweeps = 2000;
-    return ColouredGaussSeidel(options);
-  }
-  static Matrix square() { return side<S> * spacing * Matrix::Identity(); }
-};
 
 /// Shears along x, and changes the volume.
 template <class S>
@@ -214,62 +170,6 @@ TEST_CASE_TEMPLATE("control volumes that tile an oblique cell have its stress an
   CHECK((stress - whole).norm() < 1e-9 * whole.norm());
   CHECK(fraction == doctest::Approx(solid / volume).epsilon(1e-9));
   CHECK(grains == double(simulation.grain_count()));
-}
-
-TEST_CASE_TEMPLATE("rigid grains under a prescribed stress jam and bear it, also sheared", ShapeT,
-                   MOREAU_TYPES((Polygon<>), (Ball<>, Polyhedron<>, Disk<>))) {
-  using S = SpaceOf<ShapeT>;
-  using Matrix = typename S::Matrix;
-  const double pressure =
-      S::dim == 2 ? 1e3 : 1e4;  // the inertial time d sqrt(rho / P) has some 30 steps
-  Gas<ShapeT> gas;
-  auto& simulation = gas.simulation;
-  ColouredOptions options;
-  options.tolerance = 1e-4;
-  options.max_sweeps = 20000;
-  simulation.set_solver(ColouredGaussSeidel(options));
-  simulation.set_cell(Gas<ShapeT>::square());
-  double mass = 0;
-  for (const double one : simulation.bodies().grain_mass) mass += one;
-  CellControl<S> control;
-  control.mass = mass * Matrix::Identity();
-  control.stress = pressure * Matrix::Identity();
-  control.damping = 50;
-  simulation.control_cell(control);
-  EnergyBalance<S> energy(simulation);
-  int unsolved = 0, sweeps = 0;
-  double deepest = 0, worst = 0;
-  Matrix mean = Matrix::Zero();
-  const auto run = [&](int steps) {
-    mean.setZero();
-    for (int k = 0; k < steps; ++k) {
-      const StepReport report = simulation.step(h);
-      energy.add(simulation, report, h);
-      unsolved += !report.solve.converged;
-      sweeps += report.solve.sweeps;
-      deepest = std::max(deepest, report.max_overlap);
-      worst = std::max(worst, std::abs(energy.imbalance()));
-      mean += simulation.cell_motion().stress() / steps;
-    }
-  };
-  run(1200);
-  run(100);
-  for (int axis = 0; axis < S::dim; ++axis)
-    CHECK(mean(axis, axis) == doctest::Approx(pressure).epsilon(0.05));
-  CHECK(simulation.cell_motion().rate().norm() < 0.05);
-  CHECK(simulation.contacts().size() > simulation.grain_count());
-  control.mass(0, 0) = 0;  // its width stays, its height has the stress
-  control.rate(0, 1) = 2;
-  simulation.control_cell(control);
-  run(300);
-  run(300);
-  CHECK(mean(1, 1) == doctest::Approx(pressure).epsilon(0.1));
-  CHECK(-mean(1, 0) > 0.1 * mean(1, 1));
-  CHECK(-mean(1, 0) < mean(1, 1));
-  CAPTURE(sweeps);
-  CHECK(unsolved < 40);  // of 1,900: the cap of 20,000 sweeps ends some steps of the jammed shear
-  CHECK(deepest < 2e-3 * 0.016);
-  CHECK(worst < 1e-9 * energy.terms().cell);
 }
 
 TEST_CASE_TEMPLATE("a deforming cell continues from a snapshot and with threads with the same bits",

@@ -15,6 +15,7 @@
 #include "moreau/io/vtk_poly_data.hpp"
 #include "moreau/io/wall_surface.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/world/bond.hpp"
 
 namespace moreau {
 
