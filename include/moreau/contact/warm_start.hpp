@@ -73,20 +73,28 @@ struct SpringTurn {
 
 namespace detail {
 
+/// An impulse with a couple in the frame of a contact of the step before, in the frame of this step.
+/// @param turn ImpulseTurn or SpringTurn
+template <class S>
+MOREAU_COMPILED_ONCE typename S::Twist carried_twist(const auto& turn, const Contact<S>& before,
+                                                     const Contact<S>& now,
+                                                     const typename S::Twist& row) {
+  typename S::Twist result = S::Twist::Zero();
+  linear<S>(result) = turn(before, now, typename S::Vector(linear<S>(row)));
+  if (!angular<S>(row).isZero(0))
+    angular<S>(result) = S::angular_frame(now.frame).transpose() *
+                         (S::angular_frame(turn.axes(before, now)) * angular<S>(row));
+  return result;
+}
+
 /// A vector in the frame of a contact of the step before, or an impulse with a couple, in the frame of this step.
 /// @param turn ImpulseTurn or SpringTurn
 template <class S, class Row>
 Row carried(const auto& turn, const Contact<S>& before, const Contact<S>& now, const Row& row) {
-  if constexpr (std::is_same_v<Row, typename S::Vector>) {
+  if constexpr (std::is_same_v<Row, typename S::Vector>)
     return turn(before, now, row);
-  } else {
-    Row result = Row::Zero();
-    linear<S>(result) = turn(before, now, typename S::Vector(linear<S>(row)));
-    if (!angular<S>(row).isZero(0))
-      angular<S>(result) = S::angular_frame(now.frame).transpose() *
-                           (S::angular_frame(turn.axes(before, now)) * angular<S>(row));
-    return result;
-  }
+  else
+    return carried_twist<S>(turn, before, now, row);
 }
 
 }  // namespace detail
