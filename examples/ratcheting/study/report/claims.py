@@ -95,13 +95,18 @@ def jammed_position(run):
 
 
 def states(runs):
-    """How many jammed states the runs of each sample start from, as text."""
+    """The samples of which runs at one force start from two jammed states or more, as text. The position of the wall in a jammed state
+    depends on the force, so states at different forces cannot be compared."""
     texts = []
     for shape in SHAPES:
-        counts = []
+        several = []
         for seed in range(1, 6):
-            places = sorted(jammed_position(r) for r in select(runs, shape, frequency=ANY, fmax=ANY, seed=seed, jammed=True, **COMPLIANT)
-                            if compaction.is_short(r))
-            counts.append(sum(k == 0 or places[k] - places[k - 1] > 1e-4 for k in range(len(places))))
-        texts.append(f"{', '.join(map(str, counts))} ({TITLE[shape].split(', ')[1]})")
-    return "; ".join(texts)
+            places = {}
+            for r in select(runs, shape, frequency=ANY, fmax=ANY, seed=seed, jammed=True, **COMPLIANT):
+                if compaction.is_short(r):
+                    places.setdefault(r["parameters"]["fmax"], []).append(jammed_position(r))
+            if any(b - a > 1e-4 for found in map(sorted, places.values()) for a, b in zip(found, found[1:])):
+                several.append(str(seed))
+        if several:
+            texts.append(f"{' and '.join(several)} of {TITLE[shape].split(', ')[1]}")
+    return ", ".join(texts)

@@ -43,7 +43,9 @@ def has_usual_force(run):
 
 # Function of a run and unit.
 MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1e-3),
-            "load": (load_over_length, 1e-2), "nu": (lambda run: 1 / run["parameters"]["frequency"], 0.1)}
+            "load": (load_over_length, 1e-2), "nu": (lambda run: 1 / run["parameters"]["frequency"], 0.1),
+            "force": (lambda run: 1 / run["parameters"]["fmax"], 1e-4), "gravity": (lambda run: run["parameters"]["gravity"], 1),
+            "masses": (lambda run: run["mass"] + run["wall_mass"], 1)}
 
 
 def groups(run):

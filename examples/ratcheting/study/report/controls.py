@@ -10,6 +10,7 @@ import math
 import random
 
 from interval import Estimate, interval, ratio, ratio_of_means, student
+from compaction import strain_over_load
 from runs import TITLE, constant, exponent_of_samples, judged, line, over_samples, scaled_load, strain
 
 FIRST_SAMPLE = 31
@@ -76,7 +77,9 @@ def selection(controls, words):
 
 
 # Function of a run, factor, whether it may be negative.
-QUANTITIES = {"C": (constant, 1, False), "C_drift": (lambda r: constant(r, "dx_max"), 1, False), "strain": (strain_of, 1e4, True),
+QUANTITIES = {"C": (constant, 1, False), "C_drift": (lambda r: constant(r, "dx_max"), 1, False), "strain": (strain_of, 1e4, True), "strain_root": (strain_over_load, 1e3, True),
+              # C of a box as high as long, by the power of C over H/L that polyhedra have.
+              "C_box": (lambda r: constant(r) / (r["height"] / r["length"]) ** 1.2, 1, False),
               "dx": (lambda r: r["dx_active"], 1e3, False), "drift_share": (lambda r: r["drift"] / r["dx_max"], 100, True),
               "length": (lambda r: r["length"] / 0.025, 1, False), "height": (lambda r: r["height"] / r["length"], 1, False)}
 
@@ -94,11 +97,11 @@ def compare(above, below, quantity):
     return (*(ratio_of_means if QUANTITIES[quantity][2] else ratio)(a.values, b.values), a.n, b.n)
 
 
-def pooled(controls, plane, space, contacts, start, quantity):
-    """Plane over space, geometric mean of the ratios at all lengths that both have, each with the same weight: value, low and high end of
-    its interval by Welch's degrees of freedom, and the number of lengths."""
+def pooled(controls, plane, space, contacts, start, quantity, shortest=0.0):
+    """Plane over space, geometric mean of the ratios at all lengths L/d from `shortest` on that both have, each with the same weight: value,
+    low and high end of its interval by Welch's degrees of freedom, and the number of lengths."""
     logs, parts = [], []
-    for length in LENGTHS:
+    for length in (length for length in LENGTHS if length >= shortest):
         both = [mean(select(controls, shape, contacts, start, length), quantity) for shape in (plane, space)]
         if min(e.n for e in both) < 2:
             continue
@@ -116,6 +119,12 @@ def pooled(controls, plane, space, contacts, start, quantity):
     half = student(variance ** 2 / sum(v ** 2 / n for v, n in parts)) * math.sqrt(variance) / count
     value = sum(logs) / count
     return math.exp(value), math.exp(value - half), math.exp(value + half), count
+
+
+def of_equal_length(controls):
+    """The runs that comparisons of the plane with space at equal length and of the contacts use."""
+    return {run["name"] for shape in GRAINS for length in LENGTHS for contacts, start in CONTACTS_AND_STARTS
+            for run in select(controls, shape, contacts, start, length)}
 
 
 def compare_samples(above, below, quantity):

@@ -95,7 +95,7 @@ class Prediction:
         self.bases, self.thrusts = [], []
         self.excluded = []  # run, predicted: the runs that are not judged
         self.shares = {}  # beta by sample
-        self.set_aside_ratios = []  # measured over predicted, of the judged runs that were set aside
+        self.set_aside, self.set_aside_ratios = [], []  # the judged runs that were set aside; their measured over predicted excursion
         for base in select(runs, shape, frequency=5.0, **wanted):
             if not base["steady_thrust"] or base["parameters"]["duration"] > 1:
                 continue
@@ -115,8 +115,9 @@ class Prediction:
                 weight, p = run["weight"], run["parameters"]
                 return displacement(lambda x: thrust_at(x) * weight, run["wall_mass"] + share * run["mass"], p["fmax"],
                                     p["frequency"])
-            self.set_aside_ratios += [run["dx_active"] / predicted(run) for run in select(
-                runs, shape, seed=seed, frequency=ANY, fmax=ANY, **wanted) if run.get("set_aside") and judged(run)]
+            aside = [run for run in select(runs, shape, seed=seed, frequency=ANY, fmax=ANY, **wanted) if run.get("set_aside") and judged(run)]
+            self.set_aside += aside
+            self.set_aside_ratios += [run["dx_active"] / predicted(run) for run in aside]
             for name, pairs in self.pairs.items():
                 for run in select(runs, shape, seed=seed, **({"frequency": 5.0} | {name: ANY}), **wanted):
                     p = run["parameters"]
@@ -143,14 +144,26 @@ class Prediction:
         """Measured over predicted excursion, with the runs that are not judged."""
         return self.ratios() + [run["dx_active"] / predicted for run, predicted in self.excluded]
 
+    def over_base(self, run):
+        """Logarithms of the excursion and of the load of a run over those of the base run of its sample."""
+        base = next(b for b in self.bases if b["parameters"]["seed"] == run["parameters"]["seed"])
+        return math.log(run["dx_active"] / base["dx_active"]), math.log(scaled_load(run) / scaled_load(base))
+
     def null_ratios(self, fitted, *names):
         """The null model: measured excursion over that of the base run times the ratio of the loads, or a power of it. The
         power is fitted to the ratios of all parameters."""
-        bases = {run["parameters"]["seed"]: run for run in self.bases}
-        rows = [(name, math.log(run["dx_active"] / base["dx_active"]), math.log(scaled_load(run) / scaled_load(base)))
-                for name, pairs in self.pairs.items() for run, _ in pairs for base in [bases[run["parameters"]["seed"]]]]
-        p = sum(y * x for _, y, x in rows) / sum(x * x for _, _, x in rows) if fitted else 1
-        return [math.exp(y - p * x) for name, y, x in rows if not names or name in names]
+        p = self.null_power() if fitted else 1
+        return [math.exp(y - p * x) for name, pairs in self.pairs.items() if not names or name in names
+                for run, _ in pairs for y, x in [self.over_base(run)]]
+
+    def null_power(self):
+        rows = [self.over_base(run) for pairs in self.pairs.values() for run, _ in pairs]
+        return sum(y * x for y, x in rows) / sum(x * x for _, x in rows)
+
+    def set_aside_null(self):
+        """The null model with the power, for the judged runs that were set aside."""
+        p = self.null_power()
+        return [math.exp(y - p * x) for y, x in map(self.over_base, self.set_aside)]
 
     def ratios(self, *names):
         """Measured over predicted excursion of the runs over these parameters, or over all."""

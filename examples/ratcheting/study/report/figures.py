@@ -435,7 +435,7 @@ def compaction_law(runs, path):
 
 
 def one_state(runs, path):
-    """Strain over t_u and over the scaled load, from one jammed state of each sample, with compliant contacts."""
+    """Strain over t_u and over the scaled load, from jammed states, with compliant contacts."""
     rows = [("t_u  [ms]", lambda r: 1e3 * unjammed_time(r), "[0.5:300]", "6e-4 * x / 10", "∝ t_u", 2),
             ("ℓ / L", compaction.load_over_length, "[1e-4:10]", "7.5e-3 * sqrt(x)", "0.0075 (ℓ/L)^{1/2}", 2)]
     panels, shapes = [], []
@@ -626,7 +626,7 @@ class ReturnPhase:
 
 
 def return_phases(runs, shape):
-    """ReturnPhase by rising frequency: compliant contacts, from one jammed state, the paper's force. Frequencies
+    """ReturnPhase by rising frequency: compliant contacts, from jammed states, the paper's force. Frequencies
     at which a run is not judged are left out."""
     found = {}
     for run in select(runs, shape, frequency=ANY, jammed=True, **COMPLIANT):

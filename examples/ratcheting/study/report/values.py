@@ -58,6 +58,7 @@ PARAMETERS = {"nu": ("frequency", lambda r: r["parameters"]["frequency"]), "fmax
               "g": ("gravity", lambda r: r["parameters"]["gravity"]), "m": ("wall_mass_ratio", lambda r: r["mass"] + r["wall_mass"])}
 QUANTITIES = {"dx": lambda r: r["dx_active"], "drift": lambda r: r["dx_max"], "v": lambda r: r["v_max"],
               "rate": figures.density_rate, "rate_box": figures.first_second, "rate_four": ten.four_periods}
+MEAN_POWER = (lambda r: round(compaction.load_over_length(r), 9), strain_of)
 
 
 def with_samples(estimate, factor=1.0):
@@ -145,10 +146,10 @@ class Values:
         *value, both = controls.compare_samples(*(controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:])), quantity)
         return f"{interval(*value)} ({both})" if both > 1 else "–"
 
-    def of_pooled(self, quantity, plane, space, contacts, start):
-        """Plane over space over all lengths that both have; in round brackets the number of lengths."""
-        *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity)
-        return f"{interval(*value)} ({lengths})" if lengths else "–"
+    def of_pooled(self, quantity, plane, space, contacts, start, shortest="0"):
+        """Plane over space over all lengths L/d from `shortest` on that both have."""
+        *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity, float(shortest))
+        return interval(*value) if lengths else "–"
 
     def of_control_power(self, shape, stiffness, low, high, displacement="dx_active"):
         """Power of the excursion over the frequency for a stiffness over 1e8 N/m, no run left out."""
@@ -166,8 +167,10 @@ class Values:
         rows = getattr(controls, "rows_of_" + name)(self.every)
         return "\n".join(template.row(cells) for cells in rows)
 
-    def of_control_runs(self):
-        return f"{len(controls.split(self.every)[1]):,}"
+    def of_control_runs(self, which="all"):
+        """Number of the runs of the controls: `all`, or those of `equal` length."""
+        found = controls.split(self.every)[1]
+        return f"{len(controls.of_equal_length(found) if which == 'equal' else found):,}"
 
     # Exponents.
 
@@ -219,7 +222,8 @@ class Values:
         return list(found.values())
 
     def of_line(self, what, shape, kind, quantity="dx"):
-        """C over all loads: `power` of the load, `scatter` about power 1 and `left`, about the fitted power; `C`; `runs`; `decades`."""
+        """C over all loads: `power` of the load, `scatter` about power 1 and `left`, about the fitted power; `C`; `least` and `most` C of a
+        run; `runs`; `decades`."""
         found, value = self.line_runs(shape, kind), QUANTITIES[quantity]
         logs = [math.log(value(r) / scaled_load(r)) for r in found]
         if what == "power":
@@ -230,6 +234,8 @@ class Values:
             return percent(power([(scaled_load(r), value(r)) for r in found])[3])
         if what == "C":
             return f"{math.exp(sum(logs) / len(logs)):.3f}"
+        if what in ("least", "most"):
+            return f"{math.exp(min(logs) if what == 'least' else max(logs)):.3f}"
         if what == "runs":
             return str(len(found))
         if what == "decades":
@@ -267,6 +273,15 @@ class Values:
         """The scatter alone of of_predict()."""
         return self.of_predict(model, shape, kind, by).split(", ")[1]
 
+    def of_predict_aside(self, model, shape):
+        """Mean and scatter of measured over predicted excursion of the judged runs that were set aside, by F(x) (`thrust`) or by the `power`
+        of ℓ that is fitted to the others; `runs`: their number."""
+        found = self.prediction(shape, "jammed", "F")
+        if model == "runs":
+            return str(len(found.set_aside_ratios))
+        mean, scatter = excursion.mean_and_scatter(found.set_aside_ratios if model == "thrust" else found.set_aside_null())
+        return f"{mean:.2f}, {percent(scatter)}"
+
     def of_every_scatter(self, shape):
         """The scatter of the prediction by F(x) with the runs that are not judged."""
         return percent(excursion.mean_and_scatter(self.prediction(shape, "jammed", "F").every_ratio())[1])
@@ -297,20 +312,30 @@ class Values:
         """The law of compaction from jammed states: `a`, `q`, `b`, `scatter`, `rms` of each sample predicted by the others, `runs`, `samples`."""
         found = [r for r in compaction.jammed_runs(self.runs, shape, every_load=True)
                  if float(low) <= compaction.load_over_length(r) < float(high)]
-        law = compaction.Law(found, (measure,))
+        measures = tuple(measure.split("+"))
+        law = compaction.Law(found, measures)
         samples = len({r["parameters"]["seed"] for r in found})
         if what in ("a", "q", "b"):
             value, half = {"a": (1e3 * law.share, 1e3 * law.share_half), "q": (law.p, law.p_half), "b": (law.b, law.b_half)}[what]
             return f"{number(value, half)} ({samples})"
         if what == "rms":
-            return percent(compaction.Prediction(found, (measure,)).rms)
+            return percent(compaction.Prediction(found, measures).rms)
         return {"scatter": percent(law.scatter), "runs": str(law.run_count), "samples": str(samples)}[what]
 
-    def of_mean_power(self, shape, low, high):
-        """The power of the mean strain of four periods over ℓ/L in a range of loads, by sample."""
+    def mean_power(self, shape, low, high):
+        """The power of the mean strain of four periods over ℓ/L in a range of loads, by sample, and the samples."""
         found = [r for r in select(self.runs, shape, frequency=ANY, fmax=ANY, gravity=ANY, wall_mass_ratio=ANY, **JAMMED)
                  if judged(r) and float(low) <= compaction.load_over_length(r) < float(high) and strain_of(r) > 0]
-        return with_samples(exponent_of_samples(found, lambda r: round(compaction.load_over_length(r), 9), strain_of))
+        return {seed: exponent_of_samples([r for r in found if r["parameters"]["seed"] == seed], *MEAN_POWER)
+                for seed in sorted({r["parameters"]["seed"] for r in found})}, exponent_of_samples(found, *MEAN_POWER)
+
+    def of_mean_power(self, shape, low, high):
+        return with_samples(self.mean_power(shape, low, high)[1])
+
+    def of_power_loss(self, shape, limit, high):
+        """By how much the power of the mean strain over ℓ/L is smaller above a load than below it, sample by sample."""
+        (below, _), (above, _) = self.mean_power(shape, 0, limit), self.mean_power(shape, limit, high)
+        return with_samples(Estimate([below[seed].mean - above[seed].mean for seed in below if seed in above]))
 
     def of_aside(self, what, shape, *measures):
         """The runs that were set aside: `made`, `used`, `rms`, `scatter` of the fit to the others."""
