@@ -58,6 +58,12 @@ PARAMETERS = {"nu": ("frequency", lambda r: r["parameters"]["frequency"]), "fmax
               "g": ("gravity", lambda r: r["parameters"]["gravity"]), "m": ("wall_mass_ratio", lambda r: r["mass"] + r["wall_mass"])}
 QUANTITIES = {"dx": lambda r: r["dx_active"], "drift": lambda r: r["dx_max"], "v": lambda r: r["v_max"],
               "rate": figures.density_rate, "rate_box": figures.first_second, "rate_four": ten.four_periods}
+# Plan, series of its remaining runs, its title, and which runs are left.
+NOT_RUN = (("controls", "equal-length", "equal length; contacts × start",
+            "L/d = 24; polygons 16; polyhedra 8, 16; polyhedra 10.7, spheres 15.1 rigid, jammed; 2 Hz, other forces"),
+           ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "all but one"),
+           ("controls", "stiffness", "stiffness", "polyhedra at 1e7, 1e9; third sample"), ("controls", "jammed", "jammed states for these", ""),
+           ("settled", "all", "`settled`", ""), ("paper", "all", "`paper`", ""))
 MEAN_POWER = (lambda r: round(compaction.load_over_length(r), 9), strain_of)
 
 
@@ -361,9 +367,13 @@ class Values:
         return "\n".join(template.row(cells) for cells in rows)
 
     def of_not_run(self):
-        """Rows of the runs of the plans that are not done."""
-        return "\n".join(template.row([name, *cells[1:]]) for name in ("settled", "paper", "controls")
-                         for cells in tables.remaining(self.folder, name) if cells[0].startswith("all"))
+        """Rows of the runs that are not done: what was done of how many, the core-hours of the others, and which they are (NOT_RUN)."""
+        rows = []
+        for plan, series, title, left in NOT_RUN:
+            cells = next(c for c in tables.remaining(self.folder, plan) if c[0].startswith(series))
+            missing, every = map(int, cells[1].split(" of "))
+            rows.append(template.row([title, f"{every - missing} of {every}", cells[3], left]))
+        return "\n".join(rows)
 
     # Others.
 
