@@ -62,7 +62,7 @@ QUANTITIES = {"dx": lambda r: r["dx_active"], "drift": lambda r: r["dx_max"], "v
 NOT_RUN = (("controls", "equal-length", "equal length; contacts × start",
             "L/d = 24; polygons 16; polyhedra 8, 16; polyhedra 10.7, spheres 15.1 rigid, jammed; 2 Hz, other forces"),
            ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "all but one"),
-           ("controls", "stiffness", "stiffness", "polyhedra at 1e7, 1e9; third sample"), ("controls", "jammed", "jammed states for these", ""),
+           ("controls", "stiffness", "stiffness", "polyhedra at 1e7, 1e9; 5 polygons; third sample"), ("controls", "jammed", "jammed states for these", ""),
            ("settled", "all", "`settled`", ""), ("paper", "all", "`paper`", ""))
 MEAN_POWER = (lambda r: round(compaction.load_over_length(r), 9), strain_of)
 
