@@ -21,6 +21,7 @@
 
 #include "conformance/random_direction.hpp"
 #include "types.hpp"
+#include "world/mesh_floor.hpp"
 
 namespace {
 
@@ -95,12 +96,7 @@ FacetMesh<S> squares(int n, const Place& place) {
   FacetMesh<S> mesh;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) mesh.vertices.push_back(place(double(i) / n, double(j) / n));
-  const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
+  mesh_floor::add_squares(mesh, n);
   return mesh;
 }
 

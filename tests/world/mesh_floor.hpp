@@ -12,6 +12,17 @@ namespace mesh_floor {
 using moreau::FacetMesh;
 using moreau::Space;
 
+/// Adds n x n squares of two triangles each, of (n + 1) x (n + 1) vertices in rows.
+template <class S>
+void add_squares(FacetMesh<S>& mesh, int n) {
+  const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+}
+
 /// A floor of n x n squares of two triangles each, or in the plane of n segments, from -size to size.
 /// The last coordinate is height(x), the inner vertices are moved aside by up to 0.3 squares.
 template <class Height>
@@ -27,12 +38,7 @@ FacetMesh<Space<3, double>> floor_of(Space<3, double>, double size, int n, const
       const double y = (j + (inner ? aside(random) : 0)) * cell - size;
       mesh.vertices.push_back({x, y, height(Eigen::Vector3d(x, y, 0))});
     }
-  const auto at = [&](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
+  add_squares(mesh, n);
   return mesh;
 }
 template <class Height>

@@ -111,13 +111,13 @@ void write_cell(const std::filesystem::path& path, const World& world) {
 
 }  // namespace detail
 
-/// Writes a simulation for ParaView into files files that begin with the same path:
+/// Writes a simulation for ParaView into files that begin with the same path:
 ///
 ///     write_paraview("out/run_0010", simulation, h);
 ///
 /// | file                       | content                                                         |
 /// |----------------------------|-----------------------------------------------------------------|
-/// | out/run_0010.vtm           | names the others: open this file in ParaView               |
+/// | out/run_0010.vtm           | names the others: open this file in ParaView                    |
 /// | out/run_0010_grains.vtp    | surfaces with the arrays of VtkWriter::write_grains()           |
 /// | out/run_0010_walls.vtp     | all walls with the arrays `id` and `velocity`                   |
 /// | out/run_0010_contacts.vtp  | lines with the arrays of VtkWriter::write_contacts()            |

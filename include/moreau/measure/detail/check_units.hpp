@@ -58,8 +58,8 @@ struct Extremes {
   if (grains && fall > 0.2 * shortest)
     found.say(
         "a step of % s is too long: in one step a grain at rest falls by g h^2 = % m, which is % "
-        "of the grain "
-        "size. If it is in ms, type %",
+        "of "
+        "the grain size. If it is in ms, type %",
         {of.step, fall, fall / shortest, of.step / 1000});
   if (of.friction > 0)
     found.say("a friction of % looks like an angle in degrees: its tangent is %",
