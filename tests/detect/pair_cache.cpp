@@ -224,27 +224,70 @@ TEST_CASE_TEMPLATE("coherent pairs are proved, seldom searched", T, double, floa
   CHECK(proved > 0.9 * asked);
 }
 
-TEST_CASE("boxes that lie on each other keep all bits with a cache, whatever their tilt") {
-  using S = Space<3>;
-  using Vector = S::Vector;
+TEST_CASE_TEMPLATE(
+    "shapes whose faces lie on each other keep all bits with a cache, whatever their tilt", T,
+    double, float) {
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+  using Shape = Polyhedron<T>;
   std::mt19937_64 random(5);
-  const auto box = samples::box<double>(1, 1, 1);
-  for (const Vector& at : {Vector(.55, 0, 1), Vector(0, 0, 1), Vector(.3, .2, 1)})
-    for (const double tilt : {0., 1e-12, 1e-8, 1e-5, 1e-3}) {
-      for (int i = 0; i < rounds(20); ++i) {
-        PairCache<S> cache;
-        const Vector turn = tilt * samples::direction<S>(random);
-        const Placed<Polyhedron<double>> a(box);
-        for (int k = 0; k < 10; ++k) {
-          Pose<S> pose;
-          pose.position = at + 1e-6 * samples::direction<S>(random) - 1e-3 * Vector::UnitZ();
-          pose.rotation = S::exp(Vector(turn + 0.1 * tilt * samples::direction<S>(random)));
-          const Placed<Polyhedron<double>> b(box, pose);
-          Manifold<S> cold, cached;
-          CHECK(collide(a, b, 0.01, cold));
-          CHECK(collide(a, b, 0.01, cached, cache));
-          CHECK(is_same(cold, cached));
-        }
+  const std::vector<Shape> shapes = {samples::box<T>(1, 1, 1), samples::box<T>(2, 1, T(0.2)),
+                                     samples::prism<T>(6, T(0.8), T(0.4)),
+                                     samples::prism<T>(3, T(0.5), 1)};
+  for (const Shape& shape_a : shapes)
+    for (const Shape& shape_b : shapes)
+      for (const Vector& at : {Vector(T(.35), 0, 0), Vector(0, 0, 0), Vector(T(.3), T(.2), 0)})
+        for (const T tilt : {T(0), T(1e-12), T(1e-8), T(1e-5), T(1e-3)})
+          for (const T gap : {T(-1e-3), T(-1e-6), T(0), T(1e-5)})
+            for (int i = 0; i < rounds(2); ++i) {
+              PairCache<S> cache;
+              const Vector turn = tilt * samples::direction<S>(random);
+              const T yaw = i % 2 == 0 ? T(0) : T(0.7);
+              const Placed<Shape> a(shape_a);
+              const T height =
+                  a.bounding_box().upper[2] + Placed<Shape>(shape_b).bounding_box().upper[2] + gap;
+              for (int k = 0; k < 5; ++k) {
+                Pose<S> pose;
+                pose.position =
+                    at + T(1e-6) * samples::direction<S>(random) + height * Vector::UnitZ();
+                pose.rotation = S::exp(Vector(turn + T(0.1) * tilt * samples::direction<S>(random) +
+                                              yaw * Vector::UnitZ()));
+                const Placed<Shape> b(shape_b, pose);
+                Manifold<S> cold, cached;
+                CHECK(collide(a, b, T(0.01), cold));
+                CHECK(collide(a, b, T(0.01), cached, cache));
+                CHECK(is_same(cold, cached));
+              }
+            }
+}
+
+TEST_CASE_TEMPLATE("stacked boxes at rest are proved, seldom searched", T, double, float) {
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+  std::mt19937_64 random(6);
+  const auto box = samples::box<T>(1, 1, 1);
+  const Placed<Polyhedron<T>> a(box);
+  int proved = 0, asked = 0;
+  for (int i = 0; i < rounds(100); ++i) {
+    Pose<S> rest;
+    rest.position = Vector(T(0.55), 0, T(1 - 1e-4)) + T(1e-5) * samples::direction<S>(random);
+    rest.rotation = S::exp(Vector(T(1e-5) * samples::direction<S>(random)));
+    PairCache<S> cache;
+    for (int k = 0; k < 10; ++k) {
+      Pose<S> pose = rest;
+      pose.position += T(1e-8) * samples::direction<S>(random);
+      const Placed<Polyhedron<T>> b(box, pose);
+      Manifold<S> manifold;
+      const detail::PolytopePair<Polyhedron<T>> pair(a, b);
+      if (const auto remembered = detail::remember_axis(pair, cache); k > 0 && remembered) {
+        ++asked;
+        proved += detail::is_proved(pair, *remembered) ||
+                  detail::collide_remembered_faces(pair, *remembered, T(0.02), manifold) ==
+                      detail::RememberedFaces::proved;
       }
+      CHECK(collide(a, b, T(0.02), manifold, cache));
     }
+  }
+  MESSAGE("proved ", proved, " of ", asked);
+  CHECK(proved > 0.6 * asked);
 }

@@ -58,7 +58,7 @@ concept ReversedPair = Elementary<A> && Elementary<B> &&(collide_rank<A> > colli
 
 /// Contact points of a pair in reversed order.
 /// @param margin largest gap of a pair in contact [m], >= 0
-/// @param out    filled if the pair is in contact, unchanged otherwise
+/// @param out    filled if the pair is in contact, without meaning otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires ReversedPair<A, B>
@@ -83,7 +83,7 @@ requires ReversedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>&
 
 /// Contact points of a pair without a cache from the previous step.
 /// @param margin largest gap of a pair in contact [m], >= 0
-/// @param out    filled if the pair is in contact, unchanged otherwise
+/// @param out    filled if the pair is in contact, without meaning otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 bool collide(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::Scalar margin,

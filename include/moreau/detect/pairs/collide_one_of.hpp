@@ -56,7 +56,7 @@ requires MixedPair<A, B>
 
 /// Contact points of the shapes that the pair holds.
 /// @param margin  largest gap of a pair in contact [m], >= 0
-/// @param out     filled if the pair is in contact, unchanged otherwise
+/// @param out     filled if the pair is in contact, without meaning otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires MixedPair<A, B>

@@ -62,7 +62,7 @@ requires RoundedPair<A, B> SignedDistance<SpaceOf<A>> distance(const Placed<A>& 
 
 /// The contact points of the cores, moved along the normal to midway between the rounded surfaces.
 /// @param margin  largest gap of a pair in contact [m], >= 0
-/// @param out     filled if the pair is in contact, unchanged otherwise
+/// @param out     filled if the pair is in contact, without meaning otherwise
 /// @returns whether the signed gap is at most the margin
 template <class A, class B>
 requires RoundedPair<A, B>

@@ -42,6 +42,10 @@ struct Axis {
                         ///< vertex deepest below it
   std::uint32_t b = 0;  ///< index of b's feature; if a's feature is a face, b's feature is the
                         ///< vertex deepest below it
+  /// Whether all members are equal, bit by bit.
+  friend bool operator==(const Axis& l, const Axis& r) {
+    return l.normal == r.normal && l.gap == r.gap && l.kind == r.kind && l.a == r.a && l.b == r.b;
+  }
 };
 
 /// For each surface, its point nearest to the other shape along an axis; the deepest point if the

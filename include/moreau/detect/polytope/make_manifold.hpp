@@ -48,19 +48,21 @@ void add_deepest(const PolytopePair<Polygon<T>>& pair, const FoundAxis<Space<2, 
 }
 
 /// Steps 2 and 3: adds the contact points of the facing features, sorted by feature key.
+/// @param look  called with the contact polygon and the gap of its deepest corner [m]
 template <class ShapeT>
 void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
                  const FacingFeatures& facing, typename SpaceOf<ShapeT>::Scalar margin,
-                 Manifold<SpaceOf<ShapeT>>& out) {
+                 Manifold<SpaceOf<ShapeT>>& out, const auto& look) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   const Axis<S>& axis = found.axis;
   ManifoldPoint<S> deepest{S::Vector::Zero(), std::numeric_limits<T>::infinity(), FeatureKey()};
-  contact_polygon(pair, facing, axis.normal, out.scratch)
-      .for_each_corner([&](const ManifoldPoint<S>& corner) {
-        if (corner.gap < deepest.gap) deepest = corner;
-        if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
-      });
+  const auto polygon = contact_polygon(pair, facing, axis.normal, out.scratch);
+  polygon.for_each_corner([&](const ManifoldPoint<S>& corner) {
+    if (corner.gap < deepest.gap) deepest = corner;
+    if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
+  });
+  look(polygon, facing, deepest.gap);
   // Two nearest vertices, or a nearest vertex and edge, lie opposite each other. If they are the
   // only contact point, the point gets the key of these features, not of a face.
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
@@ -87,9 +89,11 @@ ContactClass class_of_points(const std::vector<ManifoldPoint<Space<2, T>>>& poin
 /// Fills the manifold of a pair.
 /// @param found   the separating axis of the pair, with a gap of at most the margin
 /// @param margin  largest gap of a contact point [m], >= 0
+/// @param look    as for add_corners(); not called if the pair touches at one point
 template <class ShapeT>
 void make_manifold(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
-                   typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out) {
+                   typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out,
+                   const auto& look) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   const auto& axis = found.axis;
   out.start(axis.normal, axis.gap);
@@ -101,10 +105,16 @@ void make_manifold(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<Sha
              touches_at_one_corner(pair, axis, facing, slab, near)) {
     out.points.push_back(witness_point(pair, found));
   } else {
-    add_corners(pair, found, facing, margin, out);
+    add_corners(pair, found, facing, margin, out, look);
   }
   const bool has_face = axis.kind == AxisKind::face_a || axis.kind == AxisKind::face_b;
   out.contact_class = class_of_points(out.points, has_face);
+}
+
+template <class ShapeT>
+void make_manifold(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<ShapeT>>& found,
+                   typename SpaceOf<ShapeT>::Scalar margin, Manifold<SpaceOf<ShapeT>>& out) {
+  make_manifold(pair, found, margin, out, [](const auto&, const FacingFeatures&, auto) {});
 }
 
 /// The point midway between the surfaces where they are nearest or deepest, relative to the centre

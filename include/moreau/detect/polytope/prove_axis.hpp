@@ -51,15 +51,28 @@
 
 namespace moreau::detail {
 
+/// The axis that remembered features make for the present poses. It is not proved yet.
+template <class S>
+struct RememberedAxis {
+  Axis<S> axis;
+  typename S::Scalar
+      clearance;  ///< the distance r of the projection from the rim of the facet [m], < 0 if it
+                  ///< lies outside
+};
+
 /// The angle theta [rad] from the axis beyond which the proof excludes all other axes, at least `distinct`;
 /// infinite if it excludes none.
-/// @param clearance  the distance r of the projection from the rim of the facet [m]
+/// @param clearance  the distance r of the projection from the rim of the facet, or of the facets taken together
+///                   [m]
+/// @param uneven     largest height of a point of these facets above the point s n, along n [m]
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pair,
                                                  const Axis<SpaceOf<ShapeT>>& axis,
-                                                 typename SpaceOf<ShapeT>::Scalar clearance) {
+                                                 typename SpaceOf<ShapeT>::Scalar clearance,
+                                                 typename SpaceOf<ShapeT>::Scalar uneven = 0) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   constexpr T infinity = std::numeric_limits<T>::infinity();
+  if (!(clearance >= T(0))) return infinity;
   const T height = axis.normal.dot(pair.offset), apart2 = pair.offset.squaredNorm();
   const T inner = pair.a.shape().inradius() + pair.b.shape().inradius();
   const T doubt = DetectionTolerance<T>::doubt * pair.size;
@@ -69,21 +82,18 @@ typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pai
   const T root = std::sqrt(std::max(apart2 - within * within, T(0)));
   if (!(aside + root < T(100) * (height + within))) return infinity;
   const T spare = clearance - depth * (aside + root) / (height + within);
-  const T below = T(2) * doubt;
+  const T below = T(2) * doubt + uneven;
   return below < T(0.04) * spare ? std::max(DetectionTolerance<T>::distinct, below / spare)
                                  : infinity;
 }
-/// The same for an axis of a face and a vertex.
-/// @param point  the vertex, relative to the centre of the shape of the face, world axes [m]
+/// The distance of the projection of a point onto a face from the rim of the face [m]; < 0 if the projection lies
+/// outside.
+/// @param point  relative to the centre of the shape, world axes [m]
 template <class ShapeT>
-typename SpaceOf<ShapeT>::Scalar excluded_beyond(const PolytopePair<ShapeT>& pair,
-                                                 const Axis<SpaceOf<ShapeT>>& axis,
-                                                 const Placed<ShapeT>& shape, std::size_t face,
-                                                 const typename SpaceOf<ShapeT>::Vector& point) {
-  using T = typename SpaceOf<ShapeT>::Scalar;
-  const T distance2 = rim_distance2(shape, face, point);
-  if (distance2 < T(0)) return std::numeric_limits<T>::infinity();
-  return excluded_beyond(pair, axis, std::sqrt(distance2));
+typename SpaceOf<ShapeT>::Scalar rim_distance(const Placed<ShapeT>& shape, std::size_t face,
+                                              const typename SpaceOf<ShapeT>::Vector& point) {
+  const auto distance2 = rim_distance2(shape, face, point);
+  return distance2 < 0 ? distance2 : std::sqrt(distance2);
 }
 
 /// Whether the normals of all other faces differ from that of a face by more than `angle` [rad].
@@ -144,37 +154,43 @@ bool has_face_near_top(const Placed<Polygon<T>>& shape, std::uint32_t vertex,
   return std::max(height(before), height(after)) >= height(vertex) - T(2) * angle * shape.radius();
 }
 
-/// Proves an axis of a face of a. The full search takes a face of a unless another axis separates
-/// by more than rounding beyond it. So the only further condition is that no other face of a has
-/// nearly the same normal.
+/// The axis of a face of a.
 /// @param vertex  of b, the deepest in the previous step
 template <class ShapeT>
-std::optional<Axis<SpaceOf<ShapeT>>> prove_face_a(const PolytopePair<ShapeT>& pair,
-                                                  std::uint32_t face, std::uint32_t vertex) {
-  using T = typename SpaceOf<ShapeT>::Scalar;
+RememberedAxis<SpaceOf<ShapeT>> remember_face_a(const PolytopePair<ShapeT>& pair,
+                                                std::uint32_t face, std::uint32_t vertex) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
   const auto axis = axis_of_face_a(pair, face, vertex);
-  const T angle =
-      excluded_beyond(pair, axis, pair.a, face, Vector(pair.b.vertices()[axis.b] + pair.offset));
-  if (!std::isfinite(angle) || !is_alone(pair.a, face, T(2) * angle)) return std::nullopt;
-  return axis;
+  return {axis, rim_distance(pair.a, face, Vector(pair.b.vertices()[axis.b] + pair.offset))};
 }
-/// Proves an axis of a face of b. In addition, no face of a may be nearly perpendicular to the
-/// axis. A face has at least as many vertices as the space has dimensions, so the number of a's
-/// vertices near the top must be smaller than that.
+/// Whether an axis of a face of a is proved. The full search takes a face of a unless another axis separates
+/// by more than rounding beyond it. So the only further condition is that no other face of a has
+/// nearly the same normal.
+template <class ShapeT>
+bool is_face_a_proved(const PolytopePair<ShapeT>& pair,
+                      const RememberedAxis<SpaceOf<ShapeT>>& remembered) {
+  const auto angle = excluded_beyond(pair, remembered.axis, remembered.clearance);
+  return std::isfinite(angle) && is_alone(pair.a, remembered.axis.a, 2 * angle);
+}
+/// The axis of a face of b.
 /// @param vertex  of a, the deepest in the previous step
 template <class ShapeT>
-std::optional<Axis<SpaceOf<ShapeT>>> prove_face_b(const PolytopePair<ShapeT>& pair,
-                                                  std::uint32_t vertex, std::uint32_t face) {
-  using T = typename SpaceOf<ShapeT>::Scalar;
+RememberedAxis<SpaceOf<ShapeT>> remember_face_b(const PolytopePair<ShapeT>& pair,
+                                                std::uint32_t vertex, std::uint32_t face) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
   const auto axis = axis_of_face_b(pair, face, vertex);
-  const T angle =
-      excluded_beyond(pair, axis, pair.b, face, Vector(pair.a.vertices()[axis.a] - pair.offset));
-  if (!std::isfinite(angle) || !is_alone(pair.b, face, T(2) * angle) ||
-      has_face_near_top(pair.a, axis.a, axis.normal, angle))
-    return std::nullopt;
-  return axis;
+  return {axis, rim_distance(pair.b, face, Vector(pair.a.vertices()[axis.a] - pair.offset))};
+}
+/// Whether an axis of a face of b is proved. In addition, no face of a may be nearly perpendicular to the
+/// axis. A face has at least as many vertices as the space has dimensions, so the number of a's
+/// vertices near the top must be smaller than that.
+template <class ShapeT>
+bool is_face_b_proved(const PolytopePair<ShapeT>& pair,
+                      const RememberedAxis<SpaceOf<ShapeT>>& remembered) {
+  const auto& axis = remembered.axis;
+  const auto angle = excluded_beyond(pair, axis, remembered.clearance);
+  return std::isfinite(angle) && is_alone(pair.b, axis.b, 2 * angle) &&
+         !has_face_near_top(pair.a, axis.a, axis.normal, angle);
 }
 
 /// The angle [rad] from an axis of two vertices, or of a vertex and an edge, beyond which every axis of a face or
@@ -244,42 +260,32 @@ T depth_of_crossing(const EdgeView<T>& a, const EdgeView<T>& b,
   if (!(from_a >= T(0) && from_b >= T(0))) return T(-1);
   return std::min(from_a / std::sqrt(length2_b), from_b / std::sqrt(length2_a));
 }
-/// Proves an axis of two edges. No face and no other edge may be nearly perpendicular to the axis,
-/// so the two ends of each edge must be the only vertices near the top.
+/// The axis of two edges. Nothing if their arcs in the Gauss map do not cross, or if their crossing lies outside.
 template <std::floating_point T>
-std::optional<Axis<Space<3, T>>> prove_edges(const PolytopePair<Polyhedron<T>>& pair,
-                                             std::uint32_t id_a, std::uint32_t id_b) {
+std::optional<RememberedAxis<Space<3, T>>> remember_edges(const PolytopePair<Polyhedron<T>>& pair,
+                                                          std::uint32_t id_a, std::uint32_t id_b) {
   const EdgeView<T> a(pair.a, id_a), b(pair.b, id_b);
   const auto axis = axis_of_edges(a, b, pair.offset);
   if (!axis) return std::nullopt;
   const T inside = depth_of_crossing(a, b, pair, axis->normal);
   if (!(inside >= T(0))) return std::nullopt;
-  const T angle = excluded_beyond(pair, *axis, inside);
-  if (!std::isfinite(angle) || !edge_is_top(pair.a, id_a, axis->normal, angle) ||
-      !edge_is_top(pair.b, id_b, -axis->normal, angle))
-    return std::nullopt;
-  return axis;
+  return RememberedAxis<Space<3, T>>{*axis, inside};
 }
-
-/// Proves an axis of two edges, or of an edge and a vertex, of two polyhedra.
+/// Whether each of the two edges of an axis is the top of its shape (edge_is_top).
 template <std::floating_point T>
-std::optional<Axis<Space<3, T>>> prove_edge_axis(const PolytopePair<Polyhedron<T>>& pair,
-                                                 const PairCache<Space<3, T>>& features) {
-  switch (features.kind) {
-    case AxisKind::edges:
-      return prove_edges(pair, features.a, features.b);
-    case AxisKind::vertex_edge:
-    case AxisKind::edge_vertex:
-      return prove_edge_and_vertex(pair, features.kind, features.a, features.b);
-    default:
-      return std::nullopt;
-  }
+bool edges_are_top(const PolytopePair<Polyhedron<T>>& pair, const Axis<Space<3, T>>& axis,
+                   T angle) {
+  using Vector = typename Space<3, T>::Vector;
+  return edge_is_top(pair.a, axis.a, axis.normal, angle) &&
+         edge_is_top(pair.b, axis.b, Vector(-axis.normal), angle);
 }
-/// For polygons there is nothing to prove here, because their edges count as faces.
+/// Whether an axis of two edges is proved. No face and no other edge may be nearly perpendicular to the axis,
+/// so the two ends of each edge must be the only vertices near the top.
 template <std::floating_point T>
-std::optional<Axis<Space<2, T>>> prove_edge_axis(const PolytopePair<Polygon<T>>&,
-                                                 const PairCache<Space<2, T>>&) {
-  return std::nullopt;
+bool are_edges_proved(const PolytopePair<Polyhedron<T>>& pair,
+                      const RememberedAxis<Space<3, T>>& remembered) {
+  const T angle = excluded_beyond(pair, remembered.axis, remembered.clearance);
+  return std::isfinite(angle) && edges_are_top(pair, remembered.axis, angle);
 }
 
 /// Whether a shape has a feature of this kind with this index.
@@ -294,25 +300,65 @@ bool has_feature(const Placed<Polyhedron<T>>& shape, FeatureKind kind, std::uint
                                            : shape.vertices().size());
 }
 
+/// The axis of two vertices, or of a vertex and an edge, of polyhedra, if it is proved.
+template <std::floating_point T>
+std::optional<Axis<Space<3, T>>> prove_nearest(const PolytopePair<Polyhedron<T>>& pair,
+                                               const PairCache<Space<3, T>>& features) {
+  switch (features.kind) {
+    case AxisKind::vertices:
+      return prove_vertices(pair, features.a, features.b);
+    case AxisKind::vertex_edge:
+    case AxisKind::edge_vertex:
+      return prove_edge_and_vertex(pair, features.kind, features.a, features.b);
+    default:
+      return std::nullopt;
+  }
+}
+/// For polygons: edges count as faces, so only two vertices are left.
+template <std::floating_point T>
+std::optional<Axis<Space<2, T>>> prove_nearest(const PolytopePair<Polygon<T>>& pair,
+                                               const PairCache<Space<2, T>>& features) {
+  if (features.kind != AxisKind::vertices) return std::nullopt;
+  return prove_vertices(pair, features.a, features.b);
+}
+
+/// The axis of a face or of two edges that is remembered, for the present poses; nothing if the features are of
+/// another kind or not of these shapes.
+/// @param features  kind and indices of any features; features of another pair are allowed
+template <class ShapeT>
+std::optional<RememberedAxis<SpaceOf<ShapeT>>> remember_axis(
+    const PolytopePair<ShapeT>& pair, const PairCache<SpaceOf<ShapeT>>& features) {
+  if (!has_feature(pair.a, feature_of_a(features.kind), features.a) ||
+      !has_feature(pair.b, feature_of_b(features.kind), features.b))
+    return std::nullopt;
+  if (features.kind == AxisKind::face_a) return remember_face_a(pair, features.a, features.b);
+  if (features.kind == AxisKind::face_b) return remember_face_b(pair, features.a, features.b);
+  if constexpr (SpaceOf<ShapeT>::dim == 3)
+    if (features.kind == AxisKind::edges) return remember_edges(pair, features.a, features.b);
+  return std::nullopt;
+}
+/// Whether it is proved that find_axis would find the features of an axis.
+template <class ShapeT>
+bool is_proved(const PolytopePair<ShapeT>& pair,
+               const RememberedAxis<SpaceOf<ShapeT>>& remembered) {
+  if (remembered.axis.kind == AxisKind::face_a) return is_face_a_proved(pair, remembered);
+  if (remembered.axis.kind == AxisKind::face_b) return is_face_b_proved(pair, remembered);
+  if constexpr (SpaceOf<ShapeT>::dim == 3) return are_edges_proved(pair, remembered);
+  return false;
+}
+
 /// The axis of remembered features, if it is proved that find_axis would find the same features.
 /// The result then equals the result of find_axis bit by bit.
 /// @param features  kind and indices of any features; features of another pair are allowed
 template <class ShapeT>
 std::optional<Axis<SpaceOf<ShapeT>>> prove_axis(const PolytopePair<ShapeT>& pair,
                                                 const PairCache<SpaceOf<ShapeT>>& features) {
+  if (const auto remembered = remember_axis(pair, features))
+    return is_proved(pair, *remembered) ? std::optional(remembered->axis) : std::nullopt;
   if (!has_feature(pair.a, feature_of_a(features.kind), features.a) ||
       !has_feature(pair.b, feature_of_b(features.kind), features.b))
     return std::nullopt;
-  switch (features.kind) {
-    case AxisKind::face_a:
-      return prove_face_a(pair, features.a, features.b);
-    case AxisKind::face_b:
-      return prove_face_b(pair, features.a, features.b);
-    case AxisKind::vertices:
-      return prove_vertices(pair, features.a, features.b);
-    default:
-      return prove_edge_axis(pair, features);
-  }
+  return prove_nearest(pair, features);
 }
 
 }  // namespace moreau::detail
