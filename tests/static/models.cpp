@@ -94,7 +94,7 @@ static_assert(RegularizedLaw<LinearSpringDashpot<>, S> && RegularizedLaw<HertzMi
 static_assert(ContactLaw<SignoriniCoulomb<>, S> && ContactLaw<HertzMindlin<>, S>);
 static_assert(std::same_as<BlockOf<SignoriniCoulomb<>, S>, LocalBlock<S>>);
 static_assert(std::same_as<BlockOf<RollingResistance<>, S>, RollingBlock<S>>);
-static_assert(std::same_as<LaneBlockOf<RollingResistance<>, S>, LaneRollingBlock<S>>);
+static_assert(std::same_as<LaneBlockOf<RollingResistance<>, S>, RoundBlock<S>>);
 }  // namespace law
 
 namespace integrate {

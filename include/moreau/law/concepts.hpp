@@ -178,7 +178,7 @@ constexpr std::size_t variants_of() {
 /// W of one contact per SIMD lane as a law sees it. Where the contact has couples it stands for W, see
 /// rolling_block.hpp.
 template <class L, class S>
-using LaneBlockOf = std::conditional_t<Rolls<L>, LaneRollingBlock<S>, LaneBlock<S>>;
+using LaneBlockOf = std::conditional_t<Rolls<L>, RoundBlock<S>, LaneBlock<S>>;
 
 /// A law that also solves the local problems of several contacts at once, one per SIMD lane.
 ///

@@ -72,92 +72,96 @@ struct RollingBlock {
   }
 };
 
-/// The block of a contact of round bodies on the line of their centres; the head of this file has its form.
+namespace detail {
+
+/// c and q of the round block that stands for W in sweeps.
+/// @param point in: P; out: that of the round block
+/// @returns (c, q) [1/kg]
 template <class S>
-struct RoundBlock {
+std::array<typename S::Scalar, 2> round_couple(const RollingBlock<S>& w, LocalBlock<S>& point) {
   using Scalar = typename S::Scalar;
-
-  LocalBlock<S> point;  ///< P [1/kg]
-  Scalar cross;         ///< c [1/kg]
-  Scalar spin;          ///< q > 0 [1/kg]
-
-  /// The block that stands for W in sweeps: W itself to rounding if it is round.
-  explicit RoundBlock(const RollingBlock<S>& w) : point(w.point) {
-    using Coupling = typename RollingBlock<S>::Coupling;
-    const Coupling form = S::lever(typename S::Vector(S::Vector::Unit(0)));
-    cross = form.cwiseProduct(w.coupling).sum() / form.squaredNorm();
-    spin = w.spin.trace() / S::angular_dim;
-    const Scalar aside =
-        (w.coupling - cross * form).norm() + (w.spin - spin * S::Inertia::Identity()).norm();
-    if (!(aside <= std::sqrt(std::numeric_limits<Scalar>::epsilon()) * w.trace())) {
-      point *= 2;
-      cross = 0;
-      spin = 2 * w.spin.cwiseAbs().rowwise().sum().maxCoeff();
-    }
-    // Positive definite by a margin: a body that turns about its centre and cannot move otherwise has a
-    // force and a couple that do the same.
-    const Scalar least = Scalar(1.01) * cross * cross / spin;
-    point.slip = point.slip.cwiseMax(least);
+  using Coupling = typename RollingBlock<S>::Coupling;
+  const Coupling form = S::lever(typename S::Vector(S::Vector::Unit(0)));
+  Scalar cross = form.cwiseProduct(w.coupling).sum() / form.squaredNorm();
+  Scalar spin = w.spin.trace() / S::angular_dim;
+  const Scalar aside =
+      (w.coupling - cross * form).norm() + (w.spin - spin * S::Inertia::Identity()).norm();
+  if (!(aside <= std::sqrt(std::numeric_limits<Scalar>::epsilon()) * w.trace())) {
+    point *= 2;
+    cross = 0;
+    spin = 2 * w.spin.cwiseAbs().rowwise().sum().maxCoeff();
   }
-};
+  // Positive definite by a margin: a body that turns about its centre and cannot move otherwise has a
+  // force and a couple that do the same.
+  const Scalar least = Scalar(1.01) * cross * cross / spin;
+  point.slip = point.slip.cwiseMax(least);
+  return {cross, spin};
+}
 
-/// RoundBlock of one contact per SIMD lane, with the reciprocals that local solutions need.
-template <class S>
-struct LaneRollingBlock {
-  static constexpr std::size_t rows = S::dofs;  ///< D + A, rows of a contact
-  using Point = LaneBlock<S>;                   ///< the block of the point alone
-  using Number = typename Point::Number;        ///< one SIMD register
-  using Values = typename Point::Values;
-  using Algebra = detail::LaneAlgebra<S, Values>;  ///< products in every lane
+}  // namespace detail
+
+/// The block of a contact of round bodies on the line of their centres, with the reciprocals that local solutions
+/// need; the head of this file has its form. Of one contact, or of one contact per SIMD lane.
+/// @tparam NumberT detail::Wide, or detail::OneNumber for a single contact
+template <class S, class NumberT = detail::Wide<typename S::Scalar, detail::widest_bytes>>
+struct RoundBlock {
+  static constexpr std::size_t rows = S::dofs;     ///< D + A, rows of a contact
+  using Point = LaneBlock<S, NumberT>;             ///< the block of the point alone
+  using Number = NumberT;                          ///< OneNumber or Wide
+  using Values = typename Number::Values;          ///< an entry: a number, or one number per lane
+  using Index = typename Number::Index;            ///< of the entries of a vector of the point
+  using Algebra = detail::LaneAlgebra<S, Values>;  ///< products
   using Vector = std::array<Values, rows>;
   using Couple = std::array<Values, std::size_t{S::angular_dim}>;  ///< A rows
   using Memory = std::array<Values, 2>;  ///< of a local solution, see LaneLaw
 
   Point point;          ///< P
   Values cross;         ///< c [1/kg]
-  Values spin;          ///< q [1/kg]
+  Values spin;          ///< q > 0 [1/kg]
   Values inverse_spin;  ///< 1 / q [kg]
   typename Point::Tangent
       resting_slip;  ///< slip of P - C Q^-1 C^T: where the contact does not roll [1/kg]
   typename Point::Tangent inverse_resting_slip;  ///< 1 / resting_slip [kg]
 
-  /// W = 1 in every lane, for lanes without a contact.
-  static LaneRollingBlock unit() {
-    LaneRollingBlock block{};
+  /// W = 1, in lanes without a contact.
+  static RoundBlock unit() {
+    RoundBlock block{};
     block.point = Point::unit();
     block.spin = block.inverse_spin = Number::broadcast(1);
     block.resting_slip = block.inverse_resting_slip = block.point.slip;
     return block;
   }
-  /// Sets the block of a lane, lane < Number::lanes, to the round block that stands for w.
+  /// Sets the block of a lane, lane < Number::lanes, to the block that stands for w in sweeps: w itself to rounding
+  /// if it is round.
   void set(std::size_t lane, const RollingBlock<S>& w) {
-    const RoundBlock<S> block(w);
-    point.set(lane, block.point);
-    cross[lane] = block.cross;
-    spin[lane] = block.spin;
-    inverse_spin[lane] = 1 / block.spin;
-    for (std::size_t t = 0; t < Point::tangents; ++t) {
-      const auto resting =
-          block.point.slip[Eigen::Index(t)] - block.cross * (block.cross / block.spin);
-      resting_slip[t][lane] = resting;
-      inverse_resting_slip[t][lane] = 1 / resting;
+    using Scalar = typename S::Scalar;
+    LocalBlock<S> of_point = w.point;
+    const auto [c, q] = detail::round_couple<S>(w, of_point);
+    point.set(lane, of_point);
+    Number::set(cross, lane, c);
+    Number::set(spin, lane, q);
+    Number::set(inverse_spin, lane, 1 / q);
+    for (int t = 0; t < S::dim - 1; ++t) {
+      const Scalar resting = of_point.slip[t] - c * (c / q);
+      Number::set(resting_slip[Index(t)], lane, resting);
+      Number::set(inverse_resting_slip[Index(t)], lane, 1 / resting);
     }
   }
   /// Sets the memory of a lane to 0.
   static void forget(Memory& memory, std::size_t lane) {
-    for (Values& one : memory) one[lane] = 0;
+    for (Values& one : memory) Number::set(one, lane, 0);
   }
   /// The block of a lane, lane < Number::lanes.
   RollingBlock<S> operator[](std::size_t lane) const {
     RollingBlock<S> block;
     block.point = point[lane];
-    block.coupling = cross[lane] * S::lever(typename S::Vector(S::Vector::Unit(0)));
-    block.spin = spin[lane] * S::Inertia::Identity();
+    block.coupling = Number::get(cross, lane) * S::lever(typename S::Vector(S::Vector::Unit(0)));
+    block.spin = Number::get(spin, lane) * S::Inertia::Identity();
     return block;
   }
   /// The impulse, D numbers, of (impulse, couple / R), or the velocity of (velocity, R spin).
-  static typename Point::Vector linear(const Vector& r) {
-    typename Point::Vector push;
+  static std::array<Values, std::size_t{S::dim}> linear(const Vector& r) {
+    std::array<Values, std::size_t{S::dim}> push;
     for (std::size_t d = 0; d < S::dim; ++d) push[d] = r[d];
     return push;
   }
@@ -167,13 +171,16 @@ struct LaneRollingBlock {
     for (std::size_t k = 0; k < S::angular_dim; ++k) couple[k] = r[S::dim + k];
     return couple;
   }
-  /// W r [m/s] in every lane, of r [N s].
+  /// W r [m/s], of r [N s].
   Vector operator*(const Vector& r) const {
-    const auto push = linear(r), moved = point * push;
+    const auto push = linear(r);
+    typename Point::Vector rows_of_point;
+    for (std::size_t d = 0; d < S::dim; ++d) rows_of_point[Index(d)] = push[d];
+    const auto moved = point * rows_of_point;
     const auto aside = Algebra::spin_of_normal(angular(r));
     const auto moment = Algebra::moment_of_normal(push);
     Vector u;
-    for (std::size_t d = 0; d < S::dim; ++d) u[d] = moved[d];
+    for (std::size_t d = 0; d < S::dim; ++d) u[d] = moved[Index(d)];
     for (std::size_t t = 0; t < aside.size(); ++t) u[1 + t] += cross * aside[t];
     for (std::size_t k = 0; k < S::angular_dim; ++k)
       u[S::dim + k] = cross * moment[k] + spin * r[S::dim + k];

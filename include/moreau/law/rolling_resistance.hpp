@@ -109,11 +109,11 @@ class RollingResistance {
   std::array<T, 2> lane_parameters() const { return {friction(), rolling_}; }
   /// See LaneLaw: RollingLanes, whose memory is alpha, and whether the contact rolls.
   template <class S>
-  static typename LaneRollingBlock<S>::Vector solve_lanes(
-      const LaneRollingBlock<S>& block, const typename LaneRollingBlock<S>::Vector& b,
-      const typename LaneRollingBlock<S>::Vector& guess,
-      const std::array<typename LaneRollingBlock<S>::Values, 2>& parameters,
-      typename LaneRollingBlock<S>::Memory& memory, bool polish) {
+  static typename RoundBlock<S>::Vector solve_lanes(
+      const RoundBlock<S>& block, const typename RoundBlock<S>::Vector& b,
+      const typename RoundBlock<S>::Vector& guess,
+      const std::array<typename RoundBlock<S>::Values, 2>& parameters,
+      typename RoundBlock<S>::Memory& memory, bool polish) {
     return detail::RollingLanes<S>::solve(block, b, guess, parameters[0], parameters[1], memory,
                                           polish);
   }

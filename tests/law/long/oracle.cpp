@@ -112,7 +112,7 @@ TEST_CASE_TEMPLATE("round contacts with couples: a million problems", S, Space<2
   using T = typename S::Scalar;
   using Problem = RollingBlock<S>;
   using Row = typename Problem::Vector;
-  using Block = LaneRollingBlock<S>;
+  using Block = RoundBlock<S>;
   constexpr std::size_t lanes = std::size_t{Block::Number::lanes};
   std::mt19937_64 random(22);
   std::uniform_real_distribution<double> part(0, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The local solution of Coulomb friction with resistance to rolling for one contact per SIMD lane,
-// RollingResistance::solve with a RoundBlock.
+// The local solution of Coulomb friction with resistance to rolling for a RoundBlock, for one contact or for one
+// contact per SIMD lane.
 //
 // A contact that does not roll has w = 0, so that m = -(b_w + c n x r) / q. What is left is Coulomb's
 // problem with
@@ -28,11 +28,11 @@
 
 namespace moreau::detail {
 
-/// The local problems of the lanes.
-template <class S>
+/// The local problems of the lanes, or of one contact.
+/// @tparam Block RoundBlock
+template <class S, class Block = RoundBlock<S>>
 class RollingLanes {
  public:
-  using Block = LaneRollingBlock<S>;
   using Lanes = typename Block::Number;
   using Values = typename Lanes::Values;
   using Indices = typename Lanes::Indices;
@@ -47,22 +47,22 @@ class RollingLanes {
                       bool polish) {
     const Values zero{}, one = Lanes::broadcast(1);
     const Indices rolls = memory[1] > zero;
-    const auto push = CoulombLanes<S>::solve(
+    const typename Point::Vector impulse = CoulombLanes<S, Point>::solve(
         point_of(block, rolls), velocity_of(block, b, guess, rolls), friction, memory[0], polish);
-    Couple couple = Algebra::moment_of_normal(push);
+    Vector r{};
+    for (std::size_t d = 0; d < S::dim; ++d) r[d] = impulse[Index(d)];
+    Couple couple = Algebra::moment_of_normal(Block::linear(r));
     Values length2{};
     for (std::size_t k = 0; k < couples; ++k) {
       couple[k] = -(b[S::dim + k] + block.cross * couple[k]) * block.inverse_spin;
       length2 += couple[k] * couple[k];
     }
-    const Values limit = rolling * push[0];
+    const Values limit = rolling * r[0];
     const Indices acts = b[0] < zero, beyond = acts & (length2 > limit * limit);
     memory[1] = beyond ? one : zero;
     Values scale = acts ? one : zero;
     if (Lanes::any(beyond))
       scale = beyond ? limit / Lanes::square_root(beyond ? length2 : one) : scale;
-    Vector r;
-    for (std::size_t d = 0; d < S::dim; ++d) r[d] = push[d];
     for (std::size_t k = 0; k < couples; ++k) r[S::dim + k] = scale * couple[k];
     return r;
   }
@@ -71,11 +71,12 @@ class RollingLanes {
   using Algebra = typename Block::Algebra;
   using Point = typename Block::Point;
   using Couple = typename Block::Couple;
+  using Index = typename Block::Index;
   static constexpr std::size_t couples = S::angular_dim;
 
   static Point point_of(const Block& block, const Indices& rolls) {
     Point point = block.point;
-    for (std::size_t t = 0; t < Point::tangents; ++t) {
+    for (Index t = 0; t < Point::tangents; ++t) {
       point.slip[t] = rolls ? point.slip[t] : block.resting_slip[t];
       point.inverse_slip[t] = rolls ? point.inverse_slip[t] : block.inverse_resting_slip[t];
     }
@@ -87,8 +88,9 @@ class RollingLanes {
     for (std::size_t k = 0; k < couples; ++k)
       couple[k] = rolls ? guess[S::dim + k] : -block.inverse_spin * b[S::dim + k];
     const auto aside = Algebra::spin_of_normal(couple);
-    auto velocity = Block::linear(b);
-    for (std::size_t t = 0; t < Point::tangents; ++t) velocity[1 + t] += block.cross * aside[t];
+    typename Point::Vector velocity;
+    for (std::size_t d = 0; d < S::dim; ++d) velocity[Index(d)] = b[d];
+    for (std::size_t t = 0; t < aside.size(); ++t) velocity[Index(1 + t)] += block.cross * aside[t];
     return velocity;
   }
 };
