@@ -58,6 +58,8 @@ struct Aabb {
     box.upper.array() += margin;
     return box;
   }
+  /// The box moved by a shift [m].
+  Aabb moved(const VectorArgument<S>& shift) const { return {lower + shift, upper + shift}; }
 
   auto serialized_members() { return std::tie(lower, upper); }  ///< see core/serialize.hpp
 };

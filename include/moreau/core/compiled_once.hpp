@@ -20,8 +20,8 @@
 #define MOREAU_COMPILED_ONCE
 #endif
 
-/// Before a function of files: it is compiled for size and not inlined, which takes the compiler a fraction of the
-/// time.
+/// Before a function of files or one that throws: it is compiled for size and not inlined, which takes the compiler
+/// a fraction of the time.
 #if defined(__GNUC__) || defined(__clang__)
 #define MOREAU_COLD [[gnu::cold, gnu::noinline]]
 #else
@@ -39,11 +39,6 @@ Function* unknown(Function* function) {
   return function;
 }
 
-/// work(i), compiled once.
-template <class Work>
-MOREAU_COMPILED_ONCE void call(const Work& work, std::size_t i) {
-  work(i);
-}
 /// add(sum, i), compiled once.
 template <class Add, class Sum>
 MOREAU_COMPILED_ONCE void call(const Add& add, Sum& sum, std::size_t i) {

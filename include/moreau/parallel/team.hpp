@@ -138,10 +138,10 @@ class Team {
   }
   /// Calls work(i) for i = 0 .. count - 1, shared by all members; `least` as for share(). All elements run
   /// the same machine code.
-  template <class Work>
-  void share_each(std::size_t count, std::size_t least, const Work& work) const {
+  void share_each(std::size_t count, std::size_t least,
+                  const FunctionRef<void(std::size_t)>& work) const {
     share(count, least, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) detail::call(work, i);
+      for (std::size_t i = begin; i < end; ++i) work(i);
     });
   }
 

@@ -129,8 +129,9 @@ std::vector<Pose<S>> random_deposition(
   const T length = *std::min_element(lengths.begin(), lengths.end());
   T widest = 0;
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    require(radii[i] > 0 && 2 * radii[i] <= length, self, "radii[" + std::to_string(i) + "]",
-            radii[i], "must be > 0 and at most half of the length");
+    if (!(radii[i] > 0 && 2 * radii[i] <= length))
+      throw_invalid(self, "radii[" + std::to_string(i) + "]", radii[i],
+                    "must be > 0 and at most half of the length");
     widest = std::max(widest, radii[i]);
   }
   std::vector<Pose<S>> poses(radii.size());
@@ -146,8 +147,9 @@ std::vector<Pose<S>> random_deposition(
         for (int k = 0; k < up; ++k)
           x[k] = radii[i] + unit(random) * (lengths[std::size_t(k)] - 2 * radii[i]);
       } while (!on_floor(x, radii[i]) && ++attempt < attempts);
-      require(attempt < attempts, self, "radii[" + std::to_string(i) + "]", radii[i],
-              "must leave room above the floor: no place was found in 1000 attempts");
+      if (attempt == attempts)
+        throw_invalid(self, "radii[" + std::to_string(i) + "]", radii[i],
+                      "must leave room above the floor: no place was found in 1000 attempts");
       x[up] = deposited.height_at(x, radii[i]);
       if (trial == 0 || x[up] < lowest[up]) lowest = x;
     }

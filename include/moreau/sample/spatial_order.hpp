@@ -32,8 +32,9 @@ std::vector<std::size_t> spatial_order(std::span<const typename S::Vector> point
   if (points.empty()) return order;
   Vector low = points[0], high = points[0];
   for (std::size_t i = 0; i < points.size(); ++i) {
-    require(all_finite(points[i]), "spatial_order", "points[" + std::to_string(i) + "]", points[i],
-            "must be finite");
+    if (!all_finite(points[i]))
+      throw_invalid("spatial_order", "points[" + std::to_string(i) + "]", points[i],
+                    "must be finite");
     low = low.cwiseMin(points[i]);
     high = high.cwiseMax(points[i]);
   }

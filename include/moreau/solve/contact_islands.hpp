@@ -43,7 +43,9 @@ class ContactIslands {
   std::span<const std::uint32_t> contacts(std::size_t island) const {
     return std::span(contacts_).subspan(first_[island], first_[island + 1] - first_[island]);
   }
-  bool moves(std::size_t body) const { return moves_[body]; }  ///< whether impulses move it
+  std::span<const unsigned char> moves() const {
+    return moves_;
+  }  ///< whether impulses move each body
 
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();

@@ -53,16 +53,18 @@ void require_valid(const FrictionProblem<S>& problem, std::string_view function)
           "must be D times the contacts");
   for (Eigen::Index row = 0; row < rows; ++row) {
     const double q = problem.free_velocity[row];
-    require(std::isfinite(q), function, "q[" + std::to_string(row) + "]", q, "must be finite");
+    if (!std::isfinite(q))
+      throw_invalid(function, "q[" + std::to_string(row) + "]", q, "must be finite");
     for (typename std::decay_t<decltype(w)>::InnerIterator entry(w, row); entry; ++entry)
-      require(std::isfinite(entry.value()) && (entry.col() != row || entry.value() >= 0), function,
-              "W(" + std::to_string(row) + ", " + std::to_string(entry.col()) + ")", entry.value(),
-              "must be finite, and >= 0 on the diagonal");
+      if (!(std::isfinite(entry.value()) && (entry.col() != row || entry.value() >= 0)))
+        throw_invalid(function,
+                      "W(" + std::to_string(row) + ", " + std::to_string(entry.col()) + ")",
+                      entry.value(), "must be finite, and >= 0 on the diagonal");
   }
   for (Eigen::Index c = 0; c < problem.size(); ++c) {
     const double mu = problem.friction[c];
-    require(std::isfinite(mu) && mu >= 0, function, "mu[" + std::to_string(c) + "]", mu,
-            "must be finite and >= 0");
+    if (!(std::isfinite(mu) && mu >= 0))
+      throw_invalid(function, "mu[" + std::to_string(c) + "]", mu, "must be finite and >= 0");
   }
 }
 

@@ -31,6 +31,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/solve/detail/block_factorization.hpp"
 #include "moreau/solve/detail/island_points.hpp"
 
@@ -51,16 +52,27 @@ class IslandNewton {
     int most_steps;        ///< of Newton's method, each with a factorization
   };
 
-  /// Takes an island; the arguments are those of IslandPoints::assign.
+  /// Takes an island.
+  /// @param op       operator of the problem
+  /// @param contacts of the island
+  /// @param moves    whether impulses move a body, one entry per body
+  /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
+  /// @param friction_of function: contact -> mu [-]
   template <class Operator>
-  void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
-              const auto& free_of, const auto& friction_of) {
-    points_.assign(op, contacts, moves, free_of, friction_of);
-    const std::size_t count = points_.points().size();
-    shift_.resize(count);
-    stiffness_.resize(count);
-    for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
-    for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
+  void assign(const Operator& op, std::span<const std::uint32_t> contacts,
+              std::span<const unsigned char> moves, const auto& free_of, const auto& friction_of) {
+    points_.start(op.body_count());
+    for (const std::uint32_t c : contacts) {
+      const auto [a, b] = op.bodies(c);
+      Vector compliance = Vector::Zero();
+      if constexpr (requires { op.compliance(c); })
+        compliance = op.compliance(c).template head<S::dim>().template cast<double>();
+      points_.add({c, a, b, op.frame(c), op.lever_a(c), op.lever_b(c),
+                   free_of(c).template cast<double>(), compliance, friction_of(c)},
+                  op.inverse_masses(), moves);
+    }
+    points_.finish();
+    make_room();
   }
   /// Whether the bodies touch like those of a column, an arch or a tree: no more pairs than bodies.
   bool is_chain() const { return points_.edges().size() <= points_.bodies(); }
@@ -165,6 +177,14 @@ class IslandNewton {
                           visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
 
+  /// Makes room for the contacts and bodies of an island.
+  void make_room() {
+    const std::size_t count = points_.points().size();
+    shift_.resize(count);
+    stiffness_.resize(count);
+    for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
+    for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
+  }
   /// The speed along the tangents of a contact.
   static double slip_of(const Vector& u) {
     double square = 0;
@@ -332,8 +352,15 @@ class IslandNewton {
     for (std::size_t i = 0; i < f_.size(); ++i) sum += f_[i].dot(direction_[i]);
     return sum;
   }
+  using Block = typename BlockFactorization<S::dofs>::Block;
+  /// Adds J^T A J of a contact and two of its bodies, from J of the first and A J of the second.
+  MOREAU_COMPILED_ONCE static void add_block(Block& to, const typename Points::Rows& a,
+                                             const typename Points::Rows& stiff_b) {
+    add_transposed_product(to, a, stiff_b);
+  }
   /// A J of a contact and one of its bodies.
-  typename Points::Rows stiff(std::size_t k, const typename Points::Rows& j) const {
+  MOREAU_COMPILED_ONCE typename Points::Rows stiff(std::size_t k,
+                                                   const typename Points::Rows& j) const {
     typename Points::Rows rows = Points::Rows::Zero();
     add_product(rows, stiffness_[k], j);
     return rows;
@@ -346,13 +373,13 @@ class IslandNewton {
       const auto& point = points_.points()[k];
       if (found_[k][0] == 0) continue;
       if (point.body_a != Points::none)
-        add_transposed_product(matrix_.diagonal(point.body_a), point.a, stiff(k, point.a));
+        add_block(matrix_.diagonal(point.body_a), point.a, stiff(k, point.a));
       if (point.body_b == Points::none) continue;
       const typename Points::Rows of_b = stiff(k, point.b);
-      add_transposed_product(matrix_.diagonal(point.body_b), point.b, of_b);
+      add_block(matrix_.diagonal(point.body_b), point.b, of_b);
       if (point.body_a == Points::none) continue;
       block_.setZero();
-      add_transposed_product(block_, point.a, of_b);
+      add_block(block_, point.a, of_b);
       matrix_.add(point.body_a, point.body_b, block_);
     }
     if (!matrix_.factorize()) return false;
@@ -372,7 +399,7 @@ class IslandNewton {
   std::vector<Coordinates> y_;                                    // of the centre
   std::vector<Coordinates> next_, trial_, f_, direction_;
   BlockFactorization<S::dofs> matrix_;
-  typename BlockFactorization<S::dofs>::Block block_;
+  Block block_;
 };
 
 }  // namespace moreau::detail

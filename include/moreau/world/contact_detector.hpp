@@ -8,20 +8,8 @@
 //
 // All buffers are kept: there is no allocation once they are large enough. In a periodic cell poses
 // are not wrapped: each pair has a shift by whole cells that moves its second grain next to its first.
-// Grains do not jump, so the shift is valid for as long as the list of pairs.
-//
-// In a cell that deforms, far grains move fast relative to each other although near ones do not. Let G
-// be the map by which the cell has deformed since the list was made. The list is valid as long as the box
-// of each grain, moved so that its centre c becomes G^-1 c, and enlarged by
-//
-//     max_k (|1 - G^-1| 1)_k w / 2,
-//
-// lies in its enlarged box. w is the largest width of a grain with the reach of its contacts. Proof: the
-// centres of two grains in contact differ along each axis by at most w, so that G^-1 changes this
-// difference by at most max_k (|1 - G^-1| 1)_k w, which the two enlargements make up for.
+// Grains do not jump, so the shift is valid for as long as the list of pairs (detail/near_pairs.hpp).
 #pragma once
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
@@ -39,7 +27,6 @@
 #include "moreau/core/ids.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/detect/broad/periodic_images.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
@@ -49,12 +36,10 @@
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/world/detail/approach_bounds.hpp"
-#include "moreau/world/detail/enlarged_boxes.hpp"
 #include "moreau/world/detail/found_contacts.hpp"
 #include "moreau/world/detail/internal_edges.hpp"
 #include "moreau/world/detail/mesh_walls.hpp"
-#include "moreau/world/detail/pair_caches.hpp"
-#include "moreau/world/detail/pair_filter.hpp"
+#include "moreau/world/detail/near_pairs.hpp"
 #include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/detail/visit_order.hpp"
 #include "moreau/world/tolerances.hpp"
@@ -102,20 +87,11 @@ class ContactDetector {
     cell.require_room(widest_ + around(lengths), function);
     for (const auto& wall : walls_) cell.require_along(wall.placed.normal(), function);
     for (const auto& wall : cylinders_) cell.require_around(wall.placed.axis(), function);
-    cell_ = cell;
-    shifts_.clear();
-    deformed_.setIdentity();
-    stale_ = true;
+    near_.set_cell(cell);
   }
-  const PeriodicCell<S>& cell() const { return cell_; }  ///< open unless set
+  const PeriodicCell<S>& cell() const { return near_.cell(); }  ///< open unless set
   /// Deforms a cell that is a lattice. The poses must be deformed by the same map.
-  void deform_cell(const typename S::Matrix& map) {
-    cells_.resize(shifts_.size());
-    for (std::size_t p = 0; p < shifts_.size(); ++p) cells_[p] = cell_.cells(shifts_[p]);
-    cell_.deform(map);
-    for (std::size_t p = 0; p < shifts_.size(); ++p) shifts_[p] = cell_.shift(cells_[p]);
-    deformed_ = map * deformed_;
-  }
+  void deform_cell(const typename S::Matrix& map) { near_.deform_cell(map); }
   /// Half the least width of a periodic cell with a grain of this shape [m].
   Scalar room_of(const ShapeT& shape, const DetectionLengths<Scalar>& lengths) const {
     return std::max(widest_, width(shape)) + around(lengths);
@@ -150,7 +126,7 @@ class ContactDetector {
 
   /// Examines only the pairs for which keeps(a, b) of the indices of their bodies is true, from the next
   /// find_pairs() on.
-  void set_filter(const auto& keeps) { filter_.set(keeps), stale_ = true; }
+  void set_filter(const auto& keeps) { near_.set_filter(keeps); }
   /// Makes the list of the pairs of grains whose boxes are closer than margin + 2 skin along every
   /// axis, sorted by the numbers of the bodies. It keeps the list of an earlier call as long as no
   /// box has moved by the skin since; grains without a pair may move farther (EnlargedBoxes). Call
@@ -187,21 +163,18 @@ class ContactDetector {
   /// @param add_all adds grains and walls in the order in which they were added at first
   /// @throws std::invalid_argument if a pair is not of these grains
   void rebuild(auto&& add_all) {
-    const bool stale = stale_;
+    const bool stale = near_.is_stale();
     grains_.clear(), walls_.clear(), cylinders_.clear(), meshes_.clear();
     widest_ = 0;
     add_all();
-    stale_ = stale;
+    near_.set_stale(stale);
     order_.invalidate();
-    bool valid = shifts_.size() == (cell_.is_open() ? 0 : pairs_.size()) ||
-                 (stale_ && shifts_.empty());  // set_cell() came after the last step
-    for (const IndexPair& pair : pairs_)
-      valid = valid && pair.first < pair.second && pair.second < grains_.size();
-    valid = valid && caches_.are_valid(pairs_, grains_, stale_);
-    require(valid, "ContactDetector", "pairs", pairs_.size(), "must be of grains that exist");
+    require(near_.is_valid(grains_), "ContactDetector", "pairs", pair_count(),
+            "must be of grains that exist");
   }
 
-  std::size_t pair_count() const { return pairs_.size(); }  ///< pairs of boxes, without walls
+  /// Pairs of boxes, without walls.
+  std::size_t pair_count() const { return near_.pairs().size(); }
   /// Pairs with at least one contact point in the last detect().
   std::size_t touching_count() const {
     std::size_t sum = 0;
@@ -212,9 +185,7 @@ class ContactDetector {
  private:
   friend struct SerializationAccess;
   friend struct detail::StateAccess;
-  auto serialized_members() {
-    return std::tie(cell_, kept_points_, stale_, fat_, pairs_, shifts_, caches_, deformed_);
-  }
+  auto serialized_members() { return near_.serialized_members_with(kept_points_); }
 
   static constexpr bool prefetches = requires(Placed<ShapeT> s) { s.prefetch_contact(); };
 
@@ -238,9 +209,6 @@ class ContactDetector {
     return lengths.margin + 2 * lengths.skin;
   }
 
-  static Aabb<S> moved(const Aabb<S>& box, const Vector& shift) {
-    return {box.lower + shift, box.upper + shift};
-  }
   /// What a member of the team finds, and its buffers.
   struct Member : detail::FoundContacts<S> {
     std::optional<Grain> image;  // the second grain of a pair across a periodic boundary
@@ -269,12 +237,10 @@ class ContactDetector {
   auto bounds_of(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
                  const detail::StepMotion<S>& motion) const {
     return detail::ApproachBounds<S, Grain, decltype(walls_), decltype(cylinders_),
-                                  decltype(meshes_)>{grains_, boxes_,        pairs_,  shifts_,
-                                                     walls_,  cylinders_,    meshes_, bodies,
-                                                     motion,  lengths.margin};
+                                  decltype(meshes_)>{
+        grains_,    boxes_,  near_.pairs(), near_.shifts(), walls_,
+        cylinders_, meshes_, bodies,        motion,         lengths.margin};
   }
-  /// Whether the list of pairs is still valid: no box has left its enlarged box. See the head of this file.
-  bool holds_in_lattice(Scalar reach) const;
   /// detect() without the impulses.
   void detect_points(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
                      const detail::PreviousContacts<S>& previous, DetectedContacts<S>& out);
@@ -288,17 +254,8 @@ class ContactDetector {
   std::vector<Wall<HalfSpace<S>>> walls_;
   std::vector<Wall<CylinderWall<S>>> cylinders_;
   detail::MeshWalls<ShapeT> meshes_;
-  PeriodicCell<S> cell_;
-  std::vector<Aabb<S>> boxes_, fat_;
-  BroadPhaseT broad_phase_;
-  detail::EnlargedBoxes<S> enlarged_;
-  detail::PairFilter filter_;
-  PeriodicImages<S> images_;
-  std::vector<IndexPair> pairs_, old_pairs_;
-  std::vector<Vector> shifts_;  // of the second grain of each pair; empty in an open cell
-  std::vector<Vector> cells_;   // the same in cells, in deform_cell()
-  typename S::Matrix deformed_ = S::Matrix::Identity();  // map of the cell since the list was made
-  detail::PairCaches<ShapeT> caches_;
+  std::vector<Aabb<S>> boxes_;  // of the grains
+  detail::NearPairs<ShapeT, BroadPhaseT> near_;
   ContactPoints kept_points_ = ContactPoints::all;
   Team team_;
   detail::VisitOrder<S> order_;
@@ -308,7 +265,6 @@ class ContactDetector {
   std::vector<typename Member::Run> runs_;  // of each grain
   std::vector<std::size_t> place_;  // of the contacts of each grain; at the end, their number
   Scalar widest_ = 0;               // width of the grains in any orientation [m]
-  bool stale_ = true;
 };
 
 // Outside of the class: compiled once where a program declares the detector extern.
@@ -317,11 +273,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::add_grain(BodyId body, const ShapeT& 
   const auto before = [](const Grain& grain, BodyId id) { return grain.body < id; };
   const auto place = std::lower_bound(grains_.begin(), grains_.end(), body, before);
   const auto k = static_cast<std::size_t>(place - grains_.begin());
-  if (k < grains_.size())
-    for (IndexPair& pair : pairs_) {
-      pair.first += pair.first >= k;
-      pair.second += pair.second >= k;
-    }
+  if (k < grains_.size()) near_.insert_grain(k);
   if (spare_.empty()) {
     grains_.insert(place, Grain{body, &shape, Placed<ShapeT>(shape), width(shape)});
   } else {
@@ -332,13 +284,13 @@ void ContactDetector<ShapeT, BroadPhaseT>::add_grain(BodyId body, const ShapeT& 
     spare_.pop_back();
   }
   widest_ = std::max(widest_, width(shape));
-  stale_ = true;
+  near_.set_stale(true);
 }
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
     std::span<const unsigned char> is_removed) {
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t none = decltype(near_)::none;
   number_after_.clear();
   std::uint32_t left = 0;
   for (Grain& grain : grains_) {
@@ -346,18 +298,8 @@ void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
     number_after_.push_back(goes ? none : left++);
     if (goes) spare_.push_back(std::move(grain));
   }
-  const auto has_gone = [&](std::size_t k) { return number_after_[k] == none; };
-  erase_at(grains_, has_gone);
-  if (!stale_) erase_at(fat_, has_gone);
-
-  const auto pair_has_gone = [&](std::size_t p) {
-    return has_gone(pairs_[p].first) || has_gone(pairs_[p].second);
-  };
-  erase_at(shifts_, pair_has_gone);
-  caches_.erase_pairs(pair_has_gone);
-  if (!stale_) caches_.erase_grains(has_gone);
-  erase_at(pairs_, pair_has_gone);
-  for (IndexPair& pair : pairs_) pair = {number_after_[pair.first], number_after_[pair.second]};
+  erase_at(grains_, [&](std::size_t k) { return number_after_[k] == none; });
+  near_.remove_grains(number_after_);
   order_.invalidate();
   // The width of all grains that are left: the same as after a restart from a snapshot.
   widest_ = 0;
@@ -366,55 +308,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Scalar>& lengths) {
-  const Scalar reach = lengths.margin / 2;
-  const bool is_new = stale_ || fat_.size() != boxes_.size();
-  bool left = is_new, known = false;
-  const auto is_alone = [&](std::size_t k) {
-    if (!known) enlarged_.find_pairs_of(boxes_.size(), pairs_);
-    known = true;
-    return enlarged_.is_alone(k);
-  };
-  if (cell_.is_lattice())
-    left = left || !holds_in_lattice(reach);
-  else
-    for (std::size_t k = 0; k < boxes_.size() && !left; ++k)
-      left = !fat_[k].contains(boxes_[k].inflated(reach)) ||
-             (!caches_.holds(k, grains_[k].placed, reach) && !is_alone(k));
-  if (!left) return;
-  if (cell_.is_lattice()) {
-    cell_.reduce();
-    cell_.require_room(widest_ + around(lengths), "Simulation::step");
-    deformed_.setIdentity();
-  }
-  stale_ = false;
-  order_.invalidate();
-  fat_.resize(boxes_.size());
-  for (std::size_t k = 0; k < boxes_.size(); ++k)
-    fat_[k] = !is_new && cell_.is_open() && is_alone(k)
-                  ? enlarged_.next(boxes_[k], fat_[k], reach, lengths.skin)
-                  : boxes_[k].inflated(reach + lengths.skin);
-  old_pairs_.swap(pairs_);
-  if (cell_.is_open())
-    broad_phase_.find_pairs(std::span<const Aabb<S>>(fat_), pairs_);
-  else
-    images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
-  filter_.erase(grains_, pairs_, shifts_);
-  caches_.renew(pairs_, old_pairs_, shifts_, grains_, reach + lengths.skin);
-}
-
-template <class ShapeT, class BroadPhaseT>
-bool ContactDetector<ShapeT, BroadPhaseT>::holds_in_lattice(Scalar reach) const {
-  const typename S::Matrix inverse = deformed_.inverse(), change = S::Matrix::Identity() - inverse;
-  const Scalar most = change.cwiseAbs().rowwise().sum().maxCoeff();
-  const Scalar by = reach + most * (widest_ + 2 * reach) / 2;
-  for (std::size_t k = 0; k < boxes_.size(); ++k) {
-    const Vector center = (boxes_[k].lower + boxes_[k].upper) / 2;
-    const Vector back = cell_.deformed(inverse, center) - center;
-    if (!fat_[k].contains(moved(boxes_[k], back).inflated(by)) ||
-        !caches_.holds(k, grains_[k].placed, by, back))
-      return false;
-  }
-  return true;
+  if (near_.find(grains_, boxes_, lengths, widest_)) order_.invalidate();
 }
 
 template <class ShapeT, class BroadPhaseT>
@@ -424,17 +318,17 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_points(
   members_.resize(std::size_t(team_.size()));
   for (Member& member : members_)
     member.start(double(lengths.resolution), kept_points_ == ContactPoints::few);
-  if (!order_.is_valid())
-    order_.assign(std::span<const Aabb<S>>(boxes_), std::span<const IndexPair>(pairs_));
+  if (!order_.is_valid()) order_.assign(std::span<const Aabb<S>>(boxes_), near_.pairs());
   runs_.resize(grains_.size());
   // Members find nothing while the work is not shared.
-  const std::size_t work = grains_.size() + pairs_.size();
+  const std::size_t work = grains_.size() + pair_count();
   constexpr std::size_t least = 200;  // less is not worth a barrier
   team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {
     Member& member = members_[std::size_t(rank)];
     order_.for_each(rank, size, [&](std::size_t k, const auto& later) {
       if constexpr (prefetches)
-        order_.prefetch(later, grains_, pairs_, [&](std::size_t p) { return margins_.is_near(p); });
+        order_.prefetch(later, grains_, near_.pairs(),
+                        [&](std::size_t p) { return margins_.is_near(p); });
       member.begin_run(k < place_.size() ? place_[k] : 0);
       detect_of(k, lengths.margin, bodies, previous, member);
       runs_[k] = member.end_run(std::uint32_t(rank));
@@ -472,22 +366,22 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margi
   const Grain& a = grains_[k];
   const bool prescribed = bodies.is_prescribed(a.body.index());
   const auto ignores = [&](BodyId b) {
-    return (prescribed && bodies.is_prescribed(b.index())) || filter_.leaves_out(a.body, b);
+    return (prescribed && bodies.is_prescribed(b.index())) || near_.filter().leaves_out(a.body, b);
   };
   for (std::size_t p = order_.first_pair(k); p < order_.first_pair(k + 1); ++p) {
     if (!margins_.is_near(p)) continue;
-    const std::size_t second = pairs_[p].second;
+    const std::size_t second = near_.pairs()[p].second;
     const Scalar of_pair = margins_.of_pair(k, second, margin);
     const Aabb<S> reach = boxes_[k].inflated(of_pair);
-    const bool crosses = !shifts_.empty() && !shifts_[p].isZero(0);
-    if (!(crosses ? reach.overlaps(moved(boxes_[second], shifts_[p]))
+    const bool crosses = near_.crosses(p);
+    if (!(crosses ? reach.overlaps(boxes_[second].moved(near_.shifts()[p]))
                   : reach.overlaps(boxes_[second])) ||
         ignores(grains_[second].body))
       continue;
-    const Grain& b =
-        crosses ? image_of(grains_[second], poses, shifts_[p], found.image) : grains_[second];
+    const Grain& b = crosses ? image_of(grains_[second], poses, near_.shifts()[p], found.image)
+                             : grains_[second];
     found.add(a, b, previous, [&](auto&& add) {
-      return caches_.collide_parts(p, a.placed, b.placed, of_pair, manifold, add);
+      return near_.caches().collide_parts(p, a.placed, b.placed, of_pair, manifold, add);
     });
   }
   const Scalar of_walls = margins_.of_walls(k, margin);
@@ -503,7 +397,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margi
         return collide_each(a.placed, wall.placed, of_walls, manifold, add);
       });
   // Which facets hold a grain that has passed below some of them depends on the margin.
-  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, filter_, previous,
+  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, near_.filter(), previous,
                  found.mesh, found);
 }
 

@@ -34,7 +34,6 @@
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/overlap_sweeps.hpp"
-#include "moreau/world/detail/point_geometry.hpp"
 
 namespace moreau {
 
@@ -177,8 +176,7 @@ class OverlapCorrection {
     constexpr std::size_t most_bodies = 200;
     constexpr double first_epsilon = 1e-4;
     constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
-    const detail::PointGeometry<S> points{contacts, op.inverse_masses()};
-    islands_.find(points);
+    islands_.find(op);
     pushes_.assign(contacts.size(), S::Vector::Zero());
     const auto is_deep = [&](std::uint32_t c) { return candidates_[c].depth > 0; };
     const auto free = [&](std::size_t c) {
@@ -190,8 +188,7 @@ class OverlapCorrection {
       if (own.size() < 2 || islands_.bodies(k) > most_bodies ||
           std::none_of(own.begin(), own.end(), is_deep))
         continue;
-      newton_.assign(
-          points, own, [&](std::size_t body) { return islands_.moves(body); }, free, frictionless);
+      newton_.assign(op, own, islands_.moves(), free, frictionless);
       if (!newton_.is_chain()) continue;
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;

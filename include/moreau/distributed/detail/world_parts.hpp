@@ -62,13 +62,7 @@ struct StateAccess {
   static auto& shifts(auto& dynamics) { return dynamics.correction_.shifts_; }
 
   /// Makes the list of pairs empty, so that the next step finds all pairs.
-  static void forget_pairs(auto& detector) {
-    detector.stale_ = true;
-    detector.fat_.clear();
-    detector.pairs_.clear();
-    detector.shifts_.clear();
-    detector.caches_ = {};
-  }
+  static void forget_pairs(auto& detector) { detector.near_.forget(); }
 };
 
 /// The parts of a simulation.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -12,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/simd/prefetch.hpp"
@@ -93,15 +95,14 @@ struct FaceTopology {
                std::string_view function) {
     std::vector<std::size_t> last_face(vertex_count, 0);  // one past the last face with the vertex
     for (std::size_t f = 0; f < face_list.size(); ++f) {
-      const std::string name = "faces[" + std::to_string(f) + "]";
-      require(face_list[f].size() >= 3, function, name + ".size()", face_list[f].size(),
-              "must be at least 3");
+      if (face_list[f].size() < 3)
+        throw_element(function, "faces[", f, "].size()", face_list[f].size(), "must be at least 3");
       for (const std::uint32_t v : face_list[f]) {
         if (v >= vertex_count)
-          throw_invalid(function, "a vertex of " + name, v,
-                        "must be below the number of vertices, " + std::to_string(vertex_count));
+          throw_element(function, "a vertex of faces[", f, "]", v,
+                        "must be below the number of vertices, ", vertex_count);
         if (last_face[v] == f + 1)
-          throw_invalid(function, "a vertex of " + name, v, "must not occur twice");
+          throw_element(function, "a vertex of faces[", f, "]", v, "must not occur twice");
         last_face[v] = f + 1;
       }
       faces.push_back(face_list[f]);
@@ -114,11 +115,26 @@ struct FaceTopology {
   }
 
  private:
-  static std::string name(std::uint32_t a, std::uint32_t b) {
-    std::string text(1, '(');  // append() is used because g++ 12 warns about "literal" +
-                               // std::string
-    text.append(std::to_string(a)).append(", ").append(std::to_string(b)).append(1, ')');
-    return text;
+  // Texts of errors: append() is used because g++ 12 warns about "literal" + std::string.
+
+  /// Throws that element k of a list has a bad value.
+  /// @param before, after the text on both sides of k
+  /// @param limit         a number behind the expectation; npos: none
+  [[noreturn]] MOREAU_COLD static void throw_element(std::string_view function,
+                                                     std::string_view before, std::size_t k,
+                                                     std::string_view after, std::size_t value,
+                                                     std::string_view expectation,
+                                                     std::size_t limit = std::string::npos) {
+    std::string element(before), most(expectation);
+    element.append(std::to_string(k)).append(after);
+    if (limit != std::string::npos) most.append(std::to_string(limit));
+    throw_invalid(function, element, value, most);
+  }
+  [[noreturn]] MOREAU_COLD static void throw_edge(std::string_view function, std::uint32_t a,
+                                                  std::uint32_t b, std::string_view expectation) {
+    std::string edge(1, '(');
+    edge.append(std::to_string(a)).append(", ").append(std::to_string(b)).append(1, ')');
+    throw_invalid(function, "edge", edge, expectation);
   }
 
   void pair_edges(std::string_view function) {
@@ -137,16 +153,15 @@ struct FaceTopology {
           continue;
         }
         of_face[k] = static_cast<std::uint32_t>(edges.size());
-        require(open.emplace(std::array{a, b}, of_face[k]).second, function, "edge", name(a, b),
-                "must not run the same way in two faces");
+        if (!open.emplace(std::array{a, b}, of_face[k]).second)
+          throw_edge(function, a, b, "must not run the same way in two faces");
         edges.push_back({{a, b}, {f, f}});
       }
       face_edges.push_back(of_face);
     }
     if (open.empty()) return;
     const auto [a, b] = open.begin()->first;
-    throw_invalid(function, "edge", name(a, b),
-                  "must run back in another face: the surface is not closed");
+    throw_edge(function, a, b, "must run back in another face: the surface is not closed");
   }
 
   void collect(std::size_t vertex_count, std::string_view function) {
@@ -158,9 +173,9 @@ struct FaceTopology {
       for (const std::uint32_t v : edges[e].vertex) edges_at[v].push_back(e);
     }
     for (std::size_t v = 0; v < vertex_count; ++v) {
-      require(faces_at[v].size() >= 3, function,
-              "number of faces at vertices[" + std::to_string(v) + "]", faces_at[v].size(),
-              "must be at least 3");
+      if (faces_at[v].size() < 3)
+        throw_element(function, "number of faces at vertices[", v, "]", faces_at[v].size(),
+                      "must be at least 3");
       vertex_faces.push_back(faces_at[v]);
       vertex_edges.push_back(edges_at[v]);
     }

@@ -23,7 +23,7 @@
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
-#include "moreau/law/local_block.hpp"
+#include "moreau/motion/mobility.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"
 
 namespace moreau::detail {
@@ -105,41 +105,52 @@ class IslandPoints {
     double friction;               ///< mu [-]
   };
 
-  /// @param contacts of the island
-  /// @param moves    function: body -> whether impulses move it
-  /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
-  /// @param friction_of function: contact -> mu [-]
-  template <class Operator>
-  void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& moves,
-              const auto& free_of, const auto& friction_of) {
-    number_.resize(op.body_count(), none);
+  /// A contact as the problem has it.
+  struct Source {
+    std::uint32_t contact, body_a, body_b;
+    const typename S::Matrix& frame;              ///< columns n, t[, s], world axes
+    const typename S::Vector &lever_a, &lever_b;  ///< from the centres to the point, world axes [m]
+    Vector free;                                  ///< b [m/s]; not finite if the contact cannot act
+    Vector compliance;                            ///< C [1/kg]
+    double friction;                              ///< mu [-]
+  };
+
+  /// Begins an island of a problem with so many bodies.
+  void start(std::size_t bodies) {
+    number_.resize(bodies, none);
     points_.clear();
     roots_.clear();
     speeds_.clear();
     bodies_.clear();
     edges_.clear();
-    for (const std::uint32_t c : contacts) {
-      const auto free = free_of(c);
-      if (!free.allFinite()) continue;
-      const auto [a, b] = op.bodies(c);
-      Point point;
-      point.free = free.template cast<double>();
-      point.compliance.setZero();
-      if constexpr (requires { op.compliance(c); })
-        point.compliance = op.compliance(c).template cast<double>();
-      point.contact = c;
-      point.friction = friction_of(c);
-      point.body_a = moves(a) ? local(op, a) : none;
-      point.body_b = moves(b) ? local(op, b) : none;
-      point.a = rows(op, c, point.body_a, op.lever_a(c), -1);
-      point.b = rows(op, c, point.body_b, op.lever_b(c), 1);
-      point.diagonal = (point.a.squaredNorm() + point.b.squaredNorm()) / dim;
-      if (!(point.diagonal > 0)) continue;
-      if (point.body_a != none && point.body_b != none &&
-          (edges_.empty() || edges_.back() != std::array{point.body_a, point.body_b}))
-        edges_.push_back({point.body_a, point.body_b});
-      points_.push_back(point);
-    }
+  }
+  /// Adds a contact, unless it cannot act. Contacts of the same two bodies follow one another.
+  /// @param masses of all bodies
+  /// @param moves  whether impulses move them
+  void add(const Source& source, std::span<const InverseMass<S>> masses,
+           std::span<const unsigned char> moves) {
+    if (!source.free.allFinite()) return;
+    Point point;
+    point.free = source.free;
+    point.compliance = source.compliance;
+    point.contact = source.contact;
+    point.friction = source.friction;
+    const auto number = [&](std::uint32_t body) {
+      return moves[body] ? local(body, masses[body]) : none;
+    };
+    point.body_a = number(source.body_a);
+    point.body_b = number(source.body_b);
+    point.a = rows(source.frame, point.body_a, source.lever_a, -1);
+    point.b = rows(source.frame, point.body_b, source.lever_b, 1);
+    point.diagonal = (point.a.squaredNorm() + point.b.squaredNorm()) / dim;
+    if (!(point.diagonal > 0)) return;
+    if (point.body_a != none && point.body_b != none &&
+        (edges_.empty() || edges_.back() != std::array{point.body_a, point.body_b}))
+      edges_.push_back({point.body_a, point.body_b});
+    points_.push_back(point);
+  }
+  /// Ends the island.
+  void finish() {
     for (const std::uint32_t body : bodies_) number_[body] = none;
   }
 
@@ -167,13 +178,12 @@ class IslandPoints {
   using Root = Eigen::Matrix<double, dofs, dofs>;
 
   /// The number of a body in the island.
-  template <class Operator>
-  std::uint32_t local(const Operator& op, std::uint32_t body) {
+  std::uint32_t local(std::uint32_t body, const InverseMass<S>& mass) {
     std::uint32_t& number = number_[body];
     if (number != none) return number;
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.push_back(body);
-    const Root inverse = dense<Space<dim, double>>(op.inverse_mass(body));
+    const Root inverse = dense<Space<dim, double>>(mass);
     roots_.push_back(root(inverse));
     const double linear_trace = inverse.diagonal().template head<dim>().sum();
     const double speed = linear_trace > 0 ? linear_trace / dim : inverse.trace();
@@ -196,13 +206,11 @@ class IslandPoints {
     }
     return l;
   }
-  template <class Operator>
-  Rows rows(const Operator& op, std::size_t c, std::uint32_t body, const typename S::Vector& lever,
+  Rows rows(const typename S::Matrix& frame, std::uint32_t body, const typename S::Vector& lever,
             double sign) const {
     Rows rows = Rows::Zero(), by_root = Rows::Zero();
     if (body == none) return rows;
     using Exact = Space<dim, double>;
-    const auto& frame = op.frame(c);
     typename Exact::Vector arm, axis;
     for (int i = 0; i < dim; ++i) arm[i] = double(lever[i]);
     for (int k = 0; k < dim; ++k) {

@@ -151,8 +151,7 @@ class IslandSolver {
   }
   void take(const Problem& problem, std::size_t island) {
     newton_.assign(
-        problem.delassus, islands_.contacts(island),
-        [&](std::size_t body) { return islands_.moves(body); },
+        problem.delassus, islands_.contacts(island), islands_.moves(),
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }

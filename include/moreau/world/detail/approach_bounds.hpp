@@ -45,7 +45,7 @@ struct ApproachBounds {
     const auto [first, second] = pairs[p];
     const GrainT &a = grains[first], &b = grains[second];
     const Vector shift = shifts.empty() ? Vector(Vector::Zero()) : shifts[p];
-    const Aabb<S> moved{boxes[second].lower + shift, boxes[second].upper + shift};
+    const Aabb<S> moved = boxes[second].moved(shift);
     if (!boxes[first].inflated(margin).overlaps(moved)) return Scalar(-1);
     if (is_prescribed(first) && is_prescribed(second)) return Scalar(-1);
     const std::size_t i = a.body.index(), j = b.body.index();

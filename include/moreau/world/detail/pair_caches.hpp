@@ -110,7 +110,7 @@ class PairCaches<ShapeT> {
     const std::size_t first = begin(box_ends_, k);
     for (std::size_t i = 0; i < grain.part_count(); ++i) {
       const Aabb<S> box = grain.box(i).inflated(reach);
-      if (!boxes_[first + i].contains(Aabb<S>{box.lower + back, box.upper + back})) return false;
+      if (!boxes_[first + i].contains(box.moved(back))) return false;
     }
     return true;
   }
