@@ -43,7 +43,7 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
     std::vector<Group> groups;
     std::vector<std::uint32_t> points;
     for (std::uint64_t k = random() % 80; k > 0; --k) {
-      constexpr std::uint32_t phases[] = {0, 1, 2, PairColouring::colours, Group::serial};
+      constexpr std::uint32_t phases[] = {0, 1, 2, FirstFitColouring::colours, Group::serial};
       const std::uint64_t phase = random() % 5;
       const bool inside = phase < 3 && random() % 2 == 0;
       groups.push_back(
@@ -77,7 +77,7 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
             schedule.forward(rank, size, wait, visit_in_blocks, settle);
         for (std::size_t k = 0; k < groups.size(); ++k) {
           CHECK(visits[k] == (points[k] > 0));
-          CHECK(settled[k] == (points[k] > 0 && groups[k].phase == PairColouring::colours));
+          CHECK(settled[k] == (points[k] > 0 && groups[k].phase == FirstFitColouring::colours));
         }
       }
   }

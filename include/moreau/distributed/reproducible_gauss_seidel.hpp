@@ -34,7 +34,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/distributed/detail/exact_sum.hpp"
 #include "moreau/distributed/detail/ordered_sharing.hpp"
-#include "moreau/distributed/detail/pair_colours.hpp"
+#include "moreau/distributed/detail/priority_colouring.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -218,7 +218,7 @@ class OrderedSweeps {
   Operator& op_;  // its springs are stretched when the residual is measured
   std::span<Vector> impulses_;
   OrderedSharing* sharing_;
-  PairColours<Operator> colours_;
+  PriorityColouring<Operator> colours_;
   std::vector<Vector> before_;                 // impulses of the sweep before
   std::vector<T> velocities_before_;           // of all bodies
   std::vector<std::int64_t> points_at_walls_;  // of all processes, one per colour and wall

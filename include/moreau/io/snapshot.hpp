@@ -2,11 +2,11 @@
 // The state of a simulation in one file. A run that is stopped and restarted from the file
 // continues with the same bits as a run without interruption.
 //
-//   write_snapshot("run.snapshot", world, steps, random);   // and other objects of the run
+//   write_snapshot("run.snapshot", simulation, steps, random);   // and other objects of the run
 //
-//   moreau::Simulation<..> world(..);                       // an empty one of the same type
-//   if (resume) read_snapshot("run.snapshot", world, steps, random);
-//   else        build(world);
+//   moreau::Simulation<..> simulation(..);                        // an empty one of the same type
+//   if (resume) read_snapshot("run.snapshot", simulation, steps, random);
+//   else        build(simulation);
 //
 // The file contains all data that the next step depends on: bodies, shapes as they were built,
 // materials, walls, the periodic cell, the options of the solver, contacts with their impulses and
@@ -35,6 +35,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -77,7 +78,7 @@ struct OptionsOf<Solver> {
 
 /// The types of a snapshot. The broad phase and the team of threads are not part of a
 /// snapshot.
-template <class World, class... More>
+template <class Simulation, class... More>
 struct SnapshotTypes;
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 struct SnapshotTypes<Simulation<ShapeT, Law, Integrator, Broad, Solver>, More...> {
@@ -93,23 +94,23 @@ struct SnapshotTypes<Simulation<ShapeT, Law, Integrator, Broad, Solver>, More...
 
 /// What of reading and writing depends on the type of the simulation alone. The functions are not inline: a program
 /// can instantiate them in one source and declare them extern (moreau/instances).
-template <class Archive, class World>
-MOREAU_COLD void transfer_world(Archive& archive, World& world) {
-  transfer(archive, world);
+template <class Archive, class Simulation>
+MOREAU_COLD void transfer_simulation(Archive& archive, Simulation& simulation) {
+  transfer(archive, simulation);
 }
-template <class World>
-MOREAU_COLD World copy_of_world(const World& world) {
-  return world;
+template <class Simulation>
+MOREAU_COLD Simulation copy_of_simulation(const Simulation& simulation) {
+  return simulation;
 }
-template <class World>
-MOREAU_COLD void replace_world(World& world, World& by) {
-  world = std::move(by);
+template <class Simulation>
+MOREAU_COLD void replace_simulation(Simulation& simulation, Simulation& by) {
+  simulation = std::move(by);
 }
 
-template <class World, class... More>
-MOREAU_COLD std::uint64_t outline_of(World& world, More&... more) {
+template <class Simulation, class... More>
+MOREAU_COLD std::uint64_t outline_of(Simulation& simulation, More&... more) {
   ArchiveOutline outline;
-  transfer_world(outline, world);
+  transfer_simulation(outline, simulation);
   (transfer(outline, more), ...);
   return outline.checksum();
 }
@@ -181,32 +182,32 @@ MOREAU_COLD inline SnapshotHead checked_head(std::string_view bytes, const std::
   return head;
 }
 
-template <class World, class... More>
-MOREAU_COLD void restore(std::string_view bytes, const std::string& name, World& world,
+template <class Simulation, class... More>
+MOREAU_COLD void restore(std::string_view bytes, const std::string& name, Simulation& simulation,
                          More&... more) {
   const SnapshotHead head = checked_head(bytes, name);
   bytes.remove_suffix(sizeof(std::uint64_t));
   ArchiveReader archive(bytes.substr(sizeof head));
   // The objects are read into copies, so that an error leaves the originals unchanged.
-  World loaded = copy_of_world(world);
+  Simulation loaded = copy_of_simulation(simulation);
   std::tuple<More...> loaded_more(more...);
   try {
     std::string version, types;
     transfer(archive, version);
     transfer(archive, types);
-    const std::string wanted = SnapshotTypes<World, More...>::name();
+    const std::string wanted = SnapshotTypes<Simulation, More...>::name();
     if (types != wanted) throw std::runtime_error(difference(types, wanted));
-    if (head.outline != outline_of(world, more...))
+    if (head.outline != outline_of(simulation, more...))
       throw std::runtime_error("was written by moreau " + version +
                                ", whose objects have other members than those of this " +
                                MOREAU_VERSION_STRING);
-    transfer_world(archive, loaded);
+    transfer_simulation(archive, loaded);
     std::apply([&](auto&... one) { (transfer(archive, one), ...); }, loaded_more);
     if (archive.left() > 0) throw std::runtime_error("holds more than its objects");
   } catch (const std::exception& error) {
     throw std::runtime_error(name + ' ' + error.what());
   }
-  replace_world(world, loaded);
+  replace_simulation(simulation, loaded);
   std::tie(more...) = std::move(loaded_more);
 }
 
@@ -217,20 +218,20 @@ MOREAU_COLD void restore(std::string_view bytes, const std::string& name, World&
 /// @param more other objects of the run: numbers, strings, vectors, random number generators,
 ///             classes with serialized_members(); see core/serialize.hpp
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
-MOREAU_COLD std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
-                                 const More&... more) {
-  using World = Simulation<ShapeT, Law, Integrator, Broad, Solver>;
+MOREAU_COLD std::string snapshot(
+    const Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation, const More&... more) {
+  using Whole = std::remove_cvref_t<decltype(simulation)>;
   // An archive takes references that are not const. This archive only reads the objects.
-  auto& open = const_cast<World&>(world);
+  auto& open = const_cast<Whole&>(simulation);
   detail::SnapshotHead head;
   head.outline = detail::outline_of(open, const_cast<More&>(more)...);
   detail::ArchiveWriter archive;
   archive.bytes.resize(sizeof head);
   std::string version = MOREAU_VERSION_STRING;
-  std::string types = detail::SnapshotTypes<World, More...>::name();
+  std::string types = detail::SnapshotTypes<Whole, More...>::name();
   transfer(archive, version);
   transfer(archive, types);
-  detail::transfer_world(archive, open);
+  detail::transfer_simulation(archive, open);
   (transfer(archive, const_cast<More&>(more)), ...);
   head.size = archive.bytes.size() + sizeof(std::uint64_t);
   std::memcpy(archive.bytes.data(), &head, sizeof head);
@@ -241,15 +242,16 @@ MOREAU_COLD std::string snapshot(const Simulation<ShapeT, Law, Integrator, Broad
 /// Restores the state of a simulation, and of other objects of the run, from the bytes of
 /// snapshot(). It replaces everything in the simulation except the team of threads.
 /// @param bytes the result of snapshot()
-/// @param world a simulation of the same type as in snapshot(); it may be empty
+/// @param simulation a simulation of the same type as in snapshot(); it may be empty
 /// @param more  objects of the same types and in the same order as in snapshot()
 /// @throws std::runtime_error with the reason if the bytes are not a snapshot, are truncated or
 ///                            corrupted, or have a different format or different types; no object
 ///                            is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void restore_snapshot(std::string_view bytes,
-                      Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
-  detail::restore(bytes, "restore_snapshot: what is given", world, more...);
+                      Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation,
+                      More&... more) {
+  detail::restore(bytes, "restore_snapshot: what is given", simulation, more...);
 }
 
 /// Writes a snapshot. An existing file is replaced as a whole: a reader finds the old file or the
@@ -259,37 +261,38 @@ void restore_snapshot(std::string_view bytes,
 ///         then unchanged
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void write_snapshot(const std::filesystem::path& path,
-                    const Simulation<ShapeT, Law, Integrator, Broad, Solver>& world,
+                    const Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation,
                     const More&... more) {
-  write_atomically(path, snapshot(world, more...));
+  write_atomically(path, snapshot(simulation, more...));
 }
 
 /// Restores a simulation of the same type, and other objects of the run, from a file written by write_snapshot(); see
 /// restore_snapshot(). The file also sets what was set before: laws, gravity, options, tolerances, grain size. Change
 /// them after this call (set_materials(), set_gravity(), set_solver(), ...).
-/// @param world without bodies, which the file would replace; reload_snapshot() replaces them
+/// @param simulation without bodies, which the file would replace; reload_snapshot() replaces them
 /// @throws std::invalid_argument if the simulation has bodies
 /// @throws std::system_error naming the path and the reason if the file cannot be read
 /// @throws std::runtime_error naming the path and the reason if restore_snapshot() would throw; no
 ///                            object is changed then
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void read_snapshot(const std::filesystem::path& path,
-                   Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
+                   Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation, More&... more) {
   require(
-      world.bodies().size() == 0, "read_snapshot", "bodies", world.bodies().size(),
+      simulation.bodies().size() == 0, "read_snapshot", "bodies", simulation.bodies().size(),
       "must be 0, because the file replaces all of the simulation: read first, then add, or use "
       "reload_snapshot()");
   const std::string bytes = detail::read_file(path, "read_snapshot");
-  detail::restore(bytes, "read_snapshot: '" + path.string() + "'", world, more...);
+  detail::restore(bytes, "read_snapshot: '" + path.string() + "'", simulation, more...);
 }
 
 /// The same for a simulation that may have bodies: goes back to the state in the file.
 /// @throws as read_snapshot(), except that bodies are no error
 template <class ShapeT, class Law, class Integrator, class Broad, class Solver, class... More>
 void reload_snapshot(const std::filesystem::path& path,
-                     Simulation<ShapeT, Law, Integrator, Broad, Solver>& world, More&... more) {
+                     Simulation<ShapeT, Law, Integrator, Broad, Solver>& simulation,
+                     More&... more) {
   const std::string bytes = detail::read_file(path, "reload_snapshot");
-  detail::restore(bytes, "reload_snapshot: '" + path.string() + "'", world, more...);
+  detail::restore(bytes, "reload_snapshot: '" + path.string() + "'", simulation, more...);
 }
 
 }  // namespace moreau

@@ -29,20 +29,21 @@ struct WallSurface {
 };
 
 /// The pose of a grain at its place in the periodic cell.
-template <class World>
-Pose<typename World::S> pose_in_cell(const World& world, BodyId grain) {
-  Pose<typename World::S> pose = world.pose(grain);
-  pose.position = world.cell().wrap(pose.position);
+template <class Simulation>
+Pose<typename Simulation::S> pose_in_cell(const Simulation& simulation, BodyId grain) {
+  Pose<typename Simulation::S> pose = simulation.pose(grain);
+  pose.position = simulation.cell().wrap(pose.position);
   return pose;
 }
 
 /// The bounding box of all grains [m], each at its place in the periodic cell; empty without
 /// grains.
-template <class World>
-Aabb<typename World::S> box_of_grains(const World& world) {
-  Aabb<typename World::S> box;
-  for (std::size_t k = 0; k < world.grain_count(); ++k) {
-    const auto own = world.shape_of_grain(k).bounding_box(pose_in_cell(world, world.grain(k)));
+template <class Simulation>
+Aabb<typename Simulation::S> box_of_grains(const Simulation& simulation) {
+  Aabb<typename Simulation::S> box;
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const auto own =
+        simulation.shape_of_grain(k).bounding_box(pose_in_cell(simulation, simulation.grain(k)));
     box.merge(own.lower);
     box.merge(own.upper);
   }
@@ -162,31 +163,31 @@ WallSurface<S> mesh_surface(const MeshBody<S>& mesh, const Pose<S>& pose) {
 /// the grains, extended by a grain size, reaches along it, and ends at the other half-spaces. A
 /// half-space farther from the grains than the diagonal of this box is left out. Without grains
 /// there are no walls.
-template <class World>
-std::vector<WallSurface<typename World::S>> wall_surfaces(const World& world) {
-  using S = typename World::S;
+template <class Simulation>
+std::vector<WallSurface<typename Simulation::S>> wall_surfaces(const Simulation& simulation) {
+  using S = typename Simulation::S;
   std::vector<WallSurface<S>> surfaces;
-  if (world.grain_count() == 0) return surfaces;
-  const Aabb<S> box = box_of_grains(world).inflated(world.grain_size());
+  if (simulation.grain_count() == 0) return surfaces;
+  const Aabb<S> box = box_of_grains(simulation).inflated(simulation.grain_size());
   const auto corners = corners_of(box);
   const auto diagonal = (box.upper - box.lower).norm();
   const auto normal_of = [&](BodyId wall) ->
-      typename S::Vector { return world.pose(wall).rotation.toRotationMatrix().col(0); };
-  for (const BodyId wall : world.walls()) {
-    const auto [near, far] = range_along(normal_of(wall), world.pose(wall).position, corners);
+      typename S::Vector { return simulation.pose(wall).rotation.toRotationMatrix().col(0); };
+  for (const BodyId wall : simulation.walls()) {
+    const auto [near, far] = range_along(normal_of(wall), simulation.pose(wall).position, corners);
     if (near > diagonal || far < 0) continue;
-    auto face = project<S>(corners, world.pose(wall));
-    for (const BodyId other : world.walls())
+    auto face = project<S>(corners, simulation.pose(wall));
+    for (const BodyId other : simulation.walls())
       if (other != wall && face.size() > 1)
-        face = clipped(face, normal_of(other), world.pose(other).position,
+        face = clipped(face, normal_of(other), simulation.pose(other).position,
                        typename S::Scalar(1e-6) * diagonal);
     if (face.size() > 1) surfaces.push_back({wall, {face}});
   }
-  for (const CylinderBody<S>& cylinder : world.cylinders())
-    surfaces.push_back(
-        {cylinder.body, cylinder_faces<S>(corners, world.pose(cylinder.body), cylinder.shape)});
-  for (const MeshBody<S>& mesh : world.mesh_walls())
-    surfaces.push_back(mesh_surface<S>(mesh, world.pose(mesh.body)));
+  for (const CylinderBody<S>& cylinder : simulation.cylinders())
+    surfaces.push_back({cylinder.body, cylinder_faces<S>(corners, simulation.pose(cylinder.body),
+                                                         cylinder.shape)});
+  for (const MeshBody<S>& mesh : simulation.mesh_walls())
+    surfaces.push_back(mesh_surface<S>(mesh, simulation.pose(mesh.body)));
   return surfaces;
 }
 

@@ -23,19 +23,19 @@ namespace detail {
 
 /// Writes walls as polygons (in the plane as lines) with the arrays `id` (BodyId) and `velocity` of
 /// the origin of the wall [m/s].
-template <class World>
-void write_walls(const std::filesystem::path& path, const World& world) {
+template <class Simulation>
+void write_walls(const std::filesystem::path& path, const Simulation& simulation) {
   VtkPolyData data;
   std::vector<std::int32_t> cell, ids;
   std::vector<float> velocities;
-  for (const auto& surface : wall_surfaces(world))
+  for (const auto& surface : wall_surfaces(simulation))
     for (const auto& face : surface.faces) {
       cell.clear();
       for (const auto& x : face) cell.push_back(data.add_point(x));
       data.add_cell(face.size() > 2 ? VtkPolyData::Cells::polygons : VtkPolyData::Cells::lines,
                     cell);
       ids.push_back(static_cast<std::int32_t>(surface.body.value));
-      const auto v = world.velocity(surface.body);
+      const auto v = simulation.velocity(surface.body);
       for (int k = 0; k < 3; ++k)
         velocities.push_back(k < v.size() ? static_cast<float>(v[k]) : 0.0f);
     }
@@ -45,19 +45,19 @@ void write_walls(const std::filesystem::path& path, const World& world) {
 }
 
 /// Writes bonds as lines with the arrays `strength_left`, `dissipated` and `elastic` [J], `a` and `b` (BodyId).
-template <class World>
-void write_bonds(const std::filesystem::path& path, const World& world) {
-  using S = typename World::S;
+template <class Simulation>
+void write_bonds(const std::filesystem::path& path, const Simulation& simulation) {
+  using S = typename Simulation::S;
   VtkPolyData data;
   std::vector<float> strengths, dissipated, elastic;
   std::vector<std::int32_t> a, b;
-  for (const Bond<S>& bond : world.bonds()) {
-    const Pose<S>& pose = world.bodies().pose[bond.a.index()];
-    const typename S::Vector from = world.cell().wrap(pose.position),
+  for (const Bond<S>& bond : simulation.bonds()) {
+    const Pose<S>& pose = simulation.bodies().pose[bond.a.index()];
+    const typename S::Vector from = simulation.cell().wrap(pose.position),
                              point = from + pose.rotation * bond.anchor_a;
     typename S::Vector to = point;
-    if (world.is_grain(bond.b.index()))
-      to = world.cell().nearest(world.bodies().pose[bond.b.index()].position, point);
+    if (simulation.is_grain(bond.b.index()))
+      to = simulation.cell().nearest(simulation.bodies().pose[bond.b.index()].position, point);
     const std::int32_t ends[] = {data.add_point(from), data.add_point(to)};
     data.add_cell(VtkPolyData::Cells::lines, ends);
     strengths.push_back(static_cast<float>(bond.strength_left));
@@ -77,13 +77,13 @@ void write_bonds(const std::filesystem::path& path, const World& world) {
 
 /// Writes the edges of a deforming cell with the arrays `stress` [Pa], `rate` [1/s] and `deformation`: matrices of 3 by
 /// 3 numbers, row by row.
-template <class World>
-void write_cell(const std::filesystem::path& path, const World& world) {
-  using S = typename World::S;
+template <class Simulation>
+void write_cell(const std::filesystem::path& path, const Simulation& simulation) {
+  using S = typename Simulation::S;
   VtkPolyData data;
-  const typename S::Matrix vectors = world.cell().vectors();
+  const typename S::Matrix vectors = simulation.cell().vectors();
   for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {
-    typename S::Vector x = world.cell().lower();
+    typename S::Vector x = simulation.cell().lower();
     for (int k = 0; k < S::dim; ++k)
       if ((corner >> k & 1u) != 0) x += vectors.col(k);
     data.add_point(x);
@@ -103,9 +103,9 @@ void write_cell(const std::filesystem::path& path, const World& world) {
           values.push_back(i < S::dim && j < S::dim ? static_cast<float>(matrix(i, j)) : 0.0f);
     data.add_array<float>(VtkPolyData::On::cells, name, 9, values);
   };
-  add("stress", world.cell_motion().stress());
-  add("rate", world.cell_motion().rate());
-  add("deformation", world.cell_motion().deformation());
+  add("stress", simulation.cell_motion().stress());
+  add("rate", simulation.cell_motion().rate());
+  add("deformation", simulation.cell_motion().deformation());
   data.write(path);
 }
 
@@ -146,10 +146,10 @@ void write_cell(const std::filesystem::path& path, const World& world) {
 /// @throws std::invalid_argument for a path whose last part is empty or contains one of " < & or a
 ///         control character, a step that is not finite or not positive, options out of range
 /// @throws std::system_error naming the path of a file that cannot be written
-template <class World>
-void write_paraview(const std::filesystem::path& path, const World& simulation, double step = 1,
-                    const VtkOptions& options = {}) {
-  using S = typename World::S;
+template <class Simulation>
+void write_paraview(const std::filesystem::path& path, const Simulation& simulation,
+                    double step = 1, const VtkOptions& options = {}) {
+  using S = typename Simulation::S;
   const std::filesystem::path stem =
       path.extension() == ".vtm" ? std::filesystem::path(path).replace_extension() : path;
   const std::string name = stem.filename().string();

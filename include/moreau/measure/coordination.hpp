@@ -124,10 +124,10 @@ class CoordinationCounter {
 /// @param simulation a Simulation
 /// @param fewest     grains with fewer neighbours than this are removed as rattlers; with 0 all
 ///                   grains are counted (CoordinationCounter::count())
-template <class World>
-Coordination coordination(const World& simulation, std::size_t fewest = 0) {
+template <class Simulation>
+Coordination coordination(const Simulation& simulation, std::size_t fewest = 0) {
   const auto& contacts = simulation.contacts();
-  return CoordinationCounter<typename World::S>().count(
+  return CoordinationCounter<typename Simulation::S>().count(
       contacts.points, contacts.impulses, simulation.bodies().size(),
       [&](std::size_t body) { return simulation.is_grain(body); }, fewest);
 }

@@ -36,34 +36,34 @@ double half_diagonal(const Shape& shape) {
 }
 
 /// The colours of stone, from the smallest to the largest grain.
-template <class World>
-auto stone_colors(const World& world) {
+template <class Simulation>
+auto stone_colors(const Simulation& simulation) {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (std::size_t k = 0; k < world.grain_count(); ++k) {
-    smallest = std::min(smallest, half_diagonal(world.shape_of_grain(k)));
-    largest = std::max(largest, half_diagonal(world.shape_of_grain(k)));
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    smallest = std::min(smallest, half_diagonal(simulation.shape_of_grain(k)));
+    largest = std::max(largest, half_diagonal(simulation.shape_of_grain(k)));
   }
   const double range = largest - smallest, rounding = 1e-6 * largest;
-  return [=, &world](BodyId grain) {
-    const double above = half_diagonal(world.shape(grain)) - smallest;
+  return [=, &simulation](BodyId grain) {
+    const double above = half_diagonal(simulation.shape(grain)) - smallest;
     return stone_color(above > rounding ? above / range : 0, grain.index());
   };
 }
 
 /// Calls draw(shape, pose in the periodic cell, colour) for each grain.
-template <class World, class ColorOf, class Draw>
-void for_each_grain(const World& world, const ColorOf& color_of, const Draw& draw) {
-  for (std::size_t k = 0; k < world.grain_count(); ++k) {
-    const BodyId grain = world.grain(k);
-    draw(world.shape_of_grain(k), moreau::detail::pose_in_cell(world, grain),
+template <class Simulation, class ColorOf, class Draw>
+void for_each_grain(const Simulation& simulation, const ColorOf& color_of, const Draw& draw) {
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const BodyId grain = simulation.grain(k);
+    draw(simulation.shape_of_grain(k), moreau::detail::pose_in_cell(simulation, grain),
          Color(color_of(grain)));
   }
 }
 
 /// The bounding box of the grains and the faces of the walls [m].
-template <class World, class Surfaces>
-Aabb<typename World::S> visible_box(const World& world, const Surfaces& surfaces) {
-  auto box = moreau::detail::box_of_grains(world);
+template <class Simulation, class Surfaces>
+Aabb<typename Simulation::S> visible_box(const Simulation& simulation, const Surfaces& surfaces) {
+  auto box = moreau::detail::box_of_grains(simulation);
   for (const auto& surface : surfaces)
     for (const auto& face : surface.faces)
       for (const auto& x : face) box.merge(x);
@@ -116,27 +116,29 @@ inline View fitted_view(const Aabb<Space<3>>& box, const Picture& picture,
 }
 
 /// In space: the grains on the ground, which is the first wall that faces up, and the other walls.
-template <class World, class ColorOf, class T>
-Image render(const World& world, const ColorOf& color_of, const Picture& picture, Space<3, T>) {
+template <class Simulation, class ColorOf, class T>
+Image render(const Simulation& simulation, const ColorOf& color_of, const Picture& picture,
+             Space<3, T>) {
   std::optional<float> ground;
-  auto surfaces = moreau::detail::wall_surfaces(world);
+  auto surfaces = moreau::detail::wall_surfaces(simulation);
   std::erase_if(surfaces, [&](const auto& surface) {
-    if (world.pose(surface.body).rotation.toRotationMatrix()(2, 0) < T(0.9999)) return false;
+    if (simulation.pose(surface.body).rotation.toRotationMatrix()(2, 0) < T(0.9999)) return false;
     if (surface.faces.size() > 1 || ground) return false;
-    ground = static_cast<float>(world.pose(surface.body).position[2]);
+    ground = static_cast<float>(simulation.pose(surface.body).position[2]);
     return true;
   });
   if (!picture.walls) surfaces.clear();
-  const Aabb<Space<3, T>> visible = visible_box(world, surfaces);
+  const Aabb<Space<3, T>> visible = visible_box(simulation, surfaces);
   Aabb<Space<3>> box(visible.lower.template cast<double>(), visible.upper.template cast<double>());
   if (ground) box.lower.z() = std::min(box.lower.z(), double(*ground));
   const Vector3f middle = ((box.lower + box.upper) / 2).cast<float>();
   const auto size = static_cast<float>((box.upper - box.lower).norm());
 
-  Scene scene(world.grain_count());
-  for_each_grain(world, color_of, [&](const auto& shape, const auto& pose, const Color& color) {
-    scene.add_grain(shape, pose, color);
-  });
+  Scene scene(simulation.grain_count());
+  for_each_grain(simulation, color_of,
+                 [&](const auto& shape, const auto& pose, const Color& color) {
+                   scene.add_grain(shape, pose, color);
+                 });
   std::vector<Vector3f> shown;
   for (const Triangle& triangle : scene.triangles())
     shown.insert(shown.end(), triangle.corner.begin(), triangle.corner.end());
@@ -156,14 +158,16 @@ Image render(const World& world, const ColorOf& color_of, const Picture& picture
 }
 
 /// In the plane: the grains and the lines of the walls.
-template <class World, class ColorOf, class T>
-Image render(const World& world, const ColorOf& color_of, const Picture& picture, Space<2, T>) {
-  auto surfaces = moreau::detail::wall_surfaces(world);
+template <class Simulation, class ColorOf, class T>
+Image render(const Simulation& simulation, const ColorOf& color_of, const Picture& picture,
+             Space<2, T>) {
+  auto surfaces = moreau::detail::wall_surfaces(simulation);
   if (!picture.walls) surfaces.clear();
-  Drawing drawing = drawing_of(visible_box(world, surfaces), picture);
-  for_each_grain(world, color_of, [&](const auto& shape, const auto& pose, const Color& color) {
-    draw_grain(shape, pose, color, drawing);
-  });
+  Drawing drawing = drawing_of(visible_box(simulation, surfaces), picture);
+  for_each_grain(simulation, color_of,
+                 [&](const auto& shape, const auto& pose, const Color& color) {
+                   draw_grain(shape, pose, color, drawing);
+                 });
   for (const auto& surface : surfaces)
     for (const auto& face : surface.faces)
       drawing.line(face[0].template cast<double>(), face[1].template cast<double>(),
@@ -188,17 +192,17 @@ Image render(const World& world, const ColorOf& color_of, const Picture& picture
 /// @param picture    size of the picture in pixels, and the point of view
 /// @throws std::invalid_argument for a simulation without grains, a width or height <= 0
 /// @throws std::runtime_error or std::system_error naming the path if the file cannot be written
-template <class World, std::invocable<BodyId> ColorOf>
-void write_picture(const std::filesystem::path& path, const World& simulation,
+template <class Simulation, std::invocable<BodyId> ColorOf>
+void write_picture(const std::filesystem::path& path, const Simulation& simulation,
                    const ColorOf& color_of, const rendering::Picture& picture = {}) {
   require(simulation.grain_count() > 0, "write_picture", "simulation.grain_count()",
           simulation.grain_count(), "must be > 0");
   rendering::write_png(
-      path, rendering::detail::render(simulation, color_of, picture, typename World::S{}));
+      path, rendering::detail::render(simulation, color_of, picture, typename Simulation::S{}));
 }
 /// The same with the colours of stone.
-template <class World>
-void write_picture(const std::filesystem::path& path, const World& simulation,
+template <class Simulation>
+void write_picture(const std::filesystem::path& path, const Simulation& simulation,
                    const rendering::Picture& picture = {}) {
   write_picture(path, simulation, rendering::detail::stone_colors(simulation), picture);
 }

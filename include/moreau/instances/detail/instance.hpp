@@ -59,12 +59,12 @@
   MOREAU_STEP_INSTANCE(KEYWORD, BallIn<SpaceT>, SignoriniCoulomb<double>)
 
 /// Snapshots of a simulation.
-#define MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)                                   \
-  KEYWORD void detail::transfer_world(detail::ArchiveReader&, Simulation<ShapeT, LawT>&);  \
-  KEYWORD void detail::transfer_world(detail::ArchiveWriter&, Simulation<ShapeT, LawT>&);  \
-  KEYWORD void detail::transfer_world(detail::ArchiveOutline&, Simulation<ShapeT, LawT>&); \
-  KEYWORD Simulation<ShapeT, LawT> detail::copy_of_world(const Simulation<ShapeT, LawT>&); \
-  KEYWORD void detail::replace_world(Simulation<ShapeT, LawT>&, Simulation<ShapeT, LawT>&);
+#define MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)                                        \
+  KEYWORD void detail::transfer_simulation(detail::ArchiveReader&, Simulation<ShapeT, LawT>&);  \
+  KEYWORD void detail::transfer_simulation(detail::ArchiveWriter&, Simulation<ShapeT, LawT>&);  \
+  KEYWORD void detail::transfer_simulation(detail::ArchiveOutline&, Simulation<ShapeT, LawT>&); \
+  KEYWORD Simulation<ShapeT, LawT> detail::copy_of_simulation(const Simulation<ShapeT, LawT>&); \
+  KEYWORD void detail::replace_simulation(Simulation<ShapeT, LawT>&, Simulation<ShapeT, LawT>&);
 
 /// The parts of the library of usual simulations (usual.hpp); each is a source of its own.
 #define MOREAU_BALL_AND_POLYTOPE_INSTANCES(KEYWORD, BallT, PolytopeT) \

@@ -28,10 +28,10 @@
 #include "moreau/core/sort_by_key.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
+#include "moreau/solve/coloured/first_fit_colouring.hpp"
 #include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/packs.hpp"
-#include "moreau/solve/coloured/pair_colouring.hpp"
 #include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
 
@@ -145,7 +145,7 @@ class ContactGroups {
   static constexpr std::uint64_t not_inside = std::uint64_t{1} << 63;
   static constexpr std::uint64_t kind_mask = ~((std::uint64_t{1} << hub_bits) - 1);
   /// In place of a colour: pairs without a phase. Those without a hub share no group.
-  static constexpr std::uint64_t serial = PairColouring::colours + 1,
+  static constexpr std::uint64_t serial = FirstFitColouring::colours + 1,
                                  alone_kind = not_inside | serial << colour_bits;
   /// Bodies of a block, up to twice as many: the number of blocks is a power of two, so that teams of two,
   /// four, .. members have equally many. They are consecutive, so that they lie together if the bodies are
@@ -184,7 +184,7 @@ class ContactGroups {
       const std::uint64_t fewer = 255 - std::min<std::uint32_t>(255, first_[k + 1] - first_[k]);
       const std::uint64_t idle = 255 - std::min<std::uint32_t>(255, acting);
       const std::uint32_t block = block_of(k);
-      if (block != Pairs::shared && colouring_[k] != PairColouring::colours) {
+      if (block != Pairs::shared && colouring_[k] != FirstFitColouring::colours) {
         order_[k] = {std::uint64_t{block} << block_bits |
                          std::uint64_t{colouring_[k]} << inner_colour_bits | idle << 8 | fewer,
                      k};
@@ -193,7 +193,7 @@ class ContactGroups {
       const Hub hub = hub_of(k);
       const std::uint64_t body =
           hub == Hub::none ? 0 : bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}];
-      const bool is_serial = colouring_[k] == PairColouring::colours &&
+      const bool is_serial = colouring_[k] == FirstFitColouring::colours &&
                              (hub == Hub::none || !forms_phases(bodies_[k][hub == Hub::a ? 0 : 1]));
       order_[k] = {not_inside | (is_serial ? serial : std::uint64_t{colouring_[k]}) << colour_bits |
                        std::uint64_t{static_cast<std::uint8_t>(hub)} << side_bits |
@@ -210,7 +210,7 @@ class ContactGroups {
   }
   /// The heavy hub of a pair; none if the pair has no hub, a light hub or two hubs.
   Hub hub_of(std::uint32_t k) const {
-    if (colouring_[k] != PairColouring::colours) return Hub::none;
+    if (colouring_[k] != FirstFitColouring::colours) return Hub::none;
     const bool a = colouring_.is_hub(bodies_[k][0]), b = colouring_.is_hub(bodies_[k][1]);
     if (a == b || !(share_[bodies_[k][a ? std::size_t{0} : std::size_t{1}]] <= largest_share))
       return Hub::none;
@@ -254,8 +254,8 @@ class ContactGroups {
     begin_.push_back(begin);
     group.phase = group.hub != Hub::none
                       ? phase_of_hub(bodies_[pair][group.hub == Hub::a ? 0 : 1], together)
-                  : colouring_[pair] == PairColouring::colours ? Pairs::serial
-                                                               : colouring_[pair];
+                  : colouring_[pair] == FirstFitColouring::colours ? Pairs::serial
+                                                                   : colouring_[pair];
     group.matrices = all_isotropic ? Pairs::isotropic : matrices_++;
     pairs.push_back(group);
   }
@@ -275,7 +275,7 @@ class ContactGroups {
     if (!has_room) phase_points_.push_back(0);
     phase_hub_ = body;
     phase_points_.back() += together;
-    return PairColouring::colours + static_cast<std::uint32_t>(phase_points_.size()) - 1;
+    return FirstFitColouring::colours + static_cast<std::uint32_t>(phase_points_.size()) - 1;
   }
   std::uint32_t points_of(std::uint32_t pair) const { return first_[pair + 1] - first_[pair]; }
 
@@ -306,7 +306,7 @@ class ContactGroups {
     std::uint32_t together = 0;  // points of the group
     for (const Ordered& member : members) together += points_of(member.pair);
     const std::uint32_t with_hub =
-        group.delays_hub() ? phase_points_[group.phase - PairColouring::colours] : together;
+        group.delays_hub() ? phase_points_[group.phase - FirstFitColouring::colours] : together;
     if (together < group.count * lanes) {
       std::fill_n(points.begin() + group.first, group.count, Points{});
       std::fill_n(contact_of_.begin() + std::ptrdiff_t(group.first * lanes), group.count * lanes,
@@ -362,7 +362,7 @@ class ContactGroups {
   std::uint32_t phase_hub_ = 0;              // hub of the last phase
   std::vector<Ordered> order_, sorted_;
   std::vector<std::uint32_t> contact_of_;  // of every lane of every PointPack, or none
-  PairColouring colouring_;
+  FirstFitColouring colouring_;
   PairsOfBodies of_bodies_;
   bool of_bodies_are_valid_ = false;
 };

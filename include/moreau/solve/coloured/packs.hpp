@@ -55,7 +55,7 @@ template <int Lanes>
 struct PairPack {
   std::uint32_t first, count;  ///< PointPacks
   std::uint32_t active;        ///< number of them, from the first, that the active set contains
-  /// Colour; PairColouring::colours or more for groups of a hub that form a phase. Groups of one
+  /// Colour; FirstFitColouring::colours or more for groups of a hub that form a phase. Groups of one
   /// phase are visited in any order; those inside a block in the order of their phases.
   std::uint32_t phase;
   static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "moreau/parallel/team.hpp"
-#include "moreau/solve/coloured/pair_colouring.hpp"
+#include "moreau/solve/coloured/first_fit_colouring.hpp"
 
 namespace moreau::detail {
 
@@ -41,7 +41,7 @@ class Schedule {
       const std::uint32_t phase = groups[list_[i]].phase;
       const std::size_t begin = i;
       while (i < list_.size() && groups[list_[i]].phase == phase) ++i;
-      phases_.push_back({begin, i, phase >= PairColouring::colours});
+      phases_.push_back({begin, i, phase >= FirstFitColouring::colours});
     }
     serial_ = i;
   }

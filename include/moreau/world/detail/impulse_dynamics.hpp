@@ -36,10 +36,8 @@
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/split_shared_bodies.hpp"
-#include "moreau/solve/stop_test.hpp"
 #include "moreau/world/detail/attraction.hpp"
 #include "moreau/world/detail/body_shifts.hpp"
 #include "moreau/world/detail/bond_list.hpp"
@@ -51,6 +49,8 @@
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/integrate.hpp"
+#include "moreau/world/detail/soften_bonds.hpp"
+#include "moreau/world/detail/solve_with_cell.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/overlap_correction.hpp"
@@ -202,13 +202,6 @@ class ImpulseDynamics {
   static constexpr bool compliant = CompliantLaw<Law, S>;
   static constexpr bool bridging = BridgingLaw<Law, S>;
   static constexpr bool bonding = BondingLaw<Law, S>;
-  /// Whether the solver can be made to run a few sweeps at a time.
-  static constexpr bool moves_cells = requires(Solver solver) {
-    solver.options().max_sweeps;
-    solver.options().check_interval;
-    Solver(solver.options());
-  };
-
   static const OverlapCorrectionOptions& checked(const OverlapCorrectionOptions& correction) {
     require(!compliant || !correction.enabled, "Simulation", "correction.enabled",
             correction.enabled,
@@ -287,7 +280,11 @@ class ImpulseDynamics {
   void solve(const Context& context, StepReport& report) {
     const std::span<Row> impulses(context.contacts.impulses);
     solve_problem(context, report);
-    if constexpr (bonding) soften_bonds(context, report);
+    if constexpr (bonding)
+      soften_bonds(
+          context, bonds_, attraction_, problem_.delassus, impulses,
+          std::span<const MobilityRoot<S>>(roots_), free_, [&] { solve_problem(context, report); },
+          report.solve);
     if (!shared_)
       laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
@@ -304,35 +301,14 @@ class ImpulseDynamics {
   void solve_problem(const Context& context, StepReport& report) {
     const std::span<Row> impulses(context.contacts.impulses);
     const bool moves = context.deforms() && servo_.moves();
-    if constexpr (moves_cells)
-      if (moves) return solve_with_cell(context, report);
+    if constexpr (SolvesInParts<Solver>)
+      if (moves)
+        return solve_with_cell(
+            solver_, problem_, impulses, workspace_,
+            servo_.sweeps(context.contacts, problem_.delassus), team_, [&] { move_cell(context); },
+            report.solve);
     report.solve = solver_.solve(problem_, impulses, workspace_);
     if (moves) move_cell(context);
-  }
-  /// The iteration in the head of cell_servo.hpp.
-  template <class C>  // clang would instantiate a function that is no template with the class
-  void solve_with_cell(const C& context, StepReport& report) {
-    const std::span<Row> impulses(context.contacts.impulses);
-    auto options = solver_.options();
-    const double tolerance = options.tolerance;
-    const int most = options.max_sweeps;
-    options.max_sweeps = servo_.sweeps(context.contacts, problem_.delassus);
-    options.check_interval = std::min(options.check_interval, options.max_sweeps);
-    if constexpr (requires { options.accelerate; }) options.accelerate = options.islands = false;
-    Solver part(options);
-    if constexpr (requires { part.set_team(team_); }) part.set_team(team_);
-    int sweeps = 0;
-    move_cell(context);
-    for (bool solved = false; !solved && sweeps < most;) {
-      report.solve = part.solve(problem_, impulses, workspace_);
-      sweeps += std::max(1, report.solve.sweeps);
-      move_cell(context);
-      measure_residual(problem_, std::span<const Row>(impulses), report.solve, team_);
-      solved = report.solve.residual <= tolerance && is_closed(report.solve);
-      report.solve.converged = solved;
-    }
-    report.solve.sweeps = sweeps;
-    report.solve.capped = !report.solve.converged;
   }
   /// Sets the rate of the cell by the impulses of its contacts, and the velocities of the contacts by the rate.
   void move_cell(const Context& context) {
@@ -347,31 +323,6 @@ class ImpulseDynamics {
         },
         Scalar(1)));
     jumps_.change(servo_.rate(), context.contacts, problem_.delassus);
-  }
-
-  /// Solves the problem again while the strength of bonds that yield falls within the step.
-  template <class C>  // clang would instantiate a function that is no template with the class
-  void soften_bonds(const C& context, StepReport& report) {
-    const std::span<Row> impulses(context.contacts.impulses);
-    const auto change = [&](std::size_t c, Scalar pull) {
-      attraction_.change(c, pull, context.contacts, std::span<const MobilityRoot<S>>(roots_),
-                         impulses[c]);
-      if constexpr (compliant) {
-        auto spring = problem_.delassus.compliance(c);
-        spring.tail(spring.size() - 1).setZero();
-        problem_.delassus.offset(c, -pull * spring);
-      }
-    };
-    for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
-      if (!bonds_.soften(context.materials, problem_.delassus, context.contacts, impulses,
-                         attraction_.pulls(), context.step, change))
-        return;
-      attraction_.offset(context.contacts, free_, problem_.delassus);
-      const int sweeps = report.solve.sweeps;
-      solve_problem(context, report);
-      report.solve.sweeps += sweeps;
-    }
-    report.solve.converged = false;  // the strengths still change
   }
 
   /// Counts the energy that bonds took; removes those that broke.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "moreau/distributed/detail/ordered_sharing.hpp"
+#include "moreau/solve/coloured/used_colours.hpp"
 
 namespace moreau::detail {
 
@@ -23,16 +23,19 @@ struct ColouredPair {
   std::uint32_t wall;  ///< number of the moving wall of the pair, or none
 };
 
-/// Colours of the pairs of bodies that do not depend on the process that has them;
-/// reproducible_gauss_seidel.hpp explains them.
+/// Colours of the pairs of bodies that do not depend on the process that has them: each takes the first colour that is
+/// free, in the order of priorities that are hashes of the ids (reproducible_gauss_seidel.hpp). FirstFitColouring takes
+/// the order of the contacts, which processes do not share; it needs no rounds between processes, and fewer colours.
 template <class Operator>
-class PairColours {
+class PriorityColouring {
  public:
   /// @param op      contacts of one pair of bodies follow one another
   /// @param sharing null: all bodies are in this process
   void find(const Operator& op, OrderedSharing* sharing) {
     find_pairs(op, sharing);
-    std::vector<std::uint64_t> used(words * op.body_count()), best(op.body_count());
+    Used used;
+    used.start(op.body_count());
+    std::vector<std::uint64_t> best(op.body_count());
     std::vector<std::uint32_t> left(pairs_.size());
     for (std::uint32_t k = 0; k < left.size(); ++k) left[k] = k;
     while (sum_over(sharing, double(left.size())) > 0) {
@@ -49,7 +52,7 @@ class PairColours {
       for (const std::uint32_t k : left)
         if (is_next(k)) colour(k, used);
       std::erase_if(left, is_next);
-      if (sharing) sharing->unite_bits(used, words);
+      if (sharing) sharing->unite_bits(used.bits(), words);
     }
     sort(sharing);
   }
@@ -65,7 +68,8 @@ class PairColours {
   std::uint32_t wall_of(std::size_t contact) const { return wall_of_[contact]; }
 
  private:
-  static constexpr std::size_t words = 4, colours = 64 * words;
+  static constexpr std::size_t words = 4;
+  using Used = UsedColours<words>;
 
   /// The walls that move under contacts, ascending: the bodies that do not move alike along all axes.
   static std::vector<std::uint32_t> moving_walls(const Operator& op) {
@@ -111,20 +115,15 @@ class PairColours {
     return x ^ x >> 31;
   }
   /// Gives a pair the first colour that is free at its bodies.
-  void colour(std::uint32_t k, std::vector<std::uint64_t>& used) {
-    for (std::size_t word = 0; word < words; ++word) {
-      std::uint64_t taken = 0;
-      for (const std::uint32_t body : bodies_[k])
-        if (body != ColouredPair::none) taken |= used[words * body + word];
-      const auto free = std::uint32_t(std::countr_one(taken));
-      if (free == 64) continue;
-      pairs_[k].colour = std::uint32_t(64 * word) + free;
-      for (const std::uint32_t body : bodies_[k])
-        if (body != ColouredPair::none) used[words * body + word] |= std::uint64_t{1} << free;
-      return;
-    }
-    throw std::runtime_error(
-        "ReproducibleGaussSeidel: a grain touches too many grains for 256 colours");
+  void colour(std::uint32_t k, Used& used) {
+    const auto place = [](std::uint32_t body) {
+      return body == ColouredPair::none ? Used::nowhere : std::size_t{body};
+    };
+    const auto [a, b] = bodies_[k];
+    pairs_[k].colour = used.take_first({place(a), place(b)});
+    if (pairs_[k].colour == Used::colours)
+      throw std::runtime_error(
+          "ReproducibleGaussSeidel: a grain touches too many grains for 256 colours");
   }
   /// Sorts the pairs by colour, and plans the exchange.
   void sort(OrderedSharing* sharing) {

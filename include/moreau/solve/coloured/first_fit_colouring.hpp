@@ -2,19 +2,21 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "moreau/solve/coloured/used_colours.hpp"
+
 namespace moreau::detail {
 
-/// Colours pairs of bodies: no two pairs of one colour share a body that can move, unless one of them
-/// lies inside a block and the other does not.
-class PairColouring {
+/// Colours pairs of bodies in their order, each with the first colour that is free: no two pairs of one colour share a
+/// body that can move, unless one of them lies inside a block and the other does not. One pass over the pairs of one
+/// process; the colours depend on their order.
+class FirstFitColouring {
  public:
-  static constexpr std::uint32_t colours = 64;
+  static constexpr std::uint32_t colours = UsedColours<1>::colours;
   /// A body with more partners is a hub. Its pairs are not coloured: each would need its own
   /// colour.
   static constexpr std::uint32_t hub = 48;
@@ -25,7 +27,7 @@ class PairColouring {
   void assign(std::span<const std::array<std::uint32_t, 2>> pairs,
               std::span<const unsigned char> moves, const auto& is_inside) {
     degree_.assign(moves.size(), 0);
-    used_.assign(moves.size(), {});
+    used_.start(2 * moves.size());
     colour_.resize(pairs.size());
     for (const auto& [a, b] : pairs) degree_[a] += moves[a], degree_[b] += moves[b];
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -35,13 +37,10 @@ class PairColouring {
         continue;
       }
       const std::size_t kind = is_inside(k) ? 1 : 0;
-      std::uint64_t &of_a = used_[a][kind], &of_b = used_[b][kind];
-      const std::uint64_t taken = (moves[a] ? of_a : 0) | (moves[b] ? of_b : 0);
-      const auto free = static_cast<std::uint32_t>(std::countr_one(taken));
-      colour_[k] = free;
-      if (free == colours) continue;
-      of_a |= std::uint64_t{1} << free;
-      of_b |= std::uint64_t{1} << free;
+      const auto place = [&](std::uint32_t body) {
+        return moves[body] ? 2 * std::size_t{body} + kind : UsedColours<1>::nowhere;
+      };
+      colour_[k] = used_.take_first({place(a), place(b)});
     }
   }
 
@@ -52,7 +51,7 @@ class PairColouring {
 
  private:
   std::vector<std::uint32_t> degree_, colour_;
-  std::vector<std::array<std::uint64_t, 2>> used_;  // colours at each body
+  UsedColours<1> used_;  // at each body: of the pairs that lie inside a block, and of the others
 };
 
 }  // namespace moreau::detail

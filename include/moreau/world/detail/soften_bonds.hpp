@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "moreau/law/concepts.hpp"
+#include "moreau/motion/mobility.hpp"
+#include "moreau/solve/solve_report.hpp"
+#include "moreau/world/detail/attraction.hpp"
+#include "moreau/world/detail/bond_list.hpp"
+#include "moreau/world/detail/step_context.hpp"
+
+namespace moreau::detail {
+
+/// Solves the contact problem again while the strength of bonds that yield falls within the step.
+/// @param op       operator of the problem
+/// @param impulses of the present solution [N s]
+/// @param roots    M^-1/2 of every body
+/// @param free     velocities without contacts, one per body [m/s, rad/s]
+/// @param solve    function: solves the problem and replaces the report
+template <class S, class Law, class Operator>
+void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
+                  Attraction<S, Law>& attraction, Operator& op,
+                  std::span<typename Operator::Vector> impulses,
+                  std::span<const MobilityRoot<S>> roots, auto& free, const auto& solve,
+                  SolveReport& report) {
+  using Scalar = typename S::Scalar;
+  const auto change = [&](std::size_t c, Scalar pull) {
+    attraction.change(c, pull, context.contacts, roots, impulses[c]);
+    if constexpr (CompliantLaw<Law, S>) {
+      auto spring = op.compliance(c);
+      spring.tail(spring.size() - 1).setZero();
+      op.offset(c, -pull * spring);
+    }
+  };
+  for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
+    if (!bonds.soften(context.materials, op, context.contacts, impulses, attraction.pulls(),
+                      context.step, change))
+      return;
+    attraction.offset(context.contacts, free, op);
+    const int sweeps = report.sweeps;
+    solve();
+    report.sweeps += sweeps;
+  }
+  report.converged = false;  // the strengths still change
+}
+
+}  // namespace moreau::detail
