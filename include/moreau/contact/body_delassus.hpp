@@ -260,7 +260,7 @@ class BodyDelassus {
   using Lanes = detail::ContactLanes<S>;
   using Point = detail::OperatorPoint<S, Couples>;
   using Momentum = typename Point::Momentum;
-  /// What passes over all contacts need that do not need the points: less memory to read.
+  /// The data of a contact that a pass reads if it does not need the point: a pass over these reads less memory.
   struct Head {
     std::array<std::uint32_t, 2> bodies;
     Scalar trace;

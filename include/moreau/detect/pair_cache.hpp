@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the narrow phase stores of a pair from one time step to the next: the separating axis of the
+// The data that the narrow phase stores of a pair from one time step to the next: the separating axis of the
 // last search and the features that define it. They are the first guess of the next query.
 #pragma once
 
@@ -27,7 +27,7 @@ enum class AxisKind : std::uint8_t {
 
 }  // namespace detail
 
-/// What the narrow phase stores of a pair from one step to the next, to save time. It is only a
+/// The data that the narrow phase stores of a pair from one step to the next, to save time. It is only a
 /// guess, which is proved for the present poses before it is used. For two polytopes an empty cache,
 /// or the cache of another pair, gives the same results bit by bit (polytope/prove_axis.hpp). For
 /// shapes of which only the support function is known, gaps agree to 1e-9 of the size of the shapes

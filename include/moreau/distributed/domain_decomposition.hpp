@@ -116,7 +116,7 @@ class DomainDecomposition {
       throw std::runtime_error(std::string("DomainDecomposition: ") + function + " fails");
   }
 
-  // What Zoltan asks; `self` is this object.
+  // Functions that Zoltan calls; `self` is this object.
   static int count_points(void* self, int* error) {
     *error = ZOLTAN_OK;
     return int(static_cast<DomainDecomposition*>(self)->points_.size());

@@ -92,8 +92,8 @@ struct SnapshotTypes<Simulation<ShapeT, Law, Integrator, Broad, Solver>, More...
   }
 };
 
-/// What of reading and writing depends on the type of the simulation alone. The functions are not inline: a program
-/// can instantiate them in one source and declare them extern (moreau/instances).
+/// The parts of reading and writing that depend on the type of the simulation alone. The functions are not inline: a
+/// program can instantiate them in one source and declare them extern (moreau/instances).
 template <class Archive, class Simulation>
 MOREAU_COLD void transfer_simulation(Archive& archive, Simulation& simulation) {
   transfer(archive, simulation);

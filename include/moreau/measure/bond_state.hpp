@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What holds an assembly of bonded grains together: bonds per grain, strength that is left, fragments.
+// The state of an assembly of bonded grains: bonds per grain, strength that is left, fragments.
 #pragma once
 
 #include <algorithm>

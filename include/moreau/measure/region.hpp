@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a control volume contains, in one call: solid fraction, stress, and mean velocity of its grains, in the
+// The content of a control volume, in one call: solid fraction, stress, and mean velocity of its grains, in the
 // plane and in space.
 #pragma once
 

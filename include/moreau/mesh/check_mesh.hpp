@@ -30,7 +30,7 @@
 
 namespace moreau {
 
-/// What can be wrong with a mesh, in the order in which it is tested.
+/// The defects of a mesh, in the order in which they are tested.
 enum class MeshDefect : std::uint8_t {
   empty,           ///< no facet; for a solid fewer than D + 1
   not_finite,      ///< a coordinate is infinite or not a number

@@ -85,7 +85,7 @@ typename S::Scalar largest_coordinate(const FacetMesh<S>& mesh) {
     if (x.allFinite()) largest = std::max(largest, x.cwiseAbs().maxCoeff());
   return largest;
 }
-/// What the rounding of coordinates can do to a length [m].
+/// Largest change of a length by the rounding of coordinates [m].
 template <class S>
 typename S::Scalar rounding_of(const FacetMesh<S>& mesh) {
   using T = typename S::Scalar;

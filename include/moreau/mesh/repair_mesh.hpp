@@ -21,7 +21,7 @@
 
 namespace moreau {
 
-/// What weld() changed.
+/// The changes that weld() made.
 struct WeldReport {
   std::size_t merged_vertices = 0;  ///< vertices that were replaced by an earlier one
   std::size_t removed_facets = 0;   ///< facets of which two corners became one

@@ -69,7 +69,7 @@ class CutStone {
           if (i != j && x.dot(planes_[i].normal) >= planes_[i].height) return false;
     return true;
   }
-  /// What is left of the stone, and the pyramids.
+  /// The rest of the stone, and the pyramids.
   std::vector<Part> parts() const {
     std::vector<Part> parts{Part(std::span<const Vector>(corners_))};
     for (const auto& corners : pyramids_) parts.emplace_back(std::span<const Vector>(corners));

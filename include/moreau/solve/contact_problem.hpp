@@ -18,7 +18,7 @@
 
 namespace moreau {
 
-/// What a ContactSolver solves; the head of this file has the equations. Kept from step to step, so
+/// The problem that a ContactSolver solves; the head of this file has the equations. Kept from step to step, so
 /// that its memory is used again.
 /// @tparam Operator BodyDelassus; with couples for a law with couples
 /// @tparam Law      a SetValuedLaw in the space of the operator

@@ -76,7 +76,7 @@ class IslandNewton {
   }
   /// Whether the bodies touch like those of a column, an arch or a tree: no more pairs than bodies.
   bool is_chain() const { return points_.edges().size() <= points_.bodies(); }
-  /// What a step of Newton's method costs, in visits of a contact by a sweep; infinite if more pairs of bodies
+  /// The cost of a step of Newton's method, in visits of a contact by a sweep; infinite if more pairs of bodies
   /// touch than in structures. Finds the order of the factorization.
   double cost_of_step() {
     constexpr double edges_per_body = 4;

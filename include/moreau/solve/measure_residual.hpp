@@ -17,7 +17,7 @@ namespace moreau {
 
 namespace detail {
 
-/// What the copies of shared bodies add to the trace of W_cc, beyond the whole bodies.
+/// The part of the trace of W_cc that copies of shared bodies add to that of the whole bodies.
 template <class Operator>
 double trace_of_copies(const Operator& op, std::size_t c, const SharedBodies& shared) {
   if constexpr (requires { op.block_of_a(c); }) {

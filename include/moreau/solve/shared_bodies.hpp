@@ -17,7 +17,7 @@
 
 namespace moreau {
 
-/// What the contact problem of one process needs to know of those of the others. All processes call
+/// The sums and means over processes that the contact problem of one process needs. All processes call
 /// the functions that communicate in the same order.
 class SharedBodies {
  public:

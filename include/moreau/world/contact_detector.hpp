@@ -209,7 +209,7 @@ class ContactDetector {
     return lengths.margin + 2 * lengths.skin;
   }
 
-  /// What a member of the team finds, and its buffers.
+  /// The results of a member of the team, and its buffers.
   struct Member : detail::FoundContacts<S> {
     std::optional<Grain> image;  // the second grain of a pair across a periodic boundary
     detail::MeshBuffers<ShapeT> mesh;

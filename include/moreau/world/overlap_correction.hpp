@@ -164,7 +164,7 @@ class OverlapCorrection {
   Scalar closing(const Contact<S>& contact) const {
     return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
   }
-  /// What the change of a gap must not be below [m].
+  /// Least change of a gap [m].
   /// @param largest displacement that one contact asks for at most [m]
   Scalar target(Scalar depth, Scalar largest) const {
     return depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * depth) : depth;

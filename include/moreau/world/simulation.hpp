@@ -351,7 +351,7 @@ class Simulation : public BodyControl<ShapeT> {
   using Dynamics =
       std::conditional_t<set_valued, detail::ImpulseDynamics<S, Law, Integrator, Solver>,
                          detail::ForceDynamics<S, Law, Integrator>>;
-  /// What dynamics_ is made of.
+  /// The parts of dynamics_.
   using Parts =
       std::conditional_t<set_valued, std::tuple<Solver, OverlapCorrectionOptions, Integrator>,
                          std::tuple<Integrator>>;
@@ -463,8 +463,8 @@ class Simulation : public BodyControl<ShapeT> {
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
-// What follows is not inline: a program can instantiate it in one source and declare it extern (moreau/instances). A
-// function in the class is inline, and is compiled in each unit that uses it.
+// The functions below are not inline: a program can instantiate them in one source and declare them extern
+// (moreau/instances). A function in the class is inline, and is compiled in each unit that uses it.
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Scalar grain_size,

@@ -24,7 +24,7 @@ class ContactLanes {
   using Vector = typename Algebra::Vector;
   static constexpr std::size_t lanes = Lanes::lanes, dim = S::dim, tangents = dim - 1;
 
-  /// What belongs to one of the two bodies.
+  /// The data of one of the two bodies.
   struct Side {
     Vector lever;  ///< world axes [m]
     typename Algebra::template Symmetric<dim> linear;

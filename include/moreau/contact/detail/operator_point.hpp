@@ -28,7 +28,7 @@ typename S::Vector velocity_at(const auto& twist, const typename S::Vector& leve
   return velocity;
 }
 
-/// What a contact with a couple has beside its point; nothing without couples.
+/// The data of the couple of a contact; nothing without couples.
 template <class S, bool Couples>
 struct CoupleArm {};
 template <class S>
@@ -37,7 +37,7 @@ struct CoupleArm<S, true> {
   typename S::Scalar radius;  ///< R [m]
 };
 
-/// What BodyDelassus stores of a contact.
+/// The data that BodyDelassus stores of a contact.
 template <class S, bool Couples>
 struct OperatorPoint : CoupleArm<S, Couples> {
   using Block = std::conditional_t<Couples, RollingBlock<S>, LocalBlock<S>>;  ///< W_cc
@@ -51,7 +51,7 @@ struct OperatorPoint : CoupleArm<S, Couples> {
   Vector free;                          ///< b, with the offset of the law [m/s]
   std::uint32_t a, b;                   ///< the bodies
 
-  /// What an impulse at the contact gives body b, and takes from body a, world axes.
+  /// The momentum that an impulse at the contact gives body b, and takes from body a, world axes.
   struct Momentum {
     typename S::Vector push;  ///< [N s]
     /// About their centres [N m s]; couple: with couples.

@@ -222,7 +222,7 @@ class CellGrid {
   };
   Range range_of(const Aabb<S>& box, const Level& level) const {
     Vector reach = box.lower;
-    // What the rounding of coordinates can do to the extent of the other box.
+    // Largest change of the extent of the other box by the rounding of coordinates.
     const Scalar slack = Scalar(4) * std::numeric_limits<Scalar>::epsilon() *
                          (box.lower.cwiseAbs().maxCoeff() + level.width);
     reach.array() -= level.width + slack;

@@ -86,7 +86,7 @@ class SmoothAxisSearch {
         gradient_ = gradient_at_tip();
         step_ = solve(gradient_);
         if (!is_near) break;  // R is that of the axis before
-        // What another Newton step would gain.
+        // The gain of another Newton step.
         if (!(step_.dot(gradient_) / 2 <= precise_)) continue;
         if (is_certified()) return result();
         if (!widen()) return {};

@@ -52,7 +52,7 @@ class ExactSum {
       sum += std::ldexp(double(carried[k]), 32 * int(k) - offset);
     return sum;
   }
-  /// What sums of several processes are added by, number by number.
+  /// The numbers that sums of several processes add up, one by one.
   std::array<std::int64_t, size>& parts() { return parts_; }
   static std::span<std::int64_t> parts_of(std::vector<ExactSum>& sums) {
     static_assert(sizeof(ExactSum) == size * sizeof(std::int64_t));

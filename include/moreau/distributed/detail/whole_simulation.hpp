@@ -19,7 +19,7 @@
 
 namespace moreau::detail {
 
-/// What the contacts of a simulation are on their way.
+/// The type of the contacts of a simulation in a message.
 template <class World>
 using ContactsOnTheWay =
     ContactList<std::remove_cvref_t<decltype(WorldParts<World>(std::declval<World&>()).contacts())>,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a simulation consists of, and what goes from process to process.
+// The parts of a simulation, and the messages of which they are made between processes.
 #pragma once
 
 #include <algorithm>

@@ -9,15 +9,15 @@
 #define MOREAU_INSTANCE extern template
 #endif
 
-/// What depends on the shape only: detection, the parts of a simulation that hold its bodies.
+/// The parts that depend on the shape only: detection, the parts of a simulation that hold its bodies.
 #define MOREAU_SHAPE_INSTANCES(KEYWORD, ShapeT) \
   KEYWORD class ContactDetector<ShapeT, CellGrid<SpaceOf<ShapeT>>>;
 
-/// What depends on the space and on the law only: the solver and its stages of a step.
+/// The parts that depend on the space and on the law only: the solver and its stages of a step.
 #define MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, LawT) \
   KEYWORD class detail::ImpulseDynamics<SpaceT, LawT, MoreauJean, ColouredGaussSeidel>;
 
-/// What depends on both: the step.
+/// The part that depends on both: the step.
 #define MOREAU_STEP_INSTANCE(KEYWORD, ShapeT, LawT) \
   KEYWORD StepReport Simulation<ShapeT, LawT>::step(double);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the readers of mesh files share: the words of a text, and the triangles that a file holds.
+// Common to the readers of mesh files: the words of a text, and the triangles that a file holds.
 #pragma once
 
 #include <Eigen/Core>

@@ -15,7 +15,7 @@
 
 namespace moreau::detail {
 
-/// What is judged: extremes over the grains and over the laws.
+/// The extremes over the grains and over the laws that are judged.
 struct Extremes {
   double width = std::numeric_limits<double>::infinity();    ///< smallest circumdiameter [m]
   double density = std::numeric_limits<double>::infinity();  ///< smallest [kg/m^3]

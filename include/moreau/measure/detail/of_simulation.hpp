@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What measures ask of a simulation: where a body is, and whether it is a grain.
+// Questions of measures to a simulation: where a body is, and whether it is a grain.
 #pragma once
 
 #include <cstddef>

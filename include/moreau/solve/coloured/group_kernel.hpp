@@ -16,7 +16,7 @@
 
 namespace moreau::detail {
 
-/// What the sweeps do with a group: the contact points of one pair of bodies per lane of a SIMD
+/// The visits of the sweeps to a group: the contact points of one pair of bodies per lane of a SIMD
 /// register. The pairs of a group share no body that can move, except a hub (contact_groups.hpp).
 /// visit() takes the points of a pair one after another. It computes the relative velocity of b with
 /// respect to a without the impulse of the point itself, in the contact frame [m/s], asks the law for

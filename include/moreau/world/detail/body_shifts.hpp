@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the overlap correction does to the bodies in a step (stage 5 of impulse_dynamics.hpp).
+// The effect of the overlap correction on the bodies in a step (stage 5 of impulse_dynamics.hpp).
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a periodic cell that deforms adds to a step; world/cell_control.hpp has the equations.
+// The terms that a periodic cell that deforms adds to a step; world/cell_control.hpp has the equations.
 #pragma once
 
 #include <algorithm>

@@ -20,7 +20,7 @@
 
 namespace moreau::detail {
 
-/// What one thread needs to collide grains with mesh walls.
+/// The buffers with which one thread collides grains with mesh walls.
 template <class ShapeT>
 struct MeshBuffers {
   std::optional<Placed<ShapeT>> local;  ///< the grain in the frame of the wall

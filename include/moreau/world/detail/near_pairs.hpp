@@ -123,7 +123,7 @@ class NearPairs {
       valid = valid && pair.first < pair.second && pair.second < grains.size();
     return valid && caches_.are_valid(pairs_, grains, stale_);
   }
-  /// What a file has, see core/serialize.hpp; a setting of the detector stands second.
+  /// The members that a file has, see core/serialize.hpp; a setting of the detector stands second.
   auto serialized_members_with(auto& setting) {
     return std::tie(cell_, setting, stale_, fat_, pairs_, shifts_, caches_, deformed_);
   }

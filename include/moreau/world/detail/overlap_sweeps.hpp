@@ -92,7 +92,7 @@ class OverlapSweeps {
   std::span<const Twist> shifts() const { return std::span(shifts_).first(moves_.size()); }
 
  private:
-  /// What a visit reads. The shift of a body that cannot move is that after the last body; it stays zero.
+  /// The data that a visit reads. The shift of a body that cannot move is that after the last body; it stays zero.
   struct Row {
     Vector normal;           // world axes
     Angular arm_a, arm_b;    // l x n [m]

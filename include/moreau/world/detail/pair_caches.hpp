@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a detector keeps of the pairs of its list: a cache for each pair of convex grains, and for each
+// The data that a detector keeps of the pairs of its list: a cache for each pair of convex grains, and for each
 // pair of compound grains the list of their parts that are near, with a cache for each pair of parts.
 #pragma once
 

@@ -11,7 +11,7 @@
 
 namespace moreau::detail {
 
-/// What the stages of one step of a Simulation read and write.
+/// The data that the stages of one step of a Simulation read and write.
 template <class S, class Law>
 struct StepContext {
   Bodies<S>& bodies;
@@ -22,7 +22,7 @@ struct StepContext {
   typename S::Scalar grain_size;       ///< length that tolerances are relative to [m]
   typename S::Scalar step;             ///< h [s]
   typename S::Scalar margin;           ///< largest gap at which a contact is made [m]
-  /// What second-order terms add to the relative velocity of each contact, world axes [m/s]; empty if
+  /// Second-order terms of the relative velocity of each contact, world axes [m/s]; empty if
   /// none has any (chord_velocities.hpp).
   std::span<const typename S::Vector> chords = {};
   const CellMotion<S>* cell = nullptr;  ///< of a periodic cell that can deform; null: none
