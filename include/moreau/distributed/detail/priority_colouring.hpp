@@ -118,7 +118,8 @@ class PriorityColouring {
   /// Gives a pair the first colour that is free at its bodies.
   void colour(std::uint32_t k, Used& used) {
     const auto place = [](std::uint32_t body) {
-      return body == ColouredPair::none ? Used::nowhere : std::size_t{body};
+      const bool counts = body != ColouredPair::none;
+      return typename Used::Place{counts ? body : 0, counts};
     };
     const auto [a, b] = bodies_[k];
     pairs_[k].colour = used.take_first({place(a), place(b)});

@@ -38,7 +38,7 @@ class FirstFitColouring {
       }
       const std::size_t kind = is_inside(k) ? 1 : 0;
       const auto place = [&](std::uint32_t body) {
-        return moves[body] ? 2 * std::size_t{body} + kind : UsedColours<1>::nowhere;
+        return UsedColours<1>::Place{2 * std::size_t{body} + kind, moves[body] != 0};
       };
       colour_[k] = used_.take_first({place(a), place(b)});
     }

@@ -233,15 +233,15 @@ class GroupKernel {
         guess[d] = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
       const Row own = point.block * guess;
       const Vector between = relative(point, a, b);
-      Row u;
+      Row without_own;  // b of the law
       for (std::size_t d = 0; d < rows; ++d) {
-        u[d] = point.free[d] - own[d];
-        if constexpr (CompliantLaw<Law, S>) u[d] += point.compliance[d] * guess[d];
+        without_own[d] = point.free[d] - own[d];
+        if constexpr (CompliantLaw<Law, S>) without_own[d] += point.compliance[d] * guess[d];
       }
       for (std::size_t k = 0; k < S::dim; ++k)
-        for (std::size_t d = 0; d < S::dim; ++d) u[d] += point.frame[k][d] * between[k];
-      if constexpr (Rolls<Law>) add_spin(point, a, b, u);
-      const Row impulse = point.law.solve(point.block, u, guess, Measure);
+        for (std::size_t d = 0; d < S::dim; ++d) without_own[d] += point.frame[k][d] * between[k];
+      if constexpr (Rolls<Law>) add_spin(point, a, b, without_own);
+      const Row impulse = point.law.solve(point.block, without_own, guess, Measure);
       Row change;
       for (std::size_t d = 0; d < rows; ++d) {
         change[d] = impulse[d] - guess[d];

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace moreau::detail {
@@ -15,21 +14,26 @@ template <std::size_t Words>
 class UsedColours {
  public:
   static constexpr std::uint32_t colours = 64 * Words;
-  static constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+
+  /// One of the places of a pair.
+  struct Place {
+    std::size_t index;  ///< of a place, also if it does not count
+    bool counts;        ///< whether its colours matter
+  };
 
   /// Makes all colours free.
   void start(std::size_t places) { bits_.assign(Words * places, 0); }
-  /// Takes the first colour that is free at both places; either may be `nowhere`.
+  /// Takes the first colour that is free at both places.
   /// @returns its number; `colours` if there is none
-  std::uint32_t take_first(std::array<std::size_t, 2> places) {
+  std::uint32_t take_first(const std::array<Place, 2>& places) {
     for (std::size_t word = 0; word < Words; ++word) {
       std::uint64_t taken = 0;
-      for (const std::size_t place : places)
-        if (place != nowhere) taken |= bits_[Words * place + word];
+      for (const Place& place : places)
+        taken |= place.counts ? bits_[Words * place.index + word] : 0;
       const auto free = static_cast<std::uint32_t>(std::countr_one(taken));
       if (free == 64) continue;
-      for (const std::size_t place : places)
-        if (place != nowhere) bits_[Words * place + word] |= std::uint64_t{1} << free;
+      for (const Place& place : places)
+        bits_[Words * place.index + word] |= std::uint64_t{place.counts} << free;
       return static_cast<std::uint32_t>(64 * word) + free;
     }
     return colours;

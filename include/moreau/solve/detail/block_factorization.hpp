@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/small_matrix.hpp"
 
 namespace moreau::detail {
@@ -76,7 +77,7 @@ class BlockFactorization {
         const Block& of_a = block(after[a], p);
         scaled_.setZero();
         add_product(scaled_, of_a, blocks_[p]);
-        add_product_transposed(blocks_[after[a]], scaled_, of_a, -1);
+        subtract_product(blocks_[after[a]], scaled_, of_a);
         for (std::size_t b = a + 1; b < after.size(); ++b)
           subtract(after[a], after[b], block(after[b], p));
       }
@@ -105,13 +106,17 @@ class BlockFactorization {
 
   /// The block of two rows: that of the row that is eliminated later and the column of the other.
   const Block& block(std::size_t i, std::size_t j) const { return blocks_[slots_[i * count_ + j]]; }
+  /// Subtracts a b^T.
+  MOREAU_COMPILED_ONCE static void subtract_product(Block& from, const Block& a, const Block& b) {
+    add_product_transposed(from, a, b, -1);
+  }
   /// Subtracts the product scaled_ * other^T from the block of the rows i and j.
   void subtract(std::size_t i, std::size_t j, const Block& other) {
     Block& target = blocks_[slots_[i * count_ + j]];
     if (place_[i] > place_[j])
-      add_product_transposed(target, scaled_, other, -1);
+      subtract_product(target, scaled_, other);
     else
-      add_product_transposed(target, other, scaled_, -1);
+      subtract_product(target, other, scaled_);
   }
   /// Adds a block, whose entries lie `down` and `along` apart in memory in a column and in a row.
   static void add_entries(Block& to, const Block& block, int down, int along) {
