@@ -99,7 +99,7 @@ TEST_CASE_TEMPLATE(
       block.set(l, problem);
       for (std::size_t d = 0; d < Block::rows; ++d) b[d][l] = velocity[Eigen::Index(d)];
       for (std::size_t k = 0; k < 2; ++k) parameters[k][l] = law.lane_parameters()[k];
-      const auto u = problem * exact[l] + velocity;
+      const typename Problem::Vector u = problem * exact[l] + velocity;
       const T small = T(1e-4) * velocity.norm();
       const bool slides = u.template segment<Any::dim - 1>(1).norm() > small;
       const bool turns = angular<Any>(u).norm() > small;
