@@ -119,8 +119,7 @@ class Box final : public Scene<ShapeT> {
 
   void check(const Settings& settings) const override {
     (void)force(settings);
-    moreau::require(std::isfinite(settings.wall_mass) && settings.wall_mass > 0, "testbed",
-                    "wall_mass", settings.wall_mass, "must be finite and > 0");
+    require_positive(settings.wall_mass, "testbed", "wall_mass");
   }
   void adopt() override {
     if (stage_ == Stage::closing) set_lid_speed();

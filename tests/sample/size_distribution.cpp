@@ -69,20 +69,18 @@ TEST_CASE("bad arguments are named") {
   };
   CHECK(message({}) == "SizeDistribution: classes.size() = 0 must be at least 1");
   CHECK(message({{1, 1}, {0, 1}}) ==
-        "SizeDistribution: classes[1].size = 0 must be finite and greater than zero");
-  CHECK(message({{nan, 1}}) ==
-        "SizeDistribution: classes[0].size = nan must be finite and greater than zero");
+        "SizeDistribution: classes[1].size = 0 must be finite and > 0");
+  CHECK(message({{nan, 1}}) == "SizeDistribution: classes[0].size = nan must be finite and > 0");
   CHECK(message({{1, -0.1}}) ==
         "SizeDistribution: classes[0].share = -0.1 must be finite and not negative");
   CHECK(message({{1, inf}}) ==
         "SizeDistribution: classes[0].share = inf must be finite and not negative");
-  CHECK(message({{1, 0}, {2, 0}}) ==
-        "SizeDistribution: sum of shares = 0 must be finite and greater than zero");
+  CHECK(message({{1, 0}, {2, 0}}) == "SizeDistribution: sum of shares = 0 must be finite and > 0");
   std::mt19937_64 random;
   CHECK(message_of([&] { SizeDistribution::azema2008().sample(0, random); }) ==
         "SizeDistribution::sample: n = 0 must be at least 1");
   CHECK(message_of([&] { moreau::circumradius_of(-1, SizeReading::circumradius); }) ==
-        "circumradius_of: size = -1 must be finite and greater than zero");
+        "circumradius_of: size = -1 must be finite and > 0");
 }
 
 }  // namespace

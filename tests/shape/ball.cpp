@@ -44,15 +44,14 @@ TEST_CASE_TEMPLATE("ball and disk: volume, inertia, box, support, for every spac
 TEST_CASE_TEMPLATE("bad arguments are named", Shape, Ball<double>, Disk<float>) {
   using T = typename Shape::Scalar;
   const T inf = std::numeric_limits<T>::infinity();
-  CHECK(message_of([] { Shape{0}; }) == "Ball: radius = 0 must be finite and greater than zero");
-  CHECK(message_of([] { Shape{-1}; }) == "Ball: radius = -1 must be finite and greater than zero");
-  CHECK(message_of([=] { Shape{inf}; }) ==
-        "Ball: radius = inf must be finite and greater than zero");
+  CHECK(message_of([] { Shape{0}; }) == "Ball: radius = 0 must be finite and > 0");
+  CHECK(message_of([] { Shape{-1}; }) == "Ball: radius = -1 must be finite and > 0");
+  CHECK(message_of([=] { Shape{inf}; }) == "Ball: radius = inf must be finite and > 0");
   const Shape sphere(1);
   CHECK(message_of([&] { sphere.mass_properties(-3); }) ==
-        "Ball::mass_properties: density = -3 must be finite and greater than zero");
+        "Ball::mass_properties: density = -3 must be finite and > 0");
   CHECK(message_of([&] { return sphere.scaled(0); }) ==
-        "Ball::scaled: factor = 0 must be finite and greater than zero");
+        "Ball::scaled: factor = 0 must be finite and > 0");
 }
 
 }  // namespace

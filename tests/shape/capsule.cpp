@@ -54,12 +54,10 @@ TEST_CASE("a rounded needle is nearly a capsule") {
 
 TEST_CASE("bad arguments are named") {
   using Stadium = moreau::Stadium<>;
-  CHECK(message_of([] { Stadium(0, 1); }) ==
-        "Segment: half_length = 0 must be finite and greater than zero");
-  CHECK(message_of([] { Stadium(1, -1); }) ==
-        "Rounded: radius = -1 must be finite and greater than zero");
+  CHECK(message_of([] { Stadium(0, 1); }) == "Segment: half_length = 0 must be finite and > 0");
+  CHECK(message_of([] { Stadium(1, -1); }) == "Rounded: radius = -1 must be finite and > 0");
   CHECK(message_of([] { return Segment<Space<2>>(1).scaled(-2); }) ==
-        "Segment::scaled: factor = -2 must be finite and greater than zero");
+        "Segment::scaled: factor = -2 must be finite and > 0");
 }
 
 }  // namespace

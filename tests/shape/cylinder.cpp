@@ -91,10 +91,8 @@ TEST_CASE("contacts of cylinders") {
 }
 
 TEST_CASE("cylinders that are refused") {
-  CHECK(message_of([] { Cylinder<>(0, 1); }) ==
-        "Cylinder: half_length = 0 must be finite and greater than zero");
-  CHECK(message_of([] { Cylinder<>(1, -1); }) ==
-        "Cylinder: radius = -1 must be finite and greater than zero");
+  CHECK(message_of([] { Cylinder<>(0, 1); }) == "Cylinder: half_length = 0 must be finite and > 0");
+  CHECK(message_of([] { Cylinder<>(1, -1); }) == "Cylinder: radius = -1 must be finite and > 0");
 }
 
 }  // namespace

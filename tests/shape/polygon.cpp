@@ -153,9 +153,9 @@ TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))
 
   const auto p = hull<T>({{0, 0}, {1, 0}, {0, 1}});
   CHECK(message_of([&] { p.mass_properties(-1); }) ==
-        "Polygon::mass_properties: density = -1 must be finite and greater than zero");
+        "Polygon::mass_properties: density = -1 must be finite and > 0");
   CHECK(message_of([&] { return p.scaled(nan); }) ==
-        "Polygon::scaled: factor = nan must be finite and greater than zero");
+        "Polygon::scaled: factor = nan must be finite and > 0");
 }
 
 }  // namespace

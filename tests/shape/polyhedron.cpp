@@ -449,15 +449,15 @@ TEST_CASE_TEMPLATE("bad arguments are named", T, MOREAU_TYPES((double), (float))
   auto vertices = box_vertices<T>(1, 1, 1);
   const auto box = hull(vertices);
   CHECK(message_of([&] { box.mass_properties(0); }) ==
-        "Polyhedron::mass_properties: density = 0 must be finite and greater than zero");
+        "Polyhedron::mass_properties: density = 0 must be finite and > 0");
   CHECK(message_of([&] { box.mass_properties(-2); }) ==
-        "Polyhedron::mass_properties: density = -2 must be finite and greater than zero");
+        "Polyhedron::mass_properties: density = -2 must be finite and > 0");
   CHECK(message_of([&] { box.mass_properties(nan); }) ==
-        "Polyhedron::mass_properties: density = nan must be finite and greater than zero");
+        "Polyhedron::mass_properties: density = nan must be finite and > 0");
   CHECK(message_of([&] { return box.scaled(0); }) ==
-        "Polyhedron::scaled: factor = 0 must be finite and greater than zero");
+        "Polyhedron::scaled: factor = 0 must be finite and > 0");
   CHECK(message_of([&] { return box.scaled(inf); }) ==
-        "Polyhedron::scaled: factor = inf must be finite and greater than zero");
+        "Polyhedron::scaled: factor = inf must be finite and > 0");
   for (auto& x : vertices) x *= std::numeric_limits<T>::max() / 4;
   CHECK(message_of([&] { hull(vertices); }).find("nan m^3 must be finite") != std::string::npos);
   vertices[3] = V3<T>(nan, 0, 1);

@@ -59,12 +59,12 @@ TEST_CASE("bad arguments are named") {
   const double inf = std::numeric_limits<double>::infinity();
   CHECK(message_of([] {
           cuboid<Polygon<double>>({1, 0});
-        }) == "cuboid: half length = 0 must be finite and greater than zero");
+        }) == "cuboid: half length = 0 must be finite and > 0");
   CHECK(message_of([=] {
           cuboid<Polyhedron<double>>({1, inf, 1});
-        }) == "cuboid: half length = inf must be finite and greater than zero");
+        }) == "cuboid: half length = inf must be finite and > 0");
   CHECK(message_of([] { regular_shape<moreau::Ball<double>>(-1); }) ==
-        "regular_shape: size = -1 must be finite and greater than zero");
+        "regular_shape: size = -1 must be finite and > 0");
 }
 
 }  // namespace

@@ -99,17 +99,16 @@ TEST_CASE("the frame is at the centre of mass of the sum") {
 
 TEST_CASE("bad arguments are named") {
   const auto core = samples::box(1.0, 1.0);
-  CHECK(message_of([&] { Rounded(core, 0.0); }) ==
-        "Rounded: radius = 0 must be finite and greater than zero");
+  CHECK(message_of([&] { Rounded(core, 0.0); }) == "Rounded: radius = 0 must be finite and > 0");
   CHECK(message_of([&] { Rounded(core, std::numeric_limits<double>::quiet_NaN()); }) ==
-        "Rounded: radius = nan must be finite and greater than zero");
+        "Rounded: radius = nan must be finite and > 0");
   CHECK(message_of([&] { Rounded(core, 1e200); }) ==
         "Rounded: volume = inf m^D must be positive and finite");
   const Rounded rounded(core, 0.1);
   CHECK(message_of([&] { rounded.mass_properties(-1); }) ==
-        "Rounded::mass_properties: density = -1 must be finite and greater than zero");
+        "Rounded::mass_properties: density = -1 must be finite and > 0");
   CHECK(message_of([&] { return rounded.scaled(0); }) ==
-        "Rounded::scaled: factor = 0 must be finite and greater than zero");
+        "Rounded::scaled: factor = 0 must be finite and > 0");
 }
 
 }  // namespace

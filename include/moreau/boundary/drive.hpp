@@ -87,7 +87,7 @@ class Drive {
   /// The function's value at the middle of the step that begins now, times the direction.
   VectorT value(const SimulationWithVector<VectorT> auto& simulation, Scalar step,
                 const char* self) const {
-    require(std::isfinite(step) && step > 0, self, "step", step, "must be finite and > 0");
+    require_positive(step, self, "step");
     return static_cast<Scalar>(f_(simulation.time() + step / 2)) * direction_;
   }
   /// If expected is true, throws unless a force along the direction accelerates the body. If

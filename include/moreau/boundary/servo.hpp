@@ -56,7 +56,7 @@ typename Simulation::Vector wall_normal(const Simulation& simulation, BodyId wal
 template <class T>
 T checked_area(const auto& area, const char* function) {
   const auto now = static_cast<T>(area());
-  require(std::isfinite(now) && now > 0, function, "area", now, "must be finite and > 0");
+  require_positive(now, function, "area");
   return now;
 }
 
@@ -74,8 +74,8 @@ template <class Simulation>
 typename Simulation::Scalar wall_pressure(Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
                                           typename Simulation::Scalar area) {
-  require(std::isfinite(step) && step > 0, "wall_pressure", "step", step, "must be finite and > 0");
-  require(std::isfinite(area) && area > 0, "wall_pressure", "area", area, "must be finite and > 0");
+  require_positive(step, "wall_pressure", "step");
+  require_positive(area, "wall_pressure", "area");
   detail::require_half_space(simulation, wall, "wall_pressure");
   const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
   return -detail::wall_normal(simulation, wall).dot(impulse) / (step * area);
@@ -100,8 +100,7 @@ class PressureLoad {
   PressureLoad(Simulation& simulation, BodyId wall, double pressure, double mass, Area area)
       : wall_(wall), pressure_(pressure), area_(std::move(area)) {
     require(std::isfinite(pressure), "PressureLoad", "pressure", pressure, "must be finite");
-    require(std::isfinite(mass) && mass > 0, "PressureLoad", "mass", mass,
-            "must be finite and > 0");
+    require_positive(mass, "PressureLoad", "mass");
     detail::require_half_space(simulation, wall, "PressureLoad");
     using Scalar = typename Simulation::Scalar;
     simulation.set_wall_mass(wall, static_cast<Scalar>(mass));
@@ -144,8 +143,8 @@ class PressureServo {
       : wall_(wall), pressure_(pressure), gain_(gain), limit_(limit), area_(std::move(area)) {
     constexpr const char* self = "PressureServo";
     require(std::isfinite(pressure), self, "pressure", pressure, "must be finite");
-    require(std::isfinite(gain) && gain > 0, self, "gain", gain, "must be finite and > 0");
-    require(std::isfinite(limit) && limit > 0, self, "limit", limit, "must be finite and > 0");
+    require_positive(gain, self, "gain");
+    require_positive(limit, self, "limit");
   }
 
   /// Sets the velocity for the next step, from the pressure in the last step.

@@ -91,8 +91,7 @@ class Source {
   ///         longer than the region, and as Simulation::add_grain()
   template <class Simulation>
   GrainSum apply(Simulation& simulation, Scalar step) {
-    require(std::isfinite(step) && step > 0, "Source::apply", "step", step,
-            "must be finite and > 0");
+    require_positive(step, "Source::apply", "step");
     GrainSum now;
     added_.clear();
     due_ += options_.rate * double(step);
@@ -189,7 +188,7 @@ class Source {
     }
     for (const auto& cylinder : simulation.cylinders()) {
       const Pose<S>& pose = simulation.pose(cylinder.body);
-      const typename S::Angular axis = product(S::adjoint(pose.rotation), cylinder.shape.axis());
+      const typename S::Angular axis = cylinder.shape.axis_at(pose.rotation);
       const Vector radial = S::spin(axis, S::spin(axis, grain.center - pose.position));
       if (radial.norm() + grain.radius > cylinder.shape.radius()) return true;
     }

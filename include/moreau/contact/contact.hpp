@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "moreau/core/erase_at.hpp"
@@ -57,6 +58,8 @@ struct ContactKey {
     if (const auto order = l.part_b <=> r.part_b; order != 0) return order;
     return l.feature <=> r.feature;
   }
+  /// The pair (a, b).
+  constexpr std::pair<std::uint32_t, std::uint32_t> bodies() const { return {a, b}; }
   /// Whether the key is of the same parts of the same bodies.
   constexpr bool is_of_parts_of(const ContactKey& other) const {
     return a == other.a && b == other.b && part_a == other.part_a && part_b == other.part_b;
@@ -147,5 +150,18 @@ struct Contacts : DetectedContacts<S> {
   /// All arrays, see core/serialize.hpp.
   auto serialized_members() { return std::tie(points, this->keys, this->classes, impulses); }
 };
+
+namespace detail {
+
+/// One past the last contact of the pair of bodies of contact `first`.
+template <class S>
+std::size_t end_of_pair(const DetectedContacts<S>& contacts, std::size_t first) {
+  std::size_t last = first + 1;
+  while (last < contacts.size() && contacts.keys[last].bodies() == contacts.keys[first].bodies())
+    ++last;
+  return last;
+}
+
+}  // namespace detail
 
 }  // namespace moreau

@@ -45,16 +45,6 @@ typename S::Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i,
   return moved + (bodies.inverse_inertia_root_body[i] * torque).squaredNorm();
 }
 
-/// One past the last contact of the pair of bodies of contact `first`.
-template <class S>
-std::size_t end_of_pair(const DetectedContacts<S>& contacts, std::size_t first) {
-  std::size_t last = first + 1;
-  while (last < contacts.size() && contacts.points[last].a == contacts.points[first].a &&
-         contacts.points[last].b == contacts.points[first].b)
-    ++last;
-  return last;
-}
-
 /// The effective mass of each point of a pair [kg]; the head of this file has its definition. If no
 /// point overlaps, all count alike. 0 if neither body can move.
 /// @param points all of one pair

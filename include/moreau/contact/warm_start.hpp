@@ -157,7 +157,6 @@ namespace detail {
 template <class S>
 void for_each_heir(const DetectedContacts<S>& before, const DetectedContacts<S>& now,
                    const auto& memory, const auto& may_receive, const auto& receive) {
-  const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
   const auto begin = now.keys.begin(), end = now.keys.end();
   auto next = begin;  // the first contact whose key is not below
   for (std::size_t j = 0; j < before.size(); ++j) {
@@ -165,8 +164,8 @@ void for_each_heir(const DetectedContacts<S>& before, const DetectedContacts<S>&
     while (next != end && *next < key) ++next;
     if ((next != end && *next == key) || memory[j].isZero(0)) continue;
     auto first = next, last = next;
-    while (first != begin && pair_of(*(first - 1)) == pair_of(key)) --first;
-    while (last != end && pair_of(*last) == pair_of(key)) ++last;
+    while (first != begin && (first - 1)->bodies() == key.bodies()) --first;
+    while (last != end && last->bodies() == key.bodies()) ++last;
     const auto distance = [&](auto it) {
       return (now.points[std::size_t(it - now.keys.begin())].lever_a - before.points[j].lever_a)
           .squaredNorm();

@@ -64,4 +64,10 @@ struct Aabb {
   auto serialized_members() { return std::tie(lower, upper); }  ///< see core/serialize.hpp
 };
 
+/// The volume of a box, in the plane its area [m^D]. For an inverted box the result has no meaning.
+template <class S>
+typename S::Scalar volume(const Aabb<S>& box) {
+  return (box.upper - box.lower).prod();
+}
+
 }  // namespace moreau

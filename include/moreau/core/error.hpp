@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cassert>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -104,6 +105,14 @@ template <class Value>
 void require(bool condition, std::string_view function, std::string_view argument,
              const Value& value, std::string_view expectation) {
   if (!condition) throw_invalid(function, argument, value, expectation);
+}
+
+/// Checks that a number of a public function is finite and > 0; arguments as of require().
+/// @throws std::invalid_argument "function: argument = value must be finite and > 0"
+template <class T>
+void require_positive(T value, std::string_view function, std::string_view argument) {
+  require(std::isfinite(value) && value > T(0), function, argument, value,
+          "must be finite and > 0");
 }
 
 }  // namespace moreau

@@ -124,8 +124,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   ///          overlaps and shifts
   /// @throws std::invalid_argument for a step that is not positive or not finite
   StepReport step(Scalar step) {
-    require(std::isfinite(step) && step > 0, "DistributedSimulation::step", "step", step,
-            "must be finite and > 0");
+    require_positive(step, "DistributedSimulation::step", "step");
     return guarded([&] {
       redistribution_.update(step, options_.imbalance);
       // What the detector remembers of pairs depends on the process that had them.

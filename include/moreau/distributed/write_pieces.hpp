@@ -99,7 +99,7 @@ void write_pieces(const std::filesystem::path& path, DistributedSimulation<World
     if (simulation.owns(local.grain(k))) own.push_back(k);
   const auto body = [&](std::size_t k) { return local.grain(own[k]).index(); };
 
-  require(std::isfinite(step) && step > 0, "write_pieces", "step", step, "must be finite and > 0");
+  require_positive(step, "write_pieces", "step");
   Communicator& processes = simulation.processes();
   detail::together(processes, [&] {
     VtkWriter<S> writer(options);

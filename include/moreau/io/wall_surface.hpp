@@ -116,7 +116,7 @@ std::vector<std::vector<typename S::Vector>> cylinder_faces(
     const CylinderWall<S>& shape) {
   using Vector = typename S::Vector;
   using Scalar = typename S::Scalar;
-  const typename S::Angular axis = S::adjoint(pose.rotation) * shape.axis();
+  const typename S::Angular axis = shape.axis_at(pose.rotation);
   // A turn about the axis annihilates the direction of the axis. In the plane there is no such
   // direction, and `along` stays zero.
   Vector across = Vector::Zero(), along = Vector::Zero();

@@ -59,12 +59,9 @@ class Bonded : public RollingResistance<T> {
   explicit Bonded(const BondStrength<T>& strength, T friction = T(0), T rolling = T(0))
       : RollingResistance<T>(friction, rolling), strength_(strength) {
     constexpr const char* self = "Bonded";
-    const auto require_positive = [](T value, const char* name) {
-      require(std::isfinite(value) && value > 0, self, name, value, "must be finite and > 0");
-    };
-    require_positive(strength.tension, "tension");
-    require_positive(strength.shear, "shear");
-    require_positive(strength.bending, "bending");
+    require_positive(strength.tension, self, "tension");
+    require_positive(strength.shear, self, "shear");
+    require_positive(strength.bending, self, "bending");
     require(std::isfinite(strength.fracture_energy) && strength.fracture_energy >= 0, self,
             "fracture_energy", strength.fracture_energy, "must be finite and >= 0");
   }

@@ -50,7 +50,7 @@ class CapillaryBridge {
   explicit CapillaryBridge(T volume, T surface_tension = T(0.0728), T contact_angle = T(0))
       : volume_(volume), tension_(surface_tension), angle_(contact_angle) {
     constexpr const char* self = "CapillaryBridge";
-    require(std::isfinite(volume) && volume > 0, self, "volume", volume, "must be finite and > 0");
+    require_positive(volume, self, "volume");
     require(std::isfinite(surface_tension) && surface_tension >= 0, self, "surface_tension",
             surface_tension, "must be finite and >= 0");
     require(contact_angle >= 0 && contact_angle <= std::numbers::pi_v<T> / 2, self, "contact_angle",
@@ -92,7 +92,7 @@ class LinearCohesion {
     constexpr const char* self = "LinearCohesion";
     require(std::isfinite(adhesion) && adhesion >= 0, self, "adhesion", adhesion,
             "must be finite and >= 0");
-    require(std::isfinite(range) && range > 0, self, "range", range, "must be finite and > 0");
+    require_positive(range, self, "range");
   }
 
   T adhesion() const { return adhesion_; }       ///< gamma [N]

@@ -79,10 +79,8 @@ class Compliant : public Law {
   /// @throws std::invalid_argument outside these ranges
   Compliant(const Law& law, Scalar stiffness, Scalar tangential_stiffness)
       : Law(law), stiffness_(stiffness), tangential_(tangential_stiffness) {
-    require(std::isfinite(stiffness) && stiffness > 0, "Compliant", "stiffness", stiffness,
-            "must be finite and > 0");
-    require(std::isfinite(tangential_stiffness) && tangential_stiffness > 0, "Compliant",
-            "tangential_stiffness", tangential_stiffness, "must be finite and > 0");
+    require_positive(stiffness, "Compliant", "stiffness");
+    require_positive(tangential_stiffness, "Compliant", "tangential_stiffness");
   }
   /// With k_t = k_n.
   Compliant(const Law& law, Scalar stiffness) : Compliant(law, stiffness, stiffness) {}

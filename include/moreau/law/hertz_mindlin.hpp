@@ -45,7 +45,7 @@ class HertzMindlin {
         friction_(friction),
         damping_(detail::damping_ratio(restitution, "HertzMindlin")) {
     constexpr const char* self = "HertzMindlin";
-    require(std::isfinite(young) && young > 0, self, "young", young, "must be finite and > 0");
+    require_positive(young, self, "young");
     require(std::isfinite(shear) && shear >= 0, self, "shear", shear, "must be finite and >= 0");
     require(std::isfinite(friction) && friction >= 0, self, "friction", friction,
             "must be finite and >= 0");
@@ -61,8 +61,7 @@ class HertzMindlin {
   ///          shear = young / (2 (1 + poisson)) [Pa]
   /// @throws std::invalid_argument outside these ranges, or for a number that is not finite
   static HertzMindlin of_material(T young, T poisson, T friction, T restitution) {
-    require(std::isfinite(young) && young > 0, "HertzMindlin::of_material", "young", young,
-            "must be finite and > 0");
+    require_positive(young, "HertzMindlin::of_material", "young");
     require(poisson > T(-1) && poisson <= T(0.5), "HertzMindlin::of_material", "poisson", poisson,
             "must lie in (-1, 0.5]");
     const T shear = young / (2 * (1 + poisson));

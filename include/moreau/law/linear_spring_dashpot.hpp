@@ -40,8 +40,7 @@ class LinearSpringDashpot {
         friction_(friction),
         damping_(detail::damping_ratio(restitution, "LinearSpringDashpot")) {
     constexpr const char* self = "LinearSpringDashpot";
-    require(std::isfinite(stiffness) && stiffness > 0, self, "stiffness", stiffness,
-            "must be finite and > 0");
+    require_positive(stiffness, self, "stiffness");
     require(std::isfinite(tangential_stiffness) && tangential_stiffness >= 0, self,
             "tangential_stiffness", tangential_stiffness, "must be finite and >= 0");
     require(std::isfinite(friction) && friction >= 0, self, "friction", friction,

@@ -65,8 +65,7 @@ class TangentialRestitution : public SignoriniCoulomb<T> {
   /// @param before u_n before the step [m/s], > 0 separates
   /// @returns infinity if the contact cannot act in this step
   T velocity_offset(T gap, T before, T) const {
-    if (gap > T(0)) return std::numeric_limits<T>::infinity();
-    return this->restitution() * std::min(T(0), before);
+    return detail::impact_offset(this->restitution(), gap, before);
   }
   /// Share of u_t before the step that is added to u_t [-], see TangentialRestitutionLaw.
   /// @param gap    g [m], < 0 is penetration

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <numeric>
-#include <vector>
+
+#include "moreau/core/disjoint_sets.hpp"
 
 namespace moreau {
 
@@ -24,12 +23,7 @@ struct BondState {
 template <class Simulation>
 BondState bond_state(const Simulation& simulation) {
   BondState state;
-  std::vector<std::uint32_t> root(simulation.bodies().size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto root_of = [&](std::uint32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  detail::DisjointSets fragments(simulation.bodies().size());
   state.bonds = simulation.bonds().size();
   state.fragments = simulation.grain_count();
   state.least_strength = state.bonds > 0 ? 1 : 0;
@@ -40,12 +34,7 @@ BondState bond_state(const Simulation& simulation) {
     ends += std::size_t(has_a) + std::size_t(has_b);
     state.strength_left += double(bond.strength_left) / double(state.bonds);
     state.least_strength = std::min(state.least_strength, double(bond.strength_left));
-    if (!has_a || !has_b) continue;
-    const std::uint32_t a = root_of(std::uint32_t(bond.a.index())),
-                        b = root_of(std::uint32_t(bond.b.index()));
-    if (a == b) continue;
-    root[std::max(a, b)] = std::min(a, b);
-    --state.fragments;
+    if (has_a && has_b && fragments.unite(bond.a.index(), bond.b.index())) --state.fragments;
   }
   if (simulation.grain_count() > 0)
     state.coordination = double(ends) / double(simulation.grain_count());

@@ -85,10 +85,4 @@ void require_inside(const Aabb<S>& control_volume, const Aabb<S>& box) {
                 "must lie inside the box " + detail::describe(box));
 }
 
-/// The volume of a box, in the plane its area [m^D]. For an inverted box the result has no meaning.
-template <class S>
-typename S::Scalar volume(const Aabb<S>& box) {
-  return (box.upper - box.lower).prod();
-}
-
 }  // namespace moreau

@@ -108,8 +108,7 @@ class EnergyBalance {
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
     const Bodies<S>& bodies = simulation.bodies();
-    require(std::isfinite(step) && step > 0, "EnergyBalance::add", "step", step,
-            "must be finite and > 0");
+    require_positive(step, "EnergyBalance::add", "step");
     require(bodies.id == ids_, "EnergyBalance::add", "number of bodies", bodies.size(),
             "must be the same bodies as at the start of the balance or at the last rebase()");
     for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -72,7 +72,7 @@ template <class S, int Rows>
 void force_chains(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                   const auto& position_of, const auto& is_grain,
                   std::vector<ContactSegment<S>>& segments, const PeriodicCell<S>& cell = {}) {
-  require(std::isfinite(step) && step > 0, "force_chains", "step", step, "must be finite and > 0");
+  require_positive(step, "force_chains", "step");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (contacts.impulses[c][0] > 0)
@@ -86,8 +86,7 @@ template <class S, int Rows>
 void contact_segments(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                       const auto& position_of, const auto& is_grain,
                       std::vector<ContactSegment<S>>& segments, const PeriodicCell<S>& cell = {}) {
-  require(std::isfinite(step) && step > 0, "contact_segments", "step", step,
-          "must be finite and > 0");
+  require_positive(step, "contact_segments", "step");
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));

@@ -42,7 +42,7 @@ ForceDistribution<T> force_distribution(std::size_t count, const auto& force_of,
                                         std::size_t bins = 24, T reach = 6) {
   constexpr const char* self = "force_distribution";
   require(bins > 0, self, "bins", bins, "must be > 0");
-  require(std::isfinite(reach) && reach > 0, self, "reach", reach, "must be finite and > 0");
+  require_positive(reach, self, "reach");
   ForceDistribution<T> result;
   result.count = count;
   result.width = reach / static_cast<T>(bins);

@@ -72,7 +72,7 @@ class GridField {
     constexpr const char* self = "GridField::add";
     require(all_finite(position), self, "position", position, "must be finite");
     require(all_finite(value), self, "value", value, "must be finite");
-    require(std::isfinite(weight) && weight > 0, self, "weight", weight, "must be finite and > 0");
+    require_positive(weight, self, "weight");
     const Vector image = periodic.image_in(box_, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;

@@ -27,8 +27,7 @@ std::vector<typename Simulation::Vector> free_surface(const Simulation& simulati
                                                       typename Simulation::Scalar width) {
   using Vector = typename Simulation::Vector;
   constexpr int up = Simulation::S::dim - 1;
-  require(std::isfinite(width) && width > 0, "free_surface", "width", width,
-          "must be finite and > 0");
+  require_positive(width, "free_surface", "width");
   std::map<std::array<long, std::size_t(up)>, Vector> columns;
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const std::size_t i = simulation.grain(k).index();

@@ -40,7 +40,7 @@ struct PairForce {
 template <class S, int Rows>
 void pair_forces(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                  std::vector<PairForce<S>>& pairs) {
-  require(std::isfinite(step) && step > 0, "pair_forces", "step", step, "must be finite and > 0");
+  require_positive(step, "pair_forces", "step");
   pairs.clear();
   typename S::Scalar largest = 0;  // normal force of a point of the present pair
   for (std::size_t c = 0; c < contacts.size(); ++c) {

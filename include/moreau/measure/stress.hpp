@@ -44,8 +44,7 @@ Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, type
                                          const Aabb<S>& control_volume, const auto& position_of,
                                          const auto& is_grain, const PeriodicCell<S>& cell = {}) {
   using Vector = typename S::Vector;
-  require(std::isfinite(step) && step > 0, "contact_stress", "step", step,
-          "must be finite and > 0");
+  require_positive(step, "contact_stress", "step");
   require_control_volume(control_volume, "contact_stress");
   require_within(cell, control_volume, "contact_stress");
   typename S::Matrix sum = S::Matrix::Zero();

@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/disjoint_sets.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/small_matrix.hpp"
-#include "moreau/mesh/detail/disjoint_sets.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/box_tree.hpp"
 

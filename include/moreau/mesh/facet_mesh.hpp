@@ -98,8 +98,7 @@ typename S::Scalar rounding_of(const FacetMesh<S>& mesh) {
 /// @throws std::invalid_argument if the factor is not finite or not positive
 template <class S>
 [[nodiscard]] FacetMesh<S> scaled(FacetMesh<S> mesh, typename S::Scalar factor) {
-  require(std::isfinite(factor) && factor > 0, "scaled", "factor", factor,
-          "must be finite and > 0");
+  require_positive(factor, "scaled", "factor");
   for (auto& x : mesh.vertices) x *= factor;
   return mesh;
 }

@@ -25,10 +25,9 @@ enum class SizeReading : std::uint8_t {
 /// The circumradius of a grain: the largest distance from its centre of mass to a vertex [m].
 /// @param size     size of the grain [m], > 0
 /// @param reading  definition of the size
-/// @throws std::invalid_argument unless the size is finite and greater than zero
+/// @throws std::invalid_argument unless the size is finite and > 0
 inline double circumradius_of(double size, SizeReading reading) {
-  require(std::isfinite(size) && size > 0, "circumradius_of", "size", size,
-          "must be finite and greater than zero");
+  require_positive(size, "circumradius_of", "size");
   return reading == SizeReading::circumdiameter ? size / 2 : size;
 }
 
@@ -49,14 +48,12 @@ class SizeDistribution {
     for (std::size_t i = 0; i < classes_.size(); ++i) {
       const auto [size, share] = classes_[i];
       const std::string name = "classes[" + std::to_string(i) + "]";
-      require(std::isfinite(size) && size > 0, "SizeDistribution", name + ".size", size,
-              "must be finite and greater than zero");
+      require_positive(size, "SizeDistribution", name + ".size");
       require(std::isfinite(share) && share >= 0, "SizeDistribution", name + ".share", share,
               "must be finite and not negative");
       total_ += share;
     }
-    require(std::isfinite(total_) && total_ > 0, "SizeDistribution", "sum of shares", total_,
-            "must be finite and greater than zero");
+    require_positive(total_, "SizeDistribution", "sum of shares");
   }
 
   /// By number, 50 % of the grains have the size 2.5 cm, 34 % have 3.75 cm and 16 % have 5 cm.

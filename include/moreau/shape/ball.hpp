@@ -21,10 +21,8 @@ class BallIn {
   using Vector = typename S::Vector;
 
   /// @param radius radius [m], > 0
-  /// @throws std::invalid_argument unless the radius is finite and greater than zero
-  explicit BallIn(Scalar radius) : radius_(radius) {
-    detail::require_positive(radius, "Ball", "radius");
-  }
+  /// @throws std::invalid_argument unless the radius is finite and > 0
+  explicit BallIn(Scalar radius) : radius_(radius) { require_positive(radius, "Ball", "radius"); }
 
   Scalar radius() const { return radius_; }  ///< [m]
   /// The radius [m], under the name that all shapes have in common.
@@ -46,9 +44,9 @@ class BallIn {
 
   /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
-  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  /// @throws std::invalid_argument unless the density is finite and > 0
   MassProperties<S> mass_properties(Scalar density) const {
-    detail::require_positive(density, "Ball::mass_properties", "density");
+    require_positive(density, "Ball::mass_properties", "density");
     MassProperties<S> properties;
     properties.mass = density * volume();
     // 2/5 m r^2 in space, 1/2 m r^2 in the plane.
@@ -66,7 +64,7 @@ class BallIn {
   /// @throws std::invalid_argument unless the factor and the new radius are finite and greater than
   ///                               zero
   [[nodiscard]] BallIn scaled(Scalar factor) const {
-    detail::require_positive(factor, "Ball::scaled", "factor");
+    require_positive(factor, "Ball::scaled", "factor");
     return BallIn(radius_ * factor);
   }
 

@@ -120,9 +120,9 @@ class Compound {
 
   /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
-  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  /// @throws std::invalid_argument unless the density is finite and > 0
   MassProperties<Space> mass_properties(Scalar density) const {
-    detail::require_positive(density, "Compound::mass_properties", "density");
+    require_positive(density, "Compound::mass_properties", "density");
     typename Space::Inertia inertia = unit_.inertia;
     inertia *= density;
     return {density * unit_.mass, Vector::Zero(), inertia};
@@ -139,10 +139,10 @@ class Compound {
   }
 
   /// The same grain with all lengths multiplied by `factor` [-], > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero; also the
+  /// @throws std::invalid_argument unless the factor is finite and > 0; also the
   ///         exceptions of the parts
   [[nodiscard]] Compound scaled(Scalar factor) const requires Scalable<ShapeT> {
-    detail::require_positive(factor, "Compound::scaled", "factor");
+    require_positive(factor, "Compound::scaled", "factor");
     Compound copy = *this;
     for (Part& part : copy.parts_) {
       part.shape = part.shape.scaled(factor);
@@ -260,7 +260,7 @@ class Compound {
     find_seams();
   }
   void require_mass(const char* function) const {
-    detail::require_positive(unit_.mass, function, "volume");
+    require_positive(unit_.mass, function, "volume");
     bool regular = all_finite(unit_.inertia);
     for (int k = 0; k < Space::angular_dim; ++k) regular = regular && unit_.inertia(k, k) > 0;
     require(regular, function, "inertia", unit_.inertia, "m^(D+2) must be positive and finite");

@@ -25,10 +25,10 @@ class Cylinder {
 
   /// @param half_length half of the length along the axis [m], > 0
   /// @param radius      [m], > 0
-  /// @throws std::invalid_argument unless both are finite and greater than zero
+  /// @throws std::invalid_argument unless both are finite and > 0
   Cylinder(T half_length, T radius) : half_length_(half_length), radius_(radius) {
-    detail::require_positive(half_length, "Cylinder", "half_length");
-    detail::require_positive(radius, "Cylinder", "radius");
+    require_positive(half_length, "Cylinder", "half_length");
+    require_positive(radius, "Cylinder", "radius");
   }
 
   T half_length() const { return half_length_; }                        ///< [m]
@@ -51,9 +51,9 @@ class Cylinder {
 
   /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^3], > 0
-  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  /// @throws std::invalid_argument unless the density is finite and > 0
   MassProperties<Space> mass_properties(T density) const {
-    detail::require_positive(density, "Cylinder::mass_properties", "density");
+    require_positive(density, "Cylinder::mass_properties", "density");
     MassProperties<Space> properties;
     properties.mass = density * volume();
     const T round = radius_ * radius_ / 4, along = half_length_ * half_length_ / 3;
@@ -74,7 +74,7 @@ class Cylinder {
   /// A cylinder with all lengths multiplied by `factor` [-], > 0.
   /// @throws std::invalid_argument unless the factor and the new lengths are finite and > 0
   [[nodiscard]] Cylinder scaled(T factor) const {
-    detail::require_positive(factor, "Cylinder::scaled", "factor");
+    require_positive(factor, "Cylinder::scaled", "factor");
     return Cylinder(half_length_ * factor, radius_ * factor);
   }
 

@@ -32,12 +32,15 @@ class CylinderWall {
       : axis_(axis.stableNormalized()), radius_(radius) {
     require(all_finite(axis), "CylinderWall", "axis", axis, "must be finite");
     require(!axis.isZero(0), "CylinderWall", "axis", axis, "must not be zero");
-    require(std::isfinite(radius) && radius > 0, "CylinderWall", "radius", radius,
-            "must be finite and > 0");
+    require_positive(radius, "CylinderWall", "radius");
   }
 
   const Angular& axis() const { return axis_; }  ///< unit, body coordinates
   Scalar radius() const { return radius_; }      ///< [m]
+  /// The axis of a wall with a rotation from body to world axes: unit, world axes.
+  Angular axis_at(const typename S::Rotation& rotation) const {
+    return product(S::adjoint(rotation), axis_);
+  }
 
  private:
   friend struct SerializationAccess;

@@ -28,7 +28,7 @@ concept HullOfPoints =
 template <detail::HullOfPoints Shape>
 Shape regular_shape(typename Shape::Space::Scalar size) {
   using S = SpaceOf<Shape>;
-  detail::require_positive(size, "regular_shape", "size");
+  require_positive(size, "regular_shape", "size");
   std::vector<typename S::Vector> corners(std::size_t{1} << S::dim);
   for (std::size_t bits = 0; bits < corners.size(); ++bits)
     for (int axis = 0; axis < S::dim; ++axis)
@@ -42,7 +42,7 @@ Shape regular_shape(typename Shape::Space::Scalar size) {
 template <class Shape>
 requires std::same_as<Shape, BallIn<SpaceOf<Shape>>> Shape
 regular_shape(typename Shape::Space::Scalar size) {
-  detail::require_positive(size, "regular_shape", "size");
+  require_positive(size, "regular_shape", "size");
   return Shape(size / 2);
 }
 
@@ -54,7 +54,7 @@ template <detail::HullOfPoints Shape>
 Shape cuboid(const VectorArgument<SpaceOf<Shape>>& half_lengths) {
   using S = SpaceOf<Shape>;
   for (int axis = 0; axis < S::dim; ++axis)
-    detail::require_positive(half_lengths[axis], "cuboid", "half length");
+    require_positive(half_lengths[axis], "cuboid", "half length");
   std::vector<typename S::Vector> corners(std::size_t{1} << S::dim, half_lengths);
   for (std::size_t bits = 0; bits < corners.size(); ++bits)
     for (int axis = 0; axis < S::dim; ++axis)

@@ -34,10 +34,10 @@ class Rounded {
 
   /// @param core   in its own frame; it is copied
   /// @param radius radius of the ball [m], > 0
-  /// @throws std::invalid_argument unless the radius is finite and greater than zero, and also the
+  /// @throws std::invalid_argument unless the radius is finite and > 0, and also the
   ///                               volume if it is known
   Rounded(const Core& core, Scalar radius) : core_(core), radius_(radius) {
-    detail::require_positive(radius, "Rounded", "radius");
+    require_positive(radius, "Rounded", "radius");
     if constexpr (HasRoundedMoments<Core>) {
       const Moments<Space> about_core = rounded_moments(core_, radius_);
       require(std::isfinite(about_core.volume) && about_core.volume > 0, "Rounded", "volume",
@@ -83,9 +83,9 @@ class Rounded {
 
   /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
-  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  /// @throws std::invalid_argument unless the density is finite and > 0
   MassProperties<Space> mass_properties(Scalar density) const requires HasRoundedMoments<Core> {
-    detail::require_positive(density, "Rounded::mass_properties", "density");
+    require_positive(density, "Rounded::mass_properties", "density");
     return {density * moments_.volume, Vector::Zero(), density * moments_.inertia()};
   }
 
@@ -99,10 +99,10 @@ class Rounded {
   }
 
   /// The same shape with all lengths multiplied by `factor` [-], > 0.
-  /// @throws std::invalid_argument unless the factor is finite and greater than zero; also the
+  /// @throws std::invalid_argument unless the factor is finite and > 0; also the
   ///                               exceptions of the core
   [[nodiscard]] Rounded scaled(Scalar factor) const requires Scalable<Core> {
-    detail::require_positive(factor, "Rounded::scaled", "factor");
+    require_positive(factor, "Rounded::scaled", "factor");
     return Rounded(core_.scaled(factor), radius_ * factor);
   }
 

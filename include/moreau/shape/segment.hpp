@@ -21,9 +21,9 @@ class Segment {
 
   /// Not explicit, so that CapsuleIn<S>(half_length, radius) can be written.
   /// @param half_length half the length of the segment [m], > 0
-  /// @throws std::invalid_argument unless the half length is finite and greater than zero
+  /// @throws std::invalid_argument unless the half length is finite and > 0
   Segment(Scalar half_length) : half_length_(half_length) {
-    detail::require_positive(half_length, "Segment", "half_length");
+    require_positive(half_length, "Segment", "half_length");
   }
 
   Scalar half_length() const { return half_length_; }  ///< [m]
@@ -49,7 +49,7 @@ class Segment {
   /// @throws std::invalid_argument unless the factor and the new half length are finite and greater
   ///                               than zero
   [[nodiscard]] Segment scaled(Scalar factor) const {
-    detail::require_positive(factor, "Segment::scaled", "factor");
+    require_positive(factor, "Segment::scaled", "factor");
     return Segment(half_length_ * factor);
   }
 

@@ -96,9 +96,7 @@ class ColouredGaussSeidel {
   ///         interval below 1
   explicit ColouredGaussSeidel(const Options& options) : options_(options) {
     detail::require_stopping(options, "ColouredGaussSeidel");
-    require(options.velocity_tolerance > 0 && std::isfinite(options.velocity_tolerance),
-            "ColouredGaussSeidel", "velocity_tolerance", options.velocity_tolerance,
-            "must be finite and > 0");
+    require_positive(options.velocity_tolerance, "ColouredGaussSeidel", "velocity_tolerance");
     require(options.cold_sweeps >= 0, "ColouredGaussSeidel", "cold_sweeps", options.cold_sweeps,
             "must be >= 0");
   }

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
+
+#include "moreau/core/disjoint_sets.hpp"
 
 namespace moreau::detail {
 
@@ -22,8 +23,7 @@ class ContactIslands {
   template <class Operator>
   void find(const Operator& op) {
     const std::size_t bodies = op.body_count(), contacts = op.size();
-    parent_.resize(bodies);
-    std::iota(parent_.begin(), parent_.end(), 0U);
+    sets_.assign(bodies);
     moves_.resize(bodies);
     for (std::size_t i = 0; i < bodies; ++i) moves_[i] = op.inverse_mass(i).moves();
     std::array<std::uint32_t, 2> before{none, none};
@@ -31,7 +31,7 @@ class ContactIslands {
       const auto pair = op.bodies(c);
       if (pair == before || !moves_[pair[0]] || !moves_[pair[1]]) continue;
       before = pair;
-      unite(pair[0], pair[1]);
+      sets_.unite(pair[0], pair[1]);
     }
     number(op, contacts);
   }
@@ -50,18 +50,10 @@ class ContactIslands {
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t i, std::uint32_t j) {
-    const std::uint32_t a = root(i), b = root(j);
-    parent_[a < b ? b : a] = a < b ? a : b;
-  }
   template <class Operator>
   void number(const Operator& op, std::size_t contacts) {
-    island_of_.assign(parent_.size(), none);
-    seen_.assign(parent_.size(), 0);
+    island_of_.assign(sets_.size(), none);
+    seen_.assign(sets_.size(), 0);
     of_contact_.resize(contacts);
     bodies_.clear();
     first_.assign(2, 0);
@@ -71,7 +63,7 @@ class ContactIslands {
         of_contact_[c] = none;
         continue;
       }
-      std::uint32_t& island = island_of_[root(moves_[a] ? a : b)];
+      std::uint32_t& island = island_of_[sets_.find(moves_[a] ? a : b)];
       if (island == none) {
         island = static_cast<std::uint32_t>(bodies_.size());
         bodies_.push_back(0);
@@ -89,7 +81,8 @@ class ContactIslands {
       if (of_contact_[c] != none) contacts_[first_[of_contact_[c] + 1]++] = c;
   }
 
-  std::vector<std::uint32_t> parent_, island_of_, of_contact_, contacts_;
+  DisjointSets sets_;
+  std::vector<std::uint32_t> island_of_, of_contact_, contacts_;
   std::vector<unsigned char> moves_, seen_;
   std::vector<std::size_t> bodies_, first_;
 };

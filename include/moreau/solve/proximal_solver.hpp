@@ -56,8 +56,7 @@ class ProximalSolver {
   ///         or a time that is not positive
   explicit ProximalSolver(const Options& options = {}) : options_(options) {
     constexpr const char* self = "ProximalSolver";
-    require(options.tolerance > 0 && std::isfinite(options.tolerance), self, "tolerance",
-            options.tolerance, "must be finite and > 0");
+    require_positive(options.tolerance, self, "tolerance");
     require(options.max_sweeps >= 1, self, "max_sweeps", options.max_sweeps, "must be at least 1");
     require(options.max_seconds > 0, self, "max_seconds", options.max_seconds, "must be > 0");
   }

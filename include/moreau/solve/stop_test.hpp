@@ -35,8 +35,7 @@ inline bool is_closed(const SolveReport& report) {
 /// @param solver the public name that the exception gives
 /// @throws std::invalid_argument if a tolerance or a count is out of range
 void require_stopping(const auto& options, const char* solver) {
-  require(options.tolerance > 0 && std::isfinite(options.tolerance), solver, "tolerance",
-          options.tolerance, "must be finite and > 0");
+  require_positive(options.tolerance, solver, "tolerance");
   require(options.max_sweeps >= 1, solver, "max_sweeps", options.max_sweeps, "must be at least 1");
   require(options.check_interval >= 1, solver, "check_interval", options.check_interval,
           "must be at least 1");

@@ -74,8 +74,7 @@ class OverlapCorrection {
     require(options.rate > 0 && options.rate <= 1, self, "rate", options.rate,
             "must lie in (0, 1]");
     require(options.sweeps >= 1, self, "sweeps", options.sweeps, "must be at least 1");
-    require(options.max_shift > 0 && std::isfinite(options.max_shift), self, "max_shift",
-            options.max_shift, "must be finite and > 0");
+    require_positive(options.max_shift, self, "max_shift");
   }
 
   /// Computes the shift of every body, (displacement [m], rotation vector [rad]) in world axes.

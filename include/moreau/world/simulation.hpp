@@ -477,8 +477,7 @@ Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Scalar grain_size
       dynamics_(std::make_from_tuple<Dynamics>(parts)) {
   // Not in the class, where further errors would hide the reason.
   static_assert(sizeof(detail::Policies<S, Law, Integrator, Broad, Solver>) > 0);
-  require(std::isfinite(grain_size) && grain_size > 0, "Simulation", "grain_size", grain_size,
-          "must be finite and > 0");
+  require_positive(grain_size, "Simulation", "grain_size");
   tolerances.check("Simulation");
 }
 

@@ -37,8 +37,7 @@ struct Tolerances {
   /// @throws std::invalid_argument in the name of the function if one of them is not finite or out
   ///         of range
   void check(const char* function) const {
-    require(std::isfinite(margin) && margin > 0, function, "margin", margin,
-            "must be finite and > 0");
+    require_positive(margin, function, "margin");
     require(std::isfinite(skin) && skin >= 0, function, "skin", skin, "must be finite and >= 0");
     require(std::isfinite(resolution) && resolution >= 0, function, "resolution", resolution,
             "must be finite and >= 0");

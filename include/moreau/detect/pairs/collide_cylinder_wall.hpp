@@ -36,7 +36,7 @@ class Placement<CylinderWall<S>> {
   /// Places the wall at a pose, world axes [m].
   void update(const CylinderWall<S>& shape, const Pose<S>& pose) {
     center_ = pose.position;
-    axis_ = product(S::adjoint(pose.rotation), shape.axis());
+    axis_ = shape.axis_at(pose.rotation);
     radius_ = shape.radius();
   }
   const Vector& center() const { return center_; }  ///< a point of the axis, world axes [m]

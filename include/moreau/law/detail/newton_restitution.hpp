@@ -6,6 +6,14 @@
 
 namespace moreau::detail {
 
+/// e min(0, u_n before) if the gap is closed, else infinity: the contact cannot act in this step, and the step in which
+/// its gap closes is the impact. Arguments as of newton_offset().
+template <class T>
+T impact_offset(T restitution, T gap, T before) {
+  if (gap > T(0)) return std::numeric_limits<T>::infinity();
+  return restitution * std::min(T(0), before);
+}
+
 /// Offset of the normal velocity [m/s] under Newton's restitution, as SetValuedLaw asks for it.
 ///
 /// e = 0: max(0, g) / h. The contact may close its gap within the step; a penetration is not pushed
@@ -19,8 +27,7 @@ namespace moreau::detail {
 template <class T>
 T newton_offset(T restitution, T gap, T before, T step) {
   if (restitution == T(0)) return std::max(T(0), gap) / step;
-  if (gap > T(0)) return std::numeric_limits<T>::infinity();
-  return restitution * std::min(T(0), before);
+  return impact_offset(restitution, gap, before);
 }
 
 }  // namespace moreau::detail

@@ -60,9 +60,9 @@ class PolytopeBase {
 
   /// Mass, centre of mass and inertia at a uniform density.
   /// @param density [kg/m^D], > 0
-  /// @throws std::invalid_argument unless the density is finite and greater than zero
+  /// @throws std::invalid_argument unless the density is finite and > 0
   MassProperties<S> mass_properties(Scalar density) const {
-    detail::require_positive(density, Names::mass_properties, "density");
+    require_positive(density, Names::mass_properties, "density");
     typename S::Inertia inertia = moments_.inertia();
     inertia *= density;
     return {density * moments_.volume, Vector::Zero(), inertia};
@@ -107,7 +107,7 @@ class PolytopeBase {
   }
   /// Multiplies all lengths by the factor [-], > 0.
   void scale(Scalar factor) {
-    detail::require_positive(factor, Names::scaled, "factor");
+    require_positive(factor, Names::scaled, "factor");
     vertices_ *= factor;
     face_offsets_ *= factor;
     circumradius_ *= factor;

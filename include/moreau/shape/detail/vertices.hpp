@@ -119,13 +119,6 @@ void require_finite(std::span<const Vector> vertices, std::string_view function)
   }
 }
 
-/// @throws std::invalid_argument unless the value is finite and greater than zero
-template <class T>
-void require_positive(T value, std::string_view function, std::string_view argument) {
-  require(std::isfinite(value) && value > T(0), function, argument, value,
-          "must be finite and greater than zero");
-}
-
 }  // namespace detail
 
 }  // namespace moreau

@@ -49,7 +49,7 @@ BodyId Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_cylinder(
   constexpr const char* self = "Simulation::add_cylinder";
   require(all_finite(point), self, "point", point, "must be finite");
   require(std::abs(axis.norm() - 1) <= Scalar(1e-5), self, "axis", axis, "must be unit");
-  require(std::isfinite(radius) && radius > 0, self, "radius", radius, "must be finite and > 0");
+  require_positive(radius, self, "radius");
   cell().require_around(axis, self);
   return add_wall_of(CylinderWall<S>(axis, radius), Pose<S>(point), material, self);
 }

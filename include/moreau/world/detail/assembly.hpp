@@ -113,8 +113,7 @@ class Assembly {
   MassProperties<S> mass_of(ShapeId shape, Scalar density, Scalar grain_size,
                             const char* function) const {
     require_shape(shape, function);
-    require(std::isfinite(density) && density > 0, function, "density", density,
-            "must be finite and > 0");
+    require_positive(density, function, "density");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
     require(std::isfinite(mass.mass) && mass.mass > 0 && all_finite(mass.inertia) &&
                 all_finite(inverse_root<S>(mass.inertia)),
@@ -229,7 +228,7 @@ class Assembly {
       cell.require_along(pose.rotation * S::Vector::UnitX(), function);
     for (const CylinderBody<S>& cylinder : cylinders_)
       if (cylinder.body == body)
-        cell.require_around(product(S::adjoint(pose.rotation), cylinder.shape.axis()), function);
+        cell.require_around(cylinder.shape.axis_at(pose.rotation), function);
   }
   void require_grain(std::size_t k, const char* function) const {
     require(k < grains_.size(), function, "k", k, "must be below the number of grains");

@@ -29,7 +29,6 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/effective_mass.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
@@ -114,13 +113,12 @@ class BondList {
     drifts_.resize(bonds_.size());
     if (bonds_.empty()) return;
     merged_.clear();
-    const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
     std::size_t c = 0;
     for (std::size_t i = 0; i < bonds_.size(); ++i) {
       const Bond<S>& bond = bonds_[i];
       const std::pair pair(bond.a.value, bond.b.value);
-      for (; c < contacts.size() && pair_of(contacts.keys[c]) < pair; ++c) copy(contacts, c);
-      while (c < contacts.size() && pair_of(contacts.keys[c]) == pair) ++c;
+      for (; c < contacts.size() && contacts.keys[c].bodies() < pair; ++c) copy(contacts, c);
+      while (c < contacts.size() && contacts.keys[c].bodies() == pair) ++c;
       if (bodies.is_prescribed(bond.a.index()) && bodies.is_prescribed(bond.b.index())) continue;
       contact_of_[i] = merged_.size();
       const Vector shift = cell.shift(bond.cells);

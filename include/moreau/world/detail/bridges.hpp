@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/effective_mass.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
@@ -62,10 +61,9 @@ class Bridges {
   /// Whether the pair had a bridge in the step before, or its bodies pushed each other.
   /// @param at in and out: index into `before`, of this pair or an earlier one
   static bool had_bridge(const ContactsOf<Law, S>& before, std::size_t& at, const ContactKey& key) {
-    const auto pair_of = [](const ContactKey& k) { return std::pair(k.a, k.b); };
-    while (at < before.size() && pair_of(before.keys[at]) < pair_of(key)) ++at;
+    while (at < before.size() && before.keys[at].bodies() < key.bodies()) ++at;
     bool bridged = false;
-    for (; at < before.size() && pair_of(before.keys[at]) == pair_of(key); ++at)
+    for (; at < before.size() && before.keys[at].bodies() == key.bodies(); ++at)
       bridged = bridged || Law::is_bridged(before.points[at].variant) || before.impulses[at][0] > 0;
     return bridged;
   }

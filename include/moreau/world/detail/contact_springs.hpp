@@ -107,12 +107,11 @@ class ContactSprings {
     for (Row& impulse : impulses) impulse *= ratio;
     const ContactsOf<Law, S>&now = context.contacts, &before = context.previous;
     const Scalar length = open_length(context);
-    const auto pair_of = [](const ContactKey& key) { return std::pair(key.a, key.b); };
     std::size_t old = 0, end = 0;
     for (std::size_t first = 0, last; first < now.size(); first = last) {
       const Scalar count = count_pair(now, first, last, length);
-      while (old < before.size() && pair_of(before.keys[old]) < pair_of(now.keys[first])) ++old;
-      if (old == before.size() || pair_of(before.keys[old]) != pair_of(now.keys[first])) continue;
+      while (old < before.size() && before.keys[old].bodies() < now.keys[first].bodies()) ++old;
+      if (old == before.size() || before.keys[old].bodies() != now.keys[first].bodies()) continue;
       if (!context.materials.laws()[now.points[first].law].keeps_normal_impulse()) continue;
       const Scalar kept = std::sqrt(count_pair(before, old, end, length) / count);
       for (std::size_t c = first; c < last; ++c) impulses[c] *= kept;
@@ -246,10 +245,9 @@ class ContactSprings {
   static Scalar count_pair(const DetectedContacts<S>& contacts, std::size_t first,
                            std::size_t& last, Scalar length) {
     Scalar count = 0;
-    for (last = first; last < contacts.size(); ++last) {
-      const Contact<S>&point = contacts.points[first], &other = contacts.points[last];
-      if (other.a != point.a || other.b != point.b) break;
-      const Scalar open = std::max(Scalar(0), other.gap) / length;
+    last = end_of_pair(contacts, first);
+    for (std::size_t c = first; c < last; ++c) {
+      const Scalar open = std::max(Scalar(0), contacts.points[c].gap) / length;
       count += std::max(Scalar(0), 1 - open);
     }
     return std::max(Scalar(1), count);

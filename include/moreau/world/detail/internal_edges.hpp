@@ -103,8 +103,7 @@ class InternalEdges {
     const auto count = static_cast<std::uint32_t>(contacts.size());
     for (std::uint32_t first = 0, last = 0; first < count; first = last) {
       const ContactKey& key = contacts.keys[first];
-      while (last < count && contacts.keys[last].a == key.a && contacts.keys[last].b == key.b)
-        ++last;
+      last = static_cast<std::uint32_t>(end_of_pair(contacts, first));
       if (has_obstacles && bodies.is_prescribed(key.a))
         add_views(first, last, false, obstacles, contacts);
       if (has_obstacles && bodies.is_prescribed(key.b))

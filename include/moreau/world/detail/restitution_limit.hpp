@@ -36,10 +36,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
+#include "moreau/core/disjoint_sets.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -80,7 +80,6 @@ class RestitutionLimit {
              const auto& springs, const auto& solver, auto& workspace) {
     if (!bounces()) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
-    roots_.resize(bodies.size());
     islands_.resize(bodies.size());
     measure(problem, impulses, springs, Scalar(0), bouncing_);
     if (!gains(bodies, problem)) return;
@@ -170,12 +169,12 @@ class RestitutionLimit {
   }
   /// Finds the islands of contacts that act in one of the two states, and adds up their energies.
   void add_up(const Bodies<S>& bodies, const Problem& problem) {
-    std::iota(roots_.begin(), roots_.end(), 0u);
+    sets_.assign(bodies.size());
     std::fill(islands_.begin(), islands_.end(), Island{});
     for (std::size_t c = 0; c < bouncing_.size(); ++c) {
       const auto [a, b] = problem.delassus.bodies(c);
       if (!bouncing_[c].acts && !resting_[c].acts) continue;
-      if (!bodies.is_prescribed(a) && !bodies.is_prescribed(b)) roots_[root_of(a)] = root_of(b);
+      if (!bodies.is_prescribed(a) && !bodies.is_prescribed(b)) sets_.unite(a, b);
     }
     for (std::size_t c = 0; c < bouncing_.size(); ++c) {
       const State &bounce = bouncing_[c], &rest = resting_[c];
@@ -191,17 +190,13 @@ class RestitutionLimit {
   }
   std::uint32_t island_of(const Bodies<S>& bodies, const Problem& problem, std::size_t c) {
     const auto [a, b] = problem.delassus.bodies(c);
-    return root_of(bodies.is_prescribed(b) ? a : b);
-  }
-  std::uint32_t root_of(std::uint32_t i) {
-    while (roots_[i] != i) i = roots_[i] = roots_[roots_[i]];
-    return i;
+    return sets_.find(bodies.is_prescribed(b) ? a : b);
   }
 
   std::vector<Scalar> offset_, bounce_;  // one per contact: all of the offset, its part by e [m/s]
   std::vector<Row> aside_;  // one per contact, if the law has a tangential restitution [m/s]
   std::vector<State> bouncing_, resting_;  // one per contact: with restitution, without
-  std::vector<std::uint32_t> roots_;       // one per body: towards the root of its island
+  DisjointSets sets_;                      // of bodies: islands
   std::vector<Island> islands_;            // one per body: that of a root counts
 };
 

@@ -23,8 +23,7 @@ namespace moreau {
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
-  require(std::isfinite(step) && step > 0, "Simulation::step", "step", step,
-          "must be finite and > 0");
+  require_positive(step, "Simulation::step", "step");
   StepReport report;
   detail::StepContext<S, Law> context{
       assembly_.bodies(), gravity_,    materials_, previous_,

@@ -13,19 +13,26 @@ namespace moreau::detail {
 /// Leeuwen, J. ACM 31 (1984): path halving.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
+  DisjointSets() = default;
+  explicit DisjointSets(std::size_t n) { assign(n); }
+  /// Each of n numbers is a set of its own. Keeps the memory.
+  void assign(std::size_t n) {
+    parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
+  std::size_t size() const { return parent_.size(); }  ///< n
   /// The smallest number of the set of i.
   std::uint32_t find(std::size_t i) {
     auto k = static_cast<std::uint32_t>(i);
     while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
     return k;
   }
-  void unite(std::size_t i, std::size_t j) {
+  /// @returns whether they were in two sets
+  bool unite(std::size_t i, std::size_t j) {
     std::uint32_t a = find(i), b = find(j);
     if (b < a) std::swap(a, b);
     parent_[b] = a;
+    return a != b;
   }
 
  private:
