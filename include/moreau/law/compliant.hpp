@@ -65,7 +65,8 @@ namespace moreau {
 /// margin if the margin is smaller.
 /// All points of a contact between faces are used, unless Simulation::set_contact_points() says few.
 /// Model of CompliantLaw.
-/// @tparam Law    the set-valued law: SignoriniCoulomb, Frictionless, Cohesive, RollingResistance
+/// @tparam Law    the set-valued law: SignoriniCoulomb, Frictionless, Cohesive, RollingResistance,
+///                Bridged, Bonded
 /// @tparam Scalar its scalar
 template <class Law = SignoriniCoulomb<>,
           std::floating_point Scalar =

@@ -98,7 +98,7 @@ concept Attracts = requires {
 ///
 /// - reach(): the largest gap with a bridge [m]
 /// - is_bridged(k): whether variant k has a bridge; with_bridge(k, bridged): variant k with or without it
-/// - bridge_force(gap, radius): the attraction of the pair >= 0 [N]; radius is twice the effective radius [m]
+/// - bridge_force(gap, radius): the attraction of the pair >= 0 [N]; radius = 2 / (1/R_a + 1/R_b), the radii without half of the gap [m]
 template <class L, class S>
 concept BridgingLaw = SetValuedLaw<L, S> &&
     requires(const L law, typename S::Scalar length, std::size_t k) {
@@ -123,7 +123,8 @@ concept BondingLaw = SetValuedLaw<L, S> && Rolls<L> &&
   law.strength().tension;
 };
 
-/// A law whose bodies attract each other with the force attraction(gap) [N], through a bridge or a bond. Its local problem is
+/// A law whose bodies attract each other: with the force attraction(gap) [N] at each contact, through a bridge, or
+/// through a bond. Its local problem is
 /// that of the push against the attraction, see cohesive.hpp.
 template <class L, class S>
 concept AttractiveLaw = BridgingLaw<L, S> || BondingLaw<L, S> ||

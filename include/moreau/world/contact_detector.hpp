@@ -5,6 +5,7 @@
 //   2. find the pairs of grains; the list is kept over steps until a grain has moved by the skin
 //   3. collide each pair
 //   4. write its contact points to the list of the step
+//   5. turn or remove contacts at internal edges (detail/internal_edges.hpp)
 //
 // All buffers are kept: there is no allocation once they are large enough. In a periodic cell poses
 // are not wrapped: each pair has a shift by whole cells that moves its second grain next to its first.
@@ -145,7 +146,7 @@ class ContactDetector {
   bool margins_suffice(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
                        const detail::StepMotion<S>& motion) const;
 
-  /// Finds the contact points with a gap up to the margin, sorted by (a, b, feature), with zero
+  /// Finds the contact points with a gap up to the margin, sorted by (a, b, parts, feature), with zero
   /// impulse and law 0. Pairs of two bodies whose motion is prescribed have none: no impulse could
   /// change their relative velocity. Call find_pairs() before.
   /// @param bodies    with the poses that place() was given

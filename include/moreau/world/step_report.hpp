@@ -19,7 +19,8 @@ struct StepReport {
   /// Pairs of grains in the list of the broad phase, without walls: the boxes of the grains were closer
   /// than margin + 2 skin along every axis when the list was made.
   std::size_t candidate_pairs = 0;
-  std::size_t pairs = 0;   ///< pairs with at least one contact point, walls included
+  std::size_t pairs =
+      0;  ///< pairs with at least one contact point that was detected, walls included
   std::size_t points = 0;  ///< contact points
   /// Contact points whose key (bodies, parts and features) a contact point of the step before had, also
   /// if its impulse was 0.
@@ -66,7 +67,7 @@ struct StepReport {
   double ms_place = 0;                 ///< part of it: prediction, placing the shapes [ms]
   double ms_pairs = 0;                 ///< part of it: candidate pairs, with the broad phase [ms]
   double ms_collide = 0;               ///< part of it: contact points of the pairs [ms]
-  double ms_solve = 0;                 ///< for the contact problem, assembly and correction [ms]
+  double ms_solve = 0;                 ///< all after the detection [ms]
   double ms_assemble = 0;              ///< part of it: free velocities, operator, warm start [ms]
   double ms_correct = 0;               ///< part of it: overlap correction [ms]
   double ms_contacts = 0;              ///< part of it: the solver of the contact problem [ms]

@@ -137,7 +137,7 @@ class CoulombLanes {
     return Lanes::absolute(change) <= close * (least + alpha);
   }
 
-  /// The same in space. In most visits one Newton step on |r_t|^2 - (mu r_n)^2, which needs no
+  /// slide() in space. In most visits one Newton step on |r_t|^2 - (mu r_n)^2, which needs no
   /// root, is enough, because alpha of the last visit is near.
   Tangent slide(const Indices& open, Values& alpha) const requires(tangents > 1) {
     const Values zero{};

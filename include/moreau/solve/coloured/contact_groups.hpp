@@ -64,7 +64,7 @@ class ContactGroups {
   std::size_t rows() const { return body_count_ + pairs.size(); }
 
   /// @param problem  contacts of one pair of bodies follow one another
-  /// @param impulses the warm start; pairs with an impulse come first within their colour
+  /// @param impulses the warm start; pairs with most points that push or approach come first within their colour
   /// @param team     threads that share the work
   void build(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team) {

@@ -51,19 +51,15 @@ class CellJumps {
     });
   }
   /// Replaces the velocities of the cell by those of another rate.
-  /// @returns the largest change [m/s]
-  Scalar change(const Matrix& rate, const auto& contacts, auto& op) {
+  void change(const Matrix& rate, const auto& contacts, auto& op) {
     using Row = typename std::decay_t<decltype(op)>::Vector;
-    Scalar largest = 0;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Vector jump = jump_at(contacts.points[c], rate), change = jump - jumps_[c];
       Row row = Row::Zero();
       for (int k = 0; k < S::dim; ++k) row[k] = change[k];
       op.offset(c, row);
       jumps_[c] = jump;
-      largest = std::max(largest, change.squaredNorm());
     }
-    return std::sqrt(largest);
   }
   /// Velocity of the cell at contact c, contact frame [m/s].
   const Vector& operator[](std::size_t c) const { return jumps_[c]; }

@@ -96,7 +96,7 @@ class ChordVelocities {
 
   /// @param contacts of the bodies at their present poses
   /// @param step     h [s]: of the step that begins; -h for the step that ends; 0: none
-  /// @returns one per contact, body b minus body a, world axes [m/s]; empty if all are zero
+  /// @returns one per contact, body b minus body a, world axes [m/s]; empty if no wall turns and there is no cylinder
   std::span<const Vector> update(const Assembly<ShapeT>& assembly,
                                  const DetectedContacts<S>& contacts, Scalar step) {
     velocities_.clear();

@@ -6,8 +6,9 @@
 //   3. assemble(): the Delassus operator; bodies that other processes share are split
 //   4. warm_start(): from the impulses of the step before
 //   5. correct_overlaps(): bodies and gaps move, velocities do not
-//   6. ContactLaws::list_variants(): the laws of this step, where they depend on the step before
-//   7. ContactLaws::offset_velocities(): what each law adds to the normal velocity, from the corrected gaps
+//   6. ContactLaws::list_variants(): of the laws with a memory (each contact gets its own in 7)
+//   7. ContactLaws::offset_velocities(): the law of each contact, u before the step, and what chord and law add to b,
+//      from the corrected gaps
 //   8. solve(): the contact problem, by default with solve/coloured_gauss_seidel.hpp; limits the restitution
 //   9. find_velocities(): after the impulses
 //  10. measure_losses(): the dissipation
