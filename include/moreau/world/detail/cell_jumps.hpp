@@ -2,8 +2,6 @@
 // The terms that a periodic cell that deforms adds to a step; world/cell_control.hpp has the equations.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <type_traits>
