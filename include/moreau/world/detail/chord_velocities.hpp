@@ -194,7 +194,7 @@ class ChordVelocities {
     const Vector shift = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
     const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
-    const Angular axis = cylinder.axis_at(bodies.pose[b].rotation);
+    const Angular axis = cylinder.shape.axis_at(bodies.pose[b].rotation);
     const Angular tilt = of_b - axis * axis.dot(of_b);
     const Vector own = chord_excess<S>(of_a, lever_a, step);
     const Vector tilted = chord_excess<S>(tilt, lever_b, step);
