@@ -47,6 +47,22 @@ void add_deepest(const PolytopePair<Polygon<T>>& pair, const FoundAxis<Space<2, 
   out.points.push_back(witness_point(pair, found));
 }
 
+/// Step 2: adds the corners of the contact polygon.
+/// @returns the deepest corner of the polygon; its gap is infinite if the polygon has no corners
+template <class ShapeT>
+ManifoldPoint<SpaceOf<ShapeT>> take_corners(const PolytopePair<ShapeT>& pair, const auto& polygon,
+                                            typename SpaceOf<ShapeT>::Scalar margin,
+                                            Manifold<SpaceOf<ShapeT>>& out) {
+  using S = SpaceOf<ShapeT>;
+  constexpr auto infinity = std::numeric_limits<typename S::Scalar>::infinity();
+  ManifoldPoint<S> deepest{S::Vector::Zero(), infinity, FeatureKey()};
+  polygon.for_each_corner([&](const ManifoldPoint<S>& corner) {
+    if (corner.gap < deepest.gap) deepest = corner;
+    if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
+  });
+  return deepest;
+}
+
 /// Steps 2 and 3: adds the contact points of the facing features, sorted by feature key.
 /// @param look  called with the contact polygon and the gap of its deepest corner [m]
 template <class ShapeT>
@@ -56,12 +72,8 @@ void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<Shape
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   const Axis<S>& axis = found.axis;
-  ManifoldPoint<S> deepest{S::Vector::Zero(), std::numeric_limits<T>::infinity(), FeatureKey()};
   const auto polygon = contact_polygon(pair, facing, axis.normal, out.scratch);
-  polygon.for_each_corner([&](const ManifoldPoint<S>& corner) {
-    if (corner.gap < deepest.gap) deepest = corner;
-    if (corner.gap <= margin + pair.rounding()) out.points.push_back(corner);
-  });
+  const ManifoldPoint<S> deepest = take_corners(pair, polygon, margin, out);
   look(polygon, facing, deepest.gap);
   // Two nearest vertices, or a nearest vertex and edge, lie opposite each other. If they are the
   // only contact point, the point gets the key of these features, not of a face.

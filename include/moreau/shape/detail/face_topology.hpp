@@ -40,6 +40,19 @@ class IndexLists {
     items_.insert(items_.end(), list.begin(), list.end());
     begins_.push_back(static_cast<std::uint32_t>(items_.size()));
   }
+  /// An item of a list.
+  struct Entry {
+    std::uint32_t list, item;
+  };
+  /// Replaces all lists. Each gets its items in the order of the entries.
+  MOREAU_COMPILED_ONCE void assign(std::size_t lists, std::span<const Entry> entries) {
+    begins_.assign(lists + 1, 0);
+    for (const Entry& entry : entries) ++begins_[entry.list + 1];
+    for (std::size_t i = 0; i < lists; ++i) begins_[i + 1] += begins_[i];
+    std::vector<std::uint32_t> next(begins_);
+    items_.resize(entries.size());
+    for (const Entry& entry : entries) items_[next[entry.list]++] = entry.item;
+  }
 
  private:
   friend struct SerializationAccess;
@@ -165,20 +178,18 @@ struct FaceTopology {
   }
 
   void collect(std::size_t vertex_count, std::string_view function) {
-    std::vector<std::vector<std::uint32_t>> faces_at(vertex_count), edges_at(vertex_count);
-    for (std::uint32_t f = 0; f < faces.size(); ++f) {
-      for (const std::uint32_t v : faces[f]) faces_at[v].push_back(f);
-    }
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      for (const std::uint32_t v : edges[e].vertex) edges_at[v].push_back(e);
-    }
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-      if (faces_at[v].size() < 3)
-        throw_element(function, "number of faces at vertices[", v, "]", faces_at[v].size(),
+    std::vector<IndexLists::Entry> entries;
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+      for (const std::uint32_t v : faces[f]) entries.push_back({v, f});
+    vertex_faces.assign(vertex_count, entries);
+    entries.clear();
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+      for (const std::uint32_t v : edges[e].vertex) entries.push_back({v, e});
+    vertex_edges.assign(vertex_count, entries);
+    for (std::size_t v = 0; v < vertex_count; ++v)
+      if (vertex_faces[v].size() < 3)
+        throw_element(function, "number of faces at vertices[", v, "]", vertex_faces[v].size(),
                       "must be at least 3");
-      vertex_faces.push_back(faces_at[v]);
-      vertex_edges.push_back(edges_at[v]);
-    }
   }
 };
 

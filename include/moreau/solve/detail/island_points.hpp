@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
@@ -178,7 +179,7 @@ class IslandPoints {
   using Root = Eigen::Matrix<double, dofs, dofs>;
 
   /// The number of a body in the island.
-  std::uint32_t local(std::uint32_t body, const InverseMass<S>& mass) {
+  MOREAU_COMPILED_ONCE std::uint32_t local(std::uint32_t body, const InverseMass<S>& mass) {
     std::uint32_t& number = number_[body];
     if (number != none) return number;
     number = static_cast<std::uint32_t>(bodies_.size());

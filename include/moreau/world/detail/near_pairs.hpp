@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
@@ -134,6 +135,15 @@ class NearPairs {
   bool holds_in_lattice(const Grains& grains, std::span<const Aabb<S>> boxes, Scalar reach,
                         Scalar widest) const;
 
+  /// Chooses the shortest vectors of a lattice, for a new list.
+  /// @param width of the widest grain with its reach [m]
+  /// @throws std::invalid_argument if the cell is too short for it
+  MOREAU_COLD void renew_lattice(Scalar width) {
+    cell_.reduce();
+    cell_.require_room(width, "Simulation::step");
+    deformed_.setIdentity();
+  }
+
   PeriodicCell<S> cell_;
   std::vector<Aabb<S>> fat_;  // the enlarged boxes, one per grain
   BroadPhaseT broad_phase_;
@@ -168,11 +178,7 @@ bool NearPairs<ShapeT, BroadPhaseT>::find(const Grains& grains, std::span<const 
       left = !fat_[k].contains(boxes[k].inflated(reach)) ||
              (!caches_.holds(k, grains[k].placed, reach) && !is_alone(k));
   if (!left) return false;
-  if (cell_.is_lattice()) {
-    cell_.reduce();
-    cell_.require_room(widest + lengths.margin + 2 * lengths.skin, "Simulation::step");
-    deformed_.setIdentity();
-  }
+  if (cell_.is_lattice()) renew_lattice(widest + lengths.margin + 2 * lengths.skin);
   stale_ = false;
   fat_.resize(boxes.size());
   for (std::size_t k = 0; k < boxes.size(); ++k)
