@@ -136,13 +136,14 @@ def chosen(words):
     shape, kind, *more = words
     other = dict(word.split("=") for word in more if "=" in word)
     if kind in ("rigid", "compliant") and more and more[0] in ("filling", "jammed"):
-        grains = 1200 if "thousand" in more else BOXES[shape][float(other.get("L", 10.7))]
+        grains = 1200 if {"thousand", "ten", "five"} & set(more) else BOXES[shape][float(other.get("L", 10.7))]
         grains = round(grains * float(other.get("W", 1)))
         want = {"grains": grains, "frequency": float(other.get("nu", 5)), "fmax": 5 * grains * float(other.get("force", 1)),
                 "width_ratio": float(other.get("W", 1)), "side_walls": other.get("walls", "frictionless"), "box_ratio": 1 if grains == 1200 else None}
         if kind == "compliant":
             want["stiffness"] = 1e8 * float(other.get("k", 1))
-        return [r for control in (False, True) for r in pick(shape, kind == "rigid", more[0] == "jammed", control, **want)]
+        which = (True,) if "ten" in more else (False,) if "five" in more else (False, True)
+        return [r for control in which for r in pick(shape, kind == "rigid", more[0] == "jammed", control, **want)]
     want = {NAMED[key]: float(value) for key, value in other.items()}
     if "small" in more:
         want |= {"grains": {"polygon": 94, "disk": 111}[shape], "box_ratio": 0.9} | ({"tolerance": 1e-5} if kind == "rigid" else {})

@@ -5,12 +5,13 @@ on, which no other plan has. With 1200 grains in space the runs of the other pla
 A selection is SHAPE CONTACTS START and options: `rigid` or `compliant` contacts, from the `filling` on or from a `jammed` state, which
 compliant contacts made. Options: L, the length of the box over d (10.7 unless it is said); nu [Hz]; force, over 5 N for each grain; W, the
 width of the box over its length; walls, those beside the grains; k, the stiffness over 1e8 N/m. `thousand`: 1200 grains in the box of
-the other plans."""
+the other plans, all samples; `ten`: those of the controls alone, of which all runs of a sample start from one jammed state; `five`: the others."""
 import math
 import random
+from collections import Counter
 
 from interval import Estimate, interval, ratio, ratio_of_means, student
-from compaction import strain_over_load
+from compaction import Law, jammed_runs, points, strain_over_load
 from runs import TITLE, constant, exponent_of_samples, judged, line, over_samples, scaled_load, strain
 
 FIRST_SAMPLE = 31
@@ -24,6 +25,7 @@ USUAL = {"gravity": 9.81, "wall_mass_ratio": 0.5, "size_scale": 1.0, "friction":
 PAIRS = (("polygon", "polyhedron"), ("disk", "sphere"))
 CONTACTS_AND_STARTS = (("rigid", "filling"), ("rigid", "jammed"), ("compliant", "filling"), ("compliant", "jammed"))
 FORCE = 5.0  # largest force for each grain [N]
+STATE_FREQUENCIES = (2.0, 5.0, 10.0)  # of the ten jammed states [Hz]
 
 
 def aimed(shape, length):
@@ -68,12 +70,13 @@ def selection(controls, words):
         raise KeyError(f"no selection: {' '.join(words)}")
     wanted = {}
     for option in more:
-        if option == "thousand":
+        if option in ("thousand", "ten", "five"):
             wanted["grains"] = 1200
             continue
         key, value = option.split("=")
         wanted[OPTIONS[key]] = value if key == "walls" else float(value)
-    return select(controls, shape, contacts, start, **wanted)
+    found = select(controls, shape, contacts, start, **wanted)
+    return split(found)["ten" in more] if "ten" in more or "five" in more else found
 
 
 # Function of a run, factor, whether it may be negative.
@@ -233,18 +236,85 @@ def rows_of_depth(controls):
     return rows
 
 
+def ten_states(controls, shape, nu):
+    """One run of each of the ten samples, 1200 grains."""
+    return split(select(controls, shape, "compliant", "jammed", nu=nu, grains=1200))[1]
+
+
+def of_ten_states(controls, shape):
+    """Their runs at all frequencies, of the samples that have all."""
+    at = [ten_states(controls, shape, nu) for nu in STATE_FREQUENCIES]
+    both = set.intersection(*({r["parameters"]["seed"] for r in found} for found in at))
+    return [r for found in at for r in found if r["parameters"]["seed"] in both]
+
+
+def spreads(found, value):
+    """Standard deviations of the logarithm of a quantity: of the states, and what is left in the runs of one state when each frequency has
+    its mean. Analysis of variance, samples × frequencies; nan with fewer than three samples."""
+    seeds, at = (sorted({r["parameters"][key] for r in found}) for key in ("seed", "frequency"))
+    if len(seeds) < 3 or min(value(r) for r in found) <= 0:
+        return math.nan, math.nan
+    logs = {(r["parameters"]["seed"], r["parameters"]["frequency"]): math.log(value(r)) for r in found}
+    of_seed = {s: sum(logs[s, nu] for nu in at) / len(at) for s in seeds}
+    of_nu = {nu: sum(logs[s, nu] for s in seeds) / len(seeds) for nu in at}
+    mean_of_all = sum(of_seed.values()) / len(seeds)
+    left = sum((logs[s, nu] - of_seed[s] - of_nu[nu] + mean_of_all) ** 2 for s in seeds for nu in at) / ((len(seeds) - 1) * (len(at) - 1))
+    between = sum((m - mean_of_all) ** 2 for m in of_seed.values()) / (len(seeds) - 1) - left / len(at)
+    return math.sqrt(max(between, 0)), math.sqrt(left)
+
+
 def rows_of_states(controls):
-    """One jammed state of each sample: means at three frequencies, and the spread of a sample."""
+    """One jammed state of each sample: means at three frequencies, over those of the samples of the other plans."""
     rows = []
     for shape in GRAINS:
-        for nu in (5.0, 10.0, 2.0):
-            found = split(select(controls, shape, "compliant", "jammed", nu=nu, grains=1200))[1]
+        for nu in STATE_FREQUENCIES:
+            others, found = split(select(controls, shape, "compliant", "jammed", nu=nu, grains=1200))
             if len(found) > 2:
                 cells = []
                 for quantity in ("C", "strain"):
-                    e = mean(found, quantity)
-                    cells += [e.text(factor=QUANTITIES[quantity][1]), f"{100 * e.error * math.sqrt(e.n) / e.mean:.0f} %"]
+                    cells += [mean(found, quantity).text(factor=QUANTITIES[quantity][1]), interval(*compare(found, others, quantity)[:3])]
                 rows.append([TITLE[shape], f"{nu:g}", f"{len(found)}; {sum(judged(r) for r in found)}", *cells])
+    return rows
+
+
+def rows_of_spreads(controls):
+    """Spread between states and in the runs of one state, and the powers over the frequency."""
+    rows = []
+    for shape in GRAINS:
+        found = of_ten_states(controls, shape)
+        if len(found) > 6:
+            cells = [f"{100 * v:.0f} %" for quantity in ("C", "strain") for v in spreads(found, QUANTITIES[quantity][0])]
+            rows.append([TITLE[shape], len(found) // 3, *cells, *(power_of_states(controls, shape, q).text() for q in ("dx", "strain"))])
+    return rows
+
+
+def power_of_states(controls, shape, quantity):
+    """Power of a quantity over the frequency, 2 to 10 Hz, fitted in each of the ten states."""
+    return exponent_of_samples(of_ten_states(controls, shape), lambda r: r["parameters"]["frequency"], QUANTITIES[quantity][0])
+
+
+def law_for_states(controls, shape):
+    """The strains of the ten states over those of the law (A) that is fitted to the samples of the other plans: the mean of ln(measured /
+    predicted) over all points of each sample, and the rms of all points."""
+    law = Law(jammed_runs(split(controls)[0], shape), ("load",))
+    samples = {}
+    for r in (r for nu in STATE_FREQUENCIES for r in ten_states(controls, shape, nu)):
+        samples.setdefault(r["parameters"]["seed"], []).extend(law.residuals(points([r], ("load",))))
+    every = [v for values in samples.values() for v in values]
+    return Estimate([sum(v) / len(v) for v in samples.values() if v]), math.sqrt(sum(v * v for v in every) / max(len(every), 1))
+
+
+def rows_of_plane_states(controls):
+    """Plane over space with 1200 grains, in the samples of the other plans and in the ten."""
+    rows = []
+    for plane, space in (("disk", "sphere"), ("polygon", "polyhedron")):
+        for nu in STATE_FREQUENCIES:
+            for name, which in (("1 to 5", 0), ("31 to 40", 1), ("all", None)):
+                both = [select(controls, shape, "compliant", "jammed", nu=nu, grains=1200) for shape in (plane, space)]
+                both = both if which is None else [split(found)[which] for found in both]
+                if min(map(len, both)) > 1:
+                    rows.append([f"{TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}", f"{nu:g}", name, " and ".join(str(len(f)) for f in both),
+                                 *(interval(*compare(*both, quantity)[:3]) for quantity in ("C", "strain", "strain_root"))])
     return rows
 
 
@@ -256,6 +326,8 @@ def rows_of_stiffness(controls):
             found = [r for nu in (10.0, 15.0, 20.0, 35.0, 60.0)
                      for r in select(controls, shape, "compliant", "jammed", nu=nu, stiffness=stiffness, grains=1200)]
             e = exponent(controls, shape, stiffness, 10, 60)
+            of_sample = Counter(r["parameters"]["seed"] for r in found)
+            found = [r for r in found if of_sample[r["parameters"]["seed"]] >= 3]  # those that the power is fitted to
             if e.n and len(found) >= 5:
                 rows.append([TITLE[shape], f"1e{8 + round(math.log10(stiffness))}", e.n, f"{len(found)}; {sum(judged(r) for r in found)}", e.text(),
                              exponent(controls, shape, stiffness, 10, 60, "dx_max").text()])

@@ -61,8 +61,8 @@ QUANTITIES = {"dx": lambda r: r["dx_active"], "drift": lambda r: r["dx_max"], "v
 # Plan, series of its remaining runs, its title, and which runs are left.
 NOT_RUN = (("controls", "equal-length", "equal length; contacts × start",
             "L/d = 24; polygons 16; polyhedra 8, 16; polyhedra 10.7, spheres 15.1 rigid, jammed; 2 Hz, other forces"),
-           ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "all but one"),
-           ("controls", "stiffness", "stiffness", "polyhedra at 1e7, 1e9; 5 polygons; third sample"), ("controls", "jammed", "jammed states for these", ""),
+           ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "polyhedra but three, five spheres at 2 Hz"),
+           ("controls", "stiffness", "stiffness", "polyhedra; others at 1e8"), ("controls", "jammed", "jammed states for these", ""),
            ("settled", "all", "`settled`", ""), ("paper", "all", "`paper`", ""))
 MEAN_POWER = (lambda r: round(compaction.load_over_length(r), 9), strain_of)
 
@@ -160,6 +160,22 @@ class Values:
     def of_control_power(self, shape, stiffness, low, high, displacement="dx_active"):
         """Power of the excursion over the frequency for a stiffness over 1e8 N/m, no run left out."""
         return with_samples(controls.exponent(self.every, shape, float(stiffness), float(low), float(high), displacement))
+
+    def of_state_power(self, quantity, shape):
+        """Power of a quantity over the frequency, 2 to 10 Hz, in each of the ten jammed states."""
+        return with_samples(controls.power_of_states(self.every, shape, quantity))
+
+    def of_state_spread(self, which, quantity, shape):
+        """Spread of a quantity `between` the ten states, or `within` the runs of one state."""
+        value = controls.spreads(controls.of_ten_states(self.every, shape), controls.QUANTITIES[quantity][0])
+        return percent(value[which == "within"])
+
+    def of_state_law(self, what, shape):
+        """Strains of the ten states over those of equation (A), fitted to the other samples: `mean` of the ratio, or `rms` of its logarithm."""
+        e, rms = controls.law_for_states(self.every, shape)
+        if what == "rms":
+            return percent(rms)
+        return f"{interval(*(math.exp(v) for v in (e.mean, e.mean - e.half, e.mean + e.half)))} ({e.n})" if e.n > 1 else "–"
 
     def of_length_power(self, quantity, *words):
         """Power of the mean of a quantity over L/d at one load."""
