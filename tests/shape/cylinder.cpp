@@ -90,6 +90,26 @@ TEST_CASE("contacts of cylinders") {
   }
 }
 
+TEST_CASE_TEMPLATE("a lying cylinder touches a floor along its lowest line", T, double, float) {
+  using S3 = Space<3, T>;
+  using V3 = typename S3::Vector;
+  const HalfSpace<S3> half({0, 0, 1});
+  const Placed<HalfSpace<S3>> floor(half);
+  for (const T half_length : {T(0.002), T(0.05), T(0.3)})
+    for (int k = 0; k < 40; ++k) {
+      const Cylinder<T> cylinder(half_length, T(0.05));
+      const T turned = T(0.17 * k);
+      const Pose<S3> pose{V3(0, 0, T(0.05)),
+                          S3::exp(V3(0, 0, turned)) * S3::exp(V3(T(0.31 * k), 0, 0))};
+      Manifold<S3> manifold;
+      REQUIRE(collide(Placed<Cylinder<T>>(cylinder, pose), floor, T(1e-3), manifold));
+      CHECK(manifold.points.size() == 2);
+      const V3 across(-std::sin(turned), std::cos(turned), 0);
+      for (const auto& point : manifold.points)
+        CHECK(std::abs(point.position.dot(across)) < (std::same_as<T, float> ? T(1e-6) : T(1e-9)));
+    }
+}
+
 TEST_CASE("cylinders that are refused") {
   CHECK(message_of([] { Cylinder<>(0, 1); }) == "Cylinder: half_length = 0 must be finite and > 0");
   CHECK(message_of([] { Cylinder<>(1, -1); }) == "Cylinder: radius = -1 must be finite and > 0");

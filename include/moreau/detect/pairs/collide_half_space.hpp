@@ -9,6 +9,7 @@
 //     is flat there, corners of the flat part.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -137,6 +138,9 @@ struct FlatSpot {
   std::array<typename S::Vector, 6> corners;
   std::size_t size = 0;  ///< number of corners; 0 if the surface is not flat
 };
+/// Where the surface is flat in one direction and curved in another, as on the side of a cylinder, the tilt moves the
+/// support point by tilt x radius of curvature in the curved one; a wheel would roll over an edge of this width. The
+/// corners are those for a tilt of 0, from one, two and three times the tilt: a polynomial of degree 2.
 /// @param deepest  the support point along the normal, relative to the shape's centre, world axes
 ///                 [m]
 /// @param size     diagonal of the shape's bounding box [m]
@@ -147,16 +151,26 @@ FlatSpot<SpaceOf<ShapeT>> flat_spot(const Placed<ShapeT>& shape,
                                     typename SpaceOf<ShapeT>::Scalar size) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
+  using Vector = typename S::Vector;
   constexpr T tilt = DetectionTolerance<T>::tilt;
   const T far = T(10) * tilt * size;
   FlatSpot<S> spot;
   bool is_flat = false;
-  for_each_tangent(S{}, S::contact_frame(normal), [&](const typename S::Vector& tangent) {
-    typename S::Vector& corner = spot.corners[spot.size++];
+  const auto frame = S::contact_frame(normal);
+  for_each_tangent(S{}, frame, [&](const Vector& tangent) {
+    Vector& corner = spot.corners[spot.size++];
     corner = shape.support(normal + tilt * tangent);
     is_flat = is_flat || (corner - deepest).squaredNorm() > far * far;
   });
-  if (!is_flat) spot.size = 0;
+  spot.size = 0;
+  if (!is_flat) return spot;
+  for_each_tangent(S{}, frame, [&](const Vector& tangent) {
+    Vector& corner = spot.corners[spot.size++];
+    const Vector second = shape.support(normal + 2 * tilt * tangent),
+                 third = shape.support(normal + 3 * tilt * tangent);
+    const T change = std::max((second - corner).squaredNorm(), (third - second).squaredNorm());
+    if (change < far * far) corner = 3 * (corner - second) + third;
+  });
   return spot;
 }
 
