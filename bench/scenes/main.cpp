@@ -18,6 +18,7 @@
 //   points=few     at most D points of a contact between faces (default all)
 //   tolerance=R    of the residual (default 1e-3)
 //   narrows=no     contacts of all pairs within the margin (default: up to the gap that a pair can close in a step)
+//   islands=no     small islands by sweeps, too (default: by the direct method)
 //   margin=M       of detection, relative to the grain size (default: that of the scene)
 //   order=O        of the grains: added (default; the order of pouring), curve or random
 //   size=N         grains, or rows of a pyramid
@@ -81,6 +82,8 @@ void set(Options& options, const std::string& argument) {
     options.state = value;
   else if (name == "narrows")
     options.narrows = value != "no";
+  else if (name == "islands")
+    options.islands = value != "no";
   else if (name == "tolerance")
     options.tolerance = std::stod(value);
   else if (name == "margin")

@@ -32,6 +32,7 @@ struct Options {
   double margin = 0;        ///< relative to the grain size
   int size = 0, threads = 1, settle = -1, steps = 0;
   bool narrows = true;  ///< Tolerances::narrows
+  bool islands = true;  ///< ColouredOptions::islands
 };
 
 /// A simulation and its time loop. Grains are numbered in the order in which they were added.
@@ -86,6 +87,7 @@ inline Tolerances tolerances(double margin, const Options& options) {
 inline ColouredGaussSeidel solver(const Options& options) {
   ColouredOptions coloured;
   coloured.tolerance = options.tolerance;
+  coloured.islands = options.islands;
   return ColouredGaussSeidel(coloured);
 }
 
