@@ -178,7 +178,7 @@ class IslandNewton {
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
 
   /// Makes room for the contacts and bodies of an island.
-  void make_room() {
+  MOREAU_COLD void make_room() {
     const std::size_t count = points_.points().size();
     shift_.resize(count);
     stiffness_.resize(count);

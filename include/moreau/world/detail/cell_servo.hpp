@@ -27,6 +27,7 @@
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/world/cell_motion.hpp"
 
@@ -41,7 +42,7 @@ class CellServo {
   using Matrix = typename S::Matrix;
 
   /// Begins a step with the rate before it.
-  void start(const CellMotion<S>& cell, const Bodies<S>& bodies, Scalar step) {
+  MOREAU_COLD void start(const CellMotion<S>& cell, const Bodies<S>& bodies, Scalar step) {
     const CellControl<S>& control = cell.control();
     rate_ = free_ = cell.rate();
     response_.setZero();
