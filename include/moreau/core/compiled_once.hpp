@@ -20,8 +20,8 @@
 #define MOREAU_COMPILED_ONCE
 #endif
 
-/// Before a function of files, of set-up before a long loop, or one that throws: it is compiled for size and not inlined, which takes the compiler
-/// a fraction of the time.
+/// Before a function of files, of set-up before a long loop, or one that throws: it is compiled for size and not
+/// inlined, which takes the compiler a fraction of the time.
 #if defined(__GNUC__) || defined(__clang__)
 #define MOREAU_COLD [[gnu::cold, gnu::noinline]]
 #else
