@@ -19,6 +19,7 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/world/detail/cell_jumps.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
+#include "moreau/world/detail/closing_contacts.hpp"
 #include "moreau/world/detail/restitution_limit.hpp"
 #include "moreau/world/detail/step_context.hpp"
 
@@ -68,10 +69,14 @@ class ContactLaws {
                  fastest.add({-before_[c][0]});
                  const Scalar approach =
                      before_[c][0] - add_chord(problem.delassus, context, c, before_[c]);
-                 const Scalar offset = law.velocity_offset(contact.gap, approach, context.step);
-                 limit_.set(c, law, contact.gap, approach, context.step, offset);
+                 const Scalar free = problem.delassus.free_velocity(c)[0];
+                 const auto closing = closing_of(context, c, law, approach, free);
+                 const Scalar offset =
+                     law.velocity_offset(closing.gap, approach, context.step) + closing.offset;
+                 limit_.set(c, law, closing.gap, approach, context.step, offset - closing.offset,
+                            closing.offset);
                  if constexpr (TangentialRestitutionLaw<Law, S>)
-                   bounce_aside(problem, c, law, contact.gap, approach);
+                   bounce_aside(problem, c, law, closing.gap, approach);
                  if (!std::isfinite(offset)) impulses[c].setZero();
                  problem.delassus.offset_normal(c, offset);
                })

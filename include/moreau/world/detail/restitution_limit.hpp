@@ -62,9 +62,11 @@ class RestitutionLimit {
   }
   /// Splits the offset of a contact into that without restitution and the rest. Several threads may call
   /// it for different contacts.
-  /// @param offset velocity_offset(gap, before, step) [m/s]
-  void set(std::size_t c, const Law& law, Scalar gap, Scalar before, Scalar step, Scalar offset) {
-    offset_[c] = offset;
+  /// @param offset  velocity_offset(gap, before, step) [m/s]
+  /// @param further what is added to it beside the law [m/s], see closing_contacts.hpp
+  void set(std::size_t c, const Law& law, Scalar gap, Scalar before, Scalar step, Scalar offset,
+           Scalar further) {
+    offset_[c] = offset + further;
     bounce_[c] = 0;
     if (before < 0 && std::isfinite(offset))
       bounce_[c] = offset - law.velocity_offset(gap, Scalar(0), step);

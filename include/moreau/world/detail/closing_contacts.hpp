@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Contacts with a restitution that close within a step.
+//
+// A law with restitution lets a contact wait until its gap is closed (newton_restitution.hpp): a contact that
+// anticipated its gap would lose the restitution. For the points of a face this is too late. The gaps of a face that
+// lands flat differ by rounding, or by the tilt that an earlier impact has left, and a step that begins between them
+// would let some of the points bounce and others wait: the grain would turn, with up to twice the velocity of the
+// impact. A grain that rests would fall for a step wherever rounding opens its gap. So a contact that waits and whose
+// gap closes within the step, with the velocity that forces alone would give, acts in two cases:
+//
+//   1. the pair touches: it has a contact whose gap is closed. The contact acts as if its gap were closed, too: a face
+//      lands as a whole;
+//   2. the contact is slow: the approach before the step is at most what forces add in the step. It may close its gap
+//      within the step, as without restitution, and the bounce of the law is on top of that.
+//
+// Both offsets tend to that of a closed contact if the gap tends to 0. A ball that falls onto a floor waits, as do
+// balls in a row of which the first is hit.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace moreau::detail {
+
+/// How a contact acts in a step.
+template <class T>
+struct Closing {
+  T gap;         ///< to be given to the law [m]
+  T offset = 0;  ///< to be added to that of the law [m/s]
+};
+
+/// Whether a pair touches.
+/// @param contacts of the step; those of a pair are neighbours
+/// @param c        a contact of the pair
+inline bool touches(const auto& contacts, std::size_t c) {
+  const auto is_of_pair = [&](std::size_t k) {
+    return contacts[k].a == contacts[c].a && contacts[k].b == contacts[c].b;
+  };
+  for (std::size_t k = c; k-- > 0 && is_of_pair(k);)
+    if (!(contacts[k].gap > 0)) return true;
+  for (std::size_t k = c + 1; k < contacts.size() && is_of_pair(k); ++k)
+    if (!(contacts[k].gap > 0)) return true;
+  return false;
+}
+
+/// How contact c acts; the head of this file has the cases.
+/// @param context StepContext of the step
+/// @param before  u_n before the step [m/s], > 0 separates
+/// @param free    u_n after it without impulses [m/s]
+template <class Law, class T>
+Closing<T> closing_of(const auto& context, std::size_t c, const Law& law, T before, T free) {
+  const auto& contacts = context.contacts.points;
+  const T gap = contacts[c].gap, step = context.step;
+  if (!(gap > 0) || !(gap + step * free < 0) ||
+      std::isfinite(law.velocity_offset(gap, before, step)))
+    return {gap};
+  if (2 * before >= free) return {T(0), gap / step};
+  return touches(contacts, c) ? Closing<T>{T(0)} : Closing<T>{gap};
+}
+
+}  // namespace moreau::detail
