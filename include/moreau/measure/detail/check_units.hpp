@@ -30,7 +30,8 @@ struct Extremes {
   const bool fits = of.width > 0.2 * size && of.width < 5 * size;
   if (grains && !fits)
     found.say(
-        "grain size % m, but the smallest grain has a diameter of % m; all tolerances are relative "
+        "grain size % m, but the ball around the smallest grain has a diameter of % m; all "
+        "tolerances are relative "
         "to the "
         "grain size",
         {size, of.width});
