@@ -42,7 +42,8 @@ class IndexLists {
   }
   /// An item of a list.
   struct Entry {
-    std::uint32_t list, item;
+    std::uint32_t list;  ///< number of the list
+    std::uint32_t item;  ///< what it gets
   };
   /// Replaces all lists. Each gets its items in the order of the entries.
   MOREAU_COMPILED_ONCE void assign(std::size_t lists, std::span<const Entry> entries) {
