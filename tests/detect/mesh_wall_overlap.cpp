@@ -426,6 +426,54 @@ void check_pierced(double cell, double height) {
   }
 }
 
+/// A flat sieve: strips 10 mm wide around square holes of 30 mm.
+FacetMesh<Space<3>> sieve() {
+  FacetMesh<Space<3>> mesh;
+  std::vector<double> lines;
+  for (int k = -3; k <= 3; ++k) lines.insert(lines.end(), {0.04 * k - 0.005, 0.04 * k + 0.005});
+  const auto count = static_cast<std::uint32_t>(lines.size());
+  for (const double y : lines)
+    for (const double x : lines) mesh.vertices.push_back({x, y, 0});
+  for (std::uint32_t j = 0; j + 1 < count; ++j)
+    for (std::uint32_t i = 0; i + 1 < count; ++i) {
+      if (i % 2 == 1 && j % 2 == 1) continue;
+      const std::uint32_t at = j * count + i;
+      mesh.facets.push_back({at, at + 1, at + count + 1});
+      mesh.facets.push_back({at, at + count + 1, at + count});
+    }
+  return mesh;
+}
+
+TEST_CASE("a cube that lies on rims has contacts, and none deeper than it has sunk") {
+  using Cube = Polyhedron<>;
+  using S = Space<3>;
+  using Vector = S::Vector;
+  const Cube cube = cuboid<Cube>(Vector(0.018, 0.018, 0.018));
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+    const MeshWall<S> wall(sieve(), sides);
+    for (const double tilt : {0.0, 1e-6, 1e-4, 1e-2}) {
+      int missing = 0, too_deep = 0;
+      for (int k = 0; k < 3000; ++k) {
+        const S::Rotation turn = S::exp(Vector(tilt * any(random), tilt * any(random), 0)) *
+                                 S::exp(Vector(0, 0, 3 * any(random)));
+        Placed<Cube> shape(cube, {Vector::Zero(), turn});
+        const double sunk = std::pow(10., -5 + 2 * any(random));  // 1e-7 to 1e-3 m
+        shape.move_to(Vector(0.05 * any(random), 0.05 * any(random),
+                             shape.vertices().reach(-Vector::UnitZ()) - sunk));
+        const auto found = contacts(shape, wall, margin);
+        missing += found.empty();
+        too_deep += std::any_of(found.begin(), found.end(),
+                                [&](const auto& point) { return point.gap < -1.01 * sunk - 1e-9; });
+      }
+      CAPTURE(tilt);
+      CHECK(missing == 0);
+      CHECK(too_deep == 0);
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE(

@@ -133,8 +133,11 @@ class MeshCollision {
   bool use_points(std::size_t begin, const Use& use) {
     bool touch = false;
     for (std::size_t i = begin; i < scratch_.known.size(); ++i) {
-      const auto contact = scratch_.known.template at<Vector>(i);
-      if (contact.gap < -near_ && !is_deepest(contact)) continue;
+      auto contact = scratch_.known.template at<Vector>(i);
+      if (contact.gap < -near_) {
+        if (!is_deepest(contact)) continue;
+        leave_by_face(contact);
+      }
       const Vector middle = contact.x - contact.gap / 2 * contact.to_shape;
       out_.set_single_point(-contact.to_shape, contact.gap, center_ + middle, contact.feature);
       finish();
@@ -151,6 +154,20 @@ class MeshCollision {
     return core_.meets(wall_.vertex(ends.front()) - center_, wall_.vertex(ends.back()) - center_,
                        near_) &&
            !scratch_.known.frees(contact, near_, bounds);
+  }
+  /// A rim that grazes a face of the shape is not as deep as the face is wide: if the point of a ridge at which an edge
+  /// touches it leaves the shape by a shorter way, through a face beside the edge and out of the wall, the contact
+  /// is with this face.
+  void leave_by_face(Known& contact) const {
+    if (contact.feature.kind() != FeatureKey::Kind::edge_edge) return;
+    const Known deep = contact;
+    const Vector on_wall = deep.on_wall();
+    core_.for_each_face([&](auto, const Vector& outward, T offset) {
+      const T gap = outward.dot(on_wall) - offset;
+      if (outward.dot(deep.x) >= offset - T(4) * near_ || gap <= contact.gap + near_) return;
+      if (!is_in_cone(std::uint32_t(deep.feature.b()), -outward, level)) return;
+      contact = {on_wall - gap * outward, -outward, gap, deep.feature};
+    });
   }
   /// Height of the centre above the plane of a facet [m].
   T height(const typename Wall::Side& side) const { return side.normal.dot(center_) - side.offset; }
@@ -311,9 +328,9 @@ class MeshCollision {
       touch_ridge(r, v, from, along, length2, add);
     }
   }
-  bool is_in_cone(std::uint32_t r, const Vector& d) const {
+  bool is_in_cone(std::uint32_t r, const Vector& d, T tolerance = aligned) const {
     const auto& beyond = wall_.ridge(r).beyond;
-    return d.dot(beyond[0]) >= -aligned && d.dot(beyond[1]) >= -aligned;
+    return d.dot(beyond[0]) >= -tolerance && d.dot(beyond[1]) >= -tolerance;
   }
   /// The contact of an edge, from vertex v to w, with a ridge.
   template <class Add>
@@ -435,6 +452,7 @@ class MeshCollision {
   }
 
   static constexpr T aligned = T(1e-6);  ///< sine of the largest angle outside of a normal cone [-]
+  static constexpr T level = T(0.1);     ///< the same of a face that a ridge grazes [-]
   static constexpr T bent = T(2e-5);     ///< the same of two ridges without a tip between them [-]
   static constexpr T uneven = T(1e-2);   ///< the same at a corner of uneven faces [-]
   const MeshCore<ShapeT> core_;
