@@ -35,9 +35,7 @@ class ShearCell {
       : length_(across * 1.02),
         rate_(number),
         h_(2e-3 / number),
-        world_(0.8, materials(friction),
-               moreau::NonlinearGaussSeidel({.tolerance = 1e-3, .max_sweeps = 1000}),
-               {.margin = 0.08}) {
+        world_(0.8, materials(friction), solver(), {.margin = 0.08}) {
     world_.set_periodic(0, 0, length_);
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> diameter(0.8, 1.2);
@@ -78,6 +76,12 @@ class ShearCell {
 
  private:
   using Law = Rolling<Disk<>>;
+  static moreau::ColouredGaussSeidel solver() {
+    moreau::ColouredOptions options;
+    options.tolerance = 1e-3;
+    options.max_sweeps = 1000;
+    return moreau::ColouredGaussSeidel(options);
+  }
   static Materials<Law> materials(double friction) {
     Materials<Law> all(2, Law(friction));
     all.set(moreau::MaterialId(0), moreau::MaterialId(1), Law(100, 100));
