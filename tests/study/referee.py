@@ -174,12 +174,13 @@ def of_the_same_samples(word, *words):
     return a / b, a / b - half, a / b + half, n
 
 
-def of_all_lengths(word, plane, space, contacts, start, shortest=0):
+def of_all_lengths(word, plane, space, contacts, start, shortest=0, which="all"):
     """Geometric mean of the ratios in boxes of equal length, and its interval, from the ratio and the degrees of freedom of each length."""
     value, _, of_means = MEASURED[word]
     logs, terms = [], []
     for length in sorted(BOXES[plane].keys() & BOXES[space].keys()):
-        both = [of_samples(chosen([shape, contacts, start, f"L={length}"]), value) for shape in (plane, space)]
+        both = [of_samples([r for r in chosen([shape, contacts, start, f"L={length}"])
+                            if which == "all" or shape == space or r["facts"]["settled"]], value) for shape in (plane, space)]
         if length < float(shortest):
             continue
         if min(map(len, both)) < 2:
@@ -250,6 +251,33 @@ class Referee(unittest.TestCase):
                 if found[4]:  # those of all lengths have none
                     self.assertEqual([int(n) for n in found.groups()[3:] if n], list(want[3:]), f"{name}: {{{place}}}: {text}")
         self.assertGreater(checked, 150)
+
+    def test_counts_of_runs_that_began_before_rest(self):
+        pairs = [(s, kind == "rigid", jammed, BOXES[s][length], control) for s in BOXES for length in BOXES[s] for kind in ("rigid", "compliant")
+                 for jammed in (False, True) for control in (False, True)]
+        compared = [r for s, rigid, jammed, grains, control in pairs
+                    for r in pick(s, rigid, jammed, control, grains=grains, box_ratio=1 if grains == 1200 else None)]
+        at_work = [r for r in compared if not r["facts"]["settled"]]
+        every = [r for r in LINES if not r["facts"]["settled"]]
+        self.assertFalse([r["name"] for r in every if r["parameters"]["grains"] == 1200 or r["parameters"]["shape"] == "polygon"])
+        named = (RESULTS / "set_aside.txt").read_text(encoding="utf8").split()
+        made = [r for r in LINES if r["name"] in set(named)]
+        told_of = (RESULTS / "README.md").read_text(encoding="utf8")
+        self.assertIn(f"In {len(at_work)} of the {len(compared)} runs (disks, spheres)", told_of)
+        self.assertIn(f"{len(named)} runs were named before they were made, {len(made)} were made", told_of)
+        self.assertIn(f"{len(every)} runs, none with 1200 grains", (RESULTS / "report.md").read_text(encoding="utf8"))
+
+    def test_strains_of_the_lengths_are_not_one_ratio(self):
+        told_of = (RESULTS / "supplement.md").read_text(encoding="utf8")
+        for contacts, start in (("compliant", "filling"), ("compliant", "jammed"), ("rigid", "filling")):
+            logs = []
+            for length in BOXES["disk"].keys() & BOXES["sphere"].keys():
+                both = [of_samples(chosen([s, contacts, start, f"L={length}"]), period_strain) for s in ("disk", "sphere")]
+                if min(map(len, both)) > 1:
+                    (a, va), (b, vb) = map(mean_and_variance, both)
+                    logs.append((math.log(a / b), va / a ** 2 + vb / b ** 2))
+            centre = sum(x / v for x, v in logs) / sum(1 / v for _, v in logs)
+            self.assertIn(f"{sum((x - centre) ** 2 / v for x, v in logs):.1f} ({contacts}, {start})", told_of)
 
     def test_intervals_hold_by_the_bootstrap(self):
         # Welch's interval is not narrower than four fifths of that of the bootstrap, which is too narrow for few samples.

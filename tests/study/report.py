@@ -184,7 +184,7 @@ class Report(unittest.TestCase):
         results = STUDY / "results"
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder)
-            for path in [results / name for name in ("grains.csv", "wall_clock.csv", "remaining-paper.md", "remaining-settled.md", "remaining-controls.md")]:
+            for path in [results / name for name in ("grains.csv", "wall_clock.csv", "remaining-paper.md", "remaining-settled.md", "remaining-controls.md", "set_aside.txt")]:
                 shutil.copy(path, copy)
             for path in results.glob("*.md.in"):
                 shutil.copy(path, copy)

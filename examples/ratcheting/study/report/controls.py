@@ -100,12 +100,19 @@ def compare(above, below, quantity):
     return (*(ratio_of_means if QUANTITIES[quantity][2] else ratio)(a.values, b.values), a.n, b.n)
 
 
-def pooled(controls, plane, space, contacts, start, quantity, shortest=0.0):
+def settled(run):
+    """Whether the preparation of the sample was at rest when its time was over."""
+    return run["facts"]["settled"]
+
+
+def pooled(controls, plane, space, contacts, start, quantity, shortest=0.0, plane_settled=False):
     """Plane over space, geometric mean of the ratios at all lengths L/d from `shortest` on that both have, each with the same weight: value,
-    low and high end of its interval by Welch's degrees of freedom, and the number of lengths."""
+    low and high end of its interval by Welch's degrees of freedom, and the number of lengths. `plane_settled`: without the runs of the plane
+    that are not settled()."""
     logs, parts = [], []
     for length in (length for length in LENGTHS if length >= shortest):
-        both = [mean(select(controls, shape, contacts, start, length), quantity) for shape in (plane, space)]
+        both = [select(controls, shape, contacts, start, length) for shape in (plane, space)]
+        both = [mean([r for r in found if not plane_settled or k == 1 or settled(r)], quantity) for k, found in enumerate(both)]
         if min(e.n for e in both) < 2:
             continue
         if not QUANTITIES[quantity][2]:
@@ -122,6 +129,19 @@ def pooled(controls, plane, space, contacts, start, quantity, shortest=0.0):
     half = student(variance ** 2 / sum(v ** 2 / n for v, n in parts)) * math.sqrt(variance) / count
     value = sum(logs) / count
     return math.exp(value), math.exp(value - half), math.exp(value + half), count
+
+
+def heterogeneity(controls, plane, space, contacts, start, quantity):
+    """Chi-square of the logarithms of the ratios of plane over space at the lengths L/d about their weighted mean, and its degrees of freedom.
+    For quantities that may be negative: from the ratios of the means."""
+    logs = []
+    for length in LENGTHS:
+        a, b = (mean(select(controls, shape, contacts, start, length), quantity) for shape in (plane, space))
+        if min(a.n, b.n) > 1:
+            logs.append((math.log(a.mean / b.mean), (a.error / a.mean) ** 2 + (b.error / b.mean) ** 2))
+    weight = sum(1 / v for _, v in logs)
+    centre = sum(value / v for value, v in logs) / weight
+    return sum((value - centre) ** 2 / v for value, v in logs), len(logs) - 1
 
 
 def of_equal_length(controls):
@@ -192,6 +212,24 @@ def rows_of_equal_length(controls):
                 means = [mean(found, quantity).text(factor=QUANTITIES[quantity][1]) for quantity in ("C", "strain") for found in both]
                 rows.append([f"{TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}", aimed(plane, length), f"{contacts}, {start}",
                              *(f"{len(found)}; {sum(judged(r) for r in found)}" for found in both), *means, *cells])
+    return rows
+
+
+def rows_of_settled(controls):
+    """Disks over spheres at equal length, of the disks those of which the preparation was at rest; beside it all."""
+    rows = []
+    for contacts, start in CONTACTS_AND_STARTS:
+        at = [[select(controls, shape, contacts, start, length) for shape in ("disk", "sphere")] for length in LENGTHS]
+        for length, both in zip(LENGTHS, at):
+            rest = [[r for r in found if settled(r)] for found in both]
+            if min(map(len, both)) > 1 and len(rest[0]) > 1:
+                rows.append([f"{contacts}, {start}", aimed("disk", length), *(f"{len(still)} of {len(found)}" for still, found in zip(rest, both)),
+                             *(interval(*compare(found, both[1], quantity)[:3]) for quantity in ("C", "strain") for found in (rest[0], both[0]))])
+        for title, shortest in (("all", 0.0), ("10.7, 15.1", 10.7)):
+            if sum(min(map(len, both)) > 1 for length, both in zip(LENGTHS, at) if length >= shortest) > 1:
+                rows.append([f"{contacts}, {start}", title, "", "", *(
+                    interval(*pooled(controls, "disk", "sphere", contacts, start, quantity, shortest, rest)[:3])
+                    for quantity in ("C", "strain") for rest in (True, False))])
     return rows
 
 
@@ -302,6 +340,18 @@ def law_for_states(controls, shape):
         samples.setdefault(r["parameters"]["seed"], []).extend(law.residuals(points([r], ("load",))))
     every = [v for values in samples.values() for v in values]
     return Estimate([sum(v) / len(v) for v in samples.values() if v]), math.sqrt(sum(v * v for v in every) / max(len(every), 1))
+
+
+def law_for_states_and_samples(controls, shape):
+    """The same ratio with the spread of both: the mean of the ten samples over that of the samples to which the law is fitted, by Welch:
+    value, low and high end, numbers of samples."""
+    fitted = jammed_runs(split(controls)[0], shape)
+    law, old = Law(fitted, ("load",)), {}
+    for r in fitted:
+        old.setdefault(r["parameters"]["seed"], []).extend(law.residuals(points([r], ("load",))))
+    states = law_for_states(controls, shape)[0].values
+    base = [sum(v) / len(v) for v in old.values() if v]
+    return (*ratio([math.exp(v) for v in states], [math.exp(v) for v in base]), len(states), len(base))
 
 
 def rows_of_plane_states(controls):

@@ -160,6 +160,16 @@ class Prediction:
         rows = [self.over_base(run) for pairs in self.pairs.values() for run, _ in pairs]
         return sum(y * x for y, x in rows) / sum(x * x for _, x in rows)
 
+    def null_of_others(self):
+        """The null model with a power that is fitted to the runs of the other samples."""
+        rows = [(run["parameters"]["seed"], *self.over_base(run)) for pairs in self.pairs.values() for run, _ in pairs]
+        found = []
+        for seed in sorted({row[0] for row in rows}):
+            others = [(y, x) for s, y, x in rows if s != seed]
+            p = sum(y * x for y, x in others) / sum(x * x for _, x in others)
+            found += [math.exp(y - p * x) for s, y, x in rows if s == seed]
+        return found
+
     def set_aside_null(self):
         """The null model with the power, for the judged runs that were set aside."""
         p = self.null_power()

@@ -152,10 +152,20 @@ class Values:
         *value, both = controls.compare_samples(*(controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:])), quantity)
         return f"{interval(*value)} ({both})" if both > 1 else "–"
 
-    def of_pooled(self, quantity, plane, space, contacts, start, shortest="0"):
-        """Plane over space over all lengths L/d from `shortest` on that both have."""
-        *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity, float(shortest))
+    def of_pooled(self, quantity, plane, space, contacts, start, shortest="0", which="all"):
+        """Plane over space over all lengths L/d from `shortest` on that both have; `settled`: of the plane the runs of which the preparation
+        was at rest."""
+        *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity, float(shortest), which == "settled")
         return interval(*value) if lengths else "–"
+
+    def of_heterogeneity(self, quantity, plane, space, contacts, start):
+        """Chi-square of the ratios of plane over space at the lengths."""
+        return f"{controls.heterogeneity(self.every, plane, space, contacts, start, quantity)[0]:.1f}"
+
+    def of_unsettled(self, which="all"):
+        """How many runs have a preparation that was not at rest: of all, or of those of `equal` length."""
+        names = controls.of_equal_length(self.every)
+        return str(sum(not controls.settled(r) for r in self.every if which == "all" or r["name"] in names))
 
     def of_control_power(self, shape, stiffness, low, high, displacement="dx_active"):
         """Power of the excursion over the frequency for a stiffness over 1e8 N/m, no run left out."""
@@ -171,7 +181,11 @@ class Values:
         return percent(value[which == "within"])
 
     def of_state_law(self, what, shape):
-        """Strains of the ten states over those of equation (A), fitted to the other samples: `mean` of the ratio, or `rms` of its logarithm."""
+        """Strains of the ten states over those of equation (A), fitted to the other samples: `mean` of the ratio, `rms` of its logarithm,
+        or `both`: the mean with the spread of the other samples, too."""
+        if what == "both":
+            *value, new, old = controls.law_for_states_and_samples(self.every, shape)
+            return f"{interval(*value)} ({new} and {old})"
         e, rms = controls.law_for_states(self.every, shape)
         if what == "rms":
             return percent(rms)
@@ -190,9 +204,10 @@ class Values:
         return "\n".join(template.row(cells) for cells in rows)
 
     def of_control_runs(self, which="all"):
-        """Number of the runs of the controls: `all`, or those of `equal` length."""
-        found = controls.split(self.every)[1]
-        return f"{len(controls.of_equal_length(found) if which == 'equal' else found):,}"
+        """Number of the runs of the controls: `all`, those of `equal` length, or those and the runs of samples 1 to 5 that are `compared`
+        with them."""
+        found = self.every if which == "compared" else controls.split(self.every)[1]
+        return f"{len(found if which == 'all' else controls.of_equal_length(found)):,}"
 
     # Exponents.
 
@@ -304,6 +319,10 @@ class Values:
         mean, scatter = excursion.mean_and_scatter(found.set_aside_ratios if model == "thrust" else found.set_aside_null())
         return f"{mean:.2f}, {percent(scatter)}"
 
+    def of_null_of_others(self, shape):
+        """The scatter of the excursion about a power of ℓ that is fitted to the other samples."""
+        return percent(excursion.mean_and_scatter(self.prediction(shape, "jammed", "F").null_of_others())[1])
+
     def of_every_scatter(self, shape):
         """The scatter of the prediction by F(x) with the runs that are not judged."""
         return percent(excursion.mean_and_scatter(self.prediction(shape, "jammed", "F").every_ratio())[1])
@@ -368,6 +387,9 @@ class Values:
         return {"used": str(test.run_count), "rms": percent(test.rms), "mean": percent(test.mean), "scatter": percent(test.law.scatter)}[what]
 
     def of_aside_total(self, what):
+        """Runs that were set aside: `named`, `made`, `used`."""
+        if what == "named":
+            return str(len((self.folder / "set_aside.txt").read_text(encoding="utf8").split()))
         if what == "made":
             return str(sum(bool(r.get("set_aside")) for r in self.runs))
         return str(sum(compaction.SetAside(compaction.jammed_runs(self.runs, s), ("load",)).run_count for s in SHAPES))
@@ -423,6 +445,8 @@ class Values:
         """The frequency of the largest rate over one second in each sample, rigid contacts."""
         best = {}
         for r in ten.every_frequency(self.runs, shape):
+            if r["jams"]["t"][1] > 1 + 1e-9:  # no period within the second
+                continue
             seed, value = r["parameters"]["seed"], QUANTITIES[quantity](r)
             if seed not in best or value > best[seed][0]:
                 best[seed] = (value, r["parameters"]["frequency"])
