@@ -117,6 +117,7 @@ def strain_over_root(line):
 MEASURED = {
     "C": (excursion_over_load, 1, False), "C_drift": (lambda r: excursion_over_load(r, "dx_max"), 1, False),
     "C_box": (lambda r: excursion_over_load(r) / (r["height"] / r["length"]) ** 1.2, 1, False),
+    "C_drift_box": (lambda r: excursion_over_load(r, "dx_max") / (r["height"] / r["length"]) ** 1.2, 1, False),
     "strain": (period_strain, 1e4, True), "strain_root": (strain_over_root, 1e3, True), "dx": (lambda r: r["dx_active"], 1e3, False),
     "rate": (lambda r: r["rate"], 1e3, True), "rho_box": (lambda r: r["rho_box_initial"], 1, False),
     "rho_start": (lambda r: r["rho_initial"], 1, False), "rho_02": (lambda r: r["rho_0"], 1, False),
@@ -266,6 +267,23 @@ class Referee(unittest.TestCase):
         self.assertIn(f"In {len(at_work)} of the {len(compared)} runs (disks, spheres)", told_of)
         self.assertIn(f"{len(named)} runs were named before they were made, {len(made)} were made", told_of)
         self.assertIn(f"{len(every)} runs, none with 1200 grains", (RESULTS / "report.md").read_text(encoding="utf8"))
+
+    def test_ranges_that_are_typed(self):
+        report, first = ((TOP / name).read_text(encoding="utf8") for name in ("examples/ratcheting/results/report.md", "README.md"))
+        three = (("compliant", "jammed"), ("compliant", "filling"), ("rigid", "jammed"))
+        at_8 = [expected(f"control strain disk {c} {s} L=8 / sphere {c} {s} L=8")[0] for c, s in three]
+        self.assertIn(f"({min(at_8):.2f} to {max(at_8):.2f} in three sets)", report)
+        highest = max(of_all_lengths("C", "disk", "sphere", c, s)[2] for c, s in (*three[:2], ("rigid", "filling")))
+        self.assertIn(f"C at most {100 * highest - 100:.0f} % more (three sets", report)
+        alone = [r for contacts, start in (("compliant", "filling"), ("compliant", "jammed"), ("rigid", "jammed"))
+                 for r in (*(chosen(["polygon", contacts, start, "L=8"])), *(chosen(["polygon", contacts, start]) if contacts == "rigid" else ()),
+                           *(chosen(["disk", contacts, start, "L=16"]) if contacts == "rigid" else ()))]
+        self.assertIn(f"; {len(alone)} runs of the plane have no partner in space", report)
+        soft = [r for s in ("polygon", "disk", "sphere") for nu in (10, 15, 20, 35, 60) for r in chosen([s, "compliant", "jammed", "thousand", f"nu={nu}", "k=0.1"])]
+        kept = [r for r in soft if sum(map(abs, r["periods"]["drift"])) <= 0.3 * sum(map(abs, r["periods"]["dx_max"]))]
+        self.assertIn(f"at 1e7, {len(kept)} of {len(soft)} runs is judged", report)
+        for c, s in (("compliant", "jammed"), ("compliant", "filling"), ("rigid", "filling")):
+            self.assertIn("{:.2f} [{:.2f}, {:.2f}]".format(*of_all_lengths("C", "disk", "sphere", c, s)), first)
 
     def test_strains_of_the_lengths_are_not_one_ratio(self):
         told_of = (RESULTS / "supplement.md").read_text(encoding="utf8")

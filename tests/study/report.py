@@ -202,6 +202,13 @@ class Report(unittest.TestCase):
         abstract = re.search(r"## Abstract\n(.*?)\n## ", text, re.S).group(1)
         self.assertLessEqual(len(abstract.split()), 150)
 
+    def test_judged_runs_of_the_first_page(self):
+        values = write.Values(runs.read(STUDY / "results/runs.jsonl"), STUDY / "results")
+        powers = [values(f"line power {shape} rigid").split()[0] for shape in runs.SHAPES]
+        judged = sum(int(values(f"line runs {shape} jammed")) for shape in runs.SHAPES)
+        first = (TOP / "README.md").read_text(encoding="utf8")
+        self.assertIn(f"(samples 1 to 5, {judged} judged runs over ν, fmax, g and m_w; rigid {min(powers)} to {max(powers)},", first)
+
     def test_intervals_of_the_first_page_are_those_of_the_report(self):
         pages = "".join((STUDY / "results" / name).read_text(encoding="utf8") for name in ("report.md", "supplement.md"))
         first = " ".join((TOP / "README.md").read_text(encoding="utf8").split())

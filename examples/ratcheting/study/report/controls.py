@@ -83,6 +83,7 @@ def selection(controls, words):
 QUANTITIES = {"C": (constant, 1, False), "C_drift": (lambda r: constant(r, "dx_max"), 1, False), "strain": (strain_of, 1e4, True), "strain_root": (strain_over_load, 1e3, True),
               # C of a box as high as long, by the power of C over H/L that polyhedra have.
               "C_box": (lambda r: constant(r) / (r["height"] / r["length"]) ** 1.2, 1, False),
+              "C_drift_box": (lambda r: constant(r, "dx_max") / (r["height"] / r["length"]) ** 1.2, 1, False),
               "dx": (lambda r: r["dx_active"], 1e3, False), "drift_share": (lambda r: r["drift"] / r["dx_max"], 100, True),
               "length": (lambda r: r["length"] / 0.025, 1, False), "height": (lambda r: r["height"] / r["length"], 1, False)}
 

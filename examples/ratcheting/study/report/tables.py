@@ -136,17 +136,20 @@ def converged(runs):
         settings, found, common = _same_states(runs, shape)
         for (name, _), at in zip(settings, found):
             same, first = [at[key] for key in common], at is found[0]
-            seeds = {}
+            seeds, strains_of = {}, {}
             for key in common:
+                ratio_of_strains = strain(at[key], 0, 4) / strain(found[0][key], 0, 4)
+                if ratio_of_strains > 0:
+                    strains_of.setdefault(key[0], []).append(math.log(ratio_of_strains))
                 seeds.setdefault(key[0], []).append(math.log(at[key]["dx_active"] / found[0][key]["dx_active"]))
             shift = Estimate([sum(v) / len(v) for v in seeds.values()])
-            strains, _ = excursion.mean_and_scatter([strain(at[key], 0, 4) / strain(found[0][key], 0, 4) for key in common])
+            strains = Estimate([sum(v) / len(v) for v in strains_of.values()])
             highest = max(nu for _, nu in common)
             rows.append([TITLE[shape], name, ", ".join(f"{nu:g}" for nu in sorted({nu for _, nu in common})),
                          f"{sum(judged(r) for r in same)} of {len(common)}",
                          *(exponent(same, "frequency", lambda r, q=q: r[q]).text() for q in ("dx_active", "dx_max")),
                          "1" if first else interval(*(math.exp(v) for v in (shift.mean, shift.mean - shift.half, shift.mean + shift.half))),
-                         "1" if first else f"{strains:.2f}",
+                         "1" if first else interval(*(math.exp(v) for v in (strains.mean, strains.mean - strains.half, strains.mean + strains.half))),
                          over_samples([r for r in same if r["parameters"]["frequency"] == highest], lambda r: 1e6 * r["drift"]).text(),
                          f"{sum(r['facts']['capped_steps'] for r in same)} of {sum(r['facts']['steps'] for r in same):,}"])
     return rows

@@ -167,6 +167,11 @@ class Values:
         names = controls.of_equal_length(self.every)
         return str(sum(not controls.settled(r) for r in self.every if which == "all" or r["name"] in names))
 
+    def of_negative(self, quantity, *words):
+        """In how many runs of a selection of the controls a quantity is negative."""
+        found = controls.selection(self.every, words)
+        return f"{sum(controls.QUANTITIES[quantity][0](r) < 0 for r in found)} of {len(found)}"
+
     def of_control_power(self, shape, stiffness, low, high, displacement="dx_active"):
         """Power of the excursion over the frequency for a stiffness over 1e8 N/m, no run left out."""
         return with_samples(controls.exponent(self.every, shape, float(stiffness), float(low), float(high), displacement))
