@@ -205,9 +205,11 @@ class Report(unittest.TestCase):
     def test_judged_runs_of_the_first_page(self):
         values = write.Values(runs.read(STUDY / "results/runs.jsonl"), STUDY / "results")
         powers = [values(f"line power {shape} rigid").split()[0] for shape in runs.SHAPES]
-        judged = sum(int(values(f"line runs {shape} jammed")) for shape in runs.SHAPES)
+        judged, every = (sum(int(values(f"line {what} {shape} jammed")) for shape in runs.SHAPES) for what in ("runs", "runs_all"))
+        all_powers = [float(values(f"line power_all {shape} jammed").split()[0]) for shape in runs.SHAPES]
         first = (TOP / "README.md").read_text(encoding="utf8")
-        self.assertIn(f"(samples 1 to 5, {judged} judged runs over ν, fmax, g and m_w; rigid {min(powers)} to {max(powers)},", first)
+        self.assertIn(f"(samples 1 to 5, the {judged} of {every} runs over ν, fmax, g and m_w that are judged; "
+                      f"all: {min(all_powers):.2f} to {max(all_powers):.2f}; rigid {min(powers)} to {max(powers)},", first)
 
     def test_intervals_of_the_first_page_are_those_of_the_report(self):
         pages = "".join((STUDY / "results" / name).read_text(encoding="utf8") for name in ("report.md", "supplement.md"))

@@ -258,18 +258,22 @@ class Values:
 
     # One line.
 
-    def line_runs(self, shape, kind):
-        found = {r["name"]: r for parameter, fixed in ten.LOADS for r in ten.loaded(
-            self.runs, shape, parameter, **(fixed | (JAMMED if kind == "jammed" else {})))}
-        return list(found.values())
+    def line_runs(self, shape, kind, every=False):
+        """The judged runs over all loads, or `every` run."""
+        found = {r["name"]: r for parameter, fixed in ten.LOADS for r in series(
+            self.runs, shape, parameter, **(fixed | (JAMMED if kind == "jammed" else {}))) if r["parameters"]["fmax"] >= 1000}
+        return [r for r in found.values() if every or judged(r)]
 
     def of_line(self, what, shape, kind, quantity="dx"):
         """C over all loads: `power` of the load, `scatter` about power 1 and `left`, about the fitted power; `C`; `least` and `most` C of a
-        run; `runs`; `decades`."""
+        run; `runs`; `decades`; `power_all`, `runs_all`: with the runs that are not judged."""
         found, value = self.line_runs(shape, kind), QUANTITIES[quantity]
         logs = [math.log(value(r) / scaled_load(r)) for r in found]
         if what == "power":
             return with_samples(exponent_of_samples(found, scaled_load, value))
+        if what in ("power_all", "runs_all"):
+            every = self.line_runs(shape, kind, True)
+            return str(len(every)) if what == "runs_all" else with_samples(exponent_of_samples(every, scaled_load, value))
         if what == "scatter":
             return percent(math.sqrt(sum((v - sum(logs) / len(logs)) ** 2 for v in logs) / (len(logs) - 1)))
         if what == "left":
