@@ -92,7 +92,7 @@ TEST_CASE_TEMPLATE("check: a step in milliseconds, of one grain at rest", ShapeT
 
 TEST_CASE("check: a grain size in millimetres") {
   World world = cube(20, 0.02);
-  CHECK(one_contains(run(world, 1e-3, 1), "grain size 20 m, but the smallest grain"));
+  CHECK(one_contains(run(world, 1e-3, 1), "grain size 20 m, but the ball around the smallest grain"));
 }
 
 TEST_CASE("check: a grain inside another") {
@@ -172,7 +172,7 @@ TEST_CASE_TEMPLATE("check: numbers in other units, and gravity of the wrong sign
   CHECK(says({.density = 2.7e6}, "in g/m^3, type 2700"));
   for (const double size : {5.0, 20.0, 200.0})
     CHECK(says({.size = size, .grain_size = size}, "If lengths are in mm"));
-  CHECK(says({.grain_size = 20}, "grain size 20 m, but the smallest grain"));
+  CHECK(says({.grain_size = 20}, "grain size 20 m, but the ball around the smallest grain"));
   CHECK(says({.gravity = -981}, "If it is in 0.01 m/s^2, type 9.81"));
   CHECK(says({.gravity = -9810}, "If it is in 0.001 m/s^2, type 9.81"));
   CHECK(says({.gravity = 9.81}, "gravity points along the last axis (9.81 m/s^2)"));
