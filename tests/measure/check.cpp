@@ -92,7 +92,8 @@ TEST_CASE_TEMPLATE("check: a step in milliseconds, of one grain at rest", ShapeT
 
 TEST_CASE("check: a grain size in millimetres") {
   World world = cube(20, 0.02);
-  CHECK(one_contains(run(world, 1e-3, 1), "grain size 20 m, but the ball around the smallest grain"));
+  CHECK(
+      one_contains(run(world, 1e-3, 1), "grain size 20 m, but the ball around the smallest grain"));
 }
 
 TEST_CASE("check: a grain inside another") {
