@@ -59,8 +59,8 @@ def period_strain(line):
 
 
 @functools.cache
-def t_quantile(freedom):
-    """t with 95 % of Student's density between -t and t, by Simpson's rule."""
+def t_quantile(freedom, share=0.95):
+    """t with this share of Student's density between -t and t, by Simpson's rule."""
     scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
 
     def half_mass(t, n=600):
@@ -70,7 +70,7 @@ def t_quantile(freedom):
     low, high = 1.0, 40.0
     for _ in range(40):
         middle = (low + high) / 2
-        low, high = (middle, high) if half_mass(middle) < 0.475 else (low, middle)
+        low, high = (middle, high) if half_mass(middle) < share / 2 else (low, middle)
     return low
 
 
@@ -85,7 +85,7 @@ def student(values):
     return m, m - half, m + half
 
 
-def welch(above, below, logs=True):
+def welch(above, below, logs=True, share=0.95):
     """Ratio of geometric means, or of means by propagation of their errors."""
     if logs:
         (a, va), (b, vb) = (mean_and_variance([math.log(v) for v in x]) for x in (above, below))
@@ -94,7 +94,7 @@ def welch(above, below, logs=True):
         (a, va), (b, vb) = (mean_and_variance(x) for x in (above, below))
         centre, va, vb = math.log(a / b), va / a ** 2, vb / b ** 2
     freedom = (va + vb) ** 2 / (va ** 2 / (len(above) - 1) + vb ** 2 / (len(below) - 1))
-    half = t_quantile(freedom) * math.sqrt(va + vb)
+    half = t_quantile(freedom, share) * math.sqrt(va + vb)
     return math.exp(centre), math.exp(centre - half), math.exp(centre + half)
 
 
@@ -107,10 +107,17 @@ def bootstrap(above, below, count=4000):
     return ratios[count // 40], ratios[-count // 40]
 
 
-def strain_over_root(line):
+def load_over_length(line):
     p = line["parameters"]
-    load = line["mass"] * p["gravity"] ** 2 / ((1 + p["wall_mass_ratio"]) * p["fmax"] * p["frequency"] ** 2)
-    return period_strain(line) / math.sqrt(load / line["length"])
+    return line["mass"] * p["gravity"] ** 2 / ((1 + p["wall_mass_ratio"]) * p["fmax"] * p["frequency"] ** 2) / line["length"]
+
+
+def strain_over_root(line):
+    return period_strain(line) / math.sqrt(load_over_length(line))
+
+
+def is_judged(line):
+    return sum(map(abs, line["periods"]["drift"])) <= 0.3 * sum(map(abs, line["periods"]["dx_max"]))
 
 
 # Name in the templates: function of a run, factor, whether ratios are of means.
@@ -175,6 +182,15 @@ def of_the_same_samples(word, *words):
     return a / b, a / b - half, a / b + half, n
 
 
+def of_samples_of_all(word, *words):
+    """Geometric mean over the samples of all shapes that both selections have."""
+    value, cut, logs = MEASURED[word][0], words.index("/"), []
+    for shape in BOXES:
+        first, second = ({line["parameters"]["seed"]: value(line) for line in chosen([shape, *part])} for part in (words[:cut], words[cut + 1:]))
+        logs += [math.log(first[seed] / second[seed]) for seed in first.keys() & second.keys()]
+    return (*map(math.exp, student(logs)), len(logs))
+
+
 def of_all_lengths(word, plane, space, contacts, start, shortest=0, which="all"):
     """Geometric mean of the ratios in boxes of equal length, and its interval, from the ratio and the degrees of freedom of each length."""
     value, _, of_means = MEASURED[word]
@@ -200,8 +216,13 @@ def expected(name):
     word, *rest = name.split()
     if word == "same_samples":
         return of_the_same_samples(*rest)
+    if word == "same_samples_of_all":
+        return of_samples_of_all(*rest)
     if word == "pooled":
         return of_all_lengths(*rest)
+    if word == "over_paper":
+        rates = of_samples(chosen(rest), lambda r: r["rate"] / 0.025)
+        return (*student(rates), len(rates))
     if word == "control":
         word, *rest = rest
     if word not in MEASURED or not rest:
@@ -274,16 +295,139 @@ class Referee(unittest.TestCase):
         at_8 = [expected(f"control strain disk {c} {s} L=8 / sphere {c} {s} L=8")[0] for c, s in three]
         self.assertIn(f"({min(at_8):.2f} to {max(at_8):.2f} in three sets)", report)
         highest = max(of_all_lengths("C", "disk", "sphere", c, s)[2] for c, s in (*three[:2], ("rigid", "filling")))
-        self.assertIn(f"C 7 to 11 % more, intervals to {100 * highest - 100:.0f} % (", report)
+        centres = [of_all_lengths("C", "disk", "sphere", c, s)[0] for c, s in (*three[:2], ("rigid", "filling"))]
+        others = [max(of_all_lengths(rule, "disk", "sphere", c, s)[2] for c, s in (*three[:2], ("rigid", "filling"))) for rule in ("C_box", "C_drift", "C_drift_box")]
+        more = [100 * v - 100 for v in (min(centres), max(centres), highest, min(others), max(others))]
+        self.assertIn("C {:.0f} to {:.0f} % more, intervals to {:.0f} % ({:.0f} to {:.0f} % by other rules)".format(*more), report)
+        shortest = [of_all_lengths("C", "disk", "sphere", c, s, 10.7) for c, s in (*three[:2], ("rigid", "filling"))]
+        self.assertEqual(sum(low > 1 for _, low, _, _ in shortest), 2)
+        self.assertIn("two of three exclude 1", report)
         alone = [r for contacts, start in (("compliant", "filling"), ("compliant", "jammed"), ("rigid", "jammed"))
                  for r in (*(chosen(["polygon", contacts, start, "L=8"])), *(chosen(["polygon", contacts, start]) if contacts == "rigid" else ()),
                            *(chosen(["disk", contacts, start, "L=16"]) if contacts == "rigid" else ()))]
         self.assertIn(f"; {len(alone)} runs of the plane have no partner in space", report)
         soft = [r for s in ("polygon", "disk", "sphere") for nu in (10, 15, 20, 35, 60) for r in chosen([s, "compliant", "jammed", "thousand", f"nu={nu}", "k=0.1"])]
-        kept = [r for r in soft if sum(map(abs, r["periods"]["drift"])) <= 0.3 * sum(map(abs, r["periods"]["dx_max"]))]
+        kept = [r for r in soft if is_judged(r)]
         self.assertIn(f"at 1e7, {len(kept)} of {len(soft)} runs is judged", report)
         for c, s in (("compliant", "jammed"), ("compliant", "filling"), ("rigid", "filling")):
             self.assertIn("{:.2f} [{:.2f}, {:.2f}]".format(*of_all_lengths("C", "disk", "sphere", c, s)), first)
+
+    def test_numbers_of_comparisons(self):
+        report = (RESULTS / "report.md").read_text(encoding="utf8")
+        ratios, loads, heights = [], [], []
+        for plane, space in (("polygon", "polyhedron"), ("disk", "sphere")):
+            for length in BOXES[plane].keys() & BOXES[space].keys():
+                for contacts in ("rigid", "compliant"):
+                    for start in ("filling", "jammed"):
+                        both = [chosen([s, contacts, start, f"L={length}"]) for s in (plane, space)]
+                        values = [of_samples(found, excursion_over_load) for found in both]
+                        if min(map(len, values)) > 1:
+                            ratios.append(values)
+                            loads.append([sum(map(load_over_length, found)) / len(found) for found in both])
+                            heights.append([sum(r["height"] / r["length"] for r in found) / len(found) for found in both])
+
+        def outside(share):
+            return sum(not low <= 1 <= high for _, low, high in (welch(*values, share=share) for values in ratios))
+        self.assertIn(f"{outside(0.95)} of {len(ratios)} ratios of C at equal length excludes 1, {outside(1 - 0.05 / len(ratios))} of {len(ratios)} if corrected", report)
+        apart = [100 * max(max(pair) / min(pair) - 1 for pair in kind) for kind in (loads, heights)]
+        both = [h for pair in heights for h in pair]
+        self.assertIn(f"ℓ/L (to {apart[0]:.0f} %), H/L ({min(both):.2f} to {max(both):.2f}, to {apart[1]:.0f} % between", report)
+        same = [of_the_same_samples(q, s, "rigid", "jammed", f"L={length}", "/", s, "compliant", "jammed", f"L={length}")
+                for s in BOXES for length in BOXES[s] for q in ("C", "strain")]
+        same = [v for v in same if v]
+        self.assertIn(f"({sum(not v[1] <= 1 <= v[2] for v in same)} of {len(same)} ratios, strain of spheres at L/d = 8,", report)
+
+    def test_summaries_that_are_typed_or_made(self):
+        report, first = ((RESULTS / name).read_text(encoding="utf8") for name in ("report.md", "README.md"))
+        # What the strain would do if it went as the root of the load over the length.
+        roots = [of_samples(chosen(["polygon", "compliant", "jammed", *more]), lambda r: math.sqrt(load_over_length(r))) for more in ([], ["thousand"])]
+        root = welch(*roots)[0]
+        self.assertIn(f"(√: {root:.2f};", report)
+        self.assertIn(f"√(1/L) asks for {root:.2f};", first)
+        # Speed times ν at 10 over 5 Hz.
+        rises = {}
+        for shape in BOXES:
+            at = [{r["parameters"]["seed"]: r["v_max"] for r in pick(shape, False, True, frequency=nu)} for nu in (5, 10)]
+            rises[shape] = list(map(math.exp, student([math.log(2 * at[1][seed] / at[0][seed]) for seed in at[0].keys() & at[1].keys()])))
+        self.assertGreater(min(low for _, low, _ in rises.values()), 1)
+        order = sorted(rises, key=lambda s: rises[s][0])
+        self.assertEqual((order[0], order[-1]), ("disk", "polyhedron"))
+        for shape in ("disk", "polyhedron"):
+            told_of = re.search(r"(\S+) \[(\S+), (\S+)\] \(5\) \(" + {"disk": "disks", "polyhedron": "polyhedra"}[shape], report[report.index("Claim 7: portraits"):])
+            for text, value in zip(told_of.groups(), rises[shape]):
+                self.assertAlmostEqual(float(text), value, delta=0.006)
+        # Half the interval of C over C.
+        for rigid, kind in ((True, "rigid, 3"), (False, "compliant, jammed, 5")):
+            shares = []
+            for shape in BOXES:
+                mean, low, _ = student(of_samples(pick(shape, rigid, not rigid), excursion_over_load))
+                shares.append(100 * (mean - low) / mean)
+            self.assertIn(f"{min(shares):.0f} to {max(shares):.0f} % ({kind})", report)
+        # Flat boxes.
+        rates, times = [], []
+        for rigid in (True, False):
+            for other in ({}, {"size_scale": 1.3}, {"size_scale": 1.5}, {"flatness": 0.7}, {"fewest_vertices": 30}):
+                found = pick("polyhedron", rigid, False, box_ratio=0.42, **other)
+                if found:
+                    rates.append([v / 0.025 for v in student(of_samples(found, lambda r: r["rate"]))])
+                    times.append(student(of_samples(found, excursion_over_load))[0] / 0.01)
+        self.assertIn("without it {:.2f} to {:.2f} times as large".format(min(times), max(times)), report)
+        told_of = re.search(r"their rates are (\S+) to (\S+) of the paper's \(intervals from (\S+) to (\S+)\)", report).groups()
+        for text, value in zip(told_of, (min(r[0] for r in rates), max(r[0] for r in rates), min(r[1] for r in rates), max(r[2] for r in rates))):
+            self.assertAlmostEqual(float(text.replace("−", "-")), value, delta=0.0051)
+
+    def test_settings_from_the_same_states(self):
+        usual, *others = ({(r["parameters"]["seed"], nu): r for nu in (3.5, 7, 15) for r in pick("polyhedron", False, True, frequency=nu, step=step, tolerance=limit)}
+                          for step, limit in ((2e-4, 1e-5), (1e-4, 1e-5), (2e-4, 1e-6)))
+        keys = [k for k in usual if all(k in o and abs(o[k]["periods"]["x_j"][0] - usual[k]["periods"]["x_j"][0]) < 1e-4 * usual[k]["length"] for o in others)]
+        seeds = sorted({seed for seed, _ in keys})
+        changes = [student([sum(math.log(o[k]["dx_active"] / usual[k]["dx_active"]) for k in keys if k[0] == seed) / sum(k[0] == seed for k in keys)
+                            for seed in seeds]) for o in others]
+        most, low, high = max(abs(math.expm1(c[0])) for c in changes), min(c[1] for c in changes), max(c[2] for c in changes)
+        self.assertIn(f"of polyhedra by {100 * most:.0f} % ({len(seeds)} samples; intervals from {math.exp(low):.2f} to {math.exp(high):.2f})",
+                      (RESULTS / "report.md").read_text(encoding="utf8"))
+
+    def test_scatter_of_the_states(self):
+        # By the pairs of states and frequencies: half the mean of the squares of double differences is the variance within.
+        found = {nu: {r["parameters"]["seed"]: math.log(period_strain(r)) for r in chosen(["disk", "compliant", "jammed", "ten", f"nu={nu}"])} for nu in (2, 5, 10)}
+        seeds = sorted(set.intersection(*(set(at) for at in found.values())))
+        pairs = [(a, b) for a in seeds for b in seeds if a < b]
+        within = [((found[m][a] - found[m][b]) - (found[n][a] - found[n][b])) ** 2 / 4 for a, b in pairs for m, n in ((2, 5), (2, 10), (5, 10))]
+        within = sum(within) / len(within)
+        between = [(sum(found[nu][a] - found[nu][b] for nu in found) / 3) ** 2 / 2 for a, b in pairs]
+        between = sum(between) / len(between) - within / 3
+        report = (RESULTS / "report.md").read_text(encoding="utf8")
+        told_of = re.search(r"scatters by (\d+) \[(\d+), (\d+)\] % \((\d+)\) from state to state, by (\d+) \[(\d+), (\d+)\] % \(\4\) within", report)
+        values = list(map(int, told_of.groups()))
+        self.assertEqual((values[3], values[0], values[4]), (len(seeds), round(100 * math.sqrt(between)), round(100 * math.sqrt(within))))
+        self.assertTrue(values[1] < values[0] < values[2] and values[5] < values[4] < values[6])
+
+    def test_powers_of_the_summary(self):
+        def power(shape, rigid):
+            usual = {"frequency": 5, "fmax": 6000, "gravity": 9.81, "wall_mass_ratio": 0.5}
+            runs = {}
+            for line in LINES:
+                p = line["parameters"]
+                if (p["shape"] != shape or p["seed"] > 30 or p["grains"] != 1200 or (p["method"] == "contact-dynamics") != rigid or ("from" in p) == rigid or
+                        sum(not _same(p[k], v) for k, v in usual.items()) > 1 or p["fmax"] < 1000 or p["max_sweeps"] == 200 or p["step"] != 2e-4 or p.get("wall_speed") or
+                        p["fmin"] or p["friction"] != 0.4 or p["box_ratio"] != 1 or p["size_scale"] != 1 or p["lid_force_weights"] != 10 or
+                        p["size_reading"] != "circumdiameter" or p["overlap_correction"] != rigid or p["tolerance"] != (1e-4 if rigid else 1e-5) or
+                        (not rigid and p["stiffness"] != 1e8) or any(k in p for k in ("flatness", "fewest_vertices", "most_vertices"))):
+                    continue
+                key = (p["seed"], *(p[k] for k in usual))
+                if key not in runs or p["duration"] < runs[key]["parameters"]["duration"]:
+                    runs[key] = line
+            slopes = []
+            for seed in {k[0] for k in runs}:
+                points = [(math.log(load_over_length(r) * r["length"]), math.log(r["dx_active"])) for k, r in runs.items() if k[0] == seed and is_judged(r)]
+                if len({x for x, _ in points}) < 3:
+                    continue
+                mx, my = (sum(v) / len(points) for v in zip(*points))
+                slopes.append(sum((x - mx) * (y - my) for x, y in points) / sum((x - mx) ** 2 for x, _ in points))
+            return sum(slopes) / len(slopes)
+        compliant = sorted(power(shape, False) for shape in BOXES)
+        abstract = (RESULTS / "report.md").read_text(encoding="utf8").split("## 1.")[0]
+        self.assertIn(f"to a power of {compliant[0]:.2f} to {compliant[-1]:.2f} (compliant, jammed, judged); rigid: {power('polyhedron', True):.3f} and {power('sphere', True):.3f} in space", abstract)
 
     def test_strains_of_the_lengths_are_not_one_ratio(self):
         told_of = (RESULTS / "supplement.md").read_text(encoding="utf8")

@@ -15,6 +15,7 @@ STUDY = TOP / "examples/ratcheting"
 sys.path.insert(0, str(STUDY / "study/report"))
 
 import compaction  # noqa: E402
+import controls  # noqa: E402
 import excursion  # noqa: E402
 import interval  # noqa: E402
 import runs  # noqa: E402
@@ -92,6 +93,29 @@ class Statistics(unittest.TestCase):
         self.assertTrue(370 <= covered <= 392, covered)
         self.assertTrue(366 <= covered_of_means <= 394, covered_of_means)
         self.assertTrue(math.isnan(interval.ratio([1], [2, 3])[1]))
+
+    def test_ratios_of_many_comparisons(self):
+        a, b = [1.0, 1.1, 1.2, 1.15], [0.9, 0.95, 0.92, 1.0]
+        usual, wide = interval.ratio(a, b), interval.ratio(a, b, 1 - 0.05 / 14)
+        self.assertEqual(usual[0], wide[0])
+        self.assertTrue(wide[1] < usual[1] < usual[2] < wide[2])
+
+    def test_spreads_of_states(self):
+        # States and frequencies that only add have no spread within; noise of 10 % in each run is found, and the spread of the states.
+        def made(states, noise):
+            return [{"parameters": {"seed": s, "frequency": nu}, "y": math.exp(a + math.log(nu) + rng.gauss(0, noise))}
+                    for s, a in enumerate(states) for nu in (2.0, 5.0, 10.0)]
+        rng = random.Random(3)
+        (between, *_), (within, *_) = controls.spreads(made([0.1, 0.3, 0.5], 0), lambda r: r["y"])
+        self.assertAlmostEqual(between, 0.2)
+        self.assertAlmostEqual(within, 0)
+        covered = [0, 0]
+        for _ in range(100):
+            found = controls.spreads(made([rng.gauss(0, 0.2) for _ in range(10)], 0.1), lambda r: r["y"], 200)
+            for k, true in enumerate((0.2, 0.1)):
+                covered[k] += found[k][1] <= true <= found[k][2]
+        self.assertTrue(all(80 <= c <= 97 for c in covered), covered)
+        self.assertTrue(math.isnan(controls.spreads(made([0.1, 0.2], 0.1), lambda r: r["y"])[0][0]))
 
     def test_exponent_over_samples(self):
         # Samples that agree by chance keep the interval of the scatter about their fits.
@@ -210,6 +234,11 @@ class Report(unittest.TestCase):
         first = (TOP / "README.md").read_text(encoding="utf8")
         self.assertIn(f"(samples 1 to 5, the {judged} of {every} runs over ν, fmax, g and m_w that are judged; "
                       f"all: {min(all_powers):.2f} to {max(all_powers):.2f}; rigid {min(powers)} to {max(powers)},", first)
+
+    def test_counts_of_the_first_page(self):
+        table = runs.read(STUDY / "results/runs.jsonl")
+        first = (TOP / "README.md").read_text(encoding="utf8")
+        self.assertIn(f"{len(table):,} runs, {sum(r['parameters']['grains'] == 1200 for r in table):,} of them with 1200 grains", first)
 
     def test_intervals_of_the_first_page_are_those_of_the_report(self):
         pages = "".join((STUDY / "results" / name).read_text(encoding="utf8") for name in ("report.md", "supplement.md"))

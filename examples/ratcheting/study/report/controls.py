@@ -84,6 +84,7 @@ QUANTITIES = {"C": (constant, 1, False), "C_drift": (lambda r: constant(r, "dx_m
               # C of a box as high as long, by the power of C over H/L that polyhedra have.
               "C_box": (lambda r: constant(r) / (r["height"] / r["length"]) ** 1.2, 1, False),
               "C_drift_box": (lambda r: constant(r, "dx_max") / (r["height"] / r["length"]) ** 1.2, 1, False),
+              "root": (lambda r: math.sqrt(scaled_load(r) / r["length"]), 1, False),
               "dx": (lambda r: r["dx_active"], 1e3, False), "drift_share": (lambda r: r["drift"] / r["dx_max"], 100, True),
               "length": (lambda r: r["length"] / 0.025, 1, False), "height": (lambda r: r["height"] / r["length"], 1, False)}
 
@@ -149,6 +150,42 @@ def of_equal_length(controls):
     """The runs that comparisons of the plane with space at equal length and of the contacts use."""
     return {run["name"] for shape in GRAINS for length in LENGTHS for contacts, start in CONTACTS_AND_STARTS
             for run in select(controls, shape, contacts, start, length)}
+
+
+def plane_and_space(controls):
+    """(plane, space) of each set of contacts and start that has two samples or more of both at one length."""
+    for shapes in PAIRS:
+        for length in LENGTHS:
+            for contacts, start in CONTACTS_AND_STARTS:
+                both = [select(controls, shape, contacts, start, length) for shape in shapes]
+                if min(map(len, both)) > 1:
+                    yield both
+
+
+def how_equal(controls, quantity):
+    """By which share the means of a quantity differ at most between the plane and space in boxes of equal length."""
+    values = [[over_samples(found, quantity).mean for found in both] for both in plane_and_space(controls)]
+    return max(max(pair) / min(pair) for pair in values) - 1
+
+
+def that_exclude_one(controls, quantity, comparisons=1):
+    """How many ratios of plane over space at equal length exclude 1, and how many there are. With the number of `comparisons` the
+    intervals are as wide as Bonferroni asks for; only of quantities that are positive."""
+    found = [[mean(f, quantity).values for f in both] for both in plane_and_space(controls)]
+    intervals = [ratio(above, below, 1 - 0.05 / comparisons) for above, below in found]
+    return sum(not low <= 1 <= high for _, low, high in intervals), len(intervals)
+
+
+def contacts_that_exclude_one(controls):
+    """How many ratios of rigid over compliant contacts from the same jammed states, of C and of the strain, exclude 1, and how many there
+    are."""
+    intervals = []
+    for shape in GRAINS:
+        for length in LENGTHS:
+            both = [select(controls, shape, contacts, "jammed", length) for contacts in ("rigid", "compliant")]
+            intervals += [compare_samples(*both, quantity) for quantity in ("C", "strain")]
+    intervals = [low <= 1 <= high for _, low, high, both in intervals if both > 1]
+    return intervals.count(False), len(intervals)
 
 
 def compare_samples(above, below, quantity):
@@ -287,19 +324,34 @@ def of_ten_states(controls, shape):
     return [r for found in at for r in found if r["parameters"]["seed"] in both]
 
 
-def spreads(found, value):
+def _spreads(logs):
+    """Standard deviations between the rows of a table, and of what is left when each row and each column has its mean: analysis of
+    variance."""
+    count, width = len(logs), len(logs[0])
+    of_row, of_column = [sum(row) / width for row in logs], [sum(column) / count for column in zip(*logs)]
+    centre = sum(of_row) / count
+    left = sum((v - of_row[i] - of_column[k] + centre) ** 2 for i, row in enumerate(logs) for k, v in enumerate(row)) / ((count - 1) * (width - 1))
+    between = sum((m - centre) ** 2 for m in of_row) / (count - 1) - left / width
+    return math.sqrt(max(between, 0)), math.sqrt(left)
+
+
+def spreads(found, value, draws=2000):
     """Standard deviations of the logarithm of a quantity: of the states, and what is left in the runs of one state when each frequency has
-    its mean. Analysis of variance, samples × frequencies; nan with fewer than three samples."""
+    its mean. Each with the ends of its 95 % interval, by the bootstrap over the samples, of which the variances are n / (n - 1) times too
+    small; nan with fewer than three samples."""
     seeds, at = (sorted({r["parameters"][key] for r in found}) for key in ("seed", "frequency"))
     if len(seeds) < 3 or min(value(r) for r in found) <= 0:
-        return math.nan, math.nan
+        return [(math.nan,) * 3] * 2
     logs = {(r["parameters"]["seed"], r["parameters"]["frequency"]): math.log(value(r)) for r in found}
-    of_seed = {s: sum(logs[s, nu] for nu in at) / len(at) for s in seeds}
-    of_nu = {nu: sum(logs[s, nu] for s in seeds) / len(seeds) for nu in at}
-    mean_of_all = sum(of_seed.values()) / len(seeds)
-    left = sum((logs[s, nu] - of_seed[s] - of_nu[nu] + mean_of_all) ** 2 for s in seeds for nu in at) / ((len(seeds) - 1) * (len(at) - 1))
-    between = sum((m - mean_of_all) ** 2 for m in of_seed.values()) / (len(seeds) - 1) - left / len(at)
-    return math.sqrt(max(between, 0)), math.sqrt(left)
+    rows = [[logs[s, nu] for nu in at] for s in seeds]
+    random_of, factor = random.Random(1), math.sqrt(len(rows) / (len(rows) - 1))
+    drawn = zip(*(_spreads(random_of.choices(rows, k=len(rows))) for _ in range(draws)))
+    return [(v, factor * ends[draws // 40], factor * ends[-1 - draws // 40]) for v, ends in zip(_spreads(rows), map(sorted, drawn))]
+
+
+def percent_interval(value, low, high):
+    """value [low, high] in whole percent."""
+    return f"{100 * value:.0f} [{100 * low:.0f}, {100 * high:.0f}]" if math.isfinite(value) else "–"
 
 
 def rows_of_states(controls):
@@ -322,7 +374,7 @@ def rows_of_spreads(controls):
     for shape in GRAINS:
         found = of_ten_states(controls, shape)
         if len(found) > 6:
-            cells = [f"{100 * v:.0f} %" for quantity in ("C", "strain") for v in spreads(found, QUANTITIES[quantity][0])]
+            cells = [percent_interval(*v) for quantity in ("C", "strain") for v in spreads(found, QUANTITIES[quantity][0])]
             rows.append([TITLE[shape], len(found) // 3, *cells, *(power_of_states(controls, shape, q).text() for q in ("dx", "strain"))])
     return rows
 

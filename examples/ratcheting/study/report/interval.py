@@ -79,23 +79,23 @@ class Estimate:
         return number(factor * self.mean, abs(factor) * self.half, digits)
 
 
-def _ratio(log_ratio, first, second, first_n, second_n):
+def _ratio(log_ratio, first, second, first_n, second_n, share=0.95):
     """The interval of a ratio from the variances of its logarithm's two parts, by Welch's degrees of freedom."""
     variance = first + second
     if not variance > 0:
         return math.exp(log_ratio), math.nan, math.nan
     freedom = variance ** 2 / (first ** 2 / (first_n - 1) + second ** 2 / (second_n - 1))
-    half = student(freedom) * math.sqrt(variance)
+    half = student(freedom, share) * math.sqrt(variance)
     return math.exp(log_ratio), math.exp(log_ratio - half), math.exp(log_ratio + half)
 
 
-def ratio(above, below):
+def ratio(above, below, share=0.95):
     """Ratio of the geometric means of two sets of positive numbers, low and high end of its interval: Welch's test
     on the logarithms."""
     a, b = Estimate([math.log(v) for v in above]), Estimate([math.log(v) for v in below])
     if a.n < 2 or b.n < 2:
         return (math.exp(a.mean - b.mean) if a.n and b.n else math.nan), math.nan, math.nan
-    return _ratio(a.mean - b.mean, a.error ** 2, b.error ** 2, a.n, b.n)
+    return _ratio(a.mean - b.mean, a.error ** 2, b.error ** 2, a.n, b.n, share)
 
 
 def ratio_of_means(above, below):

@@ -62,6 +62,17 @@ def open_parameters(runs):
     return rows
 
 
+def flat_boxes(runs):
+    """Rate of compaction and C of the flat boxes, H/L = 0.42, of all grains that open_parameters() has."""
+    found = []
+    for _, method in CONTACTS:
+        for changed in ({}, {"size_scale": 1.3}, {"size_scale": 1.5}, {"flatness": 0.7}, {"fewest_vertices": 30}):
+            of_case = of_one_length(select(runs, "polyhedron", frequency=5.0, jammed=False, **(method | {"box_ratio": 0.42} | changed)))
+            if of_case:
+                found.append((over_samples(of_case, lambda r: r["rate"]), over_samples(of_case, constant)))
+    return found
+
+
 def flat_jamming(runs):
     """Whether the wall of the flat box is at rest while the packing is jammed, period by period and force by force."""
     rows = []
@@ -129,20 +140,29 @@ def _same_states(runs, shape):
     return (), (), ()
 
 
+def converged_shifts(runs, shape):
+    """Logarithm of the excursion at half the step, and at a tenth of the tolerance, over the usual one: of each sample its mean."""
+    _, found, common = _same_states(runs, shape)
+    shifts = []
+    for at in found[1:]:
+        seeds = {}
+        for key in common:
+            seeds.setdefault(key[0], []).append(math.log(at[key]["dx_active"] / found[0][key]["dx_active"]))
+        shifts.append(Estimate([sum(v) / len(v) for v in seeds.values()]))
+    return shifts
+
+
 def converged(runs):
     """The excursion at half the step and at a tenth of the tolerance, from the same states."""
     rows = []
     for shape in SHAPES:
         settings, found, common = _same_states(runs, shape)
-        for (name, _), at in zip(settings, found):
-            same, first = [at[key] for key in common], at is found[0]
-            seeds, strains_of = {}, {}
+        for (name, _), at, shift in zip(settings, found, [None, *converged_shifts(runs, shape)]):
+            same, first, strains_of = [at[key] for key in common], at is found[0], {}
             for key in common:
                 ratio_of_strains = strain(at[key], 0, 4) / strain(found[0][key], 0, 4)
                 if ratio_of_strains > 0:
                     strains_of.setdefault(key[0], []).append(math.log(ratio_of_strains))
-                seeds.setdefault(key[0], []).append(math.log(at[key]["dx_active"] / found[0][key]["dx_active"]))
-            shift = Estimate([sum(v) / len(v) for v in seeds.values()])
             strains = Estimate([sum(v) / len(v) for v in strains_of.values()])
             highest = max(nu for _, nu in common)
             rows.append([TITLE[shape], name, ", ".join(f"{nu:g}" for nu in sorted({nu for _, nu in common})),
@@ -338,6 +358,19 @@ def trends(runs):
 
 def box_predictions(runs):
     """C of polyhedra in boxes of other shapes from the slow test in each, and from a power of H/L fitted to C in them."""
+    return [[f"{height:.2f}", predicted.n, thrust.text(), predicted.text(), f"{null:.4f}", measured.text(), shares.text()]
+            for height, thrust, predicted, null, measured, shares in _of_boxes(runs)]
+
+
+def box_pairs(runs):
+    """C of polyhedra in each box, predicted and measured: by `F`, and by a `power` of H/L fitted to C."""
+    found = _of_boxes(runs)
+    return {"F": [(predicted.mean, measured.mean) for _, _, predicted, _, measured, _ in found],
+            "power": [(null, measured.mean) for _, _, _, null, measured, _ in found]}
+
+
+def _of_boxes(runs):
+    """H/L at t = 0, thrust, C predicted, C by the power of H/L, C measured, and the shares with which the thrust gives it."""
     rows, heights, logs = [], [], []
     for box in (0.42, 0.7, 1.0, 1.5):
         found = excursion.static_runs(runs, "polyhedron", box)
@@ -346,10 +379,9 @@ def box_predictions(runs):
         predicted, shares = excursion.constants_of_boxes(runs, "polyhedron", box, measured.mean)
         heights.append(over_samples(found, lambda r: r["height"] / r["length"]).mean)
         logs.append(math.log(measured.mean))
-        rows.append([f"{heights[-1]:.2f}", len(predicted), over_samples(found, excursion.static_thrust).text(),
-                     Estimate(predicted).text(), measured.text(), Estimate(shares).text()])
+        rows.append((over_samples(found, excursion.static_thrust), Estimate(predicted), measured, Estimate(shares)))
     a, b, _, _ = line([math.log(h) for h in heights], logs)
-    return [row[:4] + [f"{math.exp(a + b * math.log(h)):.4f}"] + row[4:] for row, h in zip(rows, heights)]
+    return [(h, thrust, predicted, math.exp(a + b * math.log(h)), measured, shares) for h, (thrust, predicted, measured, shares) in zip(heights, rows)]
 
 
 def forms(runs):

@@ -64,6 +64,7 @@ NOT_RUN = (("controls", "equal-length", "equal length; contacts × start",
            ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "polyhedra but three, five spheres at 2 Hz"),
            ("controls", "stiffness", "stiffness", "polyhedra; others at 1e8"), ("controls", "jammed", "jammed states for these", ""),
            ("settled", "all", "`settled`", ""), ("paper", "all", "`paper`", ""))
+RATE_OF_PAPER = 0.025  # [1/s]
 MEAN_POWER = (lambda r: round(compaction.load_over_length(r), 9), strain_of)
 
 
@@ -135,6 +136,38 @@ class Values:
         value, factor = OBSERVABLES[word]
         return f"{factor * self.means(rest, value).mean:.3g}"
 
+    def of_over_paper(self, *words):
+        """The compaction rate over the paper's."""
+        return with_samples(self.means(words, lambda r: r["rate"]), 1 / RATE_OF_PAPER)
+
+    def of_flat(self, what):
+        """Flat boxes, H/L = 0.42, from the filling on, all grains and contacts: least and most `rate` over the paper's, `ends` of the intervals of
+        the rate, or `C` over the paper's."""
+        rates, constants = zip(*tables.flat_boxes(self.runs))
+        ends = [(e.mean + sign * e.half) / RATE_OF_PAPER for e in rates for sign in (-1, 1)]
+        found = {"rate": [e.mean / RATE_OF_PAPER for e in rates], "ends": ends, "C": [e.mean / 0.01 for e in constants]}[what]
+        return f"{min(found):.2f} to {max(found):.2f}".replace("-", "−")
+
+    def of_half_intervals(self, kind):
+        """Half the interval of C over C, the least and the most of the four shapes: `rigid`, or `jammed`, samples 1 to 5."""
+        found = [self.means((shape, kind), constant) for shape in SHAPES]
+        shares = [100 * e.half / e.mean for e in found]
+        return f"{min(shares):.0f} to {max(shares):.0f} %"
+
+    def of_box_error(self, column):
+        """By how much C of polyhedra in boxes of other shapes is missed at most: by `F`, the thrust in each box, or by a `power` of H/L."""
+        return f"{100 * max(abs(p / m - 1) for p, m in tables.box_pairs(self.runs)[column]):.0f} %"
+
+    def of_converged(self, shape):
+        """What half the step and a tenth of the tolerance change in the excursion at most, and from where to where the intervals go."""
+        shifts = tables.converged_shifts(self.runs, shape)
+        most = max(abs(math.expm1(e.mean)) for e in shifts)
+        ends = [math.exp(e.mean + sign * e.half) for e in shifts for sign in (-1, 1)]
+        return f"{100 * most:.0f} % ({shifts[0].n} samples; intervals from {min(ends):.2f} to {max(ends):.2f})"
+
+    def of_constant_of_2008(self):
+        return tables.method_of_2008(self.runs)[0][4]
+
     # Controls.
 
     def of_control(self, quantity, *words):
@@ -152,11 +185,53 @@ class Values:
         *value, both = controls.compare_samples(*(controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:])), quantity)
         return f"{interval(*value)} ({both})" if both > 1 else "–"
 
+    def of_same_samples_of_all(self, quantity, *words):
+        """The same over the samples of all shapes together, by the logarithms: two sets of contacts, start and options with / between them."""
+        cut, logs = words.index("/"), []
+        for shape in SHAPES:
+            above, below = ({r["parameters"]["seed"]: controls.QUANTITIES[quantity][0](r) for r in controls.selection(self.every, (shape, *part))}
+                            for part in (words[:cut], words[cut + 1:]))
+            logs += [math.log(above[seed] / below[seed]) for seed in sorted(above.keys() & below.keys())]
+        return self.of_logs(Estimate(logs))
+
+    @staticmethod
+    def of_logs(e):
+        """The geometric mean of numbers of which the logarithms are estimated."""
+        return f"{interval(*(math.exp(v) for v in (e.mean, e.mean - e.half, e.mean + e.half)))} ({e.n})"
+
+    def of_how_equal(self, quantity):
+        """By how much plane and space differ at most in boxes of equal length: the mean `load` over the length, or `height` over length."""
+        return f"{100 * controls.how_equal(self.every, {'load': compaction.load_over_length, 'height': controls.QUANTITIES['height'][0]}[quantity]):.0f} %"
+
+    def of_excluding(self, quantity, corrected=""):
+        """How many ratios of plane over space at equal length exclude 1, of how many; `corrected` for their number."""
+        count, every = controls.that_exclude_one(self.every, quantity)
+        return f"{controls.that_exclude_one(self.every, quantity, every)[0] if corrected else count} of {every}"
+
+    def of_contacts_excluding(self):
+        """How many ratios of rigid over compliant contacts from the same states exclude 1, of how many."""
+        return "{} of {}".format(*controls.contacts_that_exclude_one(self.every))
+
+    def of_root(self, *words):
+        """By which factor √(ℓ/L) of two selections differs: what the strain would do if it went as this."""
+        cut = words.index("/")
+        return "{:.2f}".format(controls.compare(*(controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:])), "root")[0])
+
     def of_pooled(self, quantity, plane, space, contacts, start, shortest="0", which="all"):
         """Plane over space over all lengths L/d from `shortest` on that both have; `settled`: of the plane the runs of which the preparation
         was at rest."""
         *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity, float(shortest), which == "settled")
         return interval(*value) if lengths else "–"
+
+    def of_more(self, end, *quantities):
+        """By how much C of disks is larger than that of spheres over all lengths, in percent: the `value`s of the sets of contacts and start with
+        three lengths, or the `high` end of the widest for each quantity."""
+        found = []
+        for quantity in quantities:
+            sets = [controls.pooled(self.every, "disk", "sphere", *which, quantity) for which in controls.CONTACTS_AND_STARTS]
+            sets = [100 * (s[0 if end == "value" else 2] - 1) for s in sets if s[3] == 3]
+            found += sets if end == "value" else [max(sets)]
+        return " to ".join(f"{v:.0f}" for v in sorted({min(found), max(found)})) + " %"
 
     def of_heterogeneity(self, quantity, plane, space, contacts, start):
         """Chi-square of the ratios of plane over space at the lengths."""
@@ -181,9 +256,10 @@ class Values:
         return with_samples(controls.power_of_states(self.every, shape, quantity))
 
     def of_state_spread(self, which, quantity, shape):
-        """Spread of a quantity `between` the ten states, or `within` the runs of one state."""
-        value = controls.spreads(controls.of_ten_states(self.every, shape), controls.QUANTITIES[quantity][0])
-        return percent(value[which == "within"])
+        """Spread of a quantity `between` the ten states, or `within` the runs of one state, with its interval."""
+        found = controls.of_ten_states(self.every, shape)
+        value = controls.spreads(found, controls.QUANTITIES[quantity][0])[which == "within"]
+        return f"{controls.percent_interval(*value)} % ({len({r['parameters']['seed'] for r in found})})"
 
     def of_state_law(self, what, shape):
         """Strains of the ten states over those of equation (A), fitted to the other samples: `mean` of the ratio, `rms` of its logarithm,
@@ -194,7 +270,7 @@ class Values:
         e, rms = controls.law_for_states(self.every, shape)
         if what == "rms":
             return percent(rms)
-        return f"{interval(*(math.exp(v) for v in (e.mean, e.mean - e.half, e.mean + e.half)))} ({e.n})" if e.n > 1 else "–"
+        return self.of_logs(e) if e.n > 1 else "–"
 
     def of_length_power(self, quantity, *words):
         """Power of the mean of a quantity over L/d at one load."""
@@ -288,6 +364,12 @@ class Values:
             loads = [scaled_load(r) for r in found]
             return f"{math.log10(max(loads) / min(loads)):.1f}"
         raise KeyError(what)
+
+    def of_line_span(self, what, kind, *shapes):
+        """The least and the most of the shapes: `scatter` about Δx = Cℓ, or `power` of the load."""
+        texts = [self(f"line {what} {shape} {kind}") for shape in shapes or SHAPES]
+        values = sorted(float(text.split()[0]) for text in texts)
+        return f"{values[0]:.0f} to {values[-1]:.0f} %" if what == "scatter" else f"{values[0]:.2f} to {values[-1]:.2f}"
 
     # Predictions and null models.
 
@@ -388,8 +470,10 @@ class Values:
         return with_samples(Estimate([below[seed].mean - above[seed].mean for seed in below if seed in above]))
 
     def of_aside(self, what, shape, *measures):
-        """The runs that were set aside: `made`, `used`, `rms`, `scatter` of the fit to the others."""
+        """The runs that were set aside: `made`, `used` and their `samples`, `rms`, `scatter` of the fit to the others."""
         found = compaction.jammed_runs(self.runs, shape)
+        if what == "samples":
+            return str(len({r["parameters"]["seed"] for r in found if r.get("set_aside")}))
         if what == "made":
             return str(sum(1 for r in self.runs if r.get("set_aside") and r["parameters"]["shape"] == shape))
         test = compaction.SetAside(found, measures or ("load",))
@@ -441,14 +525,22 @@ class Values:
         found = [r for s in SHAPES for r in ten.base(self.runs, s)]
         return f"{sum(r['contracting'] for r in found)} of {sum(len(r['periods']['x_j']) for r in found)}"
 
-    def of_tenfold(self, quantity, shape, kind):
+    def tenfold(self, quantity, shape, kind):
         """Speed times ν, or excursion times ν², at 10 Hz over that at 5 Hz, of the same sample."""
         value, exponent = {"v": (lambda r: r["v_max"], 1), "dx": (lambda r: r["dx_active"], 2), "drift": (lambda r: r["dx_max"], 2)}[quantity]
         found = {}
         for r in self.series("frequency", shape, kind, "all"):
             found.setdefault(r["parameters"]["seed"], {})[r["parameters"]["frequency"]] = value(r)
-        logs = Estimate([math.log(f[10.0] / f[5.0] * 2 ** exponent) for f in found.values() if 5.0 in f and 10.0 in f])
-        return f"{interval(*(math.exp(v) for v in (logs.mean, logs.mean - logs.half, logs.mean + logs.half)))} ({logs.n})"
+        return Estimate([math.log(f[10.0] / f[5.0] * 2 ** exponent) for f in found.values() if 5.0 in f and 10.0 in f])
+
+    def of_tenfold(self, quantity, shape, kind):
+        return self.of_logs(self.tenfold(quantity, shape, kind))
+
+    def of_apart(self, quantity, shape, kind):
+        """How far the two are apart: the ends of the interval in percent, or 0 and the farther one."""
+        e = self.tenfold(quantity, shape, kind)
+        ends = [100 * abs(math.expm1(v)) for v in (e.mean - e.half, e.mean + e.half)]
+        return f"{0 if abs(e.mean) < e.half else min(ends):.0f} to {max(ends):.0f} %"
 
     def of_fastest(self, quantity, shape):
         """The frequency of the largest rate over one second in each sample, rigid contacts."""
@@ -463,8 +555,7 @@ class Values:
 
     def of_ageing(self, *shapes):
         """The strain of periods 9 to 20, relative to the first four, at 5 Hz over that at 20 Hz, of the same sample."""
-        logs = Estimate([math.log(a / b) for shape in shapes or SHAPES for a, b in ten.aged(self.runs, shape)])
-        return f"{interval(*(math.exp(v) for v in (logs.mean, logs.mean - logs.half, logs.mean + logs.half)))} ({logs.n})"
+        return self.of_logs(Estimate([math.log(a / b) for shape in shapes or SHAPES for a, b in ten.aged(self.runs, shape)]))
 
     def clock(self):
         return [line.split(",") for line in (self.folder / "wall_clock.csv").read_text(encoding="utf8").splitlines()[1:]]
