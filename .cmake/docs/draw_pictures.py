@@ -5,7 +5,8 @@
   draw_pictures.py           writes both
   draw_pictures.py --check   fails if one of them is not what it would write
 
-The rooms, their order and the arrows between them come from .ci/check_headers and from the includes of the headers;
+The rooms, their order and the arrows between them come from .ci/check_headers and from the includes of the headers, and
+what each holds from the table of rooms in examples/guide/where.md;
 the stages of a step are the list below, in the order of world/detail/impulse_dynamics.hpp.
 """
 import os
@@ -15,27 +16,6 @@ from html import escape
 
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 OUT = os.path.join(TOP, "examples", "guide", "figures")
-
-HOLDS = {
-    "core": "space, poses, ids, errors",
-    "simd": "registers, their algebra",
-    "parallel": "threads of a step",
-    "shape": "grains, hulls, half-spaces",
-    "mesh": "facets, repairs, mesh walls",
-    "law": "blocks, local problems, laws",
-    "motion": "bodies, integrators",
-    "detect": "contacts of two shapes",
-    "contact": "contacts of a step, W",
-    "solve": "Gauss-Seidel, residuals",
-    "world": "Simulation, its stages",
-    "instances": "compiled once",
-    "sample": "random grains",
-    "boundary": "drives, servos, sources",
-    "measure": "stress, fabric, energy",
-    "io": "tables, snapshots, ParaView",
-    "picture": "PNG pictures",
-    "distributed": "several processes",
-}
 
 # (stage, what it does, what it reads, what it writes)
 STEP = [
@@ -96,8 +76,29 @@ def rooms():
     return order, count, uses
 
 
+def holdings():
+    """What each room holds, in a few words."""
+    with open(os.path.join(TOP, "examples", "guide", "where.md")) as file:
+        return dict(re.findall(r"(?m)^\| `(\w+)` \| ([^|]+) \|", file.read().split("\n## Two questions")[0]))
+
+
+def route(start, end, between):
+    """The points of an arrow between two rooms on different floors, which passes the floors between them through the gaps
+    between their boxes.
+
+    between: for each of these floors from the top, its upper and lower side and the places of its gaps."""
+    points = [start]
+    for upper, lower, gaps in between:
+        x, y = points[-1]
+        straight = x + (end[0] - x) * ((upper + lower) / 2 - y) / (end[1] - y)
+        gap = min(gaps, key=lambda at: abs(at - straight))
+        points += [(gap, upper), (gap, lower)]
+    return points + [end]
+
+
 def draw_rooms():
     order, count, uses = rooms()
+    holds = holdings()
     reach, floor = {}, {}
     for room in order:
         reach[room] = set().union(uses[room], *(reach[used] for used in uses[room]))
@@ -107,7 +108,7 @@ def draw_rooms():
               and not any(used in reach[other] for other in uses[room])]
     floors = max(floor.values()) + 1
     rows = [[room for room in order if floor[room] == level] for level in range(floors)]
-    w, h, dx, dy = 168, 44, 16, 34
+    w, h, dx, dy = 168, 44, 24, 40
     width = max(len(row) for row in rows) * (w + dx) + dx
     height = floors * (h + dy) + 16
     place = {}
@@ -122,12 +123,20 @@ def draw_rooms():
     for room, used in arrows:
         x, y = place[room][0] + w / 2, place[room][1] + h
         to_x, to_y = place[used][0] + w / 2, place[used][1]
-        shift = max(-w / 3, min(w / 3, (to_x - x) / 4))
-        body += f'<path class="arrow" d="M{x + shift:g},{y:g} L{to_x - shift:g},{to_y:g}"/>\n'
+        between = []
+        for level in range(floor[room] - 1, floor[used], -1):
+            upper = place[rows[level][0]][1]
+            lefts = sorted(place[other][0] for other in rows[level])
+            gaps = [left - dx / 2 for left in lefts] + [lefts[-1] + w + dx / 2]
+            between.append((upper - 6, upper + h + 6, gaps))
+        points = route((x, y), (to_x, to_y), between)
+        points[0] = x + max(-w / 3, min(w / 3, (points[1][0] - x) / 4)), y
+        points[-1] = to_x + max(-w / 3, min(w / 3, (points[-2][0] - to_x) / 4)), to_y
+        body += '<path class="arrow" d="M' + " L".join(f"{at:g},{down:g}" for at, down in points) + '"/>\n'
     for room in order:
         x, y = place[room]
         body += box(x, y, w, h)
-        body += text(x + w / 2, y + 18, f"{room} ({count[room]})", "name") + text(x + w / 2, y + 34, HOLDS[room], "small")
+        body += text(x + w / 2, y + 18, f"{room} ({count[room]})", "name") + text(x + w / 2, y + 34, holds[room], "small")
     return page(width, height, body)
 
 

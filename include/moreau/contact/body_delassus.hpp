@@ -179,8 +179,8 @@ class BodyDelassus {
   void apply_to_bodies(std::size_t c, const Vector& impulse) {
     const Point& point = points_[c];
     const typename S::Vector push = point.push_of(impulse), opposite = -push;
-    add_change(point.b, push, S::moment(point.lever_b, push));
-    add_change(point.a, opposite, S::moment(point.lever_a, opposite));
+    masses_[point.b].add_change(changes_[point.b], push, S::moment(point.lever_b, push));
+    masses_[point.a].add_change(changes_[point.a], opposite, S::moment(point.lever_a, opposite));
     if constexpr (Couples) {
       const typename S::Angular couple = point.couple_of(impulse);
       angular<S>(changes_[point.b]) += masses_[point.b].spin_of(couple);
@@ -348,11 +348,6 @@ class BodyDelassus {
     typename S::Vector difference = detail::velocity_at<S>(changes_[point.b], point.lever_b);
     difference -= detail::velocity_at<S>(changes_[point.a], point.lever_a);
     return difference;
-  }
-  void add_change(std::size_t body, const typename S::Vector& push,
-                  const typename S::Angular& moment) {
-    linear<S>(changes_[body]) += masses_[body].velocity_of(push);
-    angular<S>(changes_[body]) += masses_[body].spin_of(moment);
   }
 
   std::vector<Point> points_;

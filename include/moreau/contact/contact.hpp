@@ -153,6 +153,12 @@ struct Contacts : DetectedContacts<S> {
 
 namespace detail {
 
+/// The first contact of the pair of bodies of contact c.
+template <class S>
+std::size_t first_of_pair(const DetectedContacts<S>& contacts, std::size_t c) {
+  while (c > 0 && contacts.keys[c - 1].bodies() == contacts.keys[c].bodies()) --c;
+  return c;
+}
 /// One past the last contact of the pair of bodies of contact `first`.
 template <class S>
 std::size_t end_of_pair(const DetectedContacts<S>& contacts, std::size_t first) {

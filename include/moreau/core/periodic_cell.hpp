@@ -146,6 +146,12 @@ class PeriodicCell {
     return numbers;
   }
 
+  /// Whether points have images by these signed numbers of cells: not along open axes.
+  bool has_image(const VectorArgument<S>& cells) const {
+    for (int axis = 0; axis < S::dim; ++axis)
+      if (cells[axis] != 0 && !is_periodic(axis)) return false;
+    return true;
+  }
   bool is_open() const { return length_.isZero(0); }  ///< whether no axis is periodic
   /// whether this axis is periodic (0 for x)
   bool is_periodic(int axis) const { return length_[axis] > 0; }

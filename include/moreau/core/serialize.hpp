@@ -21,13 +21,6 @@
 
 namespace moreau {
 
-namespace detail {
-
-/// Names the members of a simulation for one in several processes (distributed/detail/world_parts.hpp).
-struct StateAccess;
-
-}  // namespace detail
-
 /// The class that every serializable class declares as its friend.
 struct SerializationAccess {
   /// Whether X has serialized_members().

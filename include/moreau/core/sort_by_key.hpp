@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace moreau::detail {
@@ -21,7 +22,7 @@ void sort_by_key(std::vector<Entry>& entries, std::vector<Entry>& scratch) {
     if ((varies >> shift & 0xff) == 0) continue;
     std::array<std::size_t, 257> begin{};
     for (const Entry& entry : entries) ++begin[(entry.key >> shift & 0xff) + 1];
-    for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
     for (const Entry& entry : entries) scratch[begin[entry.key >> shift & 0xff]++] = entry;
     entries.swap(scratch);
   }

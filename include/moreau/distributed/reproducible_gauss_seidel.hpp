@@ -9,7 +9,7 @@
 //    P. E. Plassmann, SIAM J. Sci. Comput. 14 (1993) 654). Pairs of one colour share no grain that
 //    moves.
 //  - A wall that moves under contacts is in many pairs of one colour. They all see its velocity before
-//    the colour, and the local blocks make up for the others (solve/coloured/hub_share.hpp); n is the number
+//    the colour, and the local blocks make up for the others (solve/hub_share.hpp); n is the number
 //    of points of the colour at the wall.
 //
 //  - Sums over contacts are exact until they are rounded once (detail/exact_sum.hpp).
@@ -36,8 +36,8 @@
 #include "moreau/distributed/detail/ordered_sharing.hpp"
 #include "moreau/distributed/detail/priority_colouring.hpp"
 #include "moreau/law/concepts.hpp"
-#include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/hub_share.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/nesterov_momentum.hpp"
 #include "moreau/solve/solve_report.hpp"

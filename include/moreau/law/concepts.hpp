@@ -79,6 +79,12 @@ concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
 };
 
+/// A law under which a contact with a gap g > 0 acts only if g + h u_n < 0, u_n being its velocity at the end of the step
+/// without it. It says so by a member type ActsWhereGapsClose that is the law itself: a law that derives from it does not
+/// inherit this. A pair then needs contacts only up to the gap that it can close (world/detail/step_margins.hpp).
+template <class L>
+concept ActsWhereGapsClose = std::same_as<typename L::ActsWhereGapsClose, L>;
+
 namespace detail {
 /// A law with bridges or bonds, or with an attraction at every contact.
 template <class L>

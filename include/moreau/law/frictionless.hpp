@@ -19,6 +19,7 @@ namespace moreau {
 template <std::floating_point T = double>
 class Frictionless {
  public:
+  using ActsWhereGapsClose = Frictionless;  ///< see the concept of this name
   /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
   /// @throws std::invalid_argument for a restitution outside [0, 1]
   explicit Frictionless(T restitution = T(0)) : restitution_(restitution) {

@@ -62,7 +62,8 @@ Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
 template <std::floating_point T = double>
 class RollingResistance {
  public:
-  static constexpr bool rolls = true;  ///< see SetValuedLaw
+  using ActsWhereGapsClose = RollingResistance;  ///< see the concept of this name
+  static constexpr bool rolls = true;            ///< see SetValuedLaw
 
   /// @param friction    mu >= 0 [-]
   /// @param rolling     eta >= 0 [-]: largest couple over (effective radius x normal impulse)

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -391,7 +392,7 @@ void MeshWall<S>::set_rings(const std::vector<Ridge<S>>& ridges) {
   });
   ring_begin_.assign(count + 1, 0);
   for (const auto& [v, along] : found) ++ring_begin_[v + 1];
-  for (std::size_t v = 0; v < count; ++v) ring_begin_[v + 1] += ring_begin_[v];
+  std::partial_sum(ring_begin_.begin(), ring_begin_.end(), ring_begin_.begin());
   ring_.resize(found.size());
   std::vector<std::uint32_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
   for (const auto& [v, along] : found) ring_[end[v]++] = along;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/neighbour_cells.hpp"
 #include "moreau/mesh/check_mesh.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
 
@@ -40,22 +41,23 @@ std::vector<std::uint32_t> first_within(const std::vector<typename S::Vector>& v
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     first[v] = std::uint32_t(v);
     // With no tolerance, a cell is a position. The sum turns -0 into 0.
-    const auto cell_at = [&](int offsets) {
+    const auto cell_at = [&](int neighbour) {
+      const auto steps = neighbour_cell<Eigen::Matrix<double, S::dim, 1>>(neighbour);
       Cell cell;
-      for (std::size_t k = 0; k < cell.size(); ++k, offsets /= 3)
-        cell[k] = tolerance > 0
-                      ? std::floor(double(vertices[v][Eigen::Index(k)]) / edge) + offsets % 3 - 1
-                      : double(vertices[v][Eigen::Index(k)]) + 0.0;
+      for (std::size_t k = 0; k < cell.size(); ++k) {
+        const double x = double(vertices[v][Eigen::Index(k)]);
+        cell[k] = tolerance > 0 ? std::floor(x / edge) + steps[Eigen::Index(k)] : x + 0.0;
+      }
       return cell;
     };
-    const int around = tolerance > 0 ? int(std::lround(std::pow(3, S::dim))) : 1;
-    for (int offsets = 0; offsets < around; ++offsets) {
-      const auto found = cells.find(cell_at(offsets));
+    constexpr int most = neighbour_cells<S::dim>(), middle = most / 2;
+    const int around = tolerance > 0 ? most : 1;
+    for (int neighbour = 0; neighbour < around; ++neighbour) {
+      const auto found = cells.find(cell_at(neighbour));
       if (found == cells.end()) continue;
       for (const std::uint32_t w : found->second)
         if ((vertices[w] - vertices[v]).norm() <= tolerance) first[v] = std::min(first[v], w);
     }
-    constexpr int middle = S::dim == 3 ? 13 : 4;
     if (first[v] == v) cells[cell_at(middle)].push_back(std::uint32_t(v));
   }
   return first;

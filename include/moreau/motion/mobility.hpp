@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "moreau/core/space.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/simd/lane_algebra.hpp"
 
 namespace moreau {
@@ -70,6 +71,13 @@ class InverseMass {
   /// The change of angular velocity [rad/s] by an angular impulse [N m s].
   typename S::Angular spin_of(const typename S::Angular& impulse) const {
     return times<typename S::Angular, S::angular_dim>(angular_, impulse);
+  }
+  /// Adds to a twist what an impulse at the centre [N s] and an angular impulse [N m s] change.
+  template <class Twist>
+  void add_change(Twist& twist, const typename S::Vector& impulse,
+                  const typename S::Angular& moment) const {
+    moreau::linear<S>(twist) += velocity_of(impulse);
+    moreau::angular<S>(twist) += spin_of(moment);
   }
 
  private:

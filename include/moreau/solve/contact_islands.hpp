@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -74,7 +75,7 @@ class ContactIslands {
       for (const std::uint32_t body : {a, b})
         if (moves_[body] && !seen_[body]) seen_[body] = 1, ++bodies_[island];
     }
-    for (std::size_t k = 2; k < first_.size(); ++k) first_[k] += first_[k - 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
     // first_[k + 1] is the next free entry of island k, and at the end the first of island k + 1.
     for (std::uint32_t c = 0; c < contacts; ++c)

@@ -13,11 +13,11 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"
+#include "moreau/solve/detail/jacobian_rows.hpp"
 #include "moreau/solve/friction_problem.hpp"
 
 namespace moreau {
@@ -82,13 +82,7 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
       const InverseMass<S>& mass = op.inverse_mass(body);
       if (!mass.moves()) return;
       Touch one{k, {}, {}};
-      for (int d = 0; d < rows; ++d) {
-        const typename Exact::Vector force = sign * op.frame(c).col(d).template cast<double>();
-        auto column = one.forces.col(d);
-        linear<Exact>(column) = force;
-        angular<Exact>(column) =
-            Exact::moment(typename Exact::Vector(lever.template cast<double>()), force);
-      }
+      one.forces = detail::jacobian_rows<S>(op.frame(c), lever, sign).transpose();
       one.velocities = detail::dense<Exact>(mass) * one.forces;
       touches[body].push_back(one);
     };

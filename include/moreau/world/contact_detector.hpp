@@ -41,6 +41,7 @@
 #include "moreau/world/detail/internal_edges.hpp"
 #include "moreau/world/detail/mesh_walls.hpp"
 #include "moreau/world/detail/near_pairs.hpp"
+#include "moreau/world/detail/state_access.hpp"
 #include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/detail/visit_order.hpp"
 #include "moreau/world/tolerances.hpp"

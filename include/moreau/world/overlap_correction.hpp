@@ -34,6 +34,7 @@
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/overlap_sweeps.hpp"
+#include "moreau/world/detail/state_access.hpp"
 
 namespace moreau {
 

@@ -42,6 +42,7 @@
 #include "moreau/world/detail/force_dynamics.hpp"
 #include "moreau/world/detail/impulse_dynamics.hpp"
 #include "moreau/world/detail/policies.hpp"
+#include "moreau/world/detail/state_access.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
@@ -418,7 +419,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// Whether pairs have margins by their motion in the step (detail/step_margins.hpp). The pairs of a
   /// process among several are not all pairs of its bodies.
   bool narrows_margins() const {
-    if constexpr (detail::acts_where_gaps_close<Law>)
+    if constexpr (ActsWhereGapsClose<Law>)
       return tolerances_.narrows && !dynamics_.shares_bodies() && !cell_motion_.is_active();
     else
       return false;

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "moreau/detect/broad/detail/bulk.hpp"
@@ -167,7 +169,7 @@ class CellGrid {
     begin_.assign(lay_out_buckets() + 1, 0);
     for (std::size_t i = 0; i < boxes.size(); ++i)
       if (level_of_[i] != no_level) ++begin_[bucket_of(i) + 1];
-    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     next_.assign(begin_.begin(), begin_.end());
     entries_.resize(begin_.back());
     for (std::size_t i = 0; i < boxes.size(); ++i)

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/neighbour_cells.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
@@ -88,16 +89,10 @@ class PeriodicImages {
   /// images. Two boxes that overlap through the neighbour that is left out overlap also through the
   /// opposite neighbour, with their roles exchanged.
   void add_images(const PeriodicCell<S>& cell, std::size_t count) {
-    int neighbours = 1;
-    for (int axis = 0; axis < S::dim; ++axis) neighbours *= 3;
-    for (int n = neighbours / 2 + 1; n < neighbours; ++n) {
-      Vector step;
-      bool exists = true;
-      for (int axis = 0, rest = n; axis < S::dim; ++axis, rest /= 3) {
-        step[axis] = static_cast<typename S::Scalar>(rest % 3 - 1);
-        exists = exists && (rest % 3 == 1 || cell.is_periodic(axis));
-      }
-      if (exists) add_images(cell, count, step);
+    constexpr int neighbours = detail::neighbour_cells<S::dim>();
+    for (int k = neighbours / 2 + 1; k < neighbours; ++k) {
+      const Vector steps = detail::neighbour_cell<Vector>(k);
+      if (cell.has_image(steps)) add_images(cell, count, steps);
     }
   }
   void add_images(const PeriodicCell<S>& cell, std::size_t count, const Vector& step) {

@@ -143,8 +143,7 @@ class PriorityColouring {
     });
     ends_.assign(std::size_t(most), 0);
     for (const ColouredPair& pair : pairs_) ++ends_[pair.colour];
-    for (std::size_t colour = 1; colour < ends_.size(); ++colour)
-      ends_[colour] += ends_[colour - 1];
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
   }
 
   std::vector<ColouredPair> pairs_;

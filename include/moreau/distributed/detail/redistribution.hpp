@@ -25,6 +25,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/neighbour_cells.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/distributed/communicator.hpp"
@@ -296,18 +297,10 @@ void Redistribution<World>::find_ranks(const Vector& x, Scalar reach, std::vecto
   found.clear();
   const PeriodicCell<S>& cell = world_.cell();
   const Vector half = Vector::Constant(reach);
-  // All combinations of -1, 0, 1 cell along the axes.
-  int images = 1;
-  for (int axis = 0; axis < S::dim; ++axis) images *= 3;
-  for (int image = 0; image < images; ++image) {
-    Vector center = x;
-    bool exists = true;
-    for (int axis = 0, code = image; axis < S::dim; ++axis, code /= 3) {
-      const int shift = code % 3 - 1;
-      exists = exists && (shift == 0 || cell.is_periodic(axis));
-      center[axis] += Scalar(shift) * cell.length()[axis];
-    }
-    if (!exists) continue;
+  for (int k = 0; k < detail::neighbour_cells<S::dim>(); ++k) {
+    const auto steps = detail::neighbour_cell<Vector>(k);
+    if (!cell.has_image(steps)) continue;
+    const Vector center = x + steps.cwiseProduct(cell.length());
     decomposition_.owners({center - half, center + half}, ranks_of_image_);
     found.insert(found.end(), ranks_of_image_.begin(), ranks_of_image_.end());
   }

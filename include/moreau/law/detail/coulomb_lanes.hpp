@@ -59,7 +59,7 @@ class CoulombLanes {
     if (Lanes::any(slips)) {
       const CoulombLanes problem(block, c, slips ? free : Lanes::broadcast(1), friction);
       Tangent sliding = problem.slide(slips & (friction > zero), alpha);
-      if (polish) sliding = problem.onto_cone(sliding);
+      if (polish) sliding = problem.onto_disk(sliding);
       normal = slips ? free : normal;
       for (Index t = 0; t < tangents; ++t) {
         tangent[t] = slips ? sliding[t] : tangent[t];
@@ -234,9 +234,9 @@ class CoulombLanes {
     return result;
   }
 
-  /// The projection onto the cone: Newton's method leaves a small distance. Impulses so small that their
+  /// The tangential impulse moved onto the rim of the disk of radius mu r_n: Newton's method leaves a small distance. Impulses so small that their
   /// square underflows, whose root may be 0, stay as they are.
-  Tangent onto_cone(const Tangent& r) const {
+  Tangent onto_disk(const Tangent& r) const {
     const Values length2 = squared(r), least = Lanes::broadcast(std::numeric_limits<T>::min());
     const Values scale =
         length2 >= least ? limit(r) / Lanes::square_root(length2) : Lanes::broadcast(1);

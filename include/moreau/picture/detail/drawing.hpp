@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "moreau/picture/detail/image.hpp"
 #include "moreau/picture/detail/rasterizer.hpp"
+#include "moreau/picture/image.hpp"
 
 namespace moreau::rendering {
 

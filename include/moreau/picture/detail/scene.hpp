@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "moreau/core/pose.hpp"
-#include "moreau/picture/detail/image.hpp"
 #include "moreau/picture/detail/rasterizer.hpp"
+#include "moreau/picture/image.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/one_of.hpp"
 

@@ -32,6 +32,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/neighbour_cells.hpp"
 #include "moreau/shape/detail/orientation.hpp"
 
 namespace moreau::detail {
@@ -94,8 +95,8 @@ class TriangleHull {
     for (std::size_t i = order.size() - 1; i > 0; --i)
       std::swap(order[i], order[random() % (i + 1)]);
     std::size_t front = 0;
-    for (int code = 0; code < 27; ++code) {  // the middle one has no length: any point
-      const Point direction(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    for (int k = 0; k < neighbour_cells<3>(); ++k) {  // the middle one has no length: any point
+      const auto direction = neighbour_cell<Point>(k);
       std::size_t best = front;
       for (std::size_t i = front + 1; i < order.size(); ++i)
         if (direction.dot(points[order[i]]) > direction.dot(points[order[best]])) best = i;

@@ -29,7 +29,7 @@ class ImpulseMixing {
   void start(Kernel& kernel, const std::vector<std::uint32_t>& active) {
     points_.clear();
     for (const std::uint32_t k : active) {
-      const typename Kernel::Pairs& group = kernel.groups()[k];
+      const typename Kernel::Group& group = kernel.groups()[k];
       for (std::uint32_t p = 0; p < group.active; ++p) points_.push_back(group.first + p);
     }
     packed_.resize(Eigen::Index(points_.size() * Kernel::rows * std::size_t{Lanes::lanes}));

@@ -62,7 +62,7 @@ class ColouredSweeps {
       for (std::size_t d = 0; d < Kernel::rows; ++d)
         point.impulse[d] = point.before[d] = saved_[i++];
     recompute_velocities();
-    kernel_.velocity().settle();
+    kernel_.velocity().forget_change();
     acceleration_.restart();
   }
   /// An accelerated sweep over the active groups. While impulses are mixed it has no extrapolation,
@@ -102,7 +102,7 @@ class ColouredSweeps {
   /// A sweep over all groups without acceleration; updates the active set.
   /// @returns its changes
   SweepChange plain_sweep(const Team& team) {
-    kernel_.velocity().settle();
+    kernel_.velocity().forget_change();
     acceleration_.interrupt();
     kernel_.clear_measures();
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
@@ -142,7 +142,7 @@ class ColouredSweeps {
       mixing_.mix(kernel_, shared_);
       recompute_velocities();
     }
-    kernel_.velocity().settle();
+    kernel_.velocity().forget_change();
     ++mixed_sweeps_;
   }
   void recompute_velocities() {

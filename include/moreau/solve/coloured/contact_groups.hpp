@@ -4,8 +4,8 @@
 // that the velocities of its bodies are loaded once for all of them.
 //
 // A hub, a body with many partners such as a moving wall, would need one group for each of its
-// pairs. If it is much heavier than its partners, its pairs share groups: n is the number of points of a group
-// (solve/coloured/hub_share.hpp). The pairs of a hub as light as its partners are not grouped: shared groups would take
+// groups. If it is much heavier than its partners, its pairs share groups: n is the number of points of a group
+// (solve/hub_share.hpp). The pairs of a hub as light as its partners are not grouped: shared groups would take
 // n times the sweeps.
 // The groups of a hub that is heavier still form phases of their own: all groups of such a phase read
 // the velocity of the hub before the phase, so that the members of a team divide them, and n is the
@@ -29,11 +29,11 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/first_fit_colouring.hpp"
-#include "moreau/solve/coloured/hub_share.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/packs.hpp"
 #include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/hub_share.hpp"
 
 namespace moreau::detail {
 
@@ -44,7 +44,7 @@ class ContactGroups {
   using S = typename Operator::Space;
   using Points = PointPack<S, Law>;
   using Lanes = typename LaneBlock<S>::Number;
-  using Pairs = PairPack<Lanes::lanes>;
+  using Group = PairGroup<Lanes::lanes>;
   using Impulse = typename Operator::Vector;
   using Block = BlockOf<Law, S>;
   static constexpr std::size_t lanes = Lanes::lanes, rows_of_point = Points::Block::rows;
@@ -54,14 +54,14 @@ class ContactGroups {
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
   static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
-  std::vector<Pairs> pairs;                        ///< sorted by block, then by phase
-  std::vector<Points> points;                      ///< in the order of pairs
+  std::vector<Group> groups;                       ///< sorted by block, then by phase
+  std::vector<Points> points;                      ///< in the order of groups
   std::vector<std::array<LaneMass<S>, 2>> masses;  ///< of the bodies a and b of each group
   std::vector<LaneMassMatrices<S>> mass_matrices;  ///< of groups with a body that needs them
 
-  /// Number of rows of LaneVelocities: one per body, and one per group for unused lanes and bodies
-  /// that cannot move, so that groups of one colour never write the same row.
-  std::size_t rows() const { return body_count_ + pairs.size(); }
+  /// Number of velocities of LaneVelocities: one per body, and one per group for unused lanes and bodies
+  /// that cannot move, so that groups of one colour never write the same velocity.
+  std::size_t velocities() const { return body_count_ + groups.size(); }
 
   /// @param problem  contacts of one pair of bodies follow one another
   /// @param impulses the warm start; pairs with most points that push or approach come first within their colour
@@ -72,10 +72,10 @@ class ContactGroups {
     body_count_ = op.body_count();
     find_pairs(op);
     colouring_.assign(bodies_, moves_,
-                      [this](std::size_t k) { return block_of(k) != Pairs::shared; });
+                      [this](std::size_t k) { return block_of(k) != Group::shared; });
     find_shares(op);
     sort(op, impulses, team);
-    pairs.clear();
+    groups.clear();
     phase_points_.clear();
     begin_.clear();
     point_count_ = matrices_ = 0;
@@ -91,9 +91,9 @@ class ContactGroups {
     begin_.push_back(order_.size());
     points.resize(point_count_);
     contact_of_.resize(point_count_ * lanes, none);
-    masses.resize(pairs.size());
+    masses.resize(groups.size());
     mass_matrices.resize(matrices_);
-    team.share_each(pairs.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
+    team.share_each(groups.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
     of_bodies_are_valid_ = false;
   }
 
@@ -161,7 +161,7 @@ class ContactGroups {
     for (std::size_t i = 0; i < op.body_count(); ++i) {
       moves_[i] = op.inverse_mass(i).moves();
       isotropic_[i] = op.inverse_mass(i).is_isotropic();
-      block_[i] = blocks < 2 ? Pairs::shared : static_cast<std::uint32_t>(i * blocks / body_count_);
+      block_[i] = blocks < 2 ? Group::shared : static_cast<std::uint32_t>(i * blocks / body_count_);
     }
     bodies_.clear();
     first_.clear();
@@ -184,17 +184,16 @@ class ContactGroups {
       const std::uint64_t fewer = 255 - std::min<std::uint32_t>(255, first_[k + 1] - first_[k]);
       const std::uint64_t idle = 255 - std::min<std::uint32_t>(255, acting);
       const std::uint32_t block = block_of(k);
-      if (block != Pairs::shared && colouring_[k] != FirstFitColouring::colours) {
+      if (block != Group::shared && colouring_[k] != FirstFitColouring::colours) {
         order_[k] = {std::uint64_t{block} << block_bits |
                          std::uint64_t{colouring_[k]} << inner_colour_bits | idle << 8 | fewer,
                      k};
         return;
       }
       const Hub hub = hub_of(k);
-      const std::uint64_t body =
-          hub == Hub::none ? 0 : bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}];
+      const std::uint64_t body = hub == Hub::none ? 0 : body_of(k, hub);
       const bool is_serial = colouring_[k] == FirstFitColouring::colours &&
-                             (hub == Hub::none || !forms_phases(bodies_[k][hub == Hub::a ? 0 : 1]));
+                             (hub == Hub::none || !forms_phases(body_of(k, hub)));
       order_[k] = {not_inside | (is_serial ? serial : std::uint64_t{colouring_[k]}) << colour_bits |
                        std::uint64_t{static_cast<std::uint8_t>(hub)} << side_bits |
                        body << hub_bits | idle << 8 | fewer,
@@ -205,15 +204,16 @@ class ContactGroups {
   /// The block of all bodies of a pair that move; `shared` if there are two.
   std::uint32_t block_of(std::size_t k) const {
     const auto [a, b] = bodies_[k];
-    if (moves_[a] && moves_[b] && block_[a] != block_[b]) return Pairs::shared;
+    if (moves_[a] && moves_[b] && block_[a] != block_[b]) return Group::shared;
     return block_[moves_[a] ? a : b];
   }
+  /// The body of a pair that is its hub.
+  std::uint32_t body_of(std::size_t k, Hub hub) const { return bodies_[k][hub == Hub::b]; }
   /// The heavy hub of a pair; none if the pair has no hub, a light hub or two hubs.
   Hub hub_of(std::uint32_t k) const {
     if (colouring_[k] != FirstFitColouring::colours) return Hub::none;
     const bool a = colouring_.is_hub(bodies_[k][0]), b = colouring_.is_hub(bodies_[k][1]);
-    if (a == b || !(share_[bodies_[k][a ? std::size_t{0} : std::size_t{1}]] <= largest_share))
-      return Hub::none;
+    if (a == b || !(share_[body_of(k, a ? Hub::a : Hub::b)] <= largest_share)) return Hub::none;
     return a ? Hub::a : Hub::b;
   }
   /// Finds the largest share of each hub in its contacts. Hubs above largest_share are light.
@@ -222,7 +222,7 @@ class ContactGroups {
     for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
       const Hub hub = hub_of(k);
       if (hub == Hub::none) continue;
-      auto& share = share_[bodies_[k][hub == Hub::a ? std::size_t{0} : std::size_t{1}]];
+      auto& share = share_[body_of(k, hub)];
       for (std::uint32_t c = first_[k]; c < first_[k + 1] && share <= largest_share; ++c) {
         const typename S::Scalar own = share_of_hub(op, c, hub == Hub::a);
         if (!(own <= share)) share = own;
@@ -236,12 +236,12 @@ class ContactGroups {
   /// Adds the group of the pairs order_[begin] .. order_[end - 1], without its contacts.
   void lay_out(std::size_t begin, std::size_t end) {
     const std::uint32_t pair = order_[begin].pair;
-    Pairs group;
+    Group group;
     group.first = point_count_;
     group.count = group.active = 0;
     group.hub = hub_of(pair);
     const std::uint64_t key = order_[begin].key;
-    group.block = key & not_inside ? Pairs::shared : static_cast<std::uint32_t>(key >> block_bits);
+    group.block = key & not_inside ? Group::shared : static_cast<std::uint32_t>(key >> block_bits);
     std::uint32_t together = 0;
     bool all_isotropic = true;
     for (std::size_t k = begin; k < end; ++k) {
@@ -252,12 +252,11 @@ class ContactGroups {
     }
     point_count_ += group.count;
     begin_.push_back(begin);
-    group.phase = group.hub != Hub::none
-                      ? phase_of_hub(bodies_[pair][group.hub == Hub::a ? 0 : 1], together)
-                  : colouring_[pair] == FirstFitColouring::colours ? Pairs::serial
+    group.phase = group.hub != Hub::none ? phase_of_hub(body_of(pair, group.hub), together)
+                  : colouring_[pair] == FirstFitColouring::colours ? Group::serial
                                                                    : colouring_[pair];
-    group.matrices = all_isotropic ? Pairs::isotropic : matrices_++;
-    pairs.push_back(group);
+    group.matrices = all_isotropic ? Group::isotropic : matrices_++;
+    groups.push_back(group);
   }
   /// Whether a hub is so heavy that a phase has room for enough points to be worth it.
   bool forms_phases(std::uint32_t body) const {
@@ -269,7 +268,7 @@ class ContactGroups {
   /// @param together points of the group
   std::uint32_t phase_of_hub(std::uint32_t body, std::uint32_t together) {
     using T = typename S::Scalar;
-    if (!forms_phases(body)) return Pairs::serial;
+    if (!forms_phases(body)) return Group::serial;
     const bool has_room = !phase_points_.empty() && phase_hub_ == body &&
                           share_[body] * T(phase_points_.back() + together) <= most_in_phase;
     if (!has_room) phase_points_.push_back(0);
@@ -283,24 +282,24 @@ class ContactGroups {
   void pack(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
             std::size_t number) {
     const Operator& op = problem.delassus;
-    Pairs& group = pairs[number];
+    Group& group = groups[number];
     const auto members_of = [&](std::size_t k) {
       return std::span(order_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
     };
     const auto members = members_of(number);
-    if (number + 1 < pairs.size())
+    if (number + 1 < groups.size())
       for (const Ordered& next : members_of(number + 1))
         op.prefetch(first_[next.pair], points_of(next.pair));
     const auto still = static_cast<std::uint32_t>(body_count_ + number);
-    group.a.fill(group.hub == Hub::a ? bodies_[members[0].pair][0] : still);
-    group.b.fill(group.hub == Hub::b ? bodies_[members[0].pair][1] : still);
+    group.a.fill(group.hub == Hub::a ? body_of(members[0].pair, Hub::a) : still);
+    group.b.fill(group.hub == Hub::b ? body_of(members[0].pair, Hub::b) : still);
     masses[number] = {};
-    if (group.matrices != Pairs::isotropic) mass_matrices[group.matrices] = {};
+    if (group.matrices != Group::isotropic) mass_matrices[group.matrices] = {};
     for (std::size_t lane = 0; lane < members.size(); ++lane) {
       const auto& [a, b] = bodies_[members[lane].pair];
       masses[number][0].set(lane, op.inverse_mass(a));
       masses[number][1].set(lane, op.inverse_mass(b));
-      if (group.matrices != Pairs::isotropic)
+      if (group.matrices != Group::isotropic)
         mass_matrices[group.matrices].set(lane, op.inverse_mass(a), op.inverse_mass(b));
     }
     std::uint32_t together = 0;  // points of the group

@@ -34,56 +34,56 @@ class GroupKernel {
   using Row = typename Groups::Points::Row;
   static constexpr std::size_t rows = Groups::rows_of_point;  ///< of a contact
   using Impulse = typename Operator::Vector;
-  using Pairs = typename Groups::Pairs;
+  using Group = typename Groups::Group;
   using Points = typename Groups::Points;
 
   /// @param problem out: its operator carries the velocities of the impulses
   /// @param team    threads that share the work
   void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team, SharedBodies* shared) {
-    groups_.build(problem, impulses, team);
-    is_large_ = groups_.rows() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
-    changes_.assign(groups_.pairs.size(), Values{});
-    hub_changes_.resize(groups_.pairs.size());
+    contacts_.build(problem, impulses, team);
+    is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
+    changes_.assign(contacts_.groups.size(), Values{});
+    hub_changes_.resize(contacts_.groups.size());
     set_impulses(problem.delassus, impulses, team, shared);
-    team.share_each(groups_.pairs.size(), 128,
-                    [&](std::size_t k) { update_active(groups_.pairs[k]); });
+    team.share_each(contacts_.groups.size(), 128,
+                    [&](std::size_t k) { update_active(contacts_.groups[k]); });
   }
   /// Computes the velocities of the impulses, in the order of the problem, for the operator and for
   /// the bodies here.
   void set_impulses(Operator& op, std::span<const Impulse> impulses, const Team& team,
                     SharedBodies* shared) {
-    groups_.set_impulses(op, impulses, team, shared);
-    velocity_.reset(groups_.rows());
+    contacts_.set_impulses(op, impulses, team, shared);
+    velocity_.reset(contacts_.velocities());
     team.share_each(op.body_count(), 256,
                     [&](std::size_t i) { velocity_.set(i, op.velocity_change(i)); });
-    velocity_.settle();
+    velocity_.forget_change();
   }
   /// Computes the velocities of the bodies from the impulses alone.
   void recompute_velocities() {
-    velocity_.reset(groups_.rows());
-    for (std::size_t k = 0; k < groups_.pairs.size(); ++k) {
+    velocity_.reset(contacts_.velocities());
+    for (std::size_t k = 0; k < contacts_.groups.size(); ++k) {
       apply(k);
-      update_active(groups_.pairs[k]);
+      update_active(contacts_.groups[k]);
     }
   }
   void unpack(std::span<Impulse> impulses, const Team& team) const {
-    groups_.unpack(impulses, team);
+    contacts_.unpack(impulses, team);
   }
 
-  const std::vector<Pairs>& groups() const { return groups_.pairs; }
-  std::vector<Points>& points() { return groups_.points; }
+  const std::vector<Group>& groups() const { return contacts_.groups; }
+  std::vector<Points>& points() { return contacts_.points; }
   LaneVelocities<S, Lanes>& velocity() { return velocity_; }
 
   /// Visits the active points of group k.
   /// @param beta impulses start from r + beta (r - r of the last visit)
-  void visit_active(std::uint32_t k, T beta) { visit<false>(k, groups_.pairs[k].active, beta); }
+  void visit_active(std::uint32_t k, T beta) { visit<false>(k, contacts_.groups[k].active, beta); }
   /// Visits all points of group k, unless none is active and none approaches; updates the active
   /// points.
   /// @tparam Measure whether it takes the measures of its changes
   template <bool Measure>
   void visit_all(std::uint32_t k, T beta) {
-    Pairs& group = groups_.pairs[k];
+    Group& group = contacts_.groups[k];
     changes_[k] = Values{};
     if (group.delays_hub()) hub_changes_[k] = {};
     if (group.active == 0 && !approaches(group)) return;
@@ -93,7 +93,7 @@ class GroupKernel {
 
   /// After a phase of groups of a hub: adds to the velocity of the hub what the visits of a group
   /// have changed.
-  void settle_hub(std::uint32_t k) { velocity_.add(groups_.pairs[k], hub_changes_[k]); }
+  void settle_hub(std::uint32_t k) { velocity_.add(contacts_.groups[k], hub_changes_[k]); }
 
   /// Squared change of impulses in the last visits of some groups, added up in their order.
   double squared_change(const std::vector<std::uint32_t>& groups) const {
@@ -101,7 +101,7 @@ class GroupKernel {
     for (const std::uint32_t k : groups) change2 += changes_[k];
     return double(Lanes::sum(change2));
   }
-  void clear_measures() { measures_.assign(groups_.pairs.size(), {}); }
+  void clear_measures() { measures_.assign(contacts_.groups.size(), {}); }
   SweepChange measures() const {
     SweepChange change;
     for (const SweepChange& one : measures_) change.add(one);
@@ -120,17 +120,17 @@ class GroupKernel {
   /// Velocities that the processor's own cache holds are not loaded ahead [bytes].
   static constexpr std::size_t near_cache = std::size_t{1} << 18;
   void prefetch_from(std::uint32_t number) const {
-    if (!is_large_ || number >= groups_.pairs.size()) return;
-    velocity_.prefetch(groups_.pairs[number].a);
-    velocity_.prefetch(groups_.pairs[number].b);
+    if (!is_large_ || number >= contacts_.groups.size()) return;
+    velocity_.prefetch(contacts_.groups[number].a);
+    velocity_.prefetch(contacts_.groups[number].b);
   }
 
   /// Adds what the impulses of a group do to its bodies.
   void apply(std::size_t number) {
-    const Pairs& group = groups_.pairs[number];
+    const Group& group = contacts_.groups[number];
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
-      push(number, groups_.points[p], groups_.points[p].impulse, a, b);
+      push(number, contacts_.points[p], contacts_.points[p].impulse, a, b);
     velocity_.scatter(group, a, b);
   }
   /// Adds what impulses at a point of group `number` do to the velocities of its bodies.
@@ -141,19 +141,19 @@ class GroupKernel {
       p[k] = point.frame[k][0] * impulse[0];
       for (std::size_t d = 1; d < S::dim; ++d) p[k] += point.frame[k][d] * impulse[d];
     }
-    const auto& [mass_a, mass_b] = groups_.masses[number];
+    const auto& [mass_a, mass_b] = contacts_.masses[number];
     auto moment_a = Algebra::moment(point.lever_a, p), moment_b = Algebra::moment(point.lever_b, p);
     if constexpr (Rolls<Law>) add_couple(point, impulse, moment_a, moment_b);
     const auto turn_a = Algebra::template product<Algebra::angular>(mass_a.angular, moment_a);
     const auto turn_b = Algebra::template product<Algebra::angular>(mass_b.angular, moment_b);
-    const std::uint32_t matrices = groups_.pairs[number].matrices;
-    if (matrices == Pairs::isotropic) {
+    const std::uint32_t matrices = contacts_.groups[number].matrices;
+    if (matrices == Group::isotropic) {
       for (std::size_t k = 0; k < S::dim; ++k) {
         a[k] -= mass_a.linear * p[k];
         b[k] += mass_b.linear * p[k];
       }
     } else {
-      const auto& masses = groups_.mass_matrices[matrices];
+      const auto& masses = contacts_.mass_matrices[matrices];
       const auto of_a = Algebra::template product<Algebra::dim>(masses.a, p);
       const auto of_b = Algebra::template product<Algebra::dim>(masses.b, p);
       for (std::size_t k = 0; k < S::dim; ++k) {
@@ -194,10 +194,10 @@ class GroupKernel {
 
   /// A point is active if it has an impulse or had one before its last visit; the points of a group
   /// up to its last active one are visited.
-  void update_active(Pairs& group) const {
+  void update_active(Group& group) const {
     group.active = 0;
     for (std::uint32_t p = 0; p < group.count; ++p) {
-      const Points& point = groups_.points[group.first + p];
+      const Points& point = contacts_.points[group.first + p];
       typename Lanes::Indices some{};
       for (std::size_t d = 0; d < rows; ++d)
         some |= (point.impulse[d] != Values{}) | (point.before[d] != Values{});
@@ -205,11 +205,11 @@ class GroupKernel {
     }
   }
   /// Whether u_n < 0 at a point of the group.
-  MOREAU_COMPILED_ONCE bool approaches(const Pairs& group) const {
+  MOREAU_COMPILED_ONCE bool approaches(const Group& group) const {
     const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     typename Lanes::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
-      const Points& point = groups_.points[p];
+      const Points& point = contacts_.points[p];
       const Vector between = relative(point, a, b);
       Values u = point.free[0];
       for (std::size_t k = 0; k < S::dim; ++k) u += point.frame[k][0] * between[k];
@@ -222,12 +222,12 @@ class GroupKernel {
   template <bool Measure>
   MOREAU_COMPILED_ONCE void visit(std::uint32_t number, std::uint32_t count, T extrapolation) {
     prefetch_from(number + ahead);
-    const Pairs& group = groups_.pairs[number];
+    const Group& group = contacts_.groups[number];
     Values change2{};
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     const Values beta = Lanes::broadcast(extrapolation);
     for (std::uint32_t p = group.first; p < group.first + count; ++p) {
-      Points& point = groups_.points[p];
+      Points& point = contacts_.points[p];
       Row guess;
       for (std::size_t d = 0; d < rows; ++d)
         guess[d] = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
@@ -276,7 +276,7 @@ class GroupKernel {
       sum.add(double(dv2[l]), double(r2[l]), double(wr2[l]), double(rwr[l]));
   }
 
-  Groups groups_;
+  Groups contacts_;
   LaneVelocities<S, Lanes> velocity_;
   bool is_large_ = false;  // whether prefetch_from() does anything
   // One entry per group.

@@ -14,7 +14,7 @@
 
 namespace moreau::detail {
 
-/// Velocities y = (v, w) of all bodies, one row per body, read and written for one body per SIMD lane
+/// Velocities y = (v, w) of all bodies, one for each body, read and written for one body per SIMD lane
 /// at once.
 template <class S, class W>
 class LaneVelocities {
@@ -27,8 +27,8 @@ class LaneVelocities {
   using Bodies = std::array<std::uint32_t, std::size_t{W::lanes}>;
 
   /// Sets all velocities to zero.
-  void reset(std::size_t rows) { now_.assign(registers * rows, Values{}); }
-  /// All velocities, `width` numbers per row.
+  void reset(std::size_t count) { now_.assign(registers * count, Values{}); }
+  /// All velocities, `width` numbers each.
   std::span<T> scalars() {
     return {reinterpret_cast<T*>(now_.data()), now_.size() * std::size_t{W::lanes}};
   }
@@ -37,8 +37,8 @@ class LaneVelocities {
     for (int k = 0; k < S::dofs; ++k)
       now_[registers * body + std::size_t(k / W::lanes)][k % W::lanes] = y[k];
   }
-  /// Makes the present velocities the velocities before the next extrapolation.
-  void settle() { before_ = now_; }
+  /// Makes the present velocities the velocities before the next extrapolation, which then adds nothing.
+  void forget_change() { before_ = now_; }
   /// Adds beta times the change since the last extrapolation; the work of one member of a team.
   MOREAU_COMPILED_ONCE void extrapolate(T beta, int rank, int size) {
     const Values factor = W::broadcast(beta);
@@ -68,8 +68,8 @@ class LaneVelocities {
   using Change = std::array<T, std::size_t{S::dofs}>;
 
   /// Writes the velocities of the bodies of a group; adds up the changes of all lanes for the hub.
-  template <class Pairs>
-  void scatter(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
+  template <class Group>
+  void scatter(const Group& group, const BodyLanes& a, const BodyLanes& b) {
     if (group.hub != Hub::none) add(group, scatter_partners(group, a, b));
     if (group.hub == Hub::none) {
       scatter(group.a, a);
@@ -78,8 +78,8 @@ class LaneVelocities {
   }
   /// Writes the velocities of the partners of the hub of a group.
   /// @returns the sum of the changes of all lanes for the hub
-  template <class Pairs>
-  Change scatter_partners(const Pairs& group, const BodyLanes& a, const BodyLanes& b) {
+  template <class Group>
+  Change scatter_partners(const Group& group, const BodyLanes& a, const BodyLanes& b) {
     const bool hub_is_a = group.hub == Hub::a;
     scatter(hub_is_a ? group.b : group.a, hub_is_a ? b : a);
     const BodyLanes& y = hub_is_a ? a : b;
@@ -89,8 +89,8 @@ class LaneVelocities {
     return change;
   }
   /// Adds a change to the velocity of the hub of a group.
-  template <class Pairs>
-  void add(const Pairs& group, const Change& change) {
+  template <class Group>
+  void add(const Group& group, const Change& change) {
     for (std::size_t k = 0; k < S::dofs; ++k) {
       Values& entries = now_[registers * hub_of(group) + k / W::lanes];
       entries[k % W::lanes] += change[k];
@@ -106,8 +106,8 @@ class LaneVelocities {
       for (std::size_t l = 0; l < W::lanes; ++l) now_[registers * bodies[l] + k] = rows[l];
     }
   }
-  template <class Pairs>
-  static std::uint32_t hub_of(const Pairs& group) {
+  template <class Group>
+  static std::uint32_t hub_of(const Group& group) {
     return group.hub == Hub::a ? group.a[0] : group.b[0];
   }
   T entry(std::size_t body, std::size_t k) const {

@@ -52,7 +52,7 @@ enum class Hub : std::uint8_t { none, a, b };
 
 /// A group: one pair per lane. No two pairs share a body that can move, except the hub.
 template <int Lanes>
-struct PairPack {
+struct PairGroup {
   std::uint32_t first, count;  ///< PointPacks
   std::uint32_t active;        ///< number of them, from the first, that the active set contains
   /// Colour; FirstFitColouring::colours or more for groups of a hub that form a phase. Groups of one
@@ -67,7 +67,7 @@ struct PairPack {
 
   /// Whether the hub is changed after the phase, not by the group.
   bool delays_hub() const { return hub != Hub::none && phase != serial; }
-  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< rows of LaneVelocities
+  std::array<std::uint32_t, static_cast<std::size_t>(Lanes)> a, b;  ///< numbers of LaneVelocities
 };
 
 }  // namespace moreau::detail

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,7 @@ class PairsOfBodies {
   void assign(std::span<const std::array<std::uint32_t, 2>> pairs, std::size_t body_count) {
     begin_.assign(body_count + 2, 0);
     for (const auto& [a, b] : pairs) ++begin_[a + 2], ++begin_[b + 2];
-    for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     entries_.resize(2 * pairs.size());
     // begin_[i + 1] is the next free entry of body i, and at the end the first of body i + 1.
     for (std::uint32_t k = 0; k < pairs.size(); ++k) {

@@ -26,6 +26,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"
+#include "moreau/solve/detail/jacobian_rows.hpp"
 
 namespace moreau::detail {
 
@@ -38,7 +39,7 @@ struct ContactResponse {
 };
 
 /// The impulse r in Coulomb's cone K with K* containing s r + b, perpendicular to r: minus the projection of b / s
-/// onto K in the norm of s.
+/// onto K in the norm of s (SignoriniCoulomb::project() has that of s = 1), with the derivative.
 /// @param mu friction coefficient [-]
 /// @param s  diagonal of the compliance, equal for all tangents, > 0 [1/kg]
 template <class S>
@@ -209,17 +210,9 @@ class IslandPoints {
   }
   Rows rows(const typename S::Matrix& frame, std::uint32_t body, const typename S::Vector& lever,
             double sign) const {
-    Rows rows = Rows::Zero(), by_root = Rows::Zero();
-    if (body == none) return rows;
-    using Exact = Space<dim, double>;
-    typename Exact::Vector arm, axis;
-    for (int i = 0; i < dim; ++i) arm[i] = double(lever[i]);
-    for (int k = 0; k < dim; ++k) {
-      for (int i = 0; i < dim; ++i) rows(k, i) = axis[i] = sign * double(frame(i, k));
-      const typename Exact::Angular moment = Exact::moment(arm, axis);
-      for (int i = 0; i < S::angular_dim; ++i) rows(k, dim + i) = moment[i];
-    }
-    add_product(by_root, rows, roots_[body]);
+    Rows by_root = Rows::Zero();
+    if (body == none) return by_root;
+    add_product(by_root, jacobian_rows<S>(frame, lever, sign), roots_[body]);
     return by_root;
   }
 

@@ -20,6 +20,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "moreau/contact/contact.hpp"
+
 namespace moreau::detail {
 
 /// How a contact acts in a step.
@@ -29,17 +31,12 @@ struct Closing {
   T offset = 0;  ///< to be added to that of the law [m/s]
 };
 
-/// Whether a pair touches.
-/// @param contacts of the step; those of a pair are neighbours
-/// @param c        a contact of the pair
-inline bool touches(const auto& contacts, std::size_t c) {
-  const auto is_of_pair = [&](std::size_t k) {
-    return contacts[k].a == contacts[c].a && contacts[k].b == contacts[c].b;
-  };
-  for (std::size_t k = c; k-- > 0 && is_of_pair(k);)
-    if (!(contacts[k].gap > 0)) return true;
-  for (std::size_t k = c + 1; k < contacts.size() && is_of_pair(k); ++k)
-    if (!(contacts[k].gap > 0)) return true;
+/// Whether the pair of contact c touches.
+template <class S>
+bool touches(const DetectedContacts<S>& contacts, std::size_t c) {
+  const std::size_t first = first_of_pair(contacts, c), last = end_of_pair(contacts, first);
+  for (std::size_t k = first; k < last; ++k)
+    if (!(contacts.points[k].gap > 0)) return true;
   return false;
 }
 
@@ -49,13 +46,12 @@ inline bool touches(const auto& contacts, std::size_t c) {
 /// @param free    u_n after it without impulses [m/s]
 template <class Law, class T>
 Closing<T> closing_of(const auto& context, std::size_t c, const Law& law, T before, T free) {
-  const auto& contacts = context.contacts.points;
-  const T gap = contacts[c].gap, step = context.step;
+  const T gap = context.contacts.points[c].gap, step = context.step;
   if (!(gap > 0) || !(gap + step * free < 0) ||
       std::isfinite(law.velocity_offset(gap, before, step)))
     return {gap};
   if (2 * before >= free) return {T(0), gap / step};
-  return touches(contacts, c) ? Closing<T>{T(0)} : Closing<T>{gap};
+  return touches(context.contacts, c) ? Closing<T>{T(0)} : Closing<T>{gap};
 }
 
 }  // namespace moreau::detail

@@ -63,8 +63,7 @@ class OverlapSweeps {
   /// @param lever from the centre of the body to the point [m]
   void push(const InverseMass<S>& mass, std::uint32_t body, const Vector& push,
             const Vector& lever) {
-    linear<S>(shifts_[body]) += mass.velocity_of(push);
-    angular<S>(shifts_[body]) += mass.spin_of(S::moment(lever, push));
+    mass.add_change(shifts_[body], push, S::moment(lever, push));
   }
   /// Makes sweeps.
   /// @param op         operator of the contacts

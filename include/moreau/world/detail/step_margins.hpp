@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The margin of each pair in a step. A contact with the gap g > 0 takes part in a step of h only if
+// The margin of each pair in a step, under laws that are ActsWhereGapsClose (law/concepts.hpp); others get all contacts up
+// to the whole margin. A contact with the gap g > 0 takes part in a step of h only if
 //
 //     g + h u_n < 0                                                                                   (1)
 //
@@ -37,24 +38,10 @@
 
 #include "moreau/core/twist.hpp"
 #include "moreau/detect/broad_phase.hpp"
-#include "moreau/law/frictionless.hpp"
-#include "moreau/law/rolling_resistance.hpp"
-#include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
-
-/// Whether (1) is the condition of a law for impulses. Other laws, also those of users, get all contacts
-/// up to the margin.
-template <class Law>
-inline constexpr bool acts_where_gaps_close = false;
-template <class T>
-inline constexpr bool acts_where_gaps_close<SignoriniCoulomb<T>> = true;
-template <class T>
-inline constexpr bool acts_where_gaps_close<Frictionless<T>> = true;
-template <class T>
-inline constexpr bool acts_where_gaps_close<RollingResistance<T>> = true;
 
 /// A bound on the relative velocity of two bodies near the centre of the first one [m/s].
 /// @param twist_a,twist_b of the bodies, or their displacements and rotations in a step [m]

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include "moreau/detect/broad_phase.hpp"
 
@@ -15,7 +19,7 @@ class PairSorter {
   void sort(std::vector<IndexPair>& pairs, std::size_t count) {
     begin_.assign(count + 1, 0);
     for (const IndexPair& pair : pairs) ++begin_[pair.first + 1];
-    for (std::size_t i = 0; i < count; ++i) begin_[i + 1] += begin_[i];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     sorted_.resize(pairs.size());
     next_.assign(begin_.begin(), begin_.end());
     for (const IndexPair& pair : pairs) sorted_[next_[pair.first]++] = pair;
