@@ -16,7 +16,7 @@
 #include "sanitized.hpp"
 #include "shape/compounds.hpp"
 #include "types.hpp"
-#include "worlds/compound.hpp"
+#include "instances/compound.hpp"
 
 using namespace moreau;
 

@@ -23,7 +23,7 @@ using moreau::Pose;
 template <class ShapeT>
 using LawOf = moreau::SignoriniCoulomb<typename moreau::SpaceOf<ShapeT>::Scalar>;
 
-/// A simulation whose step is compiled once for each shape, in tests/worlds, and not in every test
+/// A simulation whose step is compiled once for each shape, in tests/instances, and not in every test
 /// that uses it.
 template <class ShapeT>
 struct World : moreau::Simulation<ShapeT, LawOf<ShapeT>> {

@@ -10,7 +10,7 @@
 #include "moreau/sample/compound_ballast.hpp"
 #include "moreau/world/simulation.hpp"
 
-#include "worlds/compound.hpp"
+#include "instances/compound.hpp"
 
 namespace scenes {
 

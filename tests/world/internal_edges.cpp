@@ -13,7 +13,7 @@
 #include "types.hpp"
 #include "world/assemblies.hpp"
 #include "world/tiles.hpp"
-#include "worlds/compound.hpp"
+#include "instances/compound.hpp"
 
 using namespace moreau;
 

@@ -9,7 +9,7 @@
 #include "moreau/shape/one_of.hpp"
 
 #include "world/assemblies.hpp"
-#include "worlds/compound.hpp"
+#include "instances/compound.hpp"
 
 using namespace moreau;
 

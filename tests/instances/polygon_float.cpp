@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "worlds/world_impl.hpp"
+#include "instances/world_impl.hpp"
 
 template moreau::StepReport scenes::World<moreau::Polygon<float>>::step(float);
 template struct scenes::BoxOfGrains<moreau::Polygon<float>>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "worlds/world_impl.hpp"
+#include "instances/world_impl.hpp"
 
 template moreau::StepReport scenes::World<moreau::Polyhedron<double>>::step(double);
 template struct scenes::BoxOfGrains<moreau::Polyhedron<double>>;
