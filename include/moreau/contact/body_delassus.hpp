@@ -125,7 +125,7 @@ class BodyDelassus {
   std::span<const InverseMass<S>> inverse_masses() const { return masses_; }
   /// Trace of W_cc + D_cc [1/kg].
   Scalar trace(std::size_t c) const { return heads_[c].trace; }
-  /// The part of W_cc that belongs to body a: what the impulse at c does to the velocity of a [1/kg].
+  /// The part of W_cc that belongs to body a: the change of the velocity of a at c by the impulse at c [1/kg].
   Matrix block_of_a(std::size_t c) const {
     return points_[c].block_of(points_[c].lever_a, masses_[points_[c].a]);
   }

@@ -53,7 +53,7 @@ struct Traffic {
   std::uint64_t collectives = 0;  ///< sums, largest values, broadcasts
   double seconds = 0;  ///< in messages and operations, with the time of waiting for others
 
-  /// What was sent since `before`.
+  /// The traffic since `before`.
   Traffic operator-(const Traffic& before) const {
     return {messages - before.messages, bytes - before.bytes, collectives - before.collectives,
             seconds - before.seconds};

@@ -127,7 +127,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
     require_positive(step, "DistributedSimulation::step", "step");
     return guarded([&] {
       redistribution_.update(step, options_.imbalance);
-      // What the detector remembers of pairs depends on the process that had them.
+      // The pair caches of the detector depend on the process that had the pairs.
       if constexpr (!splits) detail::WorldParts<World>(world_).forget_pairs();
       StepReport report = world_.step(step);
       redistribution_.refresh_ghosts();

@@ -11,10 +11,9 @@
 //  - A wall that moves under contacts is in many pairs of one colour. They all see its velocity before
 //    the colour, and the local blocks make up for the others (solve/hub_share.hpp); n is the number
 //    of points of the colour at the wall.
-//
 //  - Sums over contacts are exact until they are rounded once (detail/exact_sum.hpp).
-//  - What belongs to a contact or a body is computed by functions that are compiled once
-//    (core/compiled_once.hpp): the place in a loop depends on the process.
+//  - The values of a contact or a body are computed by functions that are compiled once
+//    (core/compiled_once.hpp), because the place of a contact in a loop depends on the process.
 //
 // The sweeps have Nesterov's momentum.
 #pragma once
@@ -161,7 +160,7 @@ class OrderedSweeps {
       move_walls(colour);
     }
   }
-  /// Applies an impulse. What it does to a moving wall is kept until the end of the colour.
+  /// Applies an impulse. Its change of a moving wall is stored until the end of the colour.
   MOREAU_COMPILED_ONCE void apply_impulse(std::size_t c, const Vector& impulse) {
     const std::uint32_t wall = colours_.wall_of(c);
     if (wall == ColouredPair::none) return op_.apply_to_bodies(c, impulse);

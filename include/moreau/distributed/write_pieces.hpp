@@ -115,7 +115,7 @@ void write_pieces(const std::filesystem::path& path, DistributedSimulation<World
         [&](std::size_t i) { return local.is_grain(i); }, segments, local.cell());
     writer.write_contacts(piece(path.string(), "contacts", rank), segments);
   });
-  // The index comes last: what it names exists.
+  // The index is written last, when the files that it names exist.
   detail::together(processes, [&] {
     if (rank != 0) return;
     using Shape = std::remove_cvref_t<decltype(local.shape_of_grain(0))>;

@@ -30,8 +30,8 @@
 //     tangential  u_t + c_t (r_t - s_t) = -lambda r_t / |r_t|  or  0,      |r_t| <= mu r_n:
 //
 // the law below, with W + D in place of W, D = diag(c_n, c_t[, c_t]), and a free velocity to which
-// (g / h, -c_t s_t) is added. What the solver does not solve for in a step is felt as a force in the
-// next, because the memory of the springs is the impulses and the gap; errors do not add up.
+// (g / h, -c_t s_t) is added. An error of the solver in one step acts as a force in the next, because the memory of
+// the springs is the impulses and the gap; errors do not add up.
 //
 // With restitution e > 0 a contact acts only where g <= 0 and the memory of the normal spring is the
 // impulse, like that of the tangential one:

@@ -90,8 +90,8 @@ typename S::Vector spring_friction(const ContactMotion<S>& motion, typename S::S
   if (size > limit) {
     const auto uncut = shear.eval();
     shear *= size > 0 ? limit / size : T(0);
-    // What the dashpot alone would exceed the limit by is no stretch: the spring would then push
-    // the slip on.
+    // If the dashpot alone exceeds the limit, the excess is not stored as a stretch: the spring would
+    // then push the slip on.
     if (stiffness > 0) stretch = -(shear + damping * slip) / stiffness;
     if (stretch.dot(uncut) > 0) stretch.setZero();
   }

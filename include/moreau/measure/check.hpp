@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What would go unseen: settings of a simulation that give results which look right and are wrong.
+// Settings of a simulation that give results which look right and are wrong.
 #pragma once
 
 #include <string>

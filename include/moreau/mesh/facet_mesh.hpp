@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A surface of triangles in space, or of line segments in the plane: what scans and CAD files
-// contain, and what walls of any form are made of. Both are facets with D corners, so one text
+// A surface of triangles in space, or of line segments in the plane. Scans and CAD files contain
+// such surfaces, and walls of any form are made of them. Triangles and segments are facets with D corners, so one text
 // serves both dimensions.
 //
 // A facet mesh is data. check_mesh.hpp tests it, repair_mesh.hpp mends it on request,

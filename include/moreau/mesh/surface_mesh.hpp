@@ -156,8 +156,8 @@ class SurfaceMesher {
   void mesh(const OneOf<Shapes...>& shape, SurfaceMesh<S>& out) const {
     shape.visit([&](const auto& held) { mesh(held, out); });
   }
-  /// The surfaces of all parts of a compound grain, one after the other. What lies inside the grain is
-  /// not cut off.
+  /// The surfaces of all parts of a compound grain, one after the other. The pieces of them that lie inside
+  /// the grain are not cut off.
   template <CompoundShape ShapeT>
   void mesh(const ShapeT& shape, SurfaceMesh<S>& out) const {
     out.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The motion of one body during a step: what integrators are made of, also those of a user. A user
+// The motion of one body during a step. Integrators are made of these functions, also those of a user. A user
 // of advance_pose(), velocity_change() and spin_after() gets implicit gyroscopic terms (a body
 // without torques conserves its angular momentum to rounding), and walls that move only along the
 // axes along which they have an inverse mass.

@@ -81,8 +81,8 @@ class Barrier {
 };
 
 /// Decides whether to share one kind of work, from its times. In a trial, pieces of work are done
-/// alone and shared in turn. If sharing wins, its mean is watched: a member that does not run makes
-/// few pieces slow, but these very slow.
+/// alone and shared in turn. If sharing wins, its mean time is watched, not its median: a thread that the system does not
+/// run delays only a few pieces of work, but each of them by much more than a piece takes.
 class ShareTuner {
  public:
   bool shares() const { return left_ > 0 ? left_ % 2 == 0 : shares_; }

@@ -4,7 +4,7 @@
 //
 //   1. Draw a convex stone (ballast.hpp), and three directions with at least 97 degrees between any two.
 //   2. Cut a cap off the stone in each direction, at 0.62 to 0.72 of the distance of its farthest point.
-//      What is left is the first part.
+//      The rest of the stone is the first part.
 //   3. Replace each cap by the pyramid between the cut and the farthest point of the cap. The faces of
 //      the pyramid meet those of the stone around it in concave edges.
 //   4. Accept the grain if no cut touches another.

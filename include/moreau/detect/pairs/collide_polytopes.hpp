@@ -51,7 +51,7 @@ FoundAxis<SpaceOf<ShapeT>> axis_of(const PolytopePair<ShapeT>& pair,
   return search_axis(pair, margin, cache);
 }
 
-/// What is known of the contact of two faces that lie on each other, from the features in the cache.
+/// How far the contact of two faces that lie on each other is known from the features in the cache.
 enum class RememberedFaces : std::uint8_t {
   none,   ///< there are no such faces
   made,   ///< the manifold is made, but the features are not proved

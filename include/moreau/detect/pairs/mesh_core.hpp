@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a collision with a mesh wall asks of a convex shape: its vertices, its edges, how far it reaches
-// in a direction, and the distance of a point. A ball is a point with a radius, a capsule a segment
+// A collision with a mesh wall needs these functions of a convex shape: its vertices and edges, how far it
+// reaches in a direction, and the distance of a point. A ball is a point with a radius, a capsule a segment
 // with a radius. Positions are relative to the centre of the shape, in the frame of the wall.
 #pragma once
 

@@ -10,7 +10,7 @@
 
 namespace moreau::detail {
 
-/// What a contact at a body does in a phase of a sweep: changes the velocity of the body.
+/// A change of the velocity of a body by one of its contacts, in a phase of a sweep.
 struct PhaseVisit {
   std::uint32_t phase, body;
 };

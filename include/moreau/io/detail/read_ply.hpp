@@ -149,7 +149,7 @@ class PlyReader {
     }
   }
 
-  /// What is left would be triangles that the header does not count.
+  /// Throws if the file goes on after the triangles that the header counts.
   void require_end() {
     const std::string_view left = is_text_ ? words_->rest() : bytes_.substr(at_);
     if (left.find_first_not_of(" \t\r\n\f\v") != std::string_view::npos)

@@ -82,7 +82,8 @@ class InternalEdges {
   /// A manifold as the body X sees it, which touches another body.
   struct View {
     std::uint32_t x, part;  ///< index of X, and the part that touches
-    std::uint32_t group;    ///< `obstacles`, or the index of a compound grain: what moves as one
+    std::uint32_t
+        group;  ///< `obstacles`, or the index of a compound grain: bodies with one number move together
     std::uint32_t first, last;  ///< its points
     bool is_a;                  ///< whether X is body a of the contact
     bool is_beside(const View& other) const {

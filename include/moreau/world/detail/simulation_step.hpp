@@ -100,7 +100,8 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
   if constexpr (BridgingLaw<Law, S>)
     pairs =
         bridges_.update(materials_, contacts_, previous_, tolerances_.lengths(grain_size_).margin);
-  std::swap(contacts_, previous_);  // last: what throws above changes no contacts
+  std::swap(contacts_,
+            previous_);  // last: if a function above throws, the contacts have not changed
   report.ms_collide = clock.lap();
   report.candidate_pairs = detector_.pair_count();
   count_contacts(report);
