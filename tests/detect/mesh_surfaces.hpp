@@ -17,6 +17,8 @@
 #include "moreau/sample/random_rotation.hpp"
 #include "moreau/shape/regular_shape.hpp"
 
+#include "conformance/random_direction.hpp"
+
 namespace mesh_surfaces {
 
 using namespace moreau;
@@ -225,6 +227,24 @@ std::vector<Point<SpaceOf<ShapeT>>> contacts(const Placed<ShapeT>& shape,
       points.push_back({p.position, -manifold.normal, double(p.gap), face != MeshWall<S>::none});
   });
   return points;
+}
+
+/// A random point of a facet, often on a ridge, and a direction away from it: of every fourth t the normal.
+template <class S>
+struct AboveFacet {
+  typename S::Vector point, up;
+};
+template <class S>
+AboveFacet<S> above_facet(const MeshWall<S>& wall, int t, std::mt19937_64& random) {
+  using Vector = typename S::Vector;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto& side = wall.side(random() % wall.size());
+  Vector w;
+  for (auto& x : w) x = uniform(random);
+  if (t % 3 != 0) w[int(random() % S::dim)] = 0;
+  Vector up = side.normal;
+  if (t % 4 != 0) up = (up + conformance::random_direction<S>(random)).normalized();
+  return {side.corners * w / w.sum(), up};
 }
 
 }  // namespace mesh_surfaces

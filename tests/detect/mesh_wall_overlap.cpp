@@ -234,21 +234,15 @@ void check_approaches(const char* name, const FacetMesh<SpaceOf<ShapeT>>& mesh, 
   using Vector = typename S::Vector;
   static const auto shapes = grains<ShapeT>();
   std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> uniform(0, 1);
   for (const WallSides sides : {WallSides::outside, WallSides::both}) {
     const MeshWall<S> wall(mesh, sides), same(shuffled(mesh, 5), sides);
     Approach<ShapeT> approach;
     for (int t = 0; t < count; ++t) {
-      const auto& side = wall.side(random() % wall.size());
-      Vector w;  // a place on the facet, often on a ridge
-      for (auto& x : w) x = uniform(random);
-      if (t % 3 != 0) w[int(random() % S::dim)] = 0;
-      Vector up = side.normal;
-      if (t % 4 != 0) up = (up + conformance::random_direction<S>(random)).normalized();
+      const auto [point, up] = mesh_surfaces::above_facet(wall, t, random);
       const auto turn = t % 2 != 0 ? random_rotation<S>(random) : S::identity();
       const Vector aside = 0.012 * conformance::random_direction<S>(random);
       Placed<ShapeT> shape(shapes[std::size_t(t) % shapes.size()],
-                           {side.corners * w / w.sum() + 0.045 * up + aside, turn});
+                           {point + 0.045 * up + aside, turn});
       approach.check(wall, same, shape, up);
     }
     CAPTURE(name);

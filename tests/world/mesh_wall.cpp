@@ -328,20 +328,14 @@ TEST_CASE_TEMPLATE("grains shot at steps, ridges, valleys and rims are not throw
   using Vector = typename S::Vector;
   const auto shapes = mesh_surfaces::grains<ShapeT>();
   std::mt19937_64 random(17);
-  std::uniform_real_distribution<double> uniform(0, 1);
   for (const auto& named : profiles()) {
     // From behind, grains pass a wall with one side.
     const MeshWall<S> wall(surface(S{}, named.profile), WallSides::both);
     Shots shots;
     for (int t = 0; t < 30; ++t) {
-      const auto& side = wall.side(random() % wall.size());
-      Vector w;  // a place on the facet, often on a ridge
-      for (auto& x : w) x = uniform(random);
-      if (t % 3 != 0) w[int(random() % S::dim)] = 0;
-      Vector up = side.normal;
-      if (t % 4 != 0) up = (up + conformance::random_direction<S>(random)).normalized();
+      const auto [point, up] = mesh_surfaces::above_facet(wall, t, random);
       const auto turn = t % 2 != 0 ? random_rotation<S>(random) : S::identity();
-      const Vector at = side.corners * w / w.sum() + 0.04 * up;
+      const Vector at = point + 0.04 * up;
       shoot(wall, shapes[std::size_t(t) % shapes.size()],
             Pose<S>(at + 0.01 * conformance::random_direction<S>(random), turn), Vector(-0.4 * up),
             typename S::Angular(S::Angular::Constant(t % 3 == 0 ? 5 : 0)), t % 5 == 0 ? 0.3 : 0.0,
