@@ -37,4 +37,21 @@ concept ContactSolver = SetValuedLaw<Law, S> && std::copyable<V> &&
   { solver.solve(problem, impulses, workspace) } -> std::same_as<SolveReport>;
 };
 
+namespace detail {
+
+/// The workspace of a solver; empty for a solver that cannot take the law.
+template <class Solver, class Operator, class Law>
+struct WorkspaceOf {
+  struct type {};
+};
+template <class Solver, class Operator, class Law>
+requires requires {
+  typename Solver::template Workspace<Operator, Law>;
+}
+struct WorkspaceOf<Solver, Operator, Law> {
+  using type = typename Solver::template Workspace<Operator, Law>;
+};
+
+}  // namespace detail
+
 }  // namespace moreau

@@ -59,19 +59,6 @@
 
 namespace moreau::detail {
 
-/// The workspace of a solver; empty for a solver that cannot take the law, see policies.hpp.
-template <class Solver, class Operator, class Law>
-struct WorkspaceOf {
-  struct type {};
-};
-template <class Solver, class Operator, class Law>
-requires requires {
-  typename Solver::template Workspace<Operator, Law>;
-}
-struct WorkspaceOf<Solver, Operator, Law> {
-  using type = typename Solver::template Workspace<Operator, Law>;
-};
-
 /// Moves bodies through a step by contact impulses; the head of this file has the stages.
 template <class S, class Law, class Integrator, class Solver>
 class ImpulseDynamics {
