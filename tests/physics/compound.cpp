@@ -13,10 +13,10 @@
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "instances/compound.hpp"
 #include "sanitized.hpp"
 #include "shape/compounds.hpp"
 #include "types.hpp"
-#include "instances/compound.hpp"
 
 using namespace moreau;
 

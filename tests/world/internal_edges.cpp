@@ -10,10 +10,10 @@
 
 #include "moreau/shape/compound.hpp"
 
+#include "instances/compound.hpp"
 #include "types.hpp"
 #include "world/assemblies.hpp"
 #include "world/tiles.hpp"
-#include "instances/compound.hpp"
 
 using namespace moreau;
 

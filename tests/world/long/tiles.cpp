@@ -8,8 +8,8 @@
 #include "moreau/shape/capsule.hpp"
 #include "moreau/shape/one_of.hpp"
 
-#include "world/assemblies.hpp"
 #include "instances/compound.hpp"
+#include "world/assemblies.hpp"
 
 using namespace moreau;
 
