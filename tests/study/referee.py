@@ -335,6 +335,9 @@ class Referee(unittest.TestCase):
         same = [of_the_same_samples(q, s, "rigid", "jammed", f"L={length}", "/", s, "compliant", "jammed", f"L={length}")
                 for s in BOXES for length in BOXES[s] for q in ("C", "strain")]
         same = [v for v in same if v]
+        filled = {L: of_the_same_samples("strain", "disk", "compliant", "filling", f"L={L}", "/", "disk", "compliant", "jammed", f"L={L}") for L in (8, 10.7, 16)}
+        self.assertEqual([low > 1 for _, low, _, _ in filled.values()], [False, True, False])
+        self.assertRegex(report, r"disks then compact \S+ \S+ \S+ \(20\) times as much; at L/d = 8 and 15.1, .* this is not shown")
         self.assertIn(f"({sum(not v[1] <= 1 <= v[2] for v in same)} of {len(same)} ratios, strain of spheres at L/d = 8,", report)
 
     def test_summaries_that_are_typed_or_made(self):
