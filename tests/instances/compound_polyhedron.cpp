@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "instances/compound.hpp"
 
-template class moreau::ContactDetector<moreau::Compound<moreau::Polyhedron<>>,
-                                       moreau::CellGrid<moreau::Space<3>>>;
-template moreau::StepReport moreau::Simulation<moreau::Compound<moreau::Polyhedron<>>,
-                                               moreau::SignoriniCoulomb<>>::step(double);
+namespace moreau {
+COMPOUND_INSTANCES(template, Polyhedron<double>)
+}  // namespace moreau
