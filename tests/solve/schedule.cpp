@@ -20,7 +20,7 @@ namespace {
 struct Group {
   static constexpr std::uint32_t serial = ~std::uint32_t{0}, shared = serial;
   std::uint32_t phase;
-  std::uint32_t block;
+  std::uint32_t chunk;
 };
 
 /// Members that work one after another.
@@ -51,7 +51,7 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
       points.push_back(static_cast<std::uint32_t>(random() % 4));
     }
     std::sort(groups.begin(), groups.end(), [](const Group& l, const Group& r) {
-      return std::tie(l.block, l.phase) < std::tie(r.block, r.phase);
+      return std::tie(l.chunk, l.phase) < std::tie(r.chunk, r.phase);
     });
     Schedule schedule;
     schedule.assign(groups, [&](std::uint32_t k) { return points[k]; });
@@ -61,20 +61,20 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
         const auto wait = [] {};
         const auto visit = [&](std::uint32_t k) { ++visits[k]; };
         const auto settle = [&](std::uint32_t k) { ++settled[k]; };
-        std::vector<int> member(3, -1);  // of each block
+        std::vector<int> member(3, -1);  // of each chunk
         int rank = 0;
-        const auto visit_in_blocks = [&](std::uint32_t k) {
+        const auto visit_in_chunks = [&](std::uint32_t k) {
           visit(k);
-          if (groups[k].block == Group::shared) return;
-          int& owner = member[groups[k].block];
+          if (groups[k].chunk == Group::shared) return;
+          int& owner = member[groups[k].chunk];
           CHECK((owner == -1 || owner == rank));
           owner = rank;
         };
         for (; rank < size; ++rank)
           if (back)
-            schedule.backward(rank, size, wait, visit_in_blocks, settle);
+            schedule.backward(rank, size, wait, visit_in_chunks, settle);
           else
-            schedule.forward(rank, size, wait, visit_in_blocks, settle);
+            schedule.forward(rank, size, wait, visit_in_chunks, settle);
         for (std::size_t k = 0; k < groups.size(); ++k) {
           CHECK(visits[k] == (points[k] > 0));
           CHECK(settled[k] == (points[k] > 0 && groups[k].phase == FirstFitColouring::colours));

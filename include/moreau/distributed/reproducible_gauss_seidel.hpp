@@ -73,10 +73,10 @@ class OrderedSweeps {
   void load_velocities() {
     op_.clear();
     in_order([&](std::size_t c, T) { apply_impulse(c, impulses_[c]); });
-    settle();
+    forget_change();
   }
   /// The velocities are those before the next extrapolation.
-  void settle() { velocities_before_.assign(velocities().begin(), velocities().end()); }
+  void forget_change() { velocities_before_.assign(velocities().begin(), velocities().end()); }
   /// A sweep that starts from r + beta (r - r of the sweep before).
   /// @returns the squared change of the impulses of all processes
   double sweep(T beta) {

@@ -181,15 +181,15 @@ class RollingResistance {
       angular<S>(r) += share * (couple - angular<S>(r));
       if ((r - before).norm() <= 4 * std::numeric_limits<T>::epsilon() * r.norm()) return r;
     }
-    return settled<S>(block, b, r);
+    return damped<S>(block, b, r);
   }
   /// The fixed point of the natural map, by damped iteration from r. With a friction above 1 and levers
   /// off the line of the centres the two halves of solve_unit() can alternate for ever.
   /// @returns r if this does not converge
   template <class S>
-  typename RollingBlock<S>::Vector settled(const RollingBlock<S>& block,
-                                           const typename RollingBlock<S>::Vector& b,
-                                           const typename RollingBlock<S>::Vector& r) const {
+  typename RollingBlock<S>::Vector damped(const RollingBlock<S>& block,
+                                          const typename RollingBlock<S>::Vector& b,
+                                          const typename RollingBlock<S>::Vector& r) const {
     using Vector = typename RollingBlock<S>::Vector;
     const auto w = block.matrix();
     const T scale = w.trace() / T(RollingBlock<S>::rows);

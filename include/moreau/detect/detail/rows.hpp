@@ -18,9 +18,9 @@
 
 namespace moreau::detail {
 
-/// The rows of an N x D matrix, stored in blocks. Each block has as many rows as a register has
-/// lanes. In a block the x of all its rows come first, then the y of all its rows, and so on. So a
-/// scan reads memory in order, and a single row lies on one or two cache lines. The last block is
+/// The rows of an N x D matrix, stored in tiles. Each tile has as many rows as a register has
+/// lanes. In a tile the x of all its rows come first, then the y of all its rows, and so on. So a
+/// scan reads memory in order, and a single row lies on one or two cache lines. The last tile is
 /// filled up with copies of the first row, so that scans need no special case at the end. If
 /// several rows are equal, a scan reports the first of them, never a copy.
 template <class S>
@@ -40,11 +40,11 @@ class Rows {
     const auto size = std::size_t(S::dim * padded_);
     if (rows_.size() < size) rows_.resize(size);
     for (Eigen::Index i = 0; i < padded_; i += Lanes::lanes) {
-      const Wides block = load(body, i);
+      const Wides tile = load(body, i);
       for (Eigen::Index k = 0; k < S::dim; ++k) {
-        auto sum = rotation(k, 0) * block[0];
+        auto sum = rotation(k, 0) * tile[0];
         for (Eigen::Index l = 1; l < S::dim; ++l)
-          sum += rotation(k, l) * block[static_cast<std::size_t>(l)];
+          sum += rotation(k, l) * tile[static_cast<std::size_t>(l)];
         std::memcpy(rows_.data() + S::dim * i + k * Lanes::lanes, &sum, sizeof sum);
       }
     }
@@ -61,18 +61,18 @@ class Rows {
   /// every vertex.
   [[gnu::always_inline]] Vector operator[](std::size_t i) const {
     constexpr std::size_t lanes = Lanes::lanes;
-    const T* block = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
+    const T* tile = rows_.data() + i / lanes * (S::dim * lanes) + i % lanes;
     Vector row;
-    for (Eigen::Index k = 0; k < S::dim; ++k) row[k] = block[k * Lanes::lanes];
+    for (Eigen::Index k = 0; k < S::dim; ++k) row[k] = tile[k * Lanes::lanes];
     return row;
   }
 
-  /// direction . row for the block of rows that starts at row i.
+  /// direction . row for the tile of rows that starts at row i.
   /// @param d  the direction, each component in all lanes
   typename Lanes::Values dot(Eigen::Index i, const Wides& d) const {
-    const T* block = rows_.data() + S::dim * i;
-    typename Lanes::Values sum = d[0] * Lanes::load(block);
-    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * Lanes::load(block += Lanes::lanes);
+    const T* tile = rows_.data() + S::dim * i;
+    typename Lanes::Values sum = d[0] * Lanes::load(tile);
+    for (std::size_t k = 1; k < S::dim; ++k) sum += d[k] * Lanes::load(tile += Lanes::lanes);
     return sum;
   }
   static Wides broadcast(const Vector& v) {
@@ -82,7 +82,7 @@ class Rows {
     return wide;
   }
 
-  /// The block of rows that starts at row i.
+  /// The tile of rows that starts at row i.
   Wides wide(Eigen::Index i) const {
     Wides rows;
     for (std::size_t k = 0; k < S::dim; ++k)
@@ -93,13 +93,13 @@ class Rows {
   typename Lanes::Values lowest(const Wides& directions) const {
     constexpr std::size_t lanes = Lanes::lanes;
     auto lowest = Lanes::broadcast(std::numeric_limits<T>::infinity());
-    const T* block = rows_.data();
-    for (std::size_t left = size(); left > 0; block += S::dim * lanes) {
+    const T* tile = rows_.data();
+    for (std::size_t left = size(); left > 0; tile += S::dim * lanes) {
       const std::size_t here = std::min(left, lanes);
       for (std::size_t l = 0; l < here; ++l) {
-        auto height = directions[0] * Lanes::broadcast(block[l]);
+        auto height = directions[0] * Lanes::broadcast(tile[l]);
         for (std::size_t k = 1; k < S::dim; ++k)
-          height += directions[k] * Lanes::broadcast(block[k * lanes + l]);
+          height += directions[k] * Lanes::broadcast(tile[k * lanes + l]);
         lowest = height < lowest ? height : lowest;
       }
       left -= here;
@@ -201,20 +201,20 @@ class Rows {
   }
 
  private:
-  /// Loads a block of rows of a matrix whose columns are contiguous. Rows after the last row are
+  /// Loads a tile of rows of a matrix whose columns are contiguous. Rows after the last row are
   /// copies of the first row.
   template <class BodyRows>
   static Wides load(const BodyRows& body, Eigen::Index i) {
-    Wides block;
+    Wides tile;
     if (i + Lanes::lanes <= body.rows()) {
       for (std::size_t k = 0; k < S::dim; ++k)
-        block[k] = Lanes::load(&body(i, static_cast<Eigen::Index>(k)));
-      return block;
+        tile[k] = Lanes::load(&body(i, static_cast<Eigen::Index>(k)));
+      return tile;
     }
     for (std::size_t k = 0; k < S::dim; ++k)
       for (int l = 0; l < Lanes::lanes; ++l)
-        block[k][l] = body(i + l < body.rows() ? i + l : 0, static_cast<Eigen::Index>(k));
-    return block;
+        tile[k][l] = body(i + l < body.rows() ? i + l : 0, static_cast<Eigen::Index>(k));
+    return tile;
   }
 
   std::vector<T, CacheLineAllocator<T>> rows_;

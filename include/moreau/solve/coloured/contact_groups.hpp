@@ -11,8 +11,8 @@
 // the velocity of the hub before the phase, so that the members of a team divide them, and n is the
 // number of points in the phase. All pairs of one hub have different partners.
 //
-// Pairs whose bodies belong to one block come first, block after block, so that each member of a team
-// works on blocks of its own: between two barriers it visits all colours of a block, and the velocities
+// Pairs whose bodies belong to one chunk come first, chunk after chunk, so that each member of a team
+// works on chunks of its own: between two barriers it visits all colours of a chunk, and the velocities
 // of the bodies stay in the cache of its core.
 #pragma once
 
@@ -54,7 +54,7 @@ class ContactGroups {
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
   static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
-  std::vector<Group> groups;                       ///< sorted by block, then by phase
+  std::vector<Group> groups;                       ///< sorted by chunk, then by phase
   std::vector<Points> points;                      ///< in the order of groups
   std::vector<std::array<LaneMass<S>, 2>> masses;  ///< of the bodies a and b of each group
   std::vector<LaneMassMatrices<S>> mass_matrices;  ///< of groups with a body that needs them
@@ -72,7 +72,7 @@ class ContactGroups {
     body_count_ = op.body_count();
     find_pairs(op);
     colouring_.assign(bodies_, moves_,
-                      [this](std::size_t k) { return block_of(k) != Group::shared; });
+                      [this](std::size_t k) { return chunk_of(k) != Group::shared; });
     find_shares(op);
     sort(op, impulses, team);
     groups.clear();
@@ -133,7 +133,7 @@ class ContactGroups {
   }
 
  private:
-  /// Pairs inside a block come first, sorted by block and colour; then the others, sorted by colour and
+  /// Pairs inside a chunk come first, sorted by chunk and colour; then the others, sorted by colour and
   /// hub. Of equal pairs, those with most points that are likely to act come first, then those with most
   /// points.
   struct Ordered {
@@ -141,27 +141,27 @@ class ContactGroups {
     std::uint32_t pair;
   };
   static constexpr int hub_bits = 16, side_bits = hub_bits + 32, colour_bits = side_bits + 2;
-  static constexpr int inner_colour_bits = 16, block_bits = inner_colour_bits + 8;
+  static constexpr int inner_colour_bits = 16, chunk_bits = inner_colour_bits + 8;
   static constexpr std::uint64_t not_inside = std::uint64_t{1} << 63;
   static constexpr std::uint64_t kind_mask = ~((std::uint64_t{1} << hub_bits) - 1);
   /// In place of a colour: pairs without a phase. Those without a hub share no group.
   static constexpr std::uint64_t serial = FirstFitColouring::colours + 1,
                                  alone_kind = not_inside | serial << colour_bits;
-  /// Bodies of a block, up to twice as many: the number of blocks is a power of two, so that teams of two,
+  /// Bodies of a chunk, up to twice as many: the number of chunks is a power of two, so that teams of two,
   /// four, .. members have equally many. They are consecutive, so that they lie together if the bodies are
-  /// in the order of a space-filling curve. A member of a team visits the pairs inside a block without
+  /// in the order of a space-filling curve. A member of a team visits the pairs inside a chunk without
   /// waiting for others.
-  static constexpr std::size_t block_size = 600;
+  static constexpr std::size_t chunk_size = 600;
 
   void find_pairs(const Operator& op) {
     moves_.resize(op.body_count());
     isotropic_.resize(op.body_count());
-    block_.resize(op.body_count());
-    const std::size_t blocks = std::bit_floor(body_count_ / block_size);
+    chunk_.resize(op.body_count());
+    const std::size_t chunks = std::bit_floor(body_count_ / chunk_size);
     for (std::size_t i = 0; i < op.body_count(); ++i) {
       moves_[i] = op.inverse_mass(i).moves();
       isotropic_[i] = op.inverse_mass(i).is_isotropic();
-      block_[i] = blocks < 2 ? Group::shared : static_cast<std::uint32_t>(i * blocks / body_count_);
+      chunk_[i] = chunks < 2 ? Group::shared : static_cast<std::uint32_t>(i * chunks / body_count_);
     }
     bodies_.clear();
     first_.clear();
@@ -183,9 +183,9 @@ class ContactGroups {
       for (std::uint32_t c = first_[k]; c < first_[k + 1]; ++c) acting += likely(op, impulses, c);
       const std::uint64_t fewer = 255 - std::min<std::uint32_t>(255, first_[k + 1] - first_[k]);
       const std::uint64_t idle = 255 - std::min<std::uint32_t>(255, acting);
-      const std::uint32_t block = block_of(k);
-      if (block != Group::shared && colouring_[k] != FirstFitColouring::colours) {
-        order_[k] = {std::uint64_t{block} << block_bits |
+      const std::uint32_t chunk = chunk_of(k);
+      if (chunk != Group::shared && colouring_[k] != FirstFitColouring::colours) {
+        order_[k] = {std::uint64_t{chunk} << chunk_bits |
                          std::uint64_t{colouring_[k]} << inner_colour_bits | idle << 8 | fewer,
                      k};
         return;
@@ -201,11 +201,11 @@ class ContactGroups {
     });
     sort_by_key(order_, sorted_);
   }
-  /// The block of all bodies of a pair that move; `shared` if there are two.
-  std::uint32_t block_of(std::size_t k) const {
+  /// The chunk of all bodies of a pair that move; `shared` if there are two.
+  std::uint32_t chunk_of(std::size_t k) const {
     const auto [a, b] = bodies_[k];
-    if (moves_[a] && moves_[b] && block_[a] != block_[b]) return Group::shared;
-    return block_[moves_[a] ? a : b];
+    if (moves_[a] && moves_[b] && chunk_[a] != chunk_[b]) return Group::shared;
+    return chunk_[moves_[a] ? a : b];
   }
   /// The body of a pair that is its hub.
   std::uint32_t body_of(std::size_t k, Hub hub) const { return bodies_[k][hub == Hub::b]; }
@@ -241,7 +241,7 @@ class ContactGroups {
     group.count = group.active = 0;
     group.hub = hub_of(pair);
     const std::uint64_t key = order_[begin].key;
-    group.block = key & not_inside ? Group::shared : static_cast<std::uint32_t>(key >> block_bits);
+    group.chunk = key & not_inside ? Group::shared : static_cast<std::uint32_t>(key >> chunk_bits);
     std::uint32_t together = 0;
     bool all_isotropic = true;
     for (std::size_t k = begin; k < end; ++k) {
@@ -370,7 +370,7 @@ class ContactGroups {
   std::vector<std::array<std::uint32_t, 2>> bodies_;
   std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
   std::vector<unsigned char> moves_, isotropic_;
-  std::vector<std::uint32_t> block_;         // of each body; `shared` if there are no blocks
+  std::vector<std::uint32_t> chunk_;         // of each body; `shared` if there are no chunks
   std::vector<typename S::Scalar> share_;    // of each hub, see find_shares()
   std::vector<std::uint32_t> phase_points_;  // points of each phase of a hub
   std::uint32_t phase_hub_ = 0;              // hub of the last phase

@@ -56,10 +56,10 @@ struct PairGroup {
   std::uint32_t first, count;  ///< PointPacks
   std::uint32_t active;        ///< number of them, from the first, that the active set contains
   /// Colour; FirstFitColouring::colours or more for groups of a hub that form a phase. Groups of one
-  /// phase are visited in any order; those inside a block in the order of their phases.
+  /// phase are visited in any order; those inside a chunk of bodies in the order of their phases.
   std::uint32_t phase;
   static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase
-  std::uint32_t block;  ///< that all bodies of the group belong to, or `shared`
+  std::uint32_t chunk;  ///< that all bodies of the group belong to, or `shared`
   static constexpr std::uint32_t shared = std::numeric_limits<std::uint32_t>::max();
   Hub hub;
   std::uint32_t matrices;  ///< index into ContactGroups::mass_matrices; isotropic: none is needed

@@ -11,15 +11,15 @@
 
 namespace moreau::detail {
 
-/// An order in which groups of contacts are visited. Groups inside a block of bodies come first: each
-/// block has one member of the team, who visits them one after another, and blocks share no body. The
+/// An order in which groups of contacts are visited. Groups inside a chunk of bodies come first: each
+/// chunk has one member of the team, who visits them one after another, and chunks share no body. The
 /// groups of one phase share no body that moves, except a hub, so that the members divide them: each has
 /// about as many points. After a phase of groups of a hub, one member adds up their changes
 /// of its velocity. Groups without a phase follow one after another.
 class Schedule {
  public:
   /// Takes those groups k = 0, 1, .. for which points(k) > 0, the points that a visit solves.
-  /// @param groups sorted: those inside blocks by block, then the others by phase
+  /// @param groups sorted: those inside chunks by chunk, then the others by phase
   template <class Group>
   void assign(const std::vector<Group>& groups, const auto& points) {
     list_.clear();
@@ -30,12 +30,12 @@ class Schedule {
         before_.push_back(before_.back() + own);
       }
     phases_.clear();
-    blocks_.assign(1, 0);
+    chunks_.assign(1, 0);
     std::size_t i = 0;
-    while (i < list_.size() && groups[list_[i]].block != Group::shared) {
-      const std::uint32_t block = groups[list_[i]].block;
-      while (i < list_.size() && groups[list_[i]].block == block) ++i;
-      blocks_.push_back(i);
+    while (i < list_.size() && groups[list_[i]].chunk != Group::shared) {
+      const std::uint32_t chunk = groups[list_[i]].chunk;
+      while (i < list_.size() && groups[list_[i]].chunk == chunk) ++i;
+      chunks_.push_back(i);
     }
     while (i < list_.size() && groups[list_[i]].phase != Group::serial) {
       const std::uint32_t phase = groups[list_[i]].phase;
@@ -51,8 +51,8 @@ class Schedule {
   /// @param wait   returns when all members have called it
   /// @param settle function: settle(k) adds up what group k of a hub has changed
   void forward(int rank, int size, auto&& wait, auto&& visit, auto&& settle) const {
-    if (has_blocks()) {
-      const Share own = blocks_of(rank, size);
+    if (has_chunks()) {
+      const Share own = chunks_of(rank, size);
       for (std::size_t i = own.begin; i < own.end; ++i) visit(list_[i]);
       wait();
     }
@@ -78,9 +78,9 @@ class Schedule {
       wait();
       if (rank == 0) settle_all(phase, settle);
     }
-    if (has_blocks()) {
+    if (has_chunks()) {
       wait();
-      const Share own = blocks_of(rank, size);
+      const Share own = chunks_of(rank, size);
       for (std::size_t i = own.end; i-- > own.begin;) visit(list_[i]);
     }
   }
@@ -91,21 +91,21 @@ class Schedule {
     bool of_hub;
   };
 
-  bool has_blocks() const { return blocks_.size() > 1; }
-  /// The groups in the blocks of a member: those whose middle point lies in its share of the points.
-  Share blocks_of(int rank, int size) const {
+  bool has_chunks() const { return chunks_.size() > 1; }
+  /// The groups in the chunks of a member: those whose middle point lies in its share of the points.
+  Share chunks_of(int rank, int size) const {
     const auto bound = [&](int members) {
-      const std::size_t points = before_[blocks_.back()] * std::size_t(members);
-      std::size_t block = 0;
-      while (block + 1 < blocks_.size() &&
-             (before_[blocks_[block]] + before_[blocks_[block + 1]]) * std::size_t(size) <
+      const std::size_t points = before_[chunks_.back()] * std::size_t(members);
+      std::size_t chunk = 0;
+      while (chunk + 1 < chunks_.size() &&
+             (before_[chunks_[chunk]] + before_[chunks_[chunk + 1]]) * std::size_t(size) <
                  2 * points)
-        ++block;
-      return blocks_[block];
+        ++chunk;
+      return chunks_[chunk];
     };
     Share own(0, 0, 1);
     own.begin = bound(rank);
-    own.end = rank + 1 == size ? blocks_.back() : bound(rank + 1);
+    own.end = rank + 1 == size ? chunks_.back() : bound(rank + 1);
     return own;
   }
   void visit_share(const Phase& phase, int rank, int size, auto&& visit) const {
@@ -128,7 +128,7 @@ class Schedule {
   std::vector<std::uint32_t> list_;
   std::vector<std::size_t> before_;  // points before each group in the list; at the end, all points
   std::vector<std::size_t>
-      blocks_;  // first group of each block in the list; at the end, their number
+      chunks_;  // first group of each chunk in the list; at the end, their number
   std::vector<Phase> phases_;
   std::size_t serial_ = 0;  // first group without a phase, in the list
 };

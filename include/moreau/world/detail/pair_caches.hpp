@@ -116,15 +116,15 @@ class PairCaches<ShapeT> {
   }
   /// Erases the caches of pairs p with is_gone(p).
   void erase_pairs(const auto& is_gone) {
-    erase_blocks(ends_, is_gone, [&](const auto& part_is_gone) {
+    erase_lists(ends_, is_gone, [&](const auto& part_is_gone) {
       erase_at(parts_, part_is_gone);
       erase_at(caches_, part_is_gone);
     });
   }
   /// Forgets the boxes of grains k with is_gone(k).
   void erase_grains(const auto& is_gone) {
-    erase_blocks(box_ends_, is_gone,
-                 [&](const auto& part_is_gone) { erase_at(boxes_, part_is_gone); });
+    erase_lists(box_ends_, is_gone,
+                [&](const auto& part_is_gone) { erase_at(boxes_, part_is_gone); });
   }
   /// Whether lists and caches, read from a file, are those of the pairs.
   /// @param is_stale whether renew() comes before the next use
@@ -167,28 +167,28 @@ class PairCaches<ShapeT> {
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(parts_, ends_, caches_, boxes_, box_ends_); }
 
-  static std::size_t begin(const std::vector<std::uint64_t>& ends, std::size_t block) {
-    return block == 0 ? 0 : ends[block - 1];
+  static std::size_t begin(const std::vector<std::uint64_t>& ends, std::size_t list) {
+    return list == 0 ? 0 : ends[list - 1];
   }
-  static bool are_ends(const std::vector<std::uint64_t>& ends, std::size_t blocks,
+  static bool are_ends(const std::vector<std::uint64_t>& ends, std::size_t lists,
                        std::size_t items) {
-    return ends.size() == blocks && std::is_sorted(ends.begin(), ends.end()) &&
+    return ends.size() == lists && std::is_sorted(ends.begin(), ends.end()) &&
            (ends.empty() ? 0 : ends.back()) == items;
   }
-  /// Erases blocks of items.
-  /// @param ends  one past the last item of each block
+  /// Erases lists of items.
+  /// @param ends  one past the last item of each list
   /// @param erase is given a function: item -> whether it is erased
-  void erase_blocks(std::vector<std::uint64_t>& ends, const auto& is_gone, const auto& erase) {
+  void erase_lists(std::vector<std::uint64_t>& ends, const auto& is_gone, const auto& erase) {
     gone_.clear();
-    for (std::size_t block = 0; block < ends.size(); ++block)
-      gone_.resize(ends[block], is_gone(block) ? 1 : 0);
+    for (std::size_t list = 0; list < ends.size(); ++list)
+      gone_.resize(ends[list], is_gone(list) ? 1 : 0);
     erase([&](std::size_t item) { return gone_[item] != 0; });
     std::uint64_t end = 0;
-    for (std::size_t block = 0, from = 0; block < ends.size(); ++block) {
-      const std::size_t to = ends[block];
-      if (!is_gone(block)) end += to - from;
+    for (std::size_t list = 0, from = 0; list < ends.size(); ++list) {
+      const std::size_t to = ends[list];
+      if (!is_gone(list)) end += to - from;
       from = to;
-      ends[block] = end;
+      ends[list] = end;
     }
     erase_at(ends, is_gone);
   }
