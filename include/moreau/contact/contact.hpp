@@ -6,6 +6,11 @@
 // relative velocity is u = F^T (v_b + lever(l_b) w_b - v_a - lever(l_a) w_a): u_n > 0 separates.
 // The impulse r acts on b, in the frame: r_n > 0 pushes. Body a receives -F r. Under a law with couples, r has A
 // more entries: the couple on b, in the angular frame.
+//
+// Detection writes a contact, assign_laws() its law. Three members are written later in the step, because they need what
+// is known only then: the tangents of the frame by BodyDelassus::assemble(), the gap by OverlapCorrection::solve(), the
+// variant by carry() and after the solution. So the impulses of a step, its contact problem and its contacts have one
+// frame, and the gap is that for which the problem was solved.
 #pragma once
 
 #include <Eigen/Core>
