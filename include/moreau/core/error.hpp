@@ -8,9 +8,9 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "moreau/core/compiler.hpp"

@@ -2,7 +2,6 @@
 // The tolerances of the narrow phase.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <limits>
 

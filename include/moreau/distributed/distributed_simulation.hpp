@@ -21,18 +21,14 @@
 // 5. The owners of grains move them, and send their motion to the processes that have ghosts of them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"

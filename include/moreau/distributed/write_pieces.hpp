@@ -2,7 +2,6 @@
 // Grains and contacts of a distributed simulation for ParaView: one file per process, and an index.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <filesystem>

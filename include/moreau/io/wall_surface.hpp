@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <type_traits>
 #include <utility>
 #include <vector>
 

@@ -28,7 +28,6 @@
 #include <cstddef>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"

@@ -46,7 +46,6 @@
 // Multibodies with Dry Frictional Contacts, PhD thesis, Umea University, 2007.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <tuple>

@@ -31,9 +31,7 @@
 // refused.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
-#include <limits>
 #include <tuple>
 
 #include "moreau/core/error.hpp"

@@ -2,7 +2,6 @@
 // Kinetic energy, linear and angular momentum of rigid bodies.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include "moreau/core/components.hpp"

@@ -23,7 +23,6 @@
 //     of the tangential springs.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>

@@ -2,10 +2,8 @@
 // The force chains: each contact as a segment between the centres of its two bodies.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"

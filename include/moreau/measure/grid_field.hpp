@@ -10,7 +10,6 @@
 // of a grain is its displacement.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 

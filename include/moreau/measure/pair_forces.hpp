@@ -3,7 +3,6 @@
 // contact forces count pairs, so that they do not depend on the number of points of a contact.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -2,7 +2,6 @@
 // The mean stress of an assembly from its contact forces.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"

@@ -2,7 +2,6 @@
 // The requirements on a time integrator.
 #pragma once
 
-#include <concepts>
 #include <span>
 
 #include "moreau/motion/bodies.hpp"

@@ -16,7 +16,6 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <tuple>

@@ -6,15 +6,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <optional>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "moreau/core/aabb.hpp"

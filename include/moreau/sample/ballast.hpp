@@ -23,7 +23,6 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <random>

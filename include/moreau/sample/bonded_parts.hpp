@@ -2,7 +2,6 @@
 // A stone that breaks: the parts of a Compound as grains that bonds hold together.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -5,10 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "moreau/core/error.hpp"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "moreau/core/error.hpp"
 #include "moreau/solve/solve_report.hpp"

@@ -4,10 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <tuple>
 
 #include "moreau/contact/contact.hpp"

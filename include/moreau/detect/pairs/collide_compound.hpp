@@ -8,8 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"

@@ -3,8 +3,6 @@
 // the pair holds, and call the function for these shapes.
 #pragma once
 
-#include <utility>
-
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"

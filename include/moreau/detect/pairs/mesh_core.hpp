@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/collide_ball_polytope.hpp"

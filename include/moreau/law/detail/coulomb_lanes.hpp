@@ -16,9 +16,7 @@
 // is the exact solution.
 #pragma once
 
-#include <array>
 #include <concepts>
-#include <cstddef>
 #include <limits>
 
 #include "moreau/law/lane_block.hpp"

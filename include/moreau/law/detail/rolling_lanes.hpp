@@ -20,7 +20,6 @@
 // fixed point: a contact that is taken wrongly is taken rightly in the next visit.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "moreau/law/detail/coulomb_lanes.hpp"

@@ -3,11 +3,9 @@
 // to the right, y up.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "moreau/picture/detail/rasterizer.hpp"
 #include "moreau/picture/image.hpp"

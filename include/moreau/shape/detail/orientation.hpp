@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace moreau {

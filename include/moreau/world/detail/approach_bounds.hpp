@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/compiled_once.hpp"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"

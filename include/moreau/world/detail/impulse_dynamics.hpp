@@ -15,10 +15,7 @@
 //  11. advance_configuration(): to the end of the step
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <tuple>

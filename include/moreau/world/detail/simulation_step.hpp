@@ -3,9 +3,7 @@
 // detection.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/polytope/detail/face_search.hpp"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/manifold.hpp"
