@@ -70,7 +70,9 @@ Balls overlapping_rows() {
 TEST_CASE("The residual on one rank is below the tolerance, and momentum is balanced") {
   check_steps<Polygons>(100, 1e-4, 300);
   check_steps<Polygons>(100, 1e-6, 300);
+  check_steps<Balls>(150, 1e-4, 250);
   check_steps<Balls>(150, 1e-6, 250);
+  check_steps<RollingBalls>(150, 1e-4, 250);
   check_steps<RollingBalls>(150, 1e-6, 250);
   check_steps<SoftPolyhedra>(80, 1e-4, 250);
   check_steps<SoftPolyhedra>(80, 1e-6, 250);
