@@ -4,12 +4,11 @@
 // The wall is the outside of its facets. Two facets that join at a ridge (an edge of triangles, an end
 // of segments) meet in one of three ways, seen from outside:
 //
-//   - flat: the ridge is no feature of the surface. Facets that are connected over flat ridges form a
-//     face, and a grain that slides over it does not notice its ridges: the space above the face is
-//     divided among the facets by planes that two neighbours share;
+//   - flat: the ridge is no feature of the surface. Facets that are connected over flat ridges form a face. A grain that
+//     slides over it does not notice its ridges: two neighbours share a plane that divides the space above the face;
 //   - concave: a grain outside touches the two facets, never the ridge;
-//   - convex: a grain can touch the ridge, with a normal between those of the two facets. The rim of an
-//     open surface counts as convex: normals there point away from the facet, upwards or downwards.
+//   - convex: a grain can touch the ridge, with a normal between those of the two facets. The rim of an open surface
+//     counts as convex: normals there point away from the facet, upwards or downwards.
 //
 // Between different faces there is no angle too small to be convex or concave. High above a convex ridge
 // the space between the two faces is wide even if their angle is small.
