@@ -11,7 +11,6 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"

@@ -27,7 +27,6 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/contact_islands.hpp"

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "moreau/contact/contact.hpp"
 #include "moreau/law/lane_block.hpp"
 #include "moreau/law/local_block.hpp"
 #include "moreau/motion/mobility.hpp"

@@ -15,7 +15,6 @@
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/polytope/projection.hpp"
-#include "moreau/detect/tolerance.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 

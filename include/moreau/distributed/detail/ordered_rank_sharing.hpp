@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/ids.hpp"
 #include "moreau/distributed/communicator.hpp"
 #include "moreau/distributed/detail/ordered_sharing.hpp"
 #include "moreau/distributed/detail/rank_sharing.hpp"

@@ -21,8 +21,6 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/core/twist.hpp"
-#include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/detail/dense_mass.hpp"
 #include "moreau/solve/detail/jacobian_rows.hpp"

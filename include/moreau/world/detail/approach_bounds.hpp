@@ -7,7 +7,6 @@
 #include <span>
 
 #include "moreau/core/aabb.hpp"
-#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/motion/bodies.hpp"

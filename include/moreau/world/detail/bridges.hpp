@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/effective_radius.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"

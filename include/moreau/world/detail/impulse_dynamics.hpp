@@ -27,7 +27,6 @@
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
-#include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"

@@ -37,7 +37,6 @@
 #include <vector>
 
 #include "moreau/core/twist.hpp"
-#include "moreau/detect/broad_phase.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
 
