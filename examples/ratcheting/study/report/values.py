@@ -61,7 +61,7 @@ QUANTITIES = {"dx": lambda r: r["dx_active"], "drift": lambda r: r["dx_max"], "v
 # Plan, series of its remaining runs, its title, and which runs are left.
 NOT_RUN = (("controls", "equal-length", "equal length; contacts × start",
             "L/d = 24; polygons 16; polyhedra 8, 16; polyhedra 10.7, spheres 15.1 rigid, jammed; 2 Hz, other forces"),
-           ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "polyhedra but three, five spheres at 2 Hz"),
+           ("controls", "depth", "depth", "polyhedra"), ("controls", "ten-states", "ten states", "polyhedra but five at 5 Hz, five spheres at 2 Hz"),
            ("controls", "stiffness", "stiffness", "polyhedra; others at 1e8"), ("controls", "jammed", "jammed states for these", ""),
            ("settled", "all", "`settled`", ""), ("paper", "all", "`paper`", ""))
 RATE_OF_PAPER = 0.025  # [1/s]
