@@ -120,7 +120,7 @@ void run(benchmark::State& state, double edge, double height, bool coherent) {
     for (std::size_t i = 0; i < grains.size(); ++i)
       if (coherent) {
         near[i].update(wall, grains[i].bounding_box().inflated(margin));
-        collide_each(grains[i], wall, margin, near[i], scratch, manifold, add);
+        collide_each(grains[i], wall, margin, margin, near[i], scratch, manifold, add);
       } else {
         collide_each(grains[i], wall, margin, scratch, manifold, add);
       }

@@ -253,7 +253,7 @@ TEST_CASE_TEMPLATE("facets that are known from earlier steps give the same conta
       near.update(wall, placed.bounding_box().inflated(margin));
       std::size_t at = 0;
       bool same = true;
-      collide_each(placed, wall, margin, near, scratch, manifold, [&](std::uint32_t) {
+      collide_each(placed, wall, margin, margin, near, scratch, manifold, [&](std::uint32_t) {
         for (const auto& point : manifold.points) {
           same = same && at < expected.size() && point.gap == expected[at].at.gap &&
                  point.position == expected[at].at.position &&

@@ -215,6 +215,26 @@ struct Point {
   double gap;
   bool is_of_face;
 };
+/// The contacts with gaps of at most `largest` [m]; the facets within the margin decide.
+template <class ShapeT>
+std::vector<Point<SpaceOf<ShapeT>>> contacts(const Placed<ShapeT>& shape,
+                                             const MeshWall<SpaceOf<ShapeT>>& wall, double margin,
+                                             double largest) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  std::vector<Point<S>> points;
+  Manifold<S> manifold;
+  MeshScratch scratch;
+  MeshNeighbours<S> near;
+  near.update(wall, shape.bounding_box().inflated(T(margin)));
+  collide_each(shape, wall, T(margin), T(largest), near, scratch, manifold,
+               [&](std::uint32_t face) {
+                 for (const auto& p : manifold.points)
+                   points.push_back(
+                       {p.position, -manifold.normal, double(p.gap), face != MeshWall<S>::none});
+               });
+  return points;
+}
 template <class ShapeT>
 std::vector<Point<SpaceOf<ShapeT>>> contacts(const Placed<ShapeT>& shape,
                                              const MeshWall<SpaceOf<ShapeT>>& wall, double margin) {

@@ -3,7 +3,10 @@
 // rims: none is deeper than the overlap, none is missing, and none depends on the order of the triangles.
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <doctest/doctest.h>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -12,7 +15,10 @@
 #include "moreau/detect/pairs/collide_mesh_wall.hpp"
 #include "moreau/sample/concave_mesh.hpp"
 #include "moreau/sample/random_rotation.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/shape/capsule.hpp"
 #include "moreau/shape/regular_shape.hpp"
+#include "moreau/shape/rounded.hpp"
 
 #include "conformance/random_direction.hpp"
 #include "detect/mesh_surfaces.hpp"
@@ -262,6 +268,67 @@ constexpr int approaches = 15;
 #endif
 
 }  // namespace
+
+// The margin of a pair leaves contacts out whose gap it cannot close, and changes no other.
+TEST_CASE_TEMPLATE("contacts with small gaps are those of all contacts within the margin", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Polygon<>, Rounded<Polyhedron<>>),
+                                (Polyhedron<float>, Ball<>, Capsule<>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  constexpr double wide = 0.2 * grain_size,
+                   rounding = 100 * grain_size * std::numeric_limits<T>::epsilon();
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<ShapeT> shapes;
+  if constexpr (std::same_as<ShapeT, Ball<>>)
+    shapes = {Ball<>(0.01), Ball<>(0.005)};
+  else if constexpr (std::same_as<ShapeT, Capsule<>>)
+    shapes = {Capsule<>(0.01, 0.005), Capsule<>(0.01, 0.001)};
+  else if constexpr (std::same_as<ShapeT, Rounded<Polyhedron<>>>)
+    for (const auto& core : grains<Polyhedron<>>()) shapes.emplace_back(core, 0.002);
+  else
+    shapes = grains<ShapeT>();
+  int near = 0, far = 0;
+  for (const auto& [name, profile] : profiles())
+    for (const WallSides sides : {WallSides::outside, WallSides::both}) {
+      const MeshWall<S> wall(surface(S{}, profile), sides);
+      for (std::size_t t = 0; t < 4 * approaches; ++t) {
+        const auto& side = wall.side(random() % wall.size());
+        Vector w;  // a place on the facet, often on a ridge
+        for (auto& x : w) x = T(uniform(random));
+        if (t % 3 != 0) w[int(random() % S::dim)] = 0;
+        Vector at = side.corners * w / w.sum();
+        at += T(0.02 * uniform(random)) * side.normal +
+              T(0.005) * conformance::random_direction<S>(random);
+        const Placed<ShapeT> shape(shapes[t % shapes.size()], {at, random_rotation<S>(random)});
+        auto all = contacts(shape, wall, wide);
+        for (const double largest : {0.1 * wide, 0.4 * wide, wide}) {
+          const auto some = contacts(shape, wall, wide, largest);
+          std::vector<Point<S>> wanted;
+          for (const auto& point : all)
+            if (T(point.gap) <= T(largest)) wanted.push_back(point);
+          near += int(wanted.size());
+          far += int(all.size() - wanted.size());
+          CAPTURE(std::string(name));
+          CAPTURE(int(sides));
+          CAPTURE(t);
+          CAPTURE(largest);
+          CHECK(some.size() == wanted.size());
+          if (some.size() != wanted.size()) continue;
+          // In any order: which end of an edge finds a contact depends on which ends are near.
+          for (const Point<S>& wish : wanted)
+            CHECK(std::any_of(some.begin(), some.end(), [&](const Point<S>& point) {
+              return (point.position - wish.position).norm() < rounding &&
+                     (point.normal - wish.normal).norm() < rounding / grain_size &&
+                     std::abs(point.gap - wish.gap) < rounding;
+            }));
+        }
+      }
+    }
+  CHECK(near > 100);
+  CHECK(far > 100);
+}
 
 TEST_CASE("no contact is deeper than the way into the wall, none is missing: profiles") {
   for (const auto& [name, profile] : profiles()) {

@@ -309,13 +309,13 @@ FacetMesh<Space<3>> valley(Space<3>) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("contacts with a mesh do not depend on the margins of a step, however deep",
-                   ShapeT, Polyhedron<>, Polygon<>) {
+TEST_CASE_TEMPLATE("contacts with a mesh that act do not depend on the margins of a step", ShapeT,
+                   Polyhedron<>, Polygon<>) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  std::size_t points = 0, deep = 0;
+  std::size_t points = 0, deep = 0, left_out = 0;
   for (int trial = 0; trial < 300; ++trial) {
     Pose<S> pose;
     for (auto& x : pose.position) x = 0.01 * uniform(random);
@@ -333,13 +333,23 @@ TEST_CASE_TEMPLATE("contacts with a mesh do not depend on the margins of a step,
       scene.world.step(h);
       found[narrows] = scene.world.contacts();
     }
-    CHECK(found[0].keys == found[1].keys);
-    for (std::size_t c = 0; c < std::min(found[0].size(), found[1].size()); ++c) {
-      CHECK(found[0].points[c].gap == found[1].points[c].gap);
+    // Those that are left out are open by at least the smallest margin of a pair.
+    std::size_t same = 0;
+    for (std::size_t c = 0; c < found[0].size(); ++c) {
+      const bool is_next = same < found[1].size() && found[0].keys[c] == found[1].keys[same];
+      if (is_next)
+        CHECK(found[0].points[c].gap ==
+              doctest::Approx(found[1].points[same].gap).scale(size).epsilon(1e-9));
+      else
+        CHECK(found[0].points[c].gap > 0.1 * wide().margin * size);
+      same += is_next;
+      left_out += !is_next;
       deep += found[0].points[c].gap < -0.02 * size;
     }
+    CHECK(same == found[1].size());
     points += found[0].size();
   }
   CHECK(points > 300);
+  CHECK(left_out > 0);
   CHECK(deep > 100);
 }

@@ -396,9 +396,8 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margi
       found.add_each(a, wall, [&](auto&& add) {
         return collide_each(a.placed, wall.placed, of_walls, manifold, add);
       });
-  // Which facets hold a grain that has passed below some of them depends on the margin.
-  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, margin, bodies, near_.filter(), previous,
-                 found.mesh, found);
+  meshes_.detect({a.body, *a.shape, a.placed, boxes_[k]}, {margin, of_walls}, bodies,
+                 near_.filter(), previous, found.mesh, found);
 }
 
 }  // namespace moreau

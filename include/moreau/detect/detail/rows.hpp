@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -194,9 +195,11 @@ class Rows {
   void for_each_above(const Vector& direction, T lowest, Use&& use) const {
     const auto d = broadcast(direction);
     for (Eigen::Index i = 0; i < padded_; i += Lanes::lanes) {
-      const auto above = dot(i, d) >= lowest;
-      for (int l = 0; l < Lanes::lanes; ++l)
-        if (above[l] && i + l < count_) use(static_cast<std::uint32_t>(i + l));
+      std::uint32_t above = Lanes::bits(dot(i, d) >= lowest);
+      for (; above != 0; above &= above - 1) {
+        const Eigen::Index k = i + std::countr_zero(above);
+        if (k < count_) use(static_cast<std::uint32_t>(k));
+      }
     }
   }
 

@@ -61,11 +61,12 @@ class MeshCollision {
   using Vector = typename S::Vector;
   using Wall = MeshWall<S>;
 
-  /// @param radius of the rounding around the core [m]
-  /// @param margin largest gap [m]
-  MeshCollision(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin, MeshScratch& scratch,
-                Manifold<S>& out)
-      : pair_(a, radius, wall, margin, scratch), out_(out) {}
+  /// @param radius  of the rounding around the core [m]
+  /// @param margin  how far the facets that decide are from the shape [m]
+  /// @param largest gap of a contact, <= margin [m]
+  MeshCollision(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin, T largest,
+                MeshScratch& scratch, Manifold<S>& out)
+      : pair_(a, radius, wall, margin, largest, scratch), out_(out) {}
 
   /// Calls use(face) for each manifold on a face; collects ridges and tips for touch_points().
   /// @param near facets among which are those within the margin, face after face
@@ -81,9 +82,11 @@ class MeshCollision {
                                 pair_.core.size(), pair_.near, beside};
     move_reference(region);
     bool touch = false;
+    const Aabb<S> within = box.inflated(pair_.largest - pair_.radius);
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
       while (end < near.size() && near[end].face == near[begin].face) ++end;
-      if (!take_face(near.subspan(begin, end - begin), around) || !touch_face(region)) continue;
+      if (!take_face(near.subspan(begin, end - begin), around, within) || !touch_face(region))
+        continue;
       finish();
       use(near[begin].face);
       touch = true;
@@ -169,29 +172,33 @@ class MeshCollision {
       pair_.reference += (1 + deepest / (8 * least)) * to_facet;
   }
   /// Takes the facets of a face if the shape is in front of it and near it.
-  bool take_face(std::span<const NearFacet> face, const Aabb<S>& around) {
+  /// @param around,within the box of the shape, inflated by the margin and by the largest gap. A facet beside a concave
+  ///                      ridge can have vertices that are as far beyond the ridge as the margin
+  bool take_face(std::span<const NearFacet> face, const Aabb<S>& around, const Aabb<S>& within) {
     pair_.scratch.facets.clear();
     plane_ = nullptr;
     for (const NearFacet& facet : face) {
-      if (!pair_.wall.box(facet.place).overlaps(around)) continue;
+      if (!pair_.wall.box(facet.place).overlaps(facet.has_concave ? around : within)) continue;
       if (!plane_) {
         plane_ = &pair_.wall.side(facet.place);
         above_ = pair_.height(*plane_);
         if (!(pair_.reference_height(*plane_) > 0)) return false;
         gap_ = above_ - pair_.reach(-plane_->normal);
-        if (gap_ > pair_.margin) return false;
+        if (gap_ > pair_.largest) return false;
       }
       // Of a large face most facets have no other feature: touch_face() finds out which are near.
-      if ((facet.is_plain && face.size() > 1) || take_features(facet.place))
+      if ((facet.is_plain && face.size() > 1) || take_features(facet))
         pair_.scratch.facets.push_back(facet);
     }
     return !pair_.scratch.facets.empty();
   }
-  /// Takes ridges and tips of a facet that may be within the margin.
-  bool take_features(std::uint32_t k) {
+  /// Takes ridges and tips of a facet that may be near enough.
+  bool take_features(const NearFacet& facet) {
+    const std::uint32_t k = facet.place;
     const auto& side = pair_.wall.side(k);
     if (!pair_.is_within(
-            nearest_on_facet(typename S::Matrix(side.corners.colwise() - pair_.center))))
+            nearest_on_facet(typename S::Matrix(side.corners.colwise() - pair_.center)),
+            facet.has_concave ? pair_.margin : pair_.largest))
       return false;
     for (const std::uint32_t r : side.ridge)
       if (r != Wall::none) pair_.scratch.ridges.push_back(r);
@@ -206,7 +213,7 @@ class MeshCollision {
     const Vector normal = -plane_->normal;  // into the wall
     out_.start(normal, gap_);
     // A shape that passes below the plane of the face stands beside it.
-    const T highest = gap_ < -pair_.margin ? T(0) : pair_.margin,
+    const T highest = gap_ < -pair_.margin ? T(0) : pair_.largest,
             off = pair_.wall.flatness() + T(1e3) * pair_.near;
     pair_.core.for_each_above(normal, above_ - highest - pair_.rounding, [&](std::uint32_t v) {
       const Vector x = pair_.core.vertex(v);
@@ -245,13 +252,30 @@ class MeshCollision {
     sort_short(pair_.scratch.passed);
     for (const std::uint32_t v : pair_.scratch.passed) {
       const Vector x = pair_.core.vertex(v);
-      if (pair_.scratch.known.has(x, begin_of_points_)) continue;
+      if (pair_.scratch.known.has(x, begin_of_points_) || is_held_far(region, pair_.center + x))
+        continue;
       region.touches_nearest(pair_.center + x, [&](std::uint32_t f, T gap) {
         const auto& side = pair_.wall.side(f);
         pair_.scratch.known.add(
             Known{x, side.normal, gap, FeatureKey(vertex_on_face(S{}), v, side.face)}, pair_.near);
       });
     }
+  }
+
+  /// Whether a vertex touches a facet with a gap within the margin and above the largest one.
+  bool is_held_far(const FacetRegion<S>& region, const Vector& x) const {
+    if (!(pair_.largest < pair_.margin)) return false;
+    const T off = pair_.wall.flatness() + T(1e3) * pair_.near;
+    return std::any_of(region.facets.begin(), region.facets.end(), [&](const NearFacet& facet) {
+      const auto& side = pair_.wall.side(facet.place);
+      const T gap = side.normal.dot(x) - side.offset;
+      if (!(gap > pair_.largest && gap <= pair_.margin) || !(pair_.reference_height(side) > 0) ||
+          pair_.height(side) - pair_.core.reach(-side.normal) < -pair_.margin)
+        return false;
+      const T around = facet.has_concave ? off + region.beside : off;
+      return pair_.wall.box(facet.place).inflated(around).contains(x - gap * side.normal) &&
+             region.holds(facet, x, gap);
+    });
   }
 
   /// Moves points to midway between the surfaces.
@@ -277,20 +301,20 @@ class MeshCollision {
 
 /// Collides the core of a shape, with the radius around it.
 template <class ShapeT, class Wall, class T, class Use>
-bool collide_core(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin,
+bool collide_core(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin, T largest,
                   const Aabb<SpaceOf<ShapeT>>& box, const MeshNeighbours<SpaceOf<ShapeT>>* near,
                   MeshScratch& scratch, Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   if constexpr (is_rounded<ShapeT>) {
-    return collide_core(a.core(), radius + a.rounding_radius(), wall, margin, box, near, scratch,
-                        out, use);
+    return collide_core(a.core(), radius + a.rounding_radius(), wall, margin, largest, box, near,
+                        scratch, out, use);
   } else if constexpr (is_one_of<ShapeT>) {
     return a.visit([&](const auto& held) {
-      return collide_core(held, radius, wall, margin, box, near, scratch, out, use);
+      return collide_core(held, radius, wall, margin, largest, box, near, scratch, out, use);
     });
   } else {
     T thickness = radius;
     if constexpr (is_ball<ShapeT>) thickness += a.radius();
-    MeshCollision<ShapeT> collision(a, thickness, wall, margin, scratch, out);
+    MeshCollision<ShapeT> collision(a, thickness, wall, margin, largest, scratch, out);
     std::span<const NearFacet> facets;
     if (near) {
       facets = near->facets();
@@ -321,19 +345,22 @@ bool collide_each(const Placed<ShapeT>& a, const MeshWall<SpaceOf<ShapeT>>& wall
                   Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   MOREAU_ASSERT(margin >= 0);
-  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), nullptr, scratch, out, use);
+  return detail::collide_core(a, T(0), wall, margin, margin, a.bounding_box(), nullptr, scratch,
+                              out, use);
 }
-/// The same, among facets that are known.
+/// The same, among facets that are known, and only contact points that are nearer than the margin.
+/// @param largest gap of a contact point, <= margin [m]. Points with a smaller gap do not depend on it
 /// @param near updated for a box that contains that of the shape, inflated by the margin
 template <class ShapeT, class Use>
 requires MeshCollidable<ShapeT>
 bool collide_each(const Placed<ShapeT>& a, const MeshWall<SpaceOf<ShapeT>>& wall,
-                  typename SpaceOf<ShapeT>::Scalar margin,
+                  typename SpaceOf<ShapeT>::Scalar margin, typename SpaceOf<ShapeT>::Scalar largest,
                   const MeshNeighbours<SpaceOf<ShapeT>>& near, MeshScratch& scratch,
                   Manifold<SpaceOf<ShapeT>>& out, const Use& use) {
   using T = typename SpaceOf<ShapeT>::Scalar;
-  MOREAU_ASSERT(margin >= 0);
-  return detail::collide_core(a, T(0), wall, margin, a.bounding_box(), &near, scratch, out, use);
+  MOREAU_ASSERT(largest >= 0 && margin >= largest);
+  return detail::collide_core(a, T(0), wall, margin, largest, a.bounding_box(), &near, scratch, out,
+                              use);
 }
 
 }  // namespace moreau

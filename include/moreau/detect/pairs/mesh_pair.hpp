@@ -29,20 +29,24 @@ struct MeshPair {
   const Vector center;
   Vector reference;  ///< says on which side of a facet the shape is
   const T radius;    ///< of the rounding around the core [m]
-  const T margin;    ///< largest gap of the core [m]
+  const T margin;    ///< of the core: how far the facets that decide are from the shape [m]
+  const T largest;   ///< gap of the core at a contact, <= margin [m]
   const T rounding;  ///< error of a position [m]
   const T near;      ///< positions closer to each other are the same [m]
   MeshScratch& scratch;
 
   /// @param thickness of the rounding around the core [m]
-  /// @param most      largest gap [m]
-  MeshPair(const Placed<ShapeT>& shape, T thickness, const Wall& mesh, T most, MeshScratch& memory)
+  /// @param around    how far the facets that decide are from the shape [m]
+  /// @param most      largest gap of a contact, <= around [m]
+  MeshPair(const Placed<ShapeT>& shape, T thickness, const Wall& mesh, T around, T most,
+           MeshScratch& memory)
       : core(shape),
         wall(mesh),
         center(core.center()),
         reference(center),
         radius(thickness),
-        margin(most + thickness),
+        margin(around + thickness),
+        largest(most + thickness),
         rounding((core.size() + thickness) * DetectionTolerance<T>::rounding),
         near((core.size() + thickness) * DetectionTolerance<T>::coincident),
         scratch(memory) {}
@@ -53,15 +57,15 @@ struct MeshPair {
   T reference_height(const typename Wall::Side& side) const {
     return side.normal.dot(reference) - side.offset;
   }
-  /// Whether a convex set, of which `nearest` is the point nearest to the centre, may be within the
-  /// margin: the plane through this point, perpendicular to its direction, separates the set.
+  /// Whether a convex set, of which `nearest` is the point nearest to the centre, may be as near to the core as
+  /// `gap`: the plane through this point, perpendicular to its direction, separates the set.
   /// @param nearest relative to the centre [m]
-  bool is_within(const Vector& nearest) {
-    const T distance2 = nearest.squaredNorm(), farthest = core.size() + margin;
+  bool is_within(const Vector& nearest, T gap) {
+    const T distance2 = nearest.squaredNorm(), farthest = core.size() + gap;
     if (distance2 > farthest * farthest) return false;
-    if (!(distance2 > margin * margin)) return true;
+    if (!(distance2 > gap * gap)) return true;
     const T distance = std::sqrt(distance2);
-    return distance - reach(nearest / distance) <= margin;
+    return distance - reach(nearest / distance) <= gap;
   }
   /// How far the core reaches along a unit vector. Above a flat floor it is often the same vector.
   T reach(const Vector& d) {
@@ -71,8 +75,8 @@ struct MeshPair {
     }
     return last_reach_;
   }
-  /// Whether a gap of the core is at most the margin, and its overlap not deeper than is treated.
-  bool is_near(T gap) const { return gap <= margin && gap >= -core.deepest(); }
+  /// Whether a gap of the core is at most the largest one, and its overlap not deeper than is treated.
+  bool is_near(T gap) const { return gap <= largest && gap >= -core.deepest(); }
   /// Whether a contact point x of the shape with a ridge counts: where a face comes down on the ridge, each end
   /// of the line of contact is a point while the gap is small, and not only the lower one, as on a face of the
   /// wall. The shape may reach below the plane through the ridge by 1 % of its width, and by more if x is its

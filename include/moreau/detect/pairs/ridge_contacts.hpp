@@ -36,10 +36,10 @@ class RidgeContacts {
     const Vector along = pair_.wall.vertex(ridge.vertices[1]) - pair_.center - from;
     const T length2 = along.squaredNorm();
     const T part = std::clamp(-from.dot(along) / length2, T(0), T(1));
-    if (!pair_.is_within(from + part * along)) return;
-    // The points of a contact lie within the margin above the ridge, along the middle of its cone. An
+    if (!pair_.is_within(from + part * along, pair_.largest)) return;
+    // The points of a contact lie within the largest gap above the ridge, along the middle of its cone. An
     // edge through such a point has an end there or below.
-    const T lowest = -ridge.middle.dot(from) - pair_.margin;
+    const T lowest = -ridge.middle.dot(from) - pair_.largest;
     pair_.scratch.low.clear();
     const auto add_low = [&](std::uint32_t v) { pair_.scratch.low.push_back(v); };
     pair_.core.for_each_above(-ridge.middle, lowest, add_low);
@@ -112,7 +112,7 @@ class RidgeContacts {
     const T exact = apart.dot(along) / length2, part = std::clamp(exact, T(0), T(1));
     const Vector away = apart - part * along;
     const T gap = away.norm(), off = (exact - part) * (exact - part) * length2;
-    if (!(gap > pair_.near && gap <= pair_.margin && off <= bent * bent * gap * gap)) return;
+    if (!(gap > pair_.near && gap <= pair_.largest && off <= bent * bent * gap * gap)) return;
     const Vector d = away / gap;
     if (is_in_cone(r, d) && pair_.is_lowest(x, d))
       add(d, gap, x, FeatureKey(FeatureKey::Kind::vertex_edge, v, r));

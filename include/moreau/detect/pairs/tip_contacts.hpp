@@ -66,8 +66,8 @@ class TipContacts {
   void touch_tip(std::size_t first, T tolerance, const Add& add) {
     const std::uint32_t v = pair_.scratch.tips[first].first;
     const Vector x = pair_.wall.vertex(v) - pair_.center;
-    if (!pair_.is_within(x)) return;
-    const auto found = pair_.core.distance(x, pair_.margin);
+    if (!pair_.is_within(x, pair_.largest)) return;
+    const auto found = pair_.core.distance(x, pair_.largest);
     if (!pair_.is_near(found.distance)) return;
     const Vector d = -found.outward;
     if (pair_.wall.is_top(v, d, tolerance) && is_outside(first, d))

@@ -61,11 +61,17 @@ class MeshWalls {
     for (const Wall& wall : walls_)
       if (wall.box.overlaps(box.inflated(margin))) use(wall.body);
   }
+  /// How far from a grain a mesh counts.
+  struct Reach {
+    Scalar
+        margin;  ///< of the facets that decide which of them holds a grain that has passed below some [m]
+    Scalar largest;  ///< gap of a contact point, <= margin [m]
+  };
   /// Finds the contacts of a grain.
-  void detect(const GrainInWorld<ShapeT>& grain, Scalar margin, const Bodies<S>& bodies,
+  void detect(const GrainInWorld<ShapeT>& grain, const Reach& reach, const Bodies<S>& bodies,
               const PairFilter& filter, const PreviousContacts<S>& previous,
               MeshBuffers<ShapeT>& buffers, FoundContacts<S>& found) {
-    if (!walls_.empty()) detect_(*this, grain, margin, bodies, filter, previous, buffers, found);
+    if (!walls_.empty()) detect_(*this, grain, reach, bodies, filter, previous, buffers, found);
   }
 
  private:
@@ -87,24 +93,24 @@ class MeshWalls {
     const Vector center = pose((box.lower + box.upper) / 2);
     return {center - half, center + half};
   }
-  static void detect_all(MeshWalls& self, const GrainInWorld<ShapeT>& grain, Scalar margin,
+  static void detect_all(MeshWalls& self, const GrainInWorld<ShapeT>& grain, const Reach& reach,
                          const Bodies<S>& bodies, const PairFilter& filter,
                          const PreviousContacts<S>& previous, MeshBuffers<ShapeT>& buffers,
                          FoundContacts<S>& found) {
     const std::size_t body = grain.body.index();
     for (Wall& wall : self.walls_) {
-      if (!wall.box.overlaps(grain.box.inflated(margin))) {
+      if (!wall.box.overlaps(grain.box.inflated(reach.margin))) {
         if (!wall.near[body].facets().empty()) wall.near[body].clear();
         continue;
       }
       if (bodies.is_prescribed(body) && bodies.is_prescribed(wall.body.index())) continue;
       if (filter.leaves_out(grain.body, wall.body)) continue;
       if constexpr (MeshCollidable<ShapeT>)
-        detect_at(grain, bodies.pose[body], wall, margin, previous, buffers, found);
+        detect_at(grain, bodies.pose[body], wall, reach, previous, buffers, found);
     }
   }
   static void detect_at(const GrainInWorld<ShapeT>& grain, const Pose<S>& pose, Wall& wall,
-                        Scalar margin, const PreviousContacts<S>& previous,
+                        const Reach& reach, const PreviousContacts<S>& previous,
                         MeshBuffers<ShapeT>& buffers, FoundContacts<S>& found) {
     const Pose<S>& frame = wall.placed.pose;
     const Pose<S> local(frame.to_body(pose.position),
@@ -114,7 +120,7 @@ class MeshWalls {
     else
       buffers.local.emplace(grain.shape, local);
     MeshNeighbours<S>& near = wall.near[grain.body.index()];
-    near.update(wall.shape, buffers.local->bounding_box().inflated(margin));
+    near.update(wall.shape, buffers.local->bounding_box().inflated(reach.margin));
     Manifold<S>& manifold = found.manifold();
     found.add(grain, wall, previous, [&](const auto& add) {
       bool touches = false;
@@ -133,7 +139,8 @@ class MeshWalls {
           manifold.part_b = face;  // so that each face is reduced on its own
           add();
         };
-        collide_each(placed, wall.shape, margin, near, buffers.scratch, manifold, add_in_world);
+        collide_each(placed, wall.shape, reach.margin, reach.largest, near, buffers.scratch,
+                     manifold, add_in_world);
       });
       return touches;
     });
@@ -141,7 +148,7 @@ class MeshWalls {
   }
 
   std::vector<Wall> walls_;
-  void (*detect_)(MeshWalls&, const GrainInWorld<ShapeT>&, Scalar, const Bodies<S>&,
+  void (*detect_)(MeshWalls&, const GrainInWorld<ShapeT>&, const Reach&, const Bodies<S>&,
                   const PairFilter&, const PreviousContacts<S>&, MeshBuffers<ShapeT>&,
                   FoundContacts<S>&) = nullptr;
 };
