@@ -42,6 +42,35 @@ Balance balance(const World<ShapeT>& world, double h) {
   return {worst / unit, all / unit};
 }
 
+/// Makes steps until the packing is at rest: at least 1500, and until no velocity of a grain changes by more than
+/// 1e-4 g h, so that no grain is struck. Without rolling resistance a ball can roll on for seconds, in balance until
+/// it strikes the next one.
+/// @param before, report out: reports of the last two steps
+/// @returns whether that was within 5000 steps
+template <class ShapeT>
+bool come_to_rest(World<ShapeT>& world, double h, moreau::StepReport& before,
+                  moreau::StepReport& report) {
+  using S = SpaceOf<ShapeT>;
+  constexpr int least = 1500, most = 5000;
+  const double allowed = resolved<S>(1e-4, 1e5) * gravity * h;
+  std::vector<typename S::Twist> old;
+  for (int k = 1; k <= most; ++k) {
+    old = world.bodies().velocity;
+    before = report;
+    report = world.step(h);
+    if (k < least) continue;
+    double change = 0;
+    for (std::size_t grain = 0; grain < world.grain_count(); ++grain) {
+      const std::size_t i = world.grain(grain).index();
+      const typename S::Twist jump = world.bodies().velocity[i] - old[i];
+      change = std::max({change, double(jump.template head<S::dim>().norm()),
+                         double(jump.template tail<S::angular_dim>().norm() * world.grain_size())});
+    }
+    if (change <= allowed) return true;
+  }
+  return false;
+}
+
 }  // namespace detail
 
 /// In a packing at rest the forces on every grain balance. The imbalance is the residual of this
@@ -54,10 +83,7 @@ void force_balance(Record& record, std::size_t count) {
   Heap<ShapeT> heap(options);
   const double h = 1e-3;
   moreau::StepReport before, report;
-  for (int k = 0; k < 1500; ++k) {
-    before = report;
-    report = heap.world.step(h);
-  }
+  const bool rests = detail::come_to_rest(heap.world, h, before, report);
   const detail::Balance balance = detail::balance(heap.world, h);
   record.vanishes(
       with_shape<ShapeT>("packing at rest") + ": imbalance of forces over weight",
@@ -65,6 +91,8 @@ void force_balance(Record& record, std::size_t count) {
       resolved<SpaceOf<ShapeT>>(std::max(before.solve.residual, report.solve.residual), 1) *
               balance.all +
           1e-12);
+  record.vanishes(with_shape<ShapeT>("packing at rest") + ": not at rest after 5 s",
+                  SpaceOf<ShapeT>{}, !rests, 0);
   record.vanishes(with_shape<ShapeT>("packing at rest") + ": last step not solved",
                   SpaceOf<ShapeT>{}, !report.solve.converged, 0);
 }
@@ -110,9 +138,33 @@ double speed_of_loaded_contacts(const World<ShapeT>& world) {
   return largest;
 }
 
+/// The velocity to which the residual of the last step is relative: the impulses (2-norm) times the mean of the
+/// diagonal of W [m/s]. A contact strictly inside its friction cone moves with at most the residual times this.
+template <class ShapeT>
+double impulse_velocity(const World<ShapeT>& world) {
+  using S = SpaceOf<ShapeT>;
+  const auto& bodies = world.bodies();
+  const auto& contacts = world.contacts();
+  double trace = 0, squares = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const moreau::Contact<S>& point = contacts.points[c];
+    squares += contacts.impulses[c].squaredNorm();
+    const auto add = [&](std::size_t body, const typename S::Vector& lever) {
+      const auto root = bodies.mobility_root(body);
+      trace += root.linear.squaredNorm() + (S::lever(lever) * root.angular).squaredNorm();
+    };
+    add(point.a, point.lever_a);
+    add(point.b, point.lever_b);
+  }
+  return std::sqrt(squares) * trace / double(S::dim * contacts.size());
+}
+/// How much faster than its contacts inside their cones a contact at the limit of friction can move: grains that are
+/// held at points a fifth of their size apart, 1 + 2 * 5. Measured: up to 3.3.
+constexpr double lever_of_slip = 11;
+
 /// Without a drive and with restitution 0 the energy never grows: in the packing that grains have
 /// formed after falling for a second, and over all its steps. Relative to M g d. At the end no loaded
-/// contact slides or opens. Grains with corners are at rest then; a ball may roll or turn about the
+/// contact slides or opens, beyond what the residual allows. Grains with corners are at rest then; a ball may roll or turn about the
 /// normal of its only contact for ever, because friction at a point does not resist that.
 template <class ShapeT>
 void energy_without_drive(Record& record, std::size_t count, int steps) {
@@ -126,9 +178,11 @@ void energy_without_drive(Record& record, std::size_t count, int steps) {
   rise_of_energy(heap, 2000);
   record.vanishes(name + ": rise in " + std::to_string(steps) + " steps of the packing", S{},
                   rise_of_energy(heap, steps) / unit, 1e-9);
+  const double residual = heap.world.step(5e-4).solve.residual;
+  const double allowed = lever_of_slip * residual * impulse_velocity(heap.world);
   record.vanishes(name + ": speed of the loaded contacts at the end, over (g d)^1/2", S{},
                   speed_of_loaded_contacts(heap.world) / std::sqrt(gravity * Heap<ShapeT>::size),
-                  1e-9);
+                  allowed / std::sqrt(gravity * Heap<ShapeT>::size) + 1e-12);
   if constexpr (moreau::Polytope<ShapeT>)
     record.vanishes(name + ": kinetic at the end", S{}, kinetic_energy(heap.world) / unit, 1e-9);
 }

@@ -139,8 +139,10 @@ class IslandNewton {
       const bool is_exact = epsilon <= least && change * epsilon <= rounding;
       if (is_exact || error * epsilon <= tolerance * least) {
         if (is_exact || !polishes() || steps_ == 0 || steps_ >= polish_steps ||
-            error > polish * solved)
+            error > polish * solved) {
+          if (has_smooth_point()) refine();
           return error;
+        }
         solved = error;
       } else if (std::isfinite(solved)) {
         return error;
@@ -239,6 +241,26 @@ class IslandNewton {
   }
 
   bool polishes() const { return points_.bodies() <= polish_bodies; }
+  bool has_smooth_point() const {
+    return std::any_of(points_.points().begin(), points_.points().end(),
+                       [](const auto& point) { return point.friction == 0; });
+  }
+  /// One more proximal step from a solution, of a large compliance. Impulses have the rounding of velocities, divided
+  /// by the compliance: 1e-9 of them after the steps of the least one. Friction holds bodies against that. Without it
+  /// the tilts of a light body under a heavy one add up, and the load drives it out along the wedge. No line search:
+  /// near its solution the problem is linear.
+  MOREAU_COLD void refine() {
+    constexpr double firm = 0.01, several = 10;
+    next_ = y_;
+    respond(firm, next_);
+    if (!newton_direction()) return;
+    for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = along(next_[i], 1, direction_[i]);
+    respond(firm, next_);
+    if (!(rest() <= several * rounding / firm * scale(next_))) return;
+    move_by_impulses();
+    std::swap(centre_, found_);
+    std::swap(y_, next_);
+  }
   /// phi and F at a motion.
   struct Value {
     double phi, norm;

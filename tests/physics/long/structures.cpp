@@ -40,7 +40,7 @@ TEST_CASE_TEMPLATE("an arch of 41 voussoirs stands for ten seconds", ShapeT, Pol
 }
 
 // Without friction nothing resists a light cube under one that is a thousand times heavier: errors of rounding tilt it,
-// and the load accelerates it. It moves by 1 % of its size in half a minute at 1 ms, in 5 s at 1/60 s.
+// and the load accelerates it. It moves by 1 % of its size in a minute and more at 1 ms, in half a minute at 1/60 s.
 TEST_CASE_TEMPLATE("structures stand for a minute with the default options", ShapeT, Polyhedron<>,
                    Polygon<>) {
   for (const double h : {1e-3, 1.0 / 60}) {
@@ -48,10 +48,10 @@ TEST_CASE_TEMPLATE("structures stand for a minute with the default options", Sha
     for (const int cubes : {10, 20, 30, 50})
       for (const double jitter : {0.0, 0.005})
         masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, steps(60));
-    for (const double ratio : {1e3, 1e-3})
+    for (const double ratio : {1e3, 1e2, 1e-3})
       for (const double friction : {0.0, 0.5})
         masonry::check_stands_by_default(masonry::stack<ShapeT>(2, friction, 0, ratio), h,
-                                         steps(ratio > 1 && friction == 0 ? 4 : 60));
+                                         steps(ratio == 1e3 && friction == 0 ? 15 : 60));
     for (const int stones : {11, 21, 31, 51})
       masonry::check_stands_by_default(masonry::arch<ShapeT>(stones, 0.2), h, steps(60));
     masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, steps(60));
