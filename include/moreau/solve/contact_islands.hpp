@@ -40,6 +40,9 @@ class ContactIslands {
   std::size_t size() const { return bodies_.size(); }  ///< number of islands
   /// Number of bodies of an island that can move and have a contact.
   std::size_t bodies(std::size_t island) const { return bodies_[island]; }
+  /// Number of pairs of bodies of an island that both move and have contacts. Contacts of a pair that do not follow one
+  /// another count as several pairs.
+  std::size_t pairs(std::size_t island) const { return pairs_[island]; }
   /// The contacts of an island, ascending.
   std::span<const std::uint32_t> contacts(std::size_t island) const {
     return std::span(contacts_).subspan(first_[island], first_[island + 1] - first_[island]);
@@ -57,9 +60,12 @@ class ContactIslands {
     seen_.assign(sets_.size(), 0);
     of_contact_.resize(contacts);
     bodies_.clear();
+    pairs_.clear();
     first_.assign(2, 0);
+    std::array<std::uint32_t, 2> before{none, none};
     for (std::size_t c = 0; c < contacts; ++c) {
-      const auto [a, b] = op.bodies(c);
+      const auto pair = op.bodies(c);
+      const auto [a, b] = pair;
       if (!moves_[a] && !moves_[b]) {
         of_contact_[c] = none;
         continue;
@@ -68,8 +74,11 @@ class ContactIslands {
       if (island == none) {
         island = static_cast<std::uint32_t>(bodies_.size());
         bodies_.push_back(0);
+        pairs_.push_back(0);
         first_.push_back(0);
       }
+      pairs_[island] += pair != before && moves_[a] && moves_[b];
+      before = pair;
       of_contact_[c] = island;
       ++first_[island + 2];
       for (const std::uint32_t body : {a, b})
@@ -85,7 +94,7 @@ class ContactIslands {
   DisjointSets sets_;
   std::vector<std::uint32_t> island_of_, of_contact_, contacts_;
   std::vector<unsigned char> moves_, seen_;
-  std::vector<std::size_t> bodies_, first_;
+  std::vector<std::size_t> bodies_, pairs_, first_;
 };
 
 }  // namespace moreau::detail

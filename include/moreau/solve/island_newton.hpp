@@ -74,16 +74,30 @@ class IslandNewton {
     points_.finish();
     make_room();
   }
-  /// Whether the bodies touch like those of a column, an arch or a tree: no more pairs than bodies.
-  bool is_chain() const { return points_.edges().size() <= points_.bodies(); }
-  /// The cost of a step of Newton's method, in visits of a contact by a sweep; infinite if more pairs of bodies
-  /// touch than in structures. Finds the order of the factorization.
-  double cost_of_step() {
-    constexpr double edges_per_body = 4;
-    if (double(points_.edges().size()) > edges_per_body * double(points_.bodies()))
+  /// A lower bound of cost_of_step(), that of bodies which touch like those of a tree; infinite if more pairs of
+  /// bodies touch than in structures.
+  /// @param pairs of bodies that touch
+  static double least_cost_of_step(std::size_t contacts, std::size_t bodies, std::size_t pairs) {
+    constexpr double pairs_per_body = 4;
+    if (double(pairs) > pairs_per_body * double(bodies))
       return std::numeric_limits<double>::infinity();
+    return visits_per_contact * double(contacts) +
+           visits_per_block * (double(bodies) + 2 * double(pairs));
+  }
+  /// The cost of a step of Newton's method, in visits of a contact by a sweep. Finds the order of the factorization.
+  double cost_of_step() {
     matrix_.analyse(points_.bodies(), points_.edges());
     return visits_per_contact * double(points_.points().size()) + visits_per_block * matrix_.work();
+  }
+
+  /// The mass of the heaviest body over that of the lightest [-].
+  double mass_ratio() const {
+    double least = std::numeric_limits<double>::infinity(), largest = 0;
+    for (std::size_t i = 0; i < points_.bodies(); ++i) {
+      least = std::min(least, points_.speed(i));
+      largest = std::max(largest, points_.speed(i));
+    }
+    return largest > 0 ? largest * largest / (least * least) : 1;
   }
 
   /// Moves to impulses.
@@ -91,7 +105,7 @@ class IslandNewton {
   /// @returns how far their motion is from that which the laws would make of it with a compliance w in series with
   ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no
   ///          factorization
-  double start(std::span<const Impulse> impulses) {
+  [[gnu::noinline]] double start(std::span<const Impulse> impulses) {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
     move_to_centre();
@@ -280,6 +294,10 @@ class IslandNewton {
       }
       slip_[k] = b;
       b[0] += shift_[k];
+      if (is_open<S>(point.friction, b)) {
+        found_[k].setZero();  // stiffness_ is not used
+        continue;
+      }
       const ContactResponse<S> answer = response<S>(point.friction, s, b);
       found_[k] = answer.impulse;
       stiffness_[k] = answer.stiffness;

@@ -99,7 +99,7 @@ class OverlapCorrection {
     report.limited = depths.limited;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
     sweeps_.start(op.inverse_masses(), contacts.size());
-    if (options_.islands && !shared) correct_islands(op, contacts, largest);
+    if (options_.islands && !shared) correct_islands(op, contacts, slop, largest);
     const Scalar guess =
         5 * depths.asked / static_cast<Scalar>(std::max<std::size_t>(1, depths.corrected));
     sweeps_.run(
@@ -169,26 +169,28 @@ class OverlapCorrection {
     return depth > 0 ? std::min(largest, static_cast<Scalar>(options_.rate) * depth) : depth;
   }
 
-  /// Corrects the small islands by the direct method, as far as it succeeds.
+  /// Corrects the small islands by the direct method, as far as it succeeds. What is left of overlaps that were
+  /// corrected before is small against the slop, and left to the sweeps.
   template <class Operator>
-  void correct_islands(const Operator& op, std::span<const Contact<S>> contacts, Scalar largest) {
+  void correct_islands(const Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
+                       Scalar largest) {
     constexpr std::size_t most_bodies = 200;
     constexpr double first_epsilon = 1e-4;
     constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
     islands_.find(op);
     pushes_.assign(contacts.size(), S::Vector::Zero());
-    const auto is_deep = [&](std::uint32_t c) { return candidates_[c].depth > 0; };
+    const auto is_deep = [&](std::uint32_t c) { return candidates_[c].depth > slop / 100; };
     const auto free = [&](std::size_t c) {
       return typename S::Vector(-target(candidates_[c].depth, largest) * S::Vector::Unit(0));
     };
     const auto frictionless = [](std::size_t) { return 0.0; };
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto own = islands_.contacts(k);
+      // The bodies touch like those of a column, an arch or a tree if no more pairs do than there are bodies.
       if (own.size() < 2 || islands_.bodies(k) > most_bodies ||
-          std::none_of(own.begin(), own.end(), is_deep))
+          islands_.pairs(k) > islands_.bodies(k) || std::none_of(own.begin(), own.end(), is_deep))
         continue;
       newton_.assign(op, own, islands_.moves(), free, frictionless);
-      if (!newton_.is_chain()) continue;
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);

@@ -32,7 +32,7 @@ class BlockFactorization {
   /// call.
   /// @param count rows of blocks
   /// @param edges the pairs i != j with a block (i, j) and a block (j, i)
-  void analyse(std::size_t count, std::span<const std::array<std::uint32_t, 2>> edges) {
+  MOREAU_COLD void analyse(std::size_t count, std::span<const std::array<std::uint32_t, 2>> edges) {
     if (count == count_ && std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end()))
       return;
     count_ = count;

@@ -35,6 +35,14 @@ struct ContactResponse {
       stiffness;  ///< - d impulse / d u [kg], symmetric, not negative
 };
 
+/// Whether response() has no impulse: b is in K*.
+template <class S>
+bool is_open(double mu, const Eigen::Matrix<double, S::dim, 1>& b) {
+  double square = 0;
+  for (int k = 1; k < S::dim; ++k) square += b[k] * b[k];
+  return b[0] >= 0 && mu * mu * square <= b[0] * b[0];
+}
+
 /// The impulse r in Coulomb's cone K with K* containing s r + b, perpendicular to r: minus the projection of b / s
 /// onto K in the norm of s (SignoriniCoulomb::project() has that of s = 1), with the derivative.
 /// @param mu friction coefficient [-]
