@@ -105,7 +105,7 @@ class IslandNewton {
   /// @returns how far their motion is from that which the laws would make of it with a compliance w in series with
   ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no
   ///          factorization
-  [[gnu::noinline]] double start(std::span<const Impulse> impulses) {
+  double start(std::span<const Impulse> impulses) {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
     move_to_centre();

@@ -185,7 +185,7 @@ class IslandPoints {
   using Root = Eigen::Matrix<double, dofs, dofs>;
 
   /// The number of a body in the island.
-  MOREAU_COMPILED_ONCE std::uint32_t local(std::uint32_t body, const InverseMass<S>& mass) {
+  MOREAU_COLD std::uint32_t local(std::uint32_t body, const InverseMass<S>& mass) {
     std::uint32_t& number = number_[body];
     if (number != none) return number;
     number = static_cast<std::uint32_t>(bodies_.size());

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/solve/contact_islands.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/island_newton.hpp"
@@ -53,16 +54,14 @@ class IslandSolver {
         others_ = true;
         continue;
       }
-      const bool is_new = std::all_of(contacts.begin(), contacts.end(),
-                                      [&](std::uint32_t c) { return impulses[c].isZero(0); });
-      Small one{k, least_cost, 0, is_new, not_attempted};
-      if (is_new) {
-        // Without impulses the defect is 0 where no contact closes, and otherwise 1.
-        const bool closes = std::any_of(contacts.begin(), contacts.end(), [&](std::uint32_t c) {
-          return problem.delassus.free_velocity(c)[0] < 0;
-        });
-        one.defect = closes ? 1 : 0;
-      } else {
+      bool is_new = true, closes = false;
+      for (const std::uint32_t c : contacts) {
+        is_new = is_new && impulses[c].isZero(0);
+        closes = closes || problem.delassus.free_velocity(c)[0] < 0;
+      }
+      // Without impulses the defect is 0 where no contact closes, and otherwise 1.
+      Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted};
+      if (!is_new) {
         take(problem, k);
         one.defect = newton_.start(impulses);
         attempt(one, impulses);
@@ -159,7 +158,7 @@ class IslandSolver {
   /// about n^2 times the defect, and for a light body under a heavy one the ratio of their masses times as large; ten
   /// times as much is allowed for weakly held bodies.
   /// @param defect of the impulses
-  bool accept(Small& one, double defect) const {
+  MOREAU_COLD bool accept(Small& one, double defect) const {
     const double n = std::max(10.0, double(islands_.bodies(one.island)));
     const double error = 10 * n * n * newton_.mass_ratio() * defect;
     if (!(error <= tolerance_)) return false;
@@ -176,10 +175,10 @@ class IslandSolver {
             std::max(2, int(warm_visits / one.cost)));
   }
   /// Of the island that take() took.
-  void find_cost(Small& one) {
+  MOREAU_COLD void find_cost(Small& one) {
     one.cost = newton_.cost_of_step() / double(islands_.contacts(one.island).size());
   }
-  [[gnu::noinline]] void take(const Problem& problem, std::size_t island) {
+  void take(const Problem& problem, std::size_t island) {
     newton_.assign(
         problem.delassus, islands_.contacts(island), islands_.moves(),
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },
