@@ -90,6 +90,11 @@ class IslandNewton {
     return visits_per_contact * double(points_.points().size()) + visits_per_block * matrix_.work();
   }
 
+  /// Whether a contact has no friction: solve() then refines the impulses.
+  bool has_smooth_point() const {
+    return std::any_of(points_.points().begin(), points_.points().end(),
+                       [](const auto& point) { return point.friction == 0; });
+  }
   /// The mass of the heaviest body over that of the lightest [-].
   double mass_ratio() const {
     double least = std::numeric_limits<double>::infinity(), largest = 0;
@@ -255,10 +260,6 @@ class IslandNewton {
   }
 
   bool polishes() const { return points_.bodies() <= polish_bodies; }
-  bool has_smooth_point() const {
-    return std::any_of(points_.points().begin(), points_.points().end(),
-                       [](const auto& point) { return point.friction == 0; });
-  }
   /// One more proximal step from a solution, of a large compliance. Impulses have the rounding of velocities, divided
   /// by the compliance: 1e-9 of them after the steps of the least one. Friction holds bodies against that. Without it
   /// the tilts of a light body under a heavy one add up, and the load drives it out along the wedge. No line search:
