@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +14,8 @@
 #include <moreau/moreau.hpp>
 #include <random>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
@@ -30,15 +33,24 @@ inline const moreau::MaterialId m1(0), m2(1), steel(2);
 constexpr double density_m1 = 2500, density_m2 = 2000, density_steel = 7200;  // [kg/m^3]
 constexpr double gravity = 9.81;                                              // [m/s^2]
 
-/// Friction and restitution of all pairs, as published.
-inline moreau::Materials<Law> materials() {
-  moreau::Materials<Law> all(3, Law(0.3, 0.5));
-  all.set(m1, m2, Law(0.2, 0.45));
-  all.set(m2, m2, Law(0.4, 0.4));
-  all.set(m1, steel, Law(0.2, 0.4));
-  all.set(m2, steel, Law(0.2, 0.4));
-  all.set(steel, steel, Law(0.5, 0.6));
+/// The laws of all pairs.
+/// @param law_of (material, material, friction, restitution) -> law; the last two as published
+template <class Law>
+moreau::Materials<Law> materials_of(const auto& law_of) {
+  moreau::Materials<Law> all(3, law_of(m1, m1, 0.3, 0.5));
+  const auto set = [&](moreau::MaterialId a, moreau::MaterialId b, double mu, double e) {
+    all.set(a, b, law_of(a, b, mu, e));
+  };
+  set(m1, m2, 0.2, 0.45);
+  set(m2, m2, 0.4, 0.4);
+  set(m1, steel, 0.2, 0.4);
+  set(m2, steel, 0.2, 0.4);
+  set(steel, steel, 0.5, 0.6);
   return all;
+}
+inline moreau::Materials<Law> materials() {
+  return materials_of<Law>(
+      [](moreau::MaterialId, moreau::MaterialId, double mu, double e) { return Law(mu, e); });
 }
 
 /// Step and criterion of a run.
@@ -87,8 +99,9 @@ struct Sums {
 /// Advances a world, in pieces if the time of the runner is over, and calls look(world) every `interval`.
 /// @param build fills an empty world
 /// @param log   what look() has stored so far
+/// @param look  (world) -> a number or an array of numbers
 /// @throws Paused after the state was stored
-inline Sums advance(Run& run, World& world, const Numerics& numerics, double until, double interval,
+inline Sums advance(Run& run, auto& world, const Numerics& numerics, double until, double interval,
                     Numbers& log, const auto& build, const auto& look) {
   using Clock = std::chrono::steady_clock;
   Numbers sums{0, 0, 0, 0, 0};
@@ -103,10 +116,24 @@ inline Sums advance(Run& run, World& world, const Numerics& numerics, double unt
     moreau::write_snapshot(run.snapshot(), world, log, sums);
     stored = Clock::now();
   };
+  using Seen = decltype(look(world));
+  constexpr std::size_t width = [] {
+    if constexpr (std::is_same_v<Seen, double>)
+      return std::size_t(1);
+    else
+      return std::tuple_size_v<Seen>;
+  }();
+  const auto note = [&] {
+    const Seen seen = look(world);
+    if constexpr (width == 1)
+      log.push_back(seen);
+    else
+      log.insert(log.end(), seen.begin(), seen.end());
+  };
   const auto every = static_cast<std::uint64_t>(std::lround(interval / numerics.step));
   const auto last = static_cast<std::uint64_t>(std::lround(until / numerics.step));
   for (auto k = static_cast<std::uint64_t>(s.steps); k < last;) {
-    if (k % every == 0 && double(log.size()) <= double(k / every)) log.push_back(look(world));
+    if (k % every == 0 && log.size() / width <= k / every) note();
     s.add(world.step(numerics.step));
     ++k;
     if (run.must_stop()) {
@@ -118,7 +145,7 @@ inline Sums advance(Run& run, World& world, const Numerics& numerics, double unt
     }
     if (Clock::now() - stored > std::chrono::seconds(120)) store();
   }
-  log.push_back(look(world));
+  note();
   return s;
 }
 

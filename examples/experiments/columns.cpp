@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <moreau/moreau.hpp>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "moreau/sample/random_deposition.hpp"
@@ -142,21 +145,32 @@ template <class Shape>
 void run(Session& session, const std::string& name, double across, const Numbers& aspects,
          int samples, double slope, double power) {
   const double r = across * size;
+  const Numbers frictions{0.3, 0.6};
+  std::map<std::pair<double, double>, std::vector<Result>> all;
+  bool paused = false;
+  try {
+    for (int seed = 1; seed <= samples; ++seed)
+      for (const double aspect : aspects)
+        for (const double friction : frictions)
+          all[{friction, aspect}].push_back(session.once(
+              name + " a " + std::to_string(aspect) + " friction " + std::to_string(friction) +
+                  " across " + std::to_string(across) + " seed " + std::to_string(seed),
+              [&](Run&) { return collapse<Shape>(r, aspect, friction, std::uint64_t(seed)); }));
+  } catch (const Paused&) {
+    paused = true;
+  }
   std::vector<Numbers> rows;
-  for (const double friction : {0.3, 0.6})
+  for (const double friction : frictions)
     for (const double aspect : aspects) {
       Numbers ratios, runouts;
       Row row;
-      for (int seed = 1; seed <= samples; ++seed) {
-        const Result result = session.once(
-            name + " a " + std::to_string(aspect) + " friction " + std::to_string(friction) +
-                " across " + std::to_string(across) + " seed " + std::to_string(seed),
-            [&](Run&) { return collapse<Shape>(r, aspect, friction, std::uint64_t(seed)); });
+      for (const Result& result : all[{friction, aspect}]) {
         ratios.push_back(result.values[0]);
         runouts.push_back(result.values[1]);
         row.grains = std::size_t(result.values[2]);
         row.seconds += result.seconds;
       }
+      if (ratios.empty()) continue;
       const double a = mean_of(ratios).value;
       const double published = power > 0 && a > 1.7 ? 1.6 * std::sqrt(a) : slope * a;
       row.figure = name + ": run-out over r, a = " + std::to_string(a).substr(0, 4) +
@@ -173,6 +187,7 @@ void run(Session& session, const std::string& name, double across, const Numbers
       rows.push_back({friction, a, row.measured, row.error, published});
     }
   session.curve("columns_" + name, {"friction", "a", "run-out", "error", "published"}, rows);
+  if (paused) throw Paused();
 }
 
 }  // namespace columns_parts

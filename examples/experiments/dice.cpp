@@ -9,15 +9,18 @@
 //          linearly to 0.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
 // between dice is not published: it is varied.
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <moreau/moreau.hpp>
 #include <numbers>
 #include <random>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "moreau/io/snapshot.hpp"
 #include "moreau/measure/solid_fraction.hpp"
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/shape/circumradius.hpp"
@@ -32,6 +35,8 @@ using S = moreau::Space<3>;
 using Vector = S::Vector;
 using Shape = moreau::Polyhedron<double>;
 using Law = moreau::SignoriniCoulomb<double>;
+
+using World = moreau::Simulation<Shape, Law>;
 
 constexpr double size = 0.01, step = 2e-4, tolerance = 1e-3,
                  gravity = 9.81;  // edge of a cube of equal volume [m]
@@ -70,7 +75,7 @@ Shape die(int faces) {
   return unit.scaled(size / std::cbrt(unit.mass_properties(1).mass));
 }
 
-double fraction(const moreau::Simulation<Shape, Law>& world, double length) {
+double fraction(const World& world, double length) {
   double top = 0;
   for (const moreau::BodyId grain : world.grains())
     top = std::max(top, world.pose(grain).position[2]);
@@ -79,94 +84,185 @@ double fraction(const moreau::Simulation<Shape, Law>& world, double length) {
                                                        Vector(length, length, top - 2.5 * size)));
 }
 
-/// Solid fraction of the loose and of the dense packing, share of steps not solved.
-Numbers pack(int faces, std::size_t count, double across, double friction, double shaking,
-             std::uint64_t seed) {
-  const double length = across * size;
+constexpr double settling = 0.6, rest = 0.3;  // [s]
+
+struct Sample {
+  int faces;
+  std::size_t count;
+  double across, friction, shaking;  ///< side of the cell over `size`, [-], duration [s]
+  std::uint64_t seed;
+
+  double length() const { return across * size; }
+};
+
+World empty_world(const Sample& sample) {
   moreau::ColouredOptions options;
   options.tolerance = tolerance;
   options.max_sweeps = 500;
   moreau::Tolerances tolerances;
   tolerances.margin = 0.1;
-  moreau::Simulation<Shape, Law> world(size, moreau::Materials<Law>(1, Law(friction)),
-                                       moreau::ColouredGaussSeidel(options), tolerances);
-  const Shape shape = die(faces);
-  std::mt19937_64 random(seed);
-  const auto id = world.add_shape(shape);
-  const std::vector<double> radii(count, moreau::circumradius(shape));
-  for (const moreau::Pose<S>& pose : moreau::random_deposition<S>(radii, length, random))
-    world.add_grain(id, pose, 1000);
-  const auto floor = world.add_wall(Vector::UnitZ(), Vector::Zero());
-  for (const int axis : {0, 1}) world.set_periodic(axis, 0, length);
+  World world(size, moreau::Materials<Law>(1, Law(sample.friction)),
+              moreau::ColouredGaussSeidel(options), tolerances);
+  for (const int axis : {0, 1}) world.set_periodic(axis, 0, sample.length());
   world.set_gravity({0, 0, -gravity});
-  double steps = 0, unsolved = 0;
-  const auto advance = [&](double duration, const auto& velocity) {
-    for (const double end = world.time() + duration; world.time() < end; ++steps) {
-      world.set_velocity(floor, velocity(1 - (end - world.time()) / duration) * Vector::UnitZ());
-      unsolved += !world.step(step).solve.converged;
-    }
-  };
-  advance(0.6, [](double) { return 0.0; });
-  const double loose = fraction(world, length);
-  const double rate = 2 * std::numbers::pi * 25;
-  advance(shaking, [&](double share) {
-    return (1 - share) * 4 * gravity / rate * std::cos(rate * world.time());
-  });
-  advance(0.3, [](double) { return 0.0; });
-  return {loose, fraction(world, length), unsolved / steps};
+  return world;
 }
+
+/// Advances a packing, in pieces if the time of the runner is over.
+/// @param build    fills an empty world
+/// @param velocity of the floor upwards at a time [m/s]
+/// @returns solid fraction and share of steps not solved; then, for each die, position and rotation
+Numbers advance_dice(Run& run, const Sample& sample, double duration, const auto& build,
+                     const auto& velocity) {
+  World world = empty_world(sample);
+  Numbers sums{0, 0};  // steps, those not solved
+  if (run.is_started())
+    moreau::reload_snapshot(run.snapshot(), world, sums);
+  else
+    build(world);
+  const double last = std::round(duration / step);
+  while (sums[0] < last) {
+    world.set_velocity(world.walls()[0], velocity(sums[0] * step) * Vector::UnitZ());
+    sums[1] += !world.step(step).solve.converged;
+    ++sums[0];
+    if (sums[0] < last && run.must_stop()) {
+      moreau::write_snapshot(run.snapshot(), world, sums);
+      throw Paused();
+    }
+  }
+  Numbers values{fraction(world, sample.length()), sums[1] / sums[0]};
+  for (const moreau::BodyId grain : world.grains()) {
+    const moreau::Pose<S>& pose = world.pose(grain);
+    for (const double x : pose.position) values.push_back(x);
+    for (const double x : pose.rotation.coeffs()) values.push_back(x);
+  }
+  return values;
+}
+
+Numbers loose(Run& run, const Sample& sample) {
+  const auto build = [&](World& world) {
+    const Shape shape = die(sample.faces);
+    std::mt19937_64 random(sample.seed);
+    const auto id = world.add_shape(shape);
+    const std::vector<double> radii(sample.count, moreau::circumradius(shape));
+    for (const moreau::Pose<S>& pose : moreau::random_deposition<S>(radii, sample.length(), random))
+      world.add_grain(id, pose, 1000);
+    world.add_wall(Vector::UnitZ(), Vector::Zero());
+  };
+  return advance_dice(run, sample, settling, build, [](double) { return 0.0; });
+}
+
+/// @param start what loose() has returned
+Numbers dense(Run& run, const Sample& sample, const Numbers& start) {
+  const auto build = [&](World& world) {
+    const auto id = world.add_shape(die(sample.faces));
+    for (std::size_t k = 2; k + 6 < start.size(); k += 7) {
+      moreau::Pose<S> pose;
+      pose.position = Vector(start[k], start[k + 1], start[k + 2]);
+      pose.rotation.coeffs() << start[k + 3], start[k + 4], start[k + 5], start[k + 6];
+      world.add_grain(id, pose, 1000);
+    }
+    world.add_wall(Vector::UnitZ(), Vector::Zero());
+  };
+  const double rate = 2 * std::numbers::pi * 25;
+  Numbers values = advance_dice(run, sample, sample.shaking + rest, build, [&](double time) {
+    const double share = std::max(0.0, 1 - time / sample.shaking);
+    return share * 4 * gravity / rate * std::cos(rate * time);
+  });
+  values.resize(2);
+  return values;
+}
+
+/// A kind of dice with the published solid fractions.
+struct Die {
+  int faces;
+  const char* name;
+  double loose, dense;
+};
+
+/// Solid fractions of the samples of one kind of dice.
+struct Fractions {
+  Numbers loose, dense;
+  double seconds_loose = 0, seconds_dense = 0;
+};
 
 }  // namespace dice_parts
 
 void dice(Session& session) {
   using namespace dice_parts;
-  struct Die {
-    int faces;
-    const char* name;
-    double loose, dense;
-  };
   const bool quick = session.quick();
   const std::size_t count = quick ? 150 : 400;
   const double across = quick ? 5 : 6, shaking = quick ? 0.2 : 4;
-  std::vector<Numbers> rows;
-  for (const double friction : quick ? Numbers{0.4} : Numbers{0.2, 0.5})
-    for (const Die& one : {Die{4, "tetrahedra", 0.51, 0.64},
-                           {6, "cubes", 0.54, 0.67},
-                           {8, "octahedra", 0.52, 0.64},
-                           {12, "dodecahedra", 0.51, 0.63},
-                           {20, "icosahedra", 0.50, 0.59}}) {
-      if (quick && one.faces != 6) continue;
-      Numbers loose, dense;
-      Row row;
-      for (std::uint64_t seed = 1; seed <= (quick ? 1u : 2u); ++seed) {
-        const Result result = session.once(
-            std::string(one.name) + " friction " + std::to_string(friction) + " count " +
-                std::to_string(count) + " seed " + std::to_string(seed),
-            [&](Run&) { return pack(one.faces, count, across, friction, shaking, seed); });
-        loose.push_back(result.values[0]);
-        dense.push_back(result.values[1]);
-        row.seconds += result.seconds;
+  const std::vector<Die> kinds{{6, "cubes", 0.54, 0.67},
+                               {4, "tetrahedra", 0.51, 0.64},
+                               {8, "octahedra", 0.52, 0.64},
+                               {12, "dodecahedra", 0.51, 0.63},
+                               {20, "icosahedra", 0.50, 0.59}};
+  const Numbers frictions = quick ? Numbers{0.4} : Numbers{0.5, 0.2};
+  std::map<std::pair<double, int>, Fractions> all;
+  bool paused = false;
+  // First the loose packings, which take an eighth of the time, then one sample of each, then the other.
+  const auto run = [&](bool densest, std::uint64_t seed) {
+    for (const double friction : frictions)
+      for (const Die& one : kinds) {
+        if (quick && one.faces != 6) continue;
+        const Sample sample{one.faces, count, across, friction, shaking, seed};
+        const std::string key = std::string(one.name) + " friction " + std::to_string(friction) +
+                                " count " + std::to_string(count) + " seed " + std::to_string(seed);
+        const Result start =
+            session.once(key + " loose", [&](Run& piece) { return loose(piece, sample); });
+        Fractions& fractions = all[{friction, one.faces}];
+        if (!densest) {
+          fractions.loose.push_back(start.values[0]);
+          fractions.seconds_loose += start.seconds;
+          continue;
+        }
+        const Result end = session.once(
+            key + " dense", [&](Run& piece) { return dense(piece, sample, start.values); });
+        fractions.dense.push_back(end.values[0]);
+        fractions.seconds_dense += end.seconds;
       }
-      row.samples = loose.size();
+  };
+  try {
+    for (std::uint64_t seed = 1; seed <= (quick ? 1u : 2u); ++seed) {
+      run(false, seed);
+      run(true, seed);
+    }
+  } catch (const Paused&) {
+    paused = true;
+  }
+  std::vector<Numbers> rows;
+  for (const double friction : frictions)
+    for (const Die& one : kinds) {
+      const auto found = all.find({friction, one.faces});
+      if (found == all.end()) continue;
+      Row row;
       row.law = "SignoriniCoulomb, friction " + std::to_string(friction).substr(0, 3);
       row.step = step;
       row.tolerance = tolerance;
       row.grains = count;
-      const auto add = [&](const char* kind, double published, const Numbers& samples) {
+      const auto add = [&](const char* kind, double published, const Numbers& samples,
+                           double seconds) {
+        if (samples.empty()) return;
         row.figure = std::string(one.name) + ", " + kind + ": solid fraction";
         row.published = std::to_string(published).substr(0, 4) + " ± 0.01";
         row.measured = mean_of(samples).value;
         row.error = mean_of(samples).error;
+        row.samples = samples.size();
+        row.seconds = seconds;
         row.verdict = std::abs(row.measured - published) <= 0.02 ? "yes" : "no";
         session.row(row);
       };
-      add("loosest", one.loose, loose);
-      add("densest", one.dense, dense);
-      rows.push_back({double(one.faces), friction, mean_of(loose).value, one.loose,
-                      mean_of(dense).value, one.dense});
+      const Fractions& f = found->second;
+      add("loosest", one.loose, f.loose, f.seconds_loose);
+      add("densest", one.dense, f.dense, f.seconds_dense);
+      if (!f.loose.empty() && !f.dense.empty())
+        rows.push_back({double(one.faces), friction, mean_of(f.loose).value, one.loose,
+                        mean_of(f.dense).value, one.dense});
     }
   session.curve(
       "dice", {"faces", "friction", "loose", "published loose", "dense", "published dense"}, rows);
+  if (paused) throw Paused();
 }
 
 }  // namespace experiments

@@ -5,9 +5,8 @@
 #include <array>
 #include <cstdio>
 
-#include "moreau/sample/random_deposition.hpp"
-
 #include "bulk.hpp"
+#include "impact_bed.hpp"
 #include "session.hpp"
 
 namespace experiments {
@@ -15,59 +14,9 @@ namespace experiments {
 namespace impact_parts {
 
 using namespace bulk;
-using S = moreau::Space<3>;
 
-constexpr double length = 0.1, width = 0.06, floor_height = -0.0902431;  // [m]
-constexpr double diameter = 0.002, impactor = 0.02, speed = 5;           // [m], [m/s]
-constexpr double settling = 0.25;                                        // [s]
-
-void add_box(World& world) {
-  const Vector corner(length / 2, width / 2, 0);
-  for (int axis : {0, 1})
-    for (const double side : {-1.0, 1.0})
-      world.add_wall(-side * Vector::Unit(axis), side * corner[axis] * Vector::Unit(axis), steel);
-  world.add_wall(Vector::UnitZ(), floor_height * Vector::UnitZ(), steel);
-}
-
-void add_bed(World& world, std::size_t count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const std::vector<double> radii(count, diameter / 2);
-  const auto shape = world.add_shape(moreau::Ball<double>(diameter / 2));
-  for (moreau::Pose<S> pose :
-       moreau::random_deposition<S>(radii, std::array<double, 2>{length, width}, random)) {
-    pose.position += Vector(-length / 2, -width / 2, floor_height);
-    world.add_grain(shape, pose, density_m1, m1);
-  }
-  add_box(world);
-}
-
-/// Positions of a settled bed.
-Numbers settled_bed(Run& run, std::size_t count, std::uint64_t seed, int threads, double duration) {
-  const Numerics numerics{2e-4, 1e-2, 0.2};
-  World world = world_of(diameter, numerics, threads);
-  Numbers log;
-  const Sums sums = advance(
-      run, world, numerics, duration, duration, log,
-      [&](World& empty) { add_bed(empty, count, seed); }, mean_speed);
-  Numbers state;
-  for (const moreau::BodyId grain : world.grains())
-    for (const double x : world.pose(grain).position) state.push_back(x);
-  state.push_back(mean_speed(world));
-  state.push_back(1000 * sums.stepping / sums.steps);
-  return state;
-}
-
-void build_impact(World& world, const Numbers& bed) {
-  const auto shape = world.add_shape(moreau::Ball<double>(diameter / 2));
-  for (std::size_t k = 0; k + 3 < bed.size(); k += 3)
-    world.add_grain(shape, {Vector(bed[k], bed[k + 1], bed[k + 2])}, density_m1, m1);
-  const auto ball = world.add_grain(world.add_shape(moreau::Ball<double>(impactor / 2)),
-                                    {Vector(0, 0, 0.06)}, density_steel, steel);
-  world.set_velocity(ball, {0, 0, -speed});
-  add_box(world);
-}
 double height(const World& world) {
-  return world.pose(world.grain(world.grain_count() - 1)).position[2];
+  return world.pose(steel_ball(world)).position[2];
 }
 
 struct Case {
@@ -84,16 +33,13 @@ struct Outcome {
 Outcome one_impact(Session& session, const Case& c, std::uint64_t seed, double until) {
   const int threads = session.options().threads;
   const std::string name = std::to_string(c.balls) + " balls, bed " + std::to_string(seed);
-  const double duration = session.quick() ? 0.02 : settling;
-  const Result bed = session.once(name + ", settling", [&](Run& run) {
-    return settled_bed(run, c.balls, seed, threads, duration);
-  });
+  const Numbers bed = settled_bed(session, {}, c.balls, seed);
   const Result result = session.once(name + ", impact " + c.numerics.text(), [&](Run& run) {
     World world = world_of(diameter, c.numerics, threads);
     Numbers z;
     const Sums sums = advance(
         run, world, c.numerics, until, 1e-3, z,
-        [&](World& empty) { build_impact(empty, bed.values); }, height);
+        [&](World& empty) { build_impact(empty, {}, bed, start_height, -speed); }, height);
     sums.append_to(z);
     return z;
   });

@@ -66,7 +66,9 @@ void Session::begin(const std::string& experiment) {
 }
 
 Result Session::once(const std::string& name, const std::function<Numbers(Run&)>& run) {
-  const std::string key = (quick() ? "quick/" : "") + store_->experiment + '/' + name;
+  const std::string key =
+      (quick() ? "quick/" : "") +
+      (name.starts_with('/') ? name.substr(1) : store_->experiment + '/' + name);
   if (const auto found = store_->done.find(key); found != store_->done.end()) return found->second;
   const fs::path snapshot = options_.output / (file_name(key) + ".snapshot");
   const fs::path clock = options_.output / (file_name(key) + ".seconds");

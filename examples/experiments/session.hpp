@@ -79,6 +79,7 @@ class Session {
   void begin(const std::string& experiment);
 
   /// The numbers of a run: stored ones, if the run has finished before, else those that it returns.
+  /// @param key of the run within the experiment; with a / in front it is of all experiments
   /// @throws Paused if the time is over
   Result once(const std::string& key, const std::function<Numbers(Run&)>& run);
   void row(const Row& row);
@@ -129,5 +130,6 @@ void dice(Session& session);
 void silo(Session& session);
 void drum(Session& session);
 void impact(Session& session);
+void squeeze(Session& session);
 
 }  // namespace experiments

@@ -6,16 +6,23 @@
 #include <moreau/moreau.hpp>
 
 #include "moreau/law/compliant.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 
 namespace experiments {
 
 using Rigid = moreau::SignoriniCoulomb<double>;
 using Springs = moreau::Compliant<Rigid>;
+using Hertz = moreau::HertzMindlin<double>;
 using Rolling = moreau::RollingResistance<double>;
 
 }  // namespace experiments
 
+#ifdef EXPERIMENTS_INSTANTIATE_BALLS
+#define EXPERIMENTS_BALLS template
+#else
+#define EXPERIMENTS_BALLS extern template
+#endif
 #ifdef EXPERIMENTS_INSTANTIATE_COMPLIANT
 #define EXPERIMENTS_COMPLIANT template
 #else
@@ -37,6 +44,8 @@ namespace moreau {
 EXPERIMENTS_COMPLIANT class detail::ImpulseDynamics<Space<3>, experiments::Springs, MoreauJean,
                                                     ColouredGaussSeidel>;
 EXPERIMENTS_COMPLIANT StepReport Simulation<Polyhedron<double>, experiments::Springs>::step(double);
+EXPERIMENTS_BALLS StepReport Simulation<Ball<double>, experiments::Springs>::step(double);
+EXPERIMENTS_BALLS StepReport Simulation<Ball<double>, experiments::Hertz>::step(double);
 EXPERIMENTS_CAPSULES class ContactDetector<Capsule<double>, CellGrid<Space<3>>>;
 EXPERIMENTS_CAPSULES StepReport Simulation<Capsule<double>, experiments::Rigid>::step(double);
 EXPERIMENTS_CAPSULES StepReport Simulation<Capsule<double>, experiments::Springs>::step(double);

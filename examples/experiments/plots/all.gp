@@ -28,6 +28,18 @@ do for [n in "25 100"] {
          for [k = 3:count] file(name) using 1:(1000 * column(k)) skip 1 with lines lc rgb own title (k == 3 ? "moreau, each bed" : "")
   }
 }
+if (has("squeeze_10000_HertzMindlin_10")) {
+  set output folder . "/squeeze.png"
+  set title "Velocity of the steel ball, narrow bed of 10,000 balls"
+  set xlabel "t [ms]"; set ylabel "velocity upwards [m/s]"; set key top left
+  csv(name) = has(name) ? file(name) : "/dev/null"
+  plot csv("squeeze_10000_HertzMindlin_10") using 1:3 skip 1 with lines lw 2 lc rgb other title "HertzMindlin, 1 µs", \
+       csv("squeeze_10000_HertzMindlin_e0.20_10") using 1:3 skip 1 with lines dt 2 lc rgb other title "the same, e = 0.2", \
+       csv("squeeze_10000_SignoriniCoulomb_500") using 1:3 skip 1 with lines lw 2 lc rgb own title "rigid, 50 µs", \
+       csv("squeeze_10000_SignoriniCoulomb_e1.00_500") using 1:3 skip 1 with lines dt 2 lc rgb own title "the same, e = 1", \
+       csv("squeeze_10000_Compliant_200") using 1:3 skip 1 with lines lc rgb last title "Compliant, 20 µs"
+  set key top right
+}
 if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
   set output folder . "/silo.png"
   set title "Silo: balls above the orifice, d = 4 mm, step 0.2 ms, tolerance 1e-3"

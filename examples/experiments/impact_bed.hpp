@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The box and the beds of the impact of Dosta et al. 2024.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "moreau/sample/random_deposition.hpp"
+
+#include "bulk.hpp"
+#include "session.hpp"
+
+namespace experiments::impact_parts {
+
+using namespace bulk;
+using S = moreau::Space<3>;
+
+constexpr double floor_height = -0.0902431;                     // [m]
+constexpr double diameter = 0.002, impactor = 0.02, speed = 5;  // [m], [m/s]
+constexpr double start_height = 0.06, settling = 0.25;          // [m], [s]
+
+/// The published box; a control has a smaller one.
+struct Box {
+  double length = 0.1, width = 0.06;  // [m]
+};
+
+inline void add_box(auto& world, const Box& box) {
+  const Vector corner(box.length / 2, box.width / 2, 0);
+  for (int axis : {0, 1})
+    for (const double side : {-1.0, 1.0})
+      world.add_wall(-side * Vector::Unit(axis), side * corner[axis] * Vector::Unit(axis), steel);
+  world.add_wall(Vector::UnitZ(), floor_height * Vector::UnitZ(), steel);
+}
+
+inline void add_bed(World& world, const Box& box, std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const std::vector<double> radii(count, diameter / 2);
+  const auto shape = world.add_shape(moreau::Ball<double>(diameter / 2));
+  for (moreau::Pose<S> pose :
+       moreau::random_deposition<S>(radii, std::array<double, 2>{box.length, box.width}, random)) {
+    pose.position += Vector(-box.length / 2, -box.width / 2, floor_height);
+    world.add_grain(shape, pose, density_m1, m1);
+  }
+  add_box(world, box);
+}
+
+/// A settled bed, which the experiments share: positions, then the root of the mean square of the velocities [m/s] and
+/// the milliseconds per step.
+inline Numbers settled_bed(Session& session, const Box& box, std::size_t count,
+                           std::uint64_t seed) {
+  const double duration = session.quick() ? 0.01 : settling;
+  const std::string key = "/bed of " + std::to_string(count) + " balls, seed " +
+                          std::to_string(seed) + ", width " + std::to_string(box.width);
+  const Result result = session.once(key, [&](Run& run) {
+    const Numerics numerics{2e-4, 1e-2, 0.2};
+    World world = world_of(diameter, numerics, session.options().threads);
+    Numbers log;
+    const Sums sums = advance(
+        run, world, numerics, duration, duration, log,
+        [&](World& empty) { add_bed(empty, box, count, seed); }, mean_speed);
+    Numbers state;
+    for (const moreau::BodyId grain : world.grains())
+      for (const double x : world.pose(grain).position) state.push_back(x);
+    state.push_back(mean_speed(world));
+    state.push_back(1000 * sums.stepping / sums.steps);
+    return state;
+  });
+  return result.values;
+}
+
+/// The balls of a settled bed and the steel ball above it, which falls.
+/// @param bed of settled_bed()
+/// @param z   height of the ball's centre [m]
+/// @param v   its velocity [m/s], < 0
+inline void build_impact(auto& world, const Box& box, const Numbers& bed, double z, double v) {
+  const auto shape = world.add_shape(moreau::Ball<double>(diameter / 2));
+  for (std::size_t k = 0; k + 3 < bed.size(); k += 3)
+    world.add_grain(shape, {Vector(bed[k], bed[k + 1], bed[k + 2])}, density_m1, m1);
+  const auto ball = world.add_grain(world.add_shape(moreau::Ball<double>(impactor / 2)),
+                                    {Vector(0, 0, z)}, density_steel, steel);
+  world.set_velocity(ball, {0, 0, v});
+  add_box(world, box);
+}
+inline moreau::BodyId steel_ball(const auto& world) {
+  return world.grain(world.grain_count() - 1);
+}
+
+}  // namespace experiments::impact_parts
