@@ -9,6 +9,7 @@
 //          linearly to 0.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
 // between dice is not published: it is varied.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
