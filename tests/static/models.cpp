@@ -90,7 +90,7 @@ static_assert(TangentialRestitutionLaw<TangentialRestitution<>, S>);
 static_assert(CoulombLaw<SignoriniCoulomb<>, S> && !CoulombLaw<Frictionless<>, S>);
 static_assert(StatefulLaw<SignoriniCoulomb<>, S> && LaneLaw<SignoriniCoulomb<>, S>);
 static_assert(LaneLaw<RollingResistance<>, S> && LaneLaw<Frictionless<>, S>);
-static_assert(ActsWhereGapsClose<RollingResistance<>> && !ActsWhereGapsClose<Bonded<>>);
+static_assert(ActsWhereGapsClose<RollingResistance<>> && ActsWhereGapsClose<Bonded<>>);
 static_assert(!ActsWhereGapsClose<Cohesive<>> && !ActsWhereGapsClose<TangentialRestitution<>>);
 static_assert(RegularizedLaw<LinearSpringDashpot<>, S> && RegularizedLaw<HertzMindlin<>, S>);
 static_assert(ContactLaw<SignoriniCoulomb<>, S> && ContactLaw<HertzMindlin<>, S>);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <functional>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -518,11 +519,17 @@ TEST_CASE("bond: a broken bond is a contact with friction") {
 TEST_CASE("bond: snapshots, removed grains, walls, periodic cells, refusals") {
   using World = Row<Circle, Soft>;
   World row(4, 1e-3), copy(4, 1e-3);
+  EnergyBalance<Space<2>> energy(row.world), continued(copy.world);
+  const auto step = [](World& one, EnergyBalance<Space<2>>& balance) {
+    balance.add(one.world, one.world.step(1e-4), 1e-4);
+  };
   row.load(19, 3, 0);
-  for (int k = 0; k < 30; ++k) row.world.step(1e-4);
-  restore_snapshot(snapshot(row.world), copy.world);
-  for (int k = 0; k < 30; ++k) row.world.step(1e-4), copy.world.step(1e-4);
-  CHECK(snapshot(row.world) == snapshot(copy.world));
+  for (int k = 0; k < 30; ++k) step(row, energy);
+  restore_snapshot(snapshot(row.world, energy), copy.world, continued);
+  for (int k = 0; k < 100; ++k) step(row, energy), step(copy, continued);
+  CHECK(snapshot(row.world, energy) == snapshot(copy.world, continued));
+  CHECK(continued.terms().fracture > 0);
+  CHECK(std::abs(continued.imbalance()) < 1e-9 * continued.terms().forces);
   CHECK(copy.world.bonds().size() == row.world.bonds().size());
 
   World three(3);
@@ -568,4 +575,80 @@ TEST_CASE("bond: snapshots, removed grains, walls, periodic cells, refusals") {
   CHECK_THROWS_WITH(Bonded<>({1, -1, 1, 0}), Contains("shear = -1"));
   CHECK_THROWS_WITH(Bonded<>({1, 1, 0, 0}), Contains("bending = 0"));
   CHECK_THROWS_WITH(Bonded<>({1, 1, 1, -1}), Contains("fracture_energy = -1"));
+}
+
+namespace {
+
+/// Layers of grains on a row with fixed ends. The last layer falls onto the others.
+template <class ShapeT, class Law>
+struct Shower {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  Simulation<ShapeT, Law> world;
+  std::vector<BodyId> grains;
+
+  static Tolerances tolerances(bool narrows) {
+    Tolerances some;
+    some.narrows = narrows;
+    return some;
+  }
+  Shower(const Law& law, bool narrows)
+      : world(2 * radius, Materials<Law>(1, law), tight(false), tolerances(narrows)) {
+    const ShapeId shape = world.add_shape(ShapeT(radius));
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> noise(-1, 1);
+    for (int k = 0; k < 40; ++k) {
+      Vector x = Vector::Zero(), v = Vector::Zero();
+      x[0] = 2 * radius * (k % 8);
+      x[1] = 2.001 * radius * (k / 8);
+      if (k >= 8) x[0] += 0.1 * radius * noise(random);
+      if (k >= 32) v[1] = -2 + noise(random);
+      grains.push_back(world.add_grain(shape, Pose<S>(x), 1000));
+      world.set_velocity(grains.back(), v);
+    }
+    world.prescribe_motion(grains[0]);
+    world.prescribe_motion(grains[7]);
+  }
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("bond: without bonds, contacts are those of rolling resistance", ShapeT, Circle,
+                   Globe) {
+  Shower<ShapeT, Rigid> one(Rigid({tension, shear, bending}, friction, 0.1), true);
+  Shower<ShapeT, RollingResistance<>> two(RollingResistance<>(friction, 0.1), true);
+  std::size_t points = 0;
+  for (int k = 0; k < 100; ++k) {
+    const StepReport a = one.world.step(1e-4), b = two.world.step(1e-4);
+    CHECK(a.points == b.points);
+    points += a.points;
+  }
+  CHECK(points > 1000);
+  for (std::size_t i = 0; i < one.grains.size(); ++i)
+    CHECK(one.world.velocity(one.grains[i]) == two.world.velocity(two.grains[i]));
+}
+
+TEST_CASE_TEMPLATE("bond: a step that is repeated with more contacts yields once", ShapeT, Circle,
+                   Globe) {
+  const Rigid law({tension, shear, bending, 2e-4});  // without friction velocities are unique
+  Shower<ShapeT, Rigid> one(law, true), two(law, false);
+  for (auto* each : {&one, &two})
+    CHECK(each->world.bond_touching(1e-5, std::span(each->grains).first(8)) == 7);
+  int repeated = 0;
+  std::size_t broken = 0;
+  for (int k = 0; k < 20; ++k) {
+    const StepReport a = one.world.step(1e-4), b = two.world.step(1e-4);
+    CHECK(a.points <= b.points);
+    CHECK(a.broken_bonds == b.broken_bonds);
+    repeated += a.repeated;
+    broken += a.broken_bonds;
+  }
+  CHECK(repeated > 0);
+  CHECK(broken > 0);
+  double worst = 0;
+  for (std::size_t i = 0; i < one.grains.size(); ++i)
+    worst = std::max(
+        worst,
+        (one.world.pose(one.grains[i]).position - two.world.pose(two.grains[i]).position).norm());
+  CHECK(worst < 1e-6 * radius);
 }

@@ -52,6 +52,8 @@ struct BondStrength {
 template <std::floating_point T = double>
 class Bonded : public RollingResistance<T> {
  public:
+  /// See the concept of this name: of pairs without a bond. Bonds have their contacts without detection.
+  using ActsWhereGapsClose = Bonded;
   /// @param strength of the bonds of the pair of materials
   /// @param friction mu >= 0 of bodies without bond [-]
   /// @param rolling  eta >= 0, resistance to rolling of bodies without bond [-]

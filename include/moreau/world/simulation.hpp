@@ -437,9 +437,11 @@ class Simulation : public BodyControl<ShapeT> {
     dynamics_.undo_shifts(assembly_.bodies());
     detector_.use_whole_margin();
     detector_.detect(lengths(), bodies(), previous_, contacts_);
+    if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), contacts_);
     assign_laws(assembly_.bodies(), materials_, contacts_, team_);
     report.ms_collide += clock.lap();
     count_contacts(report);
+    if constexpr (bonding) dynamics_.find_free_velocities(context, report);  // with their strength
     report.repeated = true;
     return true;
   }

@@ -22,8 +22,9 @@ struct Tolerances {
   double margin = 0.02;
   double skin = 0.05;        ///< the list of pairs is kept until a box has moved this far, >= 0
   double resolution = 1e-3;  ///< contact points closer together than this are merged, >= 0
-  /// Whether, under SignoriniCoulomb, Frictionless and RollingResistance, pairs that cannot close the margin in a step
-  /// have contacts up to a smaller gap, but for cells that deform (detail/step_margins.hpp): the solutions are the same, and a step has fewer contacts. Off: contacts up to the margin.
+  /// Whether, under SignoriniCoulomb, Frictionless, RollingResistance and Bonded, pairs that cannot close the margin in
+  /// a step have contacts up to a smaller gap, but for cells that deform (detail/step_margins.hpp): the solutions are
+  /// the same, and a step has fewer contacts. Off: contacts up to the margin.
   bool narrows = true;
 
   /// The lengths for grains of this size [m].

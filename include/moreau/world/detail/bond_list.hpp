@@ -202,30 +202,30 @@ class BondList {
   /// Most solutions of a step in which bonds yield.
   static constexpr int max_solutions = 30;
 
-  /// Lets the bonds yield, and notes those that break.
+  /// Finds out how the bonds yield, which end_step() lets them do, and which of them break.
   /// @param op       with the velocities of the impulses
   /// @param impulses p of every contact [N s]
   /// @param step     h [s]
   void yield(const Materials<Law>& materials, const Operator& op,
              const ContactsOf<Law, S>& contacts, std::span<const Row> impulses, Scalar step) {
     broken_.assign(bonds_.size(), 0);
+    yields_.assign(bonds_.size(), {});
     for_each([&](std::size_t i, std::size_t c) {
-      Bond<S>& bond = bonds_[i];
       const Contact<S>& contact = contacts.points[c];
       const Law& law = materials.laws()[contact.law];
       if (!law.yields(impulses[c])) return;
       const Row w = yielding(op, i, c);
-      bond.strength_left -= step * law.softening(w);
-      broken_[i] = !(bond.strength_left > 0);
-      if (broken_[i]) bond.strength_left = 0;
+      Yield& yield = yields_[i];
+      yield.loss = step * law.softening(w);
+      broken_[i] = !(bonds_[i].strength_left > yield.loss);
       const typename S::Matrix frame = places_[i].frame.transpose() * op.frame(c);
-      bond.slip += step * (frame * linear<S>(w));
-      bond.bend += step / op.radius(c) *
+      yield.slip = step * (frame * linear<S>(w));
+      yield.bend = step / op.radius(c) *
                    (S::angular_frame(places_[i].frame).transpose() *
                     (S::angular_frame(op.frame(c)) * angular<S>(w)));
     });
   }
-  /// Moves the energy that the bonds took in the step from friction and rolling to StepReport::fracture, and removes
+  /// Lets the bonds yield. Moves the energy that they took in the step from friction and rolling to StepReport::fracture, and removes
   /// those that broke.
   /// @param losses  function: contact c -> its ContactLosses
   /// @param springs ContactSprings or NoSprings
@@ -233,6 +233,9 @@ class BondList {
                 StepReport& report) {
     for_each([&](std::size_t i, std::size_t c) {
       Bond<S>& bond = bonds_[i];
+      bond.strength_left = broken_[i] ? Scalar(0) : Scalar(bond.strength_left - yields_[i].loss);
+      bond.slip += yields_[i].slip;
+      bond.bend += yields_[i].bend;
       const ContactLosses one = losses(c);
       double taken = one.dissipation + bond.elastic;
       if constexpr (CompliantLaw<Law, S>) {
@@ -272,6 +275,12 @@ class BondList {
   /// A strength in the step that the problem was solved with, and that of soften() for its solution; < 0: none.
   struct Softening {
     Scalar now = -1, found = -1;
+  };
+  /// How a bond yields in a step: a step that is repeated with more contacts must not have changed it.
+  struct Yield {
+    Scalar loss = 0;                                // of strength_left [-]
+    Vector slip = Vector::Zero();                   // [m]
+    typename S::Angular bend = S::Angular::Zero();  // [rad]
   };
   /// @param w velocity of the bond [m/s]
   /// @param p its impulse [N s]
@@ -349,6 +358,7 @@ class BondList {
   std::vector<BondPlace<S>> places_;     // of each bond
   std::vector<Row> drifts_;              // of each bond: the correction in its offset, see offset()
   std::vector<unsigned char> broken_;    // of each bond
+  std::vector<Yield> yields_;            // of each bond
   std::vector<Softening> softening_;     // of each bond
   std::vector<Row> hidden_;
   ContactsOf<Law, S> merged_;

@@ -25,6 +25,7 @@
 // The bound: points of both bodies at most R from the centre of a have relative velocities of at most
 // |u| + R |w|, u being the relative velocity of the two rigid motions at this centre and w that of their rotations.
 // Bodies that move together, such as grains and a turning cylinder wall, approach by nothing.
+// The contacts of bonds (law/bonded.hpp) do not come from detection.
 // Near walls that turn, the contact problem adds the chord of the motion to u_n (chord_velocities.hpp). Where it is
 // negative it is at most the approach velocity before the step, which is then added to the bound of 2.
 #pragma once
