@@ -176,20 +176,26 @@ TEST_CASE_TEMPLATE("a deforming cell continues from a snapshot and with threads 
                    ShapeT, MOREAU_TYPES((Polygon<>), (Polyhedron<>, Ball<>, Disk<>))) {
   using S = SpaceOf<ShapeT>;
   using Law = scenes::LawOf<ShapeT>;
-  Gas<ShapeT> gas, shared;
-  scenes::World<ShapeT> read(0.02, Materials<Law>(1, Law(0.4)));
-  for (Gas<ShapeT>* one : {&gas, &shared}) {
-    one->simulation.set_cell(Gas<ShapeT>::square());
-    one->simulation.control_cell(mixed<S>(2));
+  for (const double pressure : {0.0, 5e3}) {  // of one component; 0: all rates are prescribed
+    Gas<ShapeT> gas, shared;
+    scenes::World<ShapeT> read(0.02, Materials<Law>(1, Law(0.4)));
+    CellControl<S> control = mixed<S>(2);
+    control.mass(1, 1) = pressure > 0 ? 0.3 : 0;
+    control.stress(1, 1) = pressure;
+    for (Gas<ShapeT>* one : {&gas, &shared}) {
+      one->simulation.set_cell(Gas<ShapeT>::square());
+      one->simulation.control_cell(control);
+    }
+    shared.simulation.set_team(Team(std::make_shared<threads_test::EagerThreads>(3)));
+    for (int k = 0; k < 60; ++k) gas.simulation.step(h), shared.simulation.step(h);
+    const TemporaryFolder folder("cell");
+    write_snapshot(folder / "cell", gas.simulation);
+    read_snapshot(folder / "cell", read);
+    CHECK(scenes::have_same_bits_after(60, gas.simulation, read));
+    for (int k = 0; k < 60; ++k) shared.simulation.step(h);
+    CHECK(scenes::have_same_bits_after(60, read, shared.simulation));
+    CHECK(read.cell_motion().rate() == shared.simulation.cell_motion().rate());
   }
-  shared.simulation.set_team(Team(std::make_shared<threads_test::EagerThreads>(3)));
-  for (int k = 0; k < 60; ++k) gas.simulation.step(h), shared.simulation.step(h);
-  const TemporaryFolder folder("cell");
-  write_snapshot(folder / "cell", gas.simulation);
-  read_snapshot(folder / "cell", read);
-  CHECK(scenes::have_same_bits_after(60, gas.simulation, read));
-  for (int k = 0; k < 60; ++k) shared.simulation.step(h);
-  CHECK(scenes::have_same_bits_after(60, read, shared.simulation));
 }
 
 TEST_CASE("grains that do not touch move with the cell") {

@@ -26,12 +26,14 @@ struct Gas {
   std::vector<BodyId> grains;
 
   /// @param place function: number of a grain, its position -> that of the image that is added [m]
-  explicit Gas(const auto& place)
+  /// @param ratio size of every other grain to that of the others [-]
+  explicit Gas(const auto& place, double ratio = 1)
       : simulation(0.02, Materials<scenes::LawOf<ShapeT>>(1, scenes::LawOf<ShapeT>(0.4)),
                    solver()) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> jitter(-1, 1);
-    const ShapeId shape = simulation.add_shape(grain_of_radius<ShapeT>(0.008));
+    const ShapeId shape = simulation.add_shape(grain_of_radius<ShapeT>(0.008)),
+                  other = simulation.add_shape(grain_of_radius<ShapeT>(0.008 * ratio));
     int count = 1;
     for (int axis = 0; axis < S::dim; ++axis) count *= side<S>;
     for (int k = 0; k < count; ++k) {
@@ -42,11 +44,11 @@ struct Gas {
       pose.rotation = S::exp(S::Angular::Constant(jitter(random)));
       Vector velocity;
       for (int axis = 0; axis < S::dim; ++axis) velocity[axis] = 0.1 * jitter(random);
-      grains.push_back(simulation.add_grain(shape, pose, 2700));
+      grains.push_back(simulation.add_grain(k % 2 == 0 ? shape : other, pose, 2700));
       simulation.set_velocity(grains.back(), velocity);
     }
   }
-  Gas() : Gas([](int, const Vector& x) { return x; }) {}
+  explicit Gas(double ratio = 1) : Gas([](int, const Vector& x) { return x; }, ratio) {}
   static ColouredGaussSeidel solver() {
     ColouredOptions options;
     options.tolerance = 1e-13;

@@ -19,6 +19,9 @@
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
 // solution of the law, for Coulomb's law that of law/detail/coulomb_lanes.hpp.
 //
+// A periodic cell that moves by its stress is one more body, that all contacts touch: coloured/lane_cell.hpp. It has no
+// islands.
+//
 // The stopping tests are those of NonlinearGaussSeidel: the changes of a plain sweep (QM/16), or
 // the residual of the impulses with velocities computed from them alone. The acceleration does not
 // enter.
@@ -115,7 +118,8 @@ class ColouredGaussSeidel {
                     Workspace<Operator, Law>& workspace) const {
     detail::drop_if_not_finite(impulses, shared_.get());
     if constexpr (CoulombLaw<Law, typename Operator::Space>)
-      if (options_.islands && !shared_) return solve_with_islands(problem, impulses, workspace);
+      if (options_.islands && !shared_ && !problem.delassus.has_cell())
+        return solve_with_islands(problem, impulses, workspace);
     return sweep(problem, impulses, workspace);
   }
 

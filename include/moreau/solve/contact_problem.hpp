@@ -51,6 +51,7 @@ void set_impulses(Operator& delassus, std::span<const typename Operator::Vector>
     delassus.push(c, impulses[c]);
   }
   delassus.move();
+  if constexpr (requires { delassus.move_cell(impulses); }) delassus.move_cell(impulses);
   if (shared) shared->average(delassus.velocity_changes(), Operator::width);
 }
 

@@ -37,7 +37,7 @@ class CellMotion {
   /// cell that is only sheared.
   const Matrix& deformation() const { return deformation_; }
   /// Whether the cell deforms or can deform by its stress.
-  bool is_active() const { return !rate_.isZero(0) || !control_.mass.isZero(0); }
+  MOREAU_COLD bool is_active() const { return !rate_.isZero(0) || !control_.mass.isZero(0); }
 
   /// For Simulation: sets the control. Components that keep a mass keep their rate.
   void set_control(const CellControl<S>& control) {

@@ -129,6 +129,7 @@ class ContactGroups {
       }
     });
     op.move(team);
+    op.move_cell(impulses);
     if (shared) shared->average(op.velocity_changes(), Operator::width);
   }
 

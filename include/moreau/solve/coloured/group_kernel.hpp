@@ -10,6 +10,7 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
+#include "moreau/solve/coloured/lane_cell.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/sweep_change.hpp"
@@ -42,6 +43,7 @@ class GroupKernel {
   void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team, SharedBodies* shared) {
     contacts_.build(problem, impulses, team);
+    cell_.start(problem.delassus);
     is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(contacts_.groups.size(), Values{});
     hub_changes_.resize(contacts_.groups.size());
@@ -91,6 +93,10 @@ class GroupKernel {
     update_active(group);
   }
 
+  /// In a cell that moves by its stress: gives all points the velocities of the cell with the impulses from which the
+  /// next sweep starts.
+  /// @param beta of that sweep
+  void move_cell(T beta, const Team& team) { cell_.move(contacts_.points, beta, team); }
   /// After a phase of groups of a hub: adds to the velocity of the hub what the visits of a group
   /// have changed.
   void settle_hub(std::uint32_t k) { velocity_.add(contacts_.groups[k], hub_changes_[k]); }
@@ -277,6 +283,7 @@ class GroupKernel {
   }
 
   Groups contacts_;
+  LaneCell<Operator, Points> cell_;
   LaneVelocities<S, Lanes> velocity_;
   bool is_large_ = false;  // whether prefetch_from() does anything
   // One entry per group.

@@ -49,7 +49,7 @@ class CellJumps {
     });
   }
   /// Replaces the velocities of the cell by those of another rate.
-  void change(const Matrix& rate, const auto& contacts, auto& op) {
+  MOREAU_COLD void change(const Matrix& rate, const auto& contacts, auto& op) {
     using Row = typename std::decay_t<decltype(op)>::Vector;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Vector jump = jump_at(contacts.points[c], rate), change = jump - jumps_[c];

@@ -7,22 +7,12 @@
 //     L+ = L0 + sum over contacts of d_j r_i / (M (1 + h c)),
 //     L0 = (M L + h (V sigma of the velocities - V sigma0)_ji) / (M (1 + h c)).
 //
-// The contact problem has the velocities F^T L+ d. Its operator does not know the cell. Therefore:
-//
-//   1. a few sweeps of the solver with the velocities of the present L+
-//   2. L+ from their impulses, and again, until the residual of all together meets the tolerance of the solver.
-//
-// An impulse changes the velocity of its own contact by W_cc r, and that of all contacts by the cell. By the inequality
-// of Cauchy and Schwarz the second change is at most g W_cc r, with the mean over the contacts
-//
-//     g = < |d|_1 sum of |d|_1 / (M (1 + h c) W_nn) >.
-//
-// In jammed grains, whose impulses do not change where a uniform stress does, k sweeps add up k impulses. The iteration
-// is stable below k g = 2; k is the largest number with k g <= 1, at least 1 and at most 50. A cell with the mass of its
-// grains has g of some hundredths. Of a lighter cell with g > 1 only a share 1/g of the change of L+ is applied.
+// The contact problem has the velocities F^T L+ d: the cell is one more body, that all contacts touch. With L0, its
+// velocity without impulses, in the free velocities, and the response 1 / (M (1 + h c)) in the operator
+// (BodyDelassus::add_cell()), the solver finds L+ with the impulses. An impulse acts on the mass M of the cell by the
+// share tr(W^-1 W_cell) of some ten-thousandths with a cell of the mass of its grains.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -68,31 +58,18 @@ class CellServo {
   const Matrix& rate() const {
     return rate_;
   }  ///< L+, or L if the stress does not move the cell [1/s]
-  /// How many sweeps of the solver one value of L+ has; sets the share of its changes that is applied.
-  /// @param op operator of the contacts
-  int sweeps(const auto& contacts, const auto& op) {
-    Scalar sum = 0, gain = 0;
-    for (const Contact<S>& contact : contacts.points) sum += length(contact);
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-      gain += length(contacts.points[c]) / op.normal(c) / Scalar(contacts.size());
-    gain *= sum * response_.maxCoeff();
-    share_ = gain > 1 ? 1 / gain : Scalar(1);
-    return gain > Scalar(0.02) ? std::max(1, int(1 / gain)) : 50;
+  /// R of the operator, BodyDelassus::add_cell() [1/(kg m^2)].
+  const Matrix& response() const { return response_; }
+  /// L0, with attraction between the bodies [1/s].
+  /// @param moment sum of d_j r_i of the attraction [J s]
+  Matrix free(const Matrix& moment) const {
+    return free_ + response_.cwiseProduct(moment.transpose());
   }
-  /// Sets L+ by impulses.
-  /// @param moment V sigma of the contacts times h [J s]
-  void move(const Matrix& moment) {
-    const Matrix next = free_ + response_.cwiseProduct(moment.transpose());
-    rate_ += share_ * (next - rate_);
-  }
+  /// Sets L+.
+  void set_rate(const Matrix& rate) { rate_ = rate; }
 
  private:
-  static Scalar length(const Contact<S>& contact) {
-    return (contact.lever_a - contact.lever_b).template lpNorm<1>();
-  }
-
   Matrix rate_ = Matrix::Zero(), free_ = Matrix::Zero(), response_ = Matrix::Zero();
-  Scalar share_ = 1;
   bool moves_ = false;
 };
 

@@ -47,7 +47,6 @@
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/integrate.hpp"
 #include "moreau/world/detail/soften_bonds.hpp"
-#include "moreau/world/detail/solve_with_cell.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/detail/step_margins.hpp"
 #include "moreau/world/overlap_correction.hpp"
@@ -154,7 +153,7 @@ class ImpulseDynamics {
   /// In a periodic cell that can deform, between stages 9 and 10.
   /// @param report out: cell_work
   /// @returns V sigma, see world/cell_control.hpp [J]
-  typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
+  MOREAU_COLD typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
     const Bodies<S>& bodies = context.bodies;
     const std::span<const Twist> after(after_);
     if (context.deforms())
@@ -271,6 +270,7 @@ class ImpulseDynamics {
           report.solve);
     if (!shared_)
       laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
+    if (moves_cell(context)) end_cell(context);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
       springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
@@ -281,32 +281,31 @@ class ImpulseDynamics {
     problem_.delassus.from_rows(impulses, team_);
   }
 
-  /// Solves the contact problem, and the equation of a cell that moves by its stress with it.
+  bool moves_cell(const Context& context) const { return context.deforms() && servo_.moves(); }
+  /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {
-    const std::span<Row> impulses(context.contacts.impulses);
-    const bool moves = context.deforms() && servo_.moves();
-    if constexpr (SolvesInParts<Solver>)
-      if (moves)
-        return solve_with_cell(
-            solver_, problem_, impulses, workspace_,
-            servo_.sweeps(context.contacts, problem_.delassus), team_, [&] { move_cell(context); },
-            report.solve);
-    report.solve = solver_.solve(problem_, impulses, workspace_);
-    if (moves) move_cell(context);
+    if (moves_cell(context)) start_cell(context);
+    report.solve = solver_.solve(problem_, std::span<Row>(context.contacts.impulses), workspace_);
   }
-  /// Sets the rate of the cell by the impulses of its contacts, and the velocities of the contacts by the rate.
-  void move_cell(const Context& context) {
-    const std::span<Row> impulses(context.contacts.impulses);
-    const std::span<const Scalar> pulls = attraction_.pulls();
-    servo_.move(CellJumps<S>::moment_of_contacts(
-        context.contacts,
-        [&](std::size_t c) {
-          Vector impulse = impulses[c].template head<S::dim>();
-          if (!pulls.empty()) impulse[0] -= pulls[c];
-          return impulse;
-        },
-        Scalar(1)));
+  /// Makes the cell a body of the operator.
+  MOREAU_COLD void start_cell(const Context& context) {
+    typename S::Matrix moment = S::Matrix::Zero();
+    if constexpr (AttractiveLaw<Law, S>)
+      moment = CellJumps<S>::moment_of_contacts(
+          context.contacts,
+          [&](std::size_t c) { return Vector(-attraction_.pulls()[c] * Vector::Unit(0)); },
+          Scalar(1));
+    servo_.set_rate(servo_.free(moment));
     jumps_.change(servo_.rate(), context.contacts, problem_.delassus);
+    problem_.delassus.add_cell(servo_.response());
+  }
+  /// Takes the rate of the cell from the operator; its free velocities have it from then on.
+  void end_cell(const Context& context) {
+    Operator& op = problem_.delassus;
+    op.move_cell(std::span<const Row>(context.contacts.impulses));
+    servo_.set_rate(servo_.rate() + op.cell_change());
+    op.remove_cell();
+    jumps_.change(servo_.rate(), context.contacts, op);
   }
 
   /// Counts the energy that bonds took; removes those that broke.
