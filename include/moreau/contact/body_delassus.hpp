@@ -393,7 +393,7 @@ class BodyDelassus {
   MOREAU_COLD void add_cell_velocity(const Point& point, typename S::Vector& velocity) const {
     velocity += product(cell_change_, branch(point));
   }
-  void push_cell(std::size_t c, const Vector& impulse) {
+  [[gnu::always_inline]] void push_cell(std::size_t c, const Vector& impulse) {
     const typename S::Vector push = points_[c].push_of(impulse), d = branch(points_[c]);
     for (int j = 0; j < S::dim; ++j)
       for (int i = 0; i < S::dim; ++i) cell_change_(i, j) += cell_response_(i, j) * push[i] * d[j];

@@ -153,7 +153,7 @@ class ImpulseDynamics {
   /// In a periodic cell that can deform, between stages 9 and 10.
   /// @param report out: cell_work
   /// @returns V sigma, see world/cell_control.hpp [J]
-  MOREAU_COLD typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
+  typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
     const Bodies<S>& bodies = context.bodies;
     const std::span<const Twist> after(after_);
     if (context.deforms())
@@ -288,7 +288,7 @@ class ImpulseDynamics {
     report.solve = solver_.solve(problem_, std::span<Row>(context.contacts.impulses), workspace_);
   }
   /// Makes the cell a body of the operator.
-  MOREAU_COLD void start_cell(const Context& context) {
+  void start_cell(const Context& context) {
     typename S::Matrix moment = S::Matrix::Zero();
     if constexpr (AttractiveLaw<Law, S>)
       moment = CellJumps<S>::moment_of_contacts(
