@@ -228,12 +228,11 @@ class Report(unittest.TestCase):
 
     def test_judged_runs_of_the_first_page(self):
         values = write.Values(runs.read(STUDY / "results/runs.jsonl"), STUDY / "results")
-        powers = [values(f"line power {shape} rigid").split()[0] for shape in runs.SHAPES]
-        judged, every = (sum(int(values(f"line {what} {shape} jammed")) for shape in runs.SHAPES) for what in ("runs", "runs_all"))
-        all_powers = [float(values(f"line power_all {shape} jammed").split()[0]) for shape in runs.SHAPES]
+        judged, every = (values(f"line {what} polyhedron jammed") for what in ("runs", "runs_all"))
         first = (TOP / "README.md").read_text(encoding="utf8")
-        self.assertIn(f"(samples 1 to 5, the {judged} of {every} runs over ν, fmax, g and m_w that are judged; "
-                      f"all: {min(all_powers):.2f} to {max(all_powers):.2f}; rigid {min(powers)} to {max(powers)},", first)
+        self.assertIn(f"the {judged} of {every} runs whose jammed wall rests", first)
+        self.assertIn(f"to the power {values('line power polyhedron jammed')} instead of 1", first)
+        self.assertIn(f"as ν to {values('power nu rate_box polyhedron rigid all 9-61')} (polyhedra; paper: −1)", first)
 
     def test_counts_of_the_first_page(self):
         table = runs.read(STUDY / "results/runs.jsonl")

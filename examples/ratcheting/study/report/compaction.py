@@ -30,6 +30,13 @@ def strain_over_load(run):
     return strain(run, 0, 4) / math.sqrt(load_over_length(run))
 
 
+def strain_both_have(run):
+    """Mean strain of the three periods that the runs from the filling on and from a jammed state of one packing both have, because a jammed
+    state is that at the end of the first period of a run from the filling on."""
+    first = 0 if "from" in run["parameters"] else 1
+    return strain(run, first, first + 3)
+
+
 def is_short(run):
     """Whether the run has four periods or five, as all but those of the ageing have."""
     return len(run["periods"]["x_j"]) <= 5
@@ -48,14 +55,14 @@ MEASURES = {"t_u": (unjammed_time, UNIT), "excursion": (excursion_over_length, 1
             "masses": (lambda run: run["mass"] + run["wall_mass"], 1)}
 
 
-def groups(run):
-    """(t_u, mean number of the period, strain per period, periods) of each group."""
+def groups(run, before=0):
+    """(t_u, mean number of the period, strain per period, periods) of each group. `before`: periods of the packing before the run."""
     t_u = unjammed_time(run)
     if not math.isfinite(t_u):
         return []
     found, first, last = [], 0, 1
     while last <= min(len(run["periods"]["x_j"]), 64):
-        found.append((t_u, math.sqrt((first + 1) * last), strain(run, first, last), last - first))
+        found.append((t_u, math.sqrt((first + 1 + before) * (last + before)), strain(run, first, last), last - first))
         first, last = last, max(2 * last, 2)
     return found
 
@@ -91,24 +98,24 @@ def jammed_runs(runs, shape, boxes=False, every_load=False):
             if "from" in run["parameters"] and (every_load or load_over_length(run) < 1)]
 
 
-def points(runs, measures=("t_u",)):
-    """(ln of each measure, ln n, ln strain) of each group."""
+def points(runs, measures=("t_u",), before=0):
+    """(ln of each measure, ln n, ln strain) of each group; `before`: see groups()."""
     found = []
     for run in runs:
         values = [MEASURES[m][0](run) / MEASURES[m][1] for m in measures]
         if all(v > 0 for v in values):
             found += [([math.log(v) for v in values], math.log(n), math.log(eps))
-                      for _, n, eps, _ in groups(run) if eps > 0]
+                      for _, n, eps, _ in groups(run, before) if eps > 0]
     return found
 
 
 class Law:
-    """Without `fitted`, too few points were given, and all numbers are nan."""
+    """Without `fitted`, too few points were given, and all numbers are nan. `before`: see groups()."""
 
-    def __init__(self, runs, measures=("t_u",)):
+    def __init__(self, runs, measures=("t_u",), before=0):
         self.measures = measures
         self.runs = [run for run in runs if groups(run)]
-        by_run = [points([run], measures) for run in self.runs]
+        by_run = [points([run], measures, before) for run in self.runs]
         everything = [p for part in by_run for p in part]
         self.count, self.run_count = len(everything), len(self.runs)
         self.fitted = len(everything) >= 8 and len({p[0][0] for p in everything}) > 2 and \

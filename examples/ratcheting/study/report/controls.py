@@ -11,7 +11,7 @@ import random
 from collections import Counter
 
 from interval import Estimate, interval, ratio, ratio_of_means, student
-from compaction import Law, jammed_runs, points, strain_over_load
+from compaction import Law, jammed_runs, load_over_length, points, strain_both_have, strain_over_load
 from runs import TITLE, constant, exponent_of_samples, judged, line, over_samples, scaled_load, strain
 
 FIRST_SAMPLE = 31
@@ -81,10 +81,12 @@ def selection(controls, words):
 
 # Function of a run, factor, whether it may be negative.
 QUANTITIES = {"C": (constant, 1, False), "C_drift": (lambda r: constant(r, "dx_max"), 1, False), "strain": (strain_of, 1e4, True), "strain_root": (strain_over_load, 1e3, True),
+              # Of the periods that runs from the filling on and from jammed states both have.
+              "strain_both": (strain_both_have, 1e4, True), "strain_root_both": (lambda r: strain_both_have(r) / math.sqrt(load_over_length(r)), 1e3, True),
               # C of a box as high as long, by the power of C over H/L that polyhedra have.
               "C_box": (lambda r: constant(r) / (r["height"] / r["length"]) ** 1.2, 1, False),
               "C_drift_box": (lambda r: constant(r, "dx_max") / (r["height"] / r["length"]) ** 1.2, 1, False),
-              "root": (lambda r: math.sqrt(scaled_load(r) / r["length"]), 1, False),
+              "root": (lambda r: math.sqrt(load_over_length(r)), 1, False),
               "dx": (lambda r: r["dx_active"], 1e3, False), "drift_share": (lambda r: r["drift"] / r["dx_max"], 100, True),
               "length": (lambda r: r["length"] / 0.025, 1, False), "height": (lambda r: r["height"] / r["length"], 1, False)}
 
@@ -168,12 +170,24 @@ def how_equal(controls, quantity):
     return max(max(pair) / min(pair) for pair in values) - 1
 
 
-def that_exclude_one(controls, quantity, comparisons=1):
-    """How many ratios of plane over space at equal length exclude 1, and how many there are. With the number of `comparisons` the
-    intervals are as wide as Bonferroni asks for; only of quantities that are positive."""
-    found = [[mean(f, quantity).values for f in both] for both in plane_and_space(controls)]
-    intervals = [ratio(above, below, 1 - 0.05 / comparisons) for above, below in found]
-    return sum(not low <= 1 <= high for _, low, high in intervals), len(intervals)
+def that_exclude_one(controls, quantity, corrected=False, at_rest=False):
+    """How many ratios of plane over space at equal length are below 1 with their interval, how many above, and how many there are.
+    `corrected`: the intervals are as wide as Bonferroni asks for; `at_rest`: of the plane the runs that are settled()."""
+    found = [[mean([r for r in f if not at_rest or k == 1 or settled(r)], quantity).values for k, f in enumerate(both)] for both in plane_and_space(controls)]
+    compare_means = ratio_of_means if QUANTITIES[quantity][2] else ratio
+    intervals = [compare_means(above, below, 1 - 0.05 / (len(found) if corrected else 1)) for above, below in found]
+    return sum(high < 1 for _, _, high in intervals), sum(low > 1 for _, low, _ in intervals), len(intervals)
+
+
+def correlation(above, below, quantity):
+    """Pearson's correlation of a quantity over the samples that two selections have; nan with fewer than three."""
+    value = QUANTITIES[quantity][0]
+    first, second = ({r["parameters"]["seed"]: value(r) for r in found} for found in (above, below))
+    seeds = sorted(first.keys() & second.keys())
+    if len(seeds) < 3:
+        return math.nan
+    x, y = ([found[s] - sum(found[t] for t in seeds) / len(seeds) for s in seeds] for found in (first, second))
+    return sum(a * b for a, b in zip(x, y)) / math.sqrt(sum(a * a for a in x) * sum(b * b for b in y))
 
 
 def contacts_that_exclude_one(controls):
@@ -290,8 +304,8 @@ def rows_of_starts(controls):
         for length in LENGTHS:
             usual = select(controls, shape, "compliant", "jammed", length)
             cells = []
-            for quantity in ("C", "strain"):
-                for contacts, start in CONTACTS_AND_STARTS[:3]:
+            for quantity, sets in (("C", CONTACTS_AND_STARTS[:3]), ("strain", CONTACTS_AND_STARTS[:3]), ("strain_both", CONTACTS_AND_STARTS[2:3])):
+                for contacts, start in sets:
                     *value, both = compare_samples(select(controls, shape, contacts, start, length), usual, quantity)
                     cells.append(f"{interval(*value)} ({both})" if both > 1 else "–")
             if any(cell != "–" for cell in cells):

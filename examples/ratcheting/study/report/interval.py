@@ -98,9 +98,9 @@ def ratio(above, below, share=0.95):
     return _ratio(a.mean - b.mean, a.error ** 2, b.error ** 2, a.n, b.n, share)
 
 
-def ratio_of_means(above, below):
+def ratio_of_means(above, below, share=0.95):
     """Ratio of the means, of which single values may be negative: the errors relative to the means propagated."""
     a, b = Estimate(above), Estimate(below)
     if a.n < 2 or b.n < 2 or not a.mean / b.mean > 0:
         return (a.mean / b.mean if a.n and b.n else math.nan), math.nan, math.nan
-    return _ratio(math.log(a.mean / b.mean), (a.error / a.mean) ** 2, (b.error / b.mean) ** 2, a.n, b.n)
+    return _ratio(math.log(a.mean / b.mean), (a.error / a.mean) ** 2, (b.error / b.mean) ** 2, a.n, b.n, share)

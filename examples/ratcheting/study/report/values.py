@@ -203,10 +203,28 @@ class Values:
         """By how much plane and space differ at most in boxes of equal length: the mean `load` over the length, or `height` over length."""
         return f"{100 * controls.how_equal(self.every, {'load': compaction.load_over_length, 'height': controls.QUANTITIES['height'][0]}[quantity]):.0f} %"
 
-    def of_excluding(self, quantity, corrected=""):
-        """How many ratios of plane over space at equal length exclude 1, of how many; `corrected` for their number."""
-        count, every = controls.that_exclude_one(self.every, quantity)
-        return f"{controls.that_exclude_one(self.every, quantity, every)[0] if corrected else count} of {every}"
+    def of_excluding(self, quantity, *options):
+        """How many ratios of plane over space at equal length exclude 1, of how many. Options: `corrected` for their number; `at_rest`, of the
+        plane the runs of which the preparation was at rest; `below` 1, or `above`, alone; `count`, without how many there are."""
+        below, above, every = controls.that_exclude_one(self.every, quantity, "corrected" in options, "at_rest" in options)
+        count = (0 if "above" in options else below) + (0 if "below" in options else above)
+        return f"{count}" if "count" in options else f"{count} of {every}"
+
+    def of_correlations(self, quantity, shape, which):
+        """The least and the most correlation over the samples of a shape at all lengths L/d: of compliant contacts from jammed states with the
+        runs of the `same` packings, compliant, filling and rigid, jammed; with those from the filling on, `rigid`."""
+        others = (("rigid", "filling"),) if which == "rigid" else (("compliant", "filling"), ("rigid", "jammed"))
+        found = [controls.correlation(controls.select(self.every, shape, *other, length), controls.select(self.every, shape, "compliant", "jammed", length), quantity)
+                 for other in others for length in controls.LENGTHS]
+        found = [v for v in found if math.isfinite(v)]
+        return f"{min(found):.2f} to {max(found):.2f}"
+
+    def of_at_rest(self, quantity, *words):
+        """The ratio of two selections, of the first one the runs of which the preparation was at rest."""
+        cut = words.index("/")
+        above, below = (controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:]))
+        *value, over, under = controls.compare([r for r in above if controls.settled(r)], below, quantity)
+        return f"{interval(*value)} ({over} and {under})"
 
     def of_contacts_excluding(self):
         """How many ratios of rigid over compliant contacts from the same states exclude 1, of how many."""
@@ -223,15 +241,17 @@ class Values:
         *value, lengths = controls.pooled(self.every, plane, space, contacts, start, quantity, float(shortest), which == "settled")
         return interval(*value) if lengths else "–"
 
-    def of_more(self, end, *quantities):
-        """By how much C of disks is larger than that of spheres over all lengths, in percent: the `value`s of the sets of contacts and start with
-        three lengths, or the `high` end of the widest for each quantity."""
-        found = []
-        for quantity in quantities:
-            sets = [controls.pooled(self.every, "disk", "sphere", *which, quantity) for which in controls.CONTACTS_AND_STARTS]
-            sets = [100 * (s[0 if end == "value" else 2] - 1) for s in sets if s[3] == 3]
-            found += sets if end == "value" else [max(sets)]
-        return " to ".join(f"{v:.0f}" for v in sorted({min(found), max(found)})) + " %"
+    def of_pooled_span(self, quantity, plane, space, shortest="0"):
+        """The least and the most of pooled() of all sets of contacts and start."""
+        found = [controls.pooled(self.every, plane, space, *which, quantity, float(shortest))[0] for which in controls.CONTACTS_AND_STARTS]
+        return f"{min(found):.2f} to {max(found):.2f}"
+
+    def of_more(self, end):
+        """By how much C of disks is larger than that of spheres over all lengths, in percent: the `value`s of the sets of contacts and start, or
+        the `ends` of their intervals."""
+        sets = [[100 * (v - 1) for v in controls.pooled(self.every, "disk", "sphere", *which, "C")[:3]] for which in controls.CONTACTS_AND_STARTS]
+        found = [s[0] for s in sets] if end == "value" else [v for s in sets for v in s[1:]]
+        return f"{min(found):.0f} to {max(found):.0f} %".replace("-", "−")
 
     def of_heterogeneity(self, quantity, plane, space, contacts, start):
         """Chi-square of the ratios of plane over space at the lengths."""
@@ -254,12 +274,6 @@ class Values:
     def of_state_power(self, quantity, shape):
         """Power of a quantity over the frequency, 2 to 10 Hz, in each of the ten jammed states."""
         return with_samples(controls.power_of_states(self.every, shape, quantity))
-
-    def of_state_spread(self, which, quantity, shape):
-        """Spread of a quantity `between` the ten states, or `within` the runs of one state, with its interval."""
-        found = controls.of_ten_states(self.every, shape)
-        value = controls.spreads(found, controls.QUANTITIES[quantity][0])[which == "within"]
-        return f"{controls.percent_interval(*value)} % ({len({r['parameters']['seed'] for r in found})})"
 
     def of_state_law(self, what, shape):
         """Strains of the ten states over those of equation (A), fitted to the other samples: `mean` of the ratio, `rms` of its logarithm,
@@ -431,11 +445,6 @@ class Values:
         found = compaction.Prediction(compaction.jammed_runs(self.runs, shape), ("load",))
         return f"{100 * max(abs(b) for b in found.bias.values()):.0f} %"
 
-    def of_judged_force(self, shape, fmax):
-        """How many runs of all frequencies from jammed states are judged at this force."""
-        found = select(self.runs, shape, frequency=ANY, fmax=float(fmax), **JAMMED)
-        return f"{sum(judged(r) for r in found)} of {len(found)}"
-
     def of_trend(self, shape):
         """Power of measured over predicted excursion over the excursion, and the scatter about it."""
         return self.prediction(shape, "jammed", "F").trend()
@@ -468,6 +477,13 @@ class Values:
         """By how much the power of the mean strain over ℓ/L is smaller above a load than below it, sample by sample."""
         (below, _), (above, _) = self.mean_power(shape, 0, limit), self.mean_power(shape, limit, high)
         return with_samples(Estimate([below[seed].mean - above[seed].mean for seed in below if seed in above]))
+
+    def of_law_of_packing(self, what, shape):
+        """`a`, `q` or `b` of the law of compaction from jammed states, with n counted from the filling on."""
+        found = compaction.jammed_runs(self.runs, shape)
+        law = compaction.Law(found, ("load",), 1)
+        value, half = {"a": (1e3 * law.share, 1e3 * law.share_half), "q": (law.p, law.p_half), "b": (law.b, law.b_half)}[what]
+        return f"{number(value, half)} ({len({r['parameters']['seed'] for r in found})})"
 
     def of_aside(self, what, shape, *measures):
         """The runs that were set aside: `made`, `used` and their `samples`, `rms`, `scatter` of the fit to the others."""
