@@ -19,6 +19,11 @@
 // the velocities of the centre, except for modes whose stiffness is small against epsilon, and for slip. Their
 // error shrinks by a factor q per step; q is the ratio of the changes by two steps, and the error is taken as
 // change / (1 - q).
+//
+// Where contacts are redundant, many impulses solve the problem. That of a proximal step is the one nearest to its
+// centre in the norm of s. With the warm start as centre, equal s and no shift where contacts stick, what has changed
+// is shared among the contacts as if by equal springs: of a pair that touches anew the pressure is even. Sweeps give it
+// to the point that they visit first, and with friction such an uneven pressure can turn a body.
 #pragma once
 
 #include <Eigen/Core>
@@ -111,8 +116,8 @@ class IslandNewton {
   ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no
   ///          factorization
   double start(std::span<const Impulse> impulses) {
-    for (std::size_t k = 0; k < centre_.size(); ++k)
-      centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
+    common_ = 0;
+    set_centre(impulses);
     move_to_centre();
     first_shifts();
     respond(1, y_);
@@ -171,6 +176,23 @@ class IslandNewton {
     }
     return std::max(error, 2 * tolerance);
   }
+  /// solve(), but near other impulses than those of start(), of which only the motion is taken. What they do not bear is
+  /// shared as if by equal springs. The shifts begin with zero; if some contacts slip, the steps are done again with the
+  /// shifts found.
+  /// @param before the warm start [N s]
+  double solve_near(std::span<const Impulse> before, double epsilon, const Precision& precision) {
+    common_ = std::numeric_limits<double>::infinity();
+    for (const auto& point : points_.points()) common_ = std::min(common_, point.diagonal);
+    std::fill(shift_.begin(), shift_.end(), 0);
+    set_centre(before);
+    double error = solve(epsilon, precision);
+    if (error <= precision.tolerance &&
+        std::any_of(shift_.begin(), shift_.end(), [](double s) { return s > 0; })) {
+      set_centre(before);
+      error = solve(epsilon, precision);
+    }
+    return error;
+  }
   /// Whether the impulses that solve() has found are better than those from which it started, as far as is known:
   /// the last proximal step changed the motion no more than the first one.
   bool is_better() const { return is_better_; }
@@ -211,6 +233,10 @@ class IslandNewton {
     double square = 0;
     for (int k = 1; k < S::dim; ++k) square += u[k] * u[k];
     return std::sqrt(square);
+  }
+  void set_centre(std::span<const Impulse> impulses) {
+    for (std::size_t k = 0; k < centre_.size(); ++k)
+      centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
   }
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
@@ -286,7 +312,7 @@ class IslandNewton {
     double energy = 0;
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
-      const double soft = epsilon * point.diagonal;
+      const double soft = epsilon * (common_ > 0 ? common_ : point.diagonal);
       const Vector caused = points_.velocity(point, y);
       Vector s, b;
       for (int i = 0; i < S::dim; ++i) {
@@ -432,8 +458,9 @@ class IslandNewton {
 
   Points points_;
   int steps_ = 0;
-  double first_ = 0;                           // see first_change()
-  bool is_better_ = false;                     // the impulses than those from which solve() started
+  double common_ = 0;       // in place of w, > 0 [1/kg]; 0: each contact has its own
+  double first_ = 0;        // see first_change()
+  bool is_better_ = false;  // the impulses than those from which solve() started
   std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
   std::vector<double> shift_;                  // sigma [m/s]
   std::vector<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion

@@ -91,8 +91,16 @@ class IslandSolver {
       take(problem, one.island);
       find_cost(one);
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
-      if (accept(one, newton_.start(impulses))) continue;
-      if (newton_.slip() < 1 || !swept) improve(one, impulses, late_epsilon, most_steps);
+      // Of an island without a warm start the pressures shall be even, not only a solution.
+      const double defect = newton_.start(impulses);
+      if (!one.is_new && accept(one, defect)) continue;
+      if (newton_.slip() >= 1 && swept) continue;
+      // Sweeps give the load of a pair to the point that they visit first.
+      keep(one, impulses,
+           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}));
+      if (one.error <= near * tolerance_) continue;
+      newton_.start(impulses);
+      improve(one, impulses, late_epsilon, most_steps);
     }
   }
   /// Whether the direct method has estimated the error of an island.
@@ -125,8 +133,10 @@ class IslandSolver {
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
   /// first bound an island is attempted in every step, up to the second before the sweeps.
   static constexpr double solved_defect = 1e-5, largest_defect = 0.01;
-  /// Compliances of proximal steps: the least; the first before the sweeps; the first after them.
-  static constexpr double least_epsilon = 1e-6, warm_epsilon = 1e-5, late_epsilon = 1e-4;
+  /// Compliances of proximal steps: the least; the first before the sweeps; the first after them, from the warm start
+  /// and from the impulses of the sweeps.
+  static constexpr double least_epsilon = 1e-6, warm_epsilon = 1e-5, even_epsilon = 1e-2,
+                          late_epsilon = 1e-4;
   /// Newton steps of an attempt after the sweeps, at most and as counted in advance: one that fails takes all of them.
   static constexpr int most_steps = 60, counted_steps = 40;
   /// Multiples of the tolerance: up to the first one impulses are kept, as a better start for the next step; up to the
@@ -186,7 +196,11 @@ class IslandSolver {
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
   void improve(Small& one, Impulses impulses, double epsilon, int steps) {
-    one.error = newton_.solve(epsilon, {tolerance_, least_epsilon, steps});
+    keep(one, impulses, newton_.solve(epsilon, {tolerance_, least_epsilon, steps}));
+  }
+  /// Keeps the impulses that the direct method has found, if they are good enough.
+  void keep(Small& one, Impulses impulses, double error) {
+    one.error = error;
     if (newton_.is_better() && one.error <= near * tolerance_)
       newton_.finish(impulses);
     else
