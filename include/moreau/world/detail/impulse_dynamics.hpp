@@ -269,7 +269,8 @@ class ImpulseDynamics {
           std::span<const MobilityRoot<S>>(roots_), free_, [&] { solve_problem(context, report); },
           report.solve);
     if (!shared_)
-      laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_);
+      laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_,
+                          report.solve);
     if (moves_cell(context)) end_cell(context);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
