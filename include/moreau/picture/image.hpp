@@ -37,15 +37,18 @@ inline Color screen_color(unsigned rgb) {
 /// A grid of pixels.
 class Image {
  public:
+  /// All pixels have the colour of the background.
+  /// @throws std::invalid_argument for a width or height that is not positive
   Image(int width, int height, const Color& background)
       : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {
     require(width > 0 && height > 0, "Image", "width", width, "and height must be > 0");
     std::fill(pixels_.begin(), pixels_.end(), background);
   }
-  int width() const { return width_; }
-  int height() const { return height_; }
+  int width() const { return width_; }    ///< number of columns
+  int height() const { return height_; }  ///< number of rows
   /// The pixel in a column, from the left, and a row, from the top.
   Color& operator()(int column, int row) { return pixels_[index(column, row)]; }
+  /// The same.
   const Color& operator()(int column, int row) const { return pixels_[index(column, row)]; }
 
   /// The picture reduced by a factor: means over squares of factor x factor pixels.
