@@ -87,12 +87,52 @@ class Statistics(unittest.TestCase):
             value, low, high = interval.ratio(a, b)
             self.assertAlmostEqual(value, math.exp(sum(map(math.log, a)) / 4 - sum(map(math.log, b)) / 15))
             covered += low <= 1.5 <= high
-            _, low, high = interval.ratio_of_means([3 + rng.gauss(0, 0.6) for _ in range(4)],
-                                                   [2 + rng.gauss(0, 0.2) for _ in range(15)])
+            _, low, high = interval.ratio_of_means([3 + rng.gauss(0, 0.6) for _ in range(4)], [2 + rng.gauss(0, 0.2) for _ in range(15)])
             covered_of_means += low <= 1.5 <= high
         self.assertTrue(370 <= covered <= 392, covered)
         self.assertTrue(366 <= covered_of_means <= 394, covered_of_means)
         self.assertTrue(math.isnan(interval.ratio([1], [2, 3])[1]))
+
+    def test_ratios_of_means_near_zero(self):
+        # Ten numbers of which the mean is as large as its error or zero: the interval holds the true ratio, and is as narrow as that of the difference.
+        rng = random.Random(5)
+        for mean in (0.3, 0.0):
+            covered = covered_of_sums = rejected = 0
+            for _ in range(150):
+                a, b = [[[m + rng.gauss(0, s) for _ in range(n)] for m, s, n in sets] for sets in (((mean, 1, 10), (1, 0.5, 7)), ((2, 0.6, 5), (3, 0.5, 6)))]
+                _, low, high = interval.ratio_of_means(a[0], b[0])
+                covered += low <= mean / 2 <= high
+                _, low_of_sums, high_of_sums = interval.ratio_of_sums(a, b)
+                covered_of_sums += low_of_sums <= (mean + 1) / 5 <= high_of_sums
+                differ = interval.means_differ(a[0], b[0])
+                rejected += differ
+                self.assertEqual(differ, not low <= 1 <= high)
+            self.assertTrue(135 <= covered <= 149, covered)
+            self.assertTrue(135 <= covered_of_sums <= 149, covered_of_sums)
+            self.assertGreater(rejected, 100)  # 1 is excluded, where the data exclude it
+
+    def test_fieller(self):
+        # Equal variances and numbers that are known: the ends are roots of (a - R b)² = t² (va + R² vb).
+        a, b = [0.0, 1.0, -0.5, 1.5, 0.5], [3.5, 4.5, 3.0, 5.0, 4.0]
+        value, low, high = interval.ratio_of_means(a, b)
+        self.assertEqual(value, 0.125)
+        variance = interval.Estimate(a).error ** 2
+        for end in (low, high):
+            freedom = 4 * (1 + end ** 2) ** 2 / (1 + end ** 4)
+            self.assertAlmostEqual((0.5 - 4 * end) ** 2 / (variance * (1 + end ** 2)), interval.student(freedom) ** 2, places=4)
+        self.assertTrue(low < 0 < high < 1)
+        self.assertTrue(math.isnan(interval.ratio_of_means(b, [v - 0.4 for v in a])[1]))  # the mean below is not distinguished from zero
+        self.assertTrue(math.isnan(interval.ratio_of_means(a, [-1, 1])[1]))
+        self.assertEqual(interval.ratio_of_means([0, 0], [1, 2])[0], 0)
+        # Pairs: of a number and its half the ratio is known; with noise the interval is where Student's test of a - R b begins to reject.
+        self.assertEqual(interval.ratio_of_pairs([(v / 2, v) for v in b]), (0.5, 0.5, 0.5))
+        pairs = list(zip(a, b[1:] + b[:1]))
+        value, low, high = interval.ratio_of_pairs(pairs)
+        for end in (low, high):
+            e = interval.Estimate([x - end * y for x, y in pairs])
+            self.assertAlmostEqual(abs(e.mean), e.half, places=6)
+        self.assertTrue(low < value < high)
+        self.assertTrue(math.isnan(interval.ratio_of_pairs([(y, x - 0.4) for x, y in pairs])[1]))
 
     def test_ratios_of_many_comparisons(self):
         a, b = [1.0, 1.1, 1.2, 1.15], [0.9, 0.95, 0.92, 1.0]
@@ -230,7 +270,8 @@ class Report(unittest.TestCase):
         values = write.Values(runs.read(STUDY / "results/runs.jsonl"), STUDY / "results")
         judged, every = (values(f"line {what} polyhedron jammed") for what in ("runs", "runs_all"))
         first = (TOP / "README.md").read_text(encoding="utf8")
-        self.assertIn(f"the {judged} of {every} runs whose jammed wall rests", first)
+        self.assertIn(f"the {judged} of {every} runs whose jammed wall moves by at most {100 * runs.JAMMED_MOTION:.0f} % of the largest displacements; "
+                      f"all: {values('line power_all polyhedron jammed')})", first)
         self.assertIn(f"to the power {values('line power polyhedron jammed')} instead of 1", first)
         self.assertIn(f"as ν to {values('power nu rate_box polyhedron rigid all 9-61')} (polyhedra; paper: −1)", first)
 
@@ -240,7 +281,7 @@ class Report(unittest.TestCase):
         self.assertIn(f"{len(table):,} runs, {sum(r['parameters']['grains'] == 1200 for r in table):,} of them with 1200 grains", first)
 
     def test_intervals_of_the_first_page_are_those_of_the_report(self):
-        pages = "".join((STUDY / "results" / name).read_text(encoding="utf8") for name in ("report.md", "supplement.md"))
+        pages = "".join((STUDY / "results" / name).read_text(encoding="utf8") for name in ("README.md", "report.md", "supplement.md"))
         first = " ".join((TOP / "README.md").read_text(encoding="utf8").split())
         found = INTERVAL.findall(first)
         self.assertGreater(len(found), 5)

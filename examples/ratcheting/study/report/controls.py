@@ -10,7 +10,7 @@ import math
 import random
 from collections import Counter
 
-from interval import Estimate, interval, ratio, ratio_of_means, student
+from interval import Estimate, interval, means_differ, ratio, ratio_of_means, ratio_of_pairs, ratio_of_sums, student
 from compaction import Law, jammed_runs, load_over_length, points, strain_both_have, strain_over_load
 from runs import TITLE, constant, exponent_of_samples, judged, line, over_samples, scaled_load, strain
 
@@ -110,42 +110,46 @@ def settled(run):
 
 
 def pooled(controls, plane, space, contacts, start, quantity, shortest=0.0, plane_settled=False):
-    """Plane over space, geometric mean of the ratios at all lengths L/d from `shortest` on that both have, each with the same weight: value,
-    low and high end of its interval by Welch's degrees of freedom, and the number of lengths. `plane_settled`: without the runs of the plane
-    that are not settled()."""
-    logs, parts = [], []
+    """Plane over space at all lengths L/d from `shortest` on that both have, each with the same weight: value, low and high end of its
+    interval by Welch's degrees of freedom, and the number of lengths. It is the geometric mean of the ratios, of quantities that may be
+    negative the ratio of the sums of the means. `plane_settled`: without the runs of the plane that are not settled()."""
+    found = []
     for length in (length for length in LENGTHS if length >= shortest):
         both = [select(controls, shape, contacts, start, length) for shape in (plane, space)]
-        both = [mean([r for r in found if not plane_settled or k == 1 or settled(r)], quantity) for k, found in enumerate(both)]
-        if min(e.n for e in both) < 2:
-            continue
-        if not QUANTITIES[quantity][2]:
-            both = [Estimate([math.log(v) for v in e.values]) for e in both]
-            logs.append(both[0].mean - both[1].mean)
-            parts += [(e.error ** 2, e.freedom) for e in both]
-        else:
-            logs.append(math.log(both[0].mean / both[1].mean))
-            parts += [((e.error / e.mean) ** 2, e.freedom) for e in both]
-    count = len(logs)
+        both = [mean([r for r in of_side if not plane_settled or k == 1 or settled(r)], quantity) for k, of_side in enumerate(both)]
+        if min(e.n for e in both) > 1:
+            found.append(both)
+    count = len(found)
     if not count:
         return math.nan, math.nan, math.nan, 0
+    if QUANTITIES[quantity][2]:
+        return (*ratio_of_sums([a.values for a, _ in found], [b.values for _, b in found]), count)
+    found = [[Estimate([math.log(v) for v in e.values]) for e in both] for both in found]
+    parts = [(e.error ** 2, e.freedom) for both in found for e in both]
     variance = sum(v for v, _ in parts)
     half = student(variance ** 2 / sum(v ** 2 / n for v, n in parts)) * math.sqrt(variance) / count
-    value = sum(logs) / count
+    value = sum(a.mean - b.mean for a, b in found) / count
     return math.exp(value), math.exp(value - half), math.exp(value + half), count
 
 
 def heterogeneity(controls, plane, space, contacts, start, quantity):
-    """Chi-square of the logarithms of the ratios of plane over space at the lengths L/d about their weighted mean, and its degrees of freedom.
-    For quantities that may be negative: from the ratios of the means."""
-    logs = []
+    """Chi-square of the means of the plane about R times those of space at the lengths L/d, with the R that makes it smallest, and its
+    degrees of freedom."""
+    found = []
     for length in LENGTHS:
         a, b = (mean(select(controls, shape, contacts, start, length), quantity) for shape in (plane, space))
         if min(a.n, b.n) > 1:
-            logs.append((math.log(a.mean / b.mean), (a.error / a.mean) ** 2 + (b.error / b.mean) ** 2))
-    weight = sum(1 / v for _, v in logs)
-    centre = sum(value / v for value, v in logs) / weight
-    return sum((value - centre) ** 2 / v for value, v in logs), len(logs) - 1
+            found.append((a, b))
+
+    def chi(r):
+        return sum((a.mean - r * b.mean) ** 2 / (a.error ** 2 + (r * b.error) ** 2) for a, b in found)
+    ratios = [a.mean / b.mean for a, b in found]
+    low, high = min(ratios), max(ratios)
+    for _ in range(4):  # ever finer nets about the smallest
+        net = [low + (high - low) * k / 200 for k in range(201)]
+        best = min(range(201), key=lambda k: chi(net[k]))
+        low, high = net[max(best - 1, 0)], net[min(best + 1, 200)]
+    return chi((low + high) / 2), len(found) - 1
 
 
 def of_equal_length(controls):
@@ -171,12 +175,15 @@ def how_equal(controls, quantity):
 
 
 def that_exclude_one(controls, quantity, corrected=False, at_rest=False):
-    """How many ratios of plane over space at equal length are below 1 with their interval, how many above, and how many there are.
-    `corrected`: the intervals are as wide as Bonferroni asks for; `at_rest`: of the plane the runs that are settled()."""
-    found = [[mean([r for r in f if not at_rest or k == 1 or settled(r)], quantity).values for k, f in enumerate(both)] for both in plane_and_space(controls)]
-    compare_means = ratio_of_means if QUANTITIES[quantity][2] else ratio
-    intervals = [compare_means(above, below, 1 - 0.05 / (len(found) if corrected else 1)) for above, below in found]
-    return sum(high < 1 for _, _, high in intervals), sum(low > 1 for _, low, _ in intervals), len(intervals)
+    """How many comparisons of the plane with space at equal length have less in the plane by Welch's test, how many more, and how many there
+    are. The test is of the means of quantities that may be negative, else of those of the logarithms. `corrected`: as Bonferroni asks for;
+    `at_rest`: of the plane the runs that are settled()."""
+    found = [[mean([r for r in f if not at_rest or k == 1 or settled(r)], quantity) for k, f in enumerate(both)] for both in plane_and_space(controls)]
+    if not QUANTITIES[quantity][2]:
+        found = [[Estimate([math.log(v) for v in e.values]) for e in both] for both in found]
+    share = 1 - 0.05 / (len(found) if corrected else 1)
+    signs = [(a.mean > b.mean) - (a.mean < b.mean) for a, b in found if means_differ(a.values, b.values, share)]
+    return signs.count(-1), signs.count(1), len(found)
 
 
 def correlation(above, below, quantity):
@@ -191,29 +198,29 @@ def correlation(above, below, quantity):
 
 
 def contacts_that_exclude_one(controls):
-    """How many ratios of rigid over compliant contacts from the same jammed states, of C and of the strain, exclude 1, and how many there
-    are."""
-    intervals = []
+    """How many comparisons of rigid with compliant contacts from the same jammed states, of C and of the strain, differ by Student's test of
+    the differences, and how many there are."""
+    found = []
     for shape in GRAINS:
         for length in LENGTHS:
             both = [select(controls, shape, contacts, "jammed", length) for contacts in ("rigid", "compliant")]
-            intervals += [compare_samples(*both, quantity) for quantity in ("C", "strain")]
-    intervals = [low <= 1 <= high for _, low, high, both in intervals if both > 1]
-    return intervals.count(False), len(intervals)
+            found += [Estimate([a - b for a, b in pairs_of(*both, quantity)]) for quantity in ("C", "strain")]
+    found = [abs(e.mean) > e.half for e in found if e.n > 1]
+    return found.count(True), len(found)
+
+
+def pairs_of(above, below, quantity):
+    """A quantity in the samples that both selections have."""
+    value = QUANTITIES[quantity][0]
+    seeds = {r["parameters"]["seed"]: value(r) for r in below}
+    return [(value(r), seeds[r["parameters"]["seed"]]) for r in above if r["parameters"]["seed"] in seeds]
 
 
 def compare_samples(above, below, quantity):
-    """Ratio of the means of the samples that both selections have: value, low and high end of its interval, number of samples. The
-    interval is that of the mean of a - R b, Student's."""
-    value = QUANTITIES[quantity][0]
-    seeds = {r["parameters"]["seed"]: value(r) for r in below}
-    pairs = [(value(r), seeds[r["parameters"]["seed"]]) for r in above if r["parameters"]["seed"] in seeds]
-    if len(pairs) < 2:
-        return (math.nan,) * 3 + (len(pairs),)
-    base = sum(b for _, b in pairs) / len(pairs)
-    share = sum(a for a, _ in pairs) / len(pairs) / base
-    half = Estimate([a - share * b for a, b in pairs]).half / abs(base)
-    return share, share - half, share + half, len(pairs)
+    """Ratio of the means of the samples that both selections have: value, low and high end of its interval, number of samples. Without an
+    interval, if the mean below is not distinguished from zero."""
+    pairs = pairs_of(above, below, quantity)
+    return (*(ratio_of_pairs(pairs) if len(pairs) > 1 else (math.nan,) * 3), len(pairs))
 
 
 def exponent(controls, shape, stiffness, low, high, displacement="dx_active"):
@@ -233,12 +240,12 @@ def power_over_length(controls, shape, contacts, start, quantity, draws=2000):
     def slope(of_boxes):
         points = [(math.log(sum(p[0] for p in box) / len(box)), sum(p[1] for p in box) / len(box)) for box in of_boxes]
         if min(p[1] for p in points) <= 0:
-            return math.nan
+            return math.inf if points[0][1] <= 0 else math.nan  # in the shortest box: steeper than any power
         return line([p[0] for p in points], [math.log(p[1]) for p in points])[1]
     if len(boxes) < 3:
         return math.nan, math.nan, math.nan, [len(box) for box in boxes]
     random_of = random.Random(1)
-    slopes = sorted(s for s in (slope([random_of.choices(box, k=len(box)) for box in boxes]) for _ in range(draws)) if math.isfinite(s))
+    slopes = sorted(s for s in (slope([random_of.choices(box, k=len(box)) for box in boxes]) for _ in range(draws)) if not math.isnan(s))
     return slope(boxes), slopes[len(slopes) // 40], slopes[-1 - len(slopes) // 40], [len(box) for box in boxes]
 
 
@@ -307,7 +314,7 @@ def rows_of_starts(controls):
             for quantity, sets in (("C", CONTACTS_AND_STARTS[:3]), ("strain", CONTACTS_AND_STARTS[:3]), ("strain_both", CONTACTS_AND_STARTS[2:3])):
                 for contacts, start in sets:
                     *value, both = compare_samples(select(controls, shape, contacts, start, length), usual, quantity)
-                    cells.append(f"{interval(*value)} ({both})" if both > 1 else "–")
+                    cells.append(f"{interval(*value)} ({both})" if math.isfinite(value[1]) else "–")
             if any(cell != "–" for cell in cells):
                 rows.append([TITLE[shape], aimed(shape, length), *cells])
     return rows

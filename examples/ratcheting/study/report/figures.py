@@ -695,13 +695,13 @@ def equal_length(runs, path):
     """C and strain of a period, plane over space in boxes of equal length, over this length: the runs of the plan `controls`."""
     panels = []
     colors = {"rigid": "#b3261e", "compliant": "#1f5fa8"}
-    for quantity, name, limits in (("C", "C", "[0.4:2.5]"), ("strain", "strain of a period", "[0.05:4]")):
+    for quantity, name, axis in (("C", "C", ["set logscale xy", "set yrange [0.4:2.5]", "set ytics (0.5, 0.75, 1, 1.5, 2)"]),
+                                 ("strain", "strain of a period", ["set logscale x", "set yrange [0:1.7]"])):
         for plane, space in controls.PAIRS:
             has_key = len(panels) == 1
             panel = Panel(f"{name}: {TITLE[plane].split(', ')[1]} / {TITLE[space].split(', ')[1]}", "L / d",
                           "plane / space" if plane == "polygon" else "", ["set key top right" if has_key else "set key off"])
-            panel.commands += ["set logscale xy", "set xrange [7:20]", f"set yrange {limits}", "set xtics (8, 10.7, 15.1)",
-                               "set ytics (0.1, 0.25, 0.5, 0.75, 1, 1.5, 2, 3)"]
+            panel.commands += [*axis, "set xrange [7:20]", "set xtics (8, 10.7, 15.1)"]
             for k, (contacts, start) in enumerate(controls.CONTACTS_AND_STARTS):
                 rows = []
                 for length in controls.LENGTHS:

@@ -79,28 +79,80 @@ class Estimate:
         return number(factor * self.mean, abs(factor) * self.half, digits)
 
 
-def _ratio(log_ratio, first, second, first_n, second_n, share=0.95):
-    """The interval of a ratio from the variances of its logarithm's two parts, by Welch's degrees of freedom."""
-    variance = first + second
-    if not variance > 0:
-        return math.exp(log_ratio), math.nan, math.nan
-    freedom = variance ** 2 / (first ** 2 / (first_n - 1) + second ** 2 / (second_n - 1))
-    half = student(freedom, share) * math.sqrt(variance)
-    return math.exp(log_ratio), math.exp(log_ratio - half), math.exp(log_ratio + half)
-
-
 def ratio(above, below, share=0.95):
     """Ratio of the geometric means of two sets of positive numbers, low and high end of its interval: Welch's test
     on the logarithms."""
     a, b = Estimate([math.log(v) for v in above]), Estimate([math.log(v) for v in below])
     if a.n < 2 or b.n < 2:
         return (math.exp(a.mean - b.mean) if a.n and b.n else math.nan), math.nan, math.nan
-    return _ratio(a.mean - b.mean, a.error ** 2, b.error ** 2, a.n, b.n, share)
+    centre, first, second = a.mean - b.mean, a.error ** 2, b.error ** 2
+    if not first + second > 0:
+        return math.exp(centre), math.nan, math.nan
+    freedom = (first + second) ** 2 / (first ** 2 / a.freedom + second ** 2 / b.freedom)
+    half = student(freedom, share) * math.sqrt(first + second)
+    return math.exp(centre), math.exp(centre - half), math.exp(centre + half)
+
+
+def _welch(difference, parts):
+    """The probability of a difference of this size or more by chance, by Welch's test. `parts`: the variances of its terms and their
+    degrees of freedom."""
+    variance = sum(v for v, _ in parts)
+    if difference == 0 or not variance > 0:
+        return float(difference == 0)
+    freedom = variance ** 2 / sum(v * v / n for v, n in parts)
+    x = freedom / (freedom + difference ** 2 / variance)
+    return _beta_share(freedom / 2, 0.5, x) if x < 1 else 1.0
+
+
+def means_differ(above, below, share=0.95):
+    """Whether the means of two sets differ by Welch's test."""
+    a, b = Estimate(above), Estimate(below)
+    return _welch(a.mean - b.mean, [(e.error ** 2, e.freedom) for e in (a, b)]) < 1 - share
 
 
 def ratio_of_means(above, below, share=0.95):
-    """Ratio of the means, of which single values may be negative: the errors relative to the means propagated."""
-    a, b = Estimate(above), Estimate(below)
-    if a.n < 2 or b.n < 2 or not a.mean / b.mean > 0:
-        return (a.mean / b.mean if a.n and b.n else math.nan), math.nan, math.nan
-    return _ratio(math.log(a.mean / b.mean), (a.error / a.mean) ** 2, (b.error / b.mean) ** 2, a.n, b.n, share)
+    """Ratio of the means of two sets, of which that above may be near zero: ratio_of_sums() of one set each."""
+    return ratio_of_sums([above], [below], share)
+
+
+def ratio_of_sums(above, below, share=0.95):
+    """Ratio of the sums of the means of several sets each, low and high end of Fieller's interval: from the smallest to the largest R for
+    which Welch's test of the difference (sum above - R sum below) does not reject. It needs no logarithm, so a mean above may be near zero.
+    Without an interval, if the sum below is not distinguished from zero."""
+    a, b = [Estimate(v) for v in above], [Estimate(v) for v in below]
+    if min(e.n for e in a + b) < 2:
+        return (a[0].mean / b[0].mean if len(a) == 1 and a[0].n and b[0].n else math.nan), math.nan, math.nan
+    top, base = (sum(e.mean for e in side) for side in (a, b))
+
+    def rejects(r):
+        return _welch(top - r * base, [(e.error ** 2, e.freedom) for e in a] + [(r * r * e.error ** 2, e.freedom) for e in b if r]) < 1 - share
+    if not _welch(base, [(e.error ** 2, e.freedom) for e in b]) < 1 - share:
+        return (top / base if base else math.nan), math.nan, math.nan
+    scale = (max(abs(top), math.sqrt(sum(e.error ** 2 for e in a))) or 1.0) / abs(base)
+    centre = math.atan(top / base / scale)
+
+    def end(limit, steps=60):
+        """The last R towards ±∞, which is the angle `limit`, that is not rejected."""
+        angles = [centre + (limit - centre) * k / steps for k in range(steps)]
+        last = max(k for k, u in enumerate(angles) if k == 0 or not rejects(scale * math.tan(u)))
+        low, high = angles[last], (angles + [limit * (1 - 1e-9)])[last + 1]
+        for _ in range(40):
+            middle = (low + high) / 2
+            low, high = (low, middle) if rejects(scale * math.tan(middle)) else (middle, high)
+        return scale * math.tan(low)
+    return top / base, end(-math.pi / 2), end(math.pi / 2)
+
+
+def ratio_of_pairs(pairs, share=0.95):
+    """Ratio of the means of the first and of the second numbers of pairs, low and high end of Fieller's interval: the R for which Student's
+    test of the mean of first - R second does not reject. Without an interval, if the second mean is not distinguished from zero."""
+    a, b = (Estimate([pair[k] for pair in pairs]) for k in (0, 1))
+    if a.n < 2:
+        return (a.mean / b.mean if a.n and b.mean else math.nan), math.nan, math.nan
+    t = student(a.freedom, share)
+    common = sum((x - a.mean) * (y - b.mean) for x, y in pairs) / (a.n - 1) / a.n
+    square, half, constant = b.mean ** 2 - (t * b.error) ** 2, a.mean * b.mean - t * t * common, a.mean ** 2 - (t * a.error) ** 2
+    if not square > 0:
+        return (a.mean / b.mean if b.mean else math.nan), math.nan, math.nan
+    root = math.sqrt(max(half * half - square * constant, 0))
+    return a.mean / b.mean, (half - root) / square, (half + root) / square

@@ -180,10 +180,10 @@ class Values:
         return f"{interval(*value)} ({over} and {under})" if over and under else "–"
 
     def of_same_samples(self, quantity, *words):
-        """The ratio of two selections in the samples that both have."""
+        """The ratio of two selections in the samples that both have; none, if the mean below is not distinguished from zero."""
         cut = words.index("/")
         *value, both = controls.compare_samples(*(controls.selection(self.every, part) for part in (words[:cut], words[cut + 1:])), quantity)
-        return f"{interval(*value)} ({both})" if both > 1 else "–"
+        return f"{interval(*value)} ({both})" if math.isfinite(value[1]) else "–"
 
     def of_same_samples_of_all(self, quantity, *words):
         """The same over the samples of all shapes together, by the logarithms: two sets of contacts, start and options with / between them."""
@@ -204,7 +204,7 @@ class Values:
         return f"{100 * controls.how_equal(self.every, {'load': compaction.load_over_length, 'height': controls.QUANTITIES['height'][0]}[quantity]):.0f} %"
 
     def of_excluding(self, quantity, *options):
-        """How many ratios of plane over space at equal length exclude 1, of how many. Options: `corrected` for their number; `at_rest`, of the
+        """How many comparisons of the plane with space at equal length differ, of how many. Options: `corrected` for their number; `at_rest`, of the
         plane the runs of which the preparation was at rest; `below` 1, or `above`, alone; `count`, without how many there are."""
         below, above, every = controls.that_exclude_one(self.every, quantity, "corrected" in options, "at_rest" in options)
         count = (0 if "above" in options else below) + (0 if "below" in options else above)
@@ -227,7 +227,7 @@ class Values:
         return f"{interval(*value)} ({over} and {under})"
 
     def of_contacts_excluding(self):
-        """How many ratios of rigid over compliant contacts from the same states exclude 1, of how many."""
+        """How many comparisons of rigid with compliant contacts from the same states differ, of how many."""
         return "{} of {}".format(*controls.contacts_that_exclude_one(self.every))
 
     def of_root(self, *words):
