@@ -129,6 +129,17 @@ def compared(above, below, of_means, share=0.95):
     return fieller([above], [below], share) if of_means else welch(above, below, share)
 
 
+def p_value(above, below):
+    """Of Welch's test of the means: by bisection, where the quantile is the distance of the means over its error."""
+    (a, va), (b, vb) = (mean_and_variance(x) for x in (above, below))
+    freedom = (va + vb) ** 2 / (va ** 2 / (len(above) - 1) + vb ** 2 / (len(below) - 1))
+    low, high = 0.0, 1.0
+    for _ in range(24):
+        share = (low + high) / 2
+        low, high = (share, high) if t_quantile(freedom, share) < abs(a - b) / math.sqrt(va + vb) else (low, share)
+    return 1 - low
+
+
 def bootstrap(above, below, count=4000):
     """95 % range of the ratio of geometric means of resampled samples."""
     draw = random.Random(5)
@@ -432,11 +443,21 @@ class Referee(unittest.TestCase):
         self.assertEqual(least, {False: three, True: three | {("disk", "compliant", "filling", 8)}})
         self.assertGreater(expected("control C polygon rigid filling / polyhedron rigid filling")[1], 1)  # the one C that is not corrected
         with_drift = text_of(expected("control C_drift polygon rigid filling / polyhedron rigid filling"))
-        answer = (f"Of {every} comparisons in boxes of equal length, corrected for their number, {corrected} show a smaller strain of a period in the plane (two with the same "
-                  f"disks, in boxes 8 grains long, one with polygons and rigid contacts; {outside('strain', True, True)[0]} with the disks at rest alone), none another C "
-                  f"without drift, one with it (these polygons, {with_drift} times).")
-        for page in (RESULTS / "report.md", RESULTS / "README.md", TOP / "README.md"):
-            self.assertEqual(page.read_text(encoding="utf8").count(answer), 2 if page.name == "report.md" else 1, page)
+        at_rest_too = f"; {outside('strain', True, True)[0]} with the disks at rest alone"
+        answers = [f"Of {every} comparisons in boxes of equal length, corrected for their number, {corrected} show a smaller strain of a period in the plane (two with the same "
+                   f"disks, in boxes 8 grains long, one with polygons and rigid contacts, from the filling on{more}), by the logarithm of C none another C without drift, one "
+                   f"with it (these polygons, {with_drift} times)." for more in ("", at_rest_too)]
+        abstract, rest = report.split("## 1.", 1)
+        results, first = ((folder / "README.md").read_text(encoding="utf8") for folder in (RESULTS, TOP))
+        self.assertEqual([[text.count(answer) for answer in answers] for text in (abstract, first, rest, results)], [[1, 0], [1, 0], [0, 1], [0, 1]])
+        # By means of C, not logarithms; and what lies at the limit.
+        differ = [sum(p_value(*values) < 0.05 / every for values in at_equal_length(word)) for word in ("C", "C_drift")]
+        self.assertEqual(differ, [1, 2])  # "one differs without drift and two with it"
+        p = [p_value(*(of_samples(chosen([shape, *words]), value) for shape in shapes)) for shapes, value, words in (
+            (("polygon", "polyhedron"), excursion_over_load, ("rigid", "filling")), (("disk", "sphere"), period_strain, ("compliant", "jammed", "L=8")),
+            (("disk", "sphere"), period_strain, ("compliant", "filling", "L=8")))]
+        self.assertIn(f"By means of C, not logarithms, one differs without drift (p = {p[0]:.4f}, limit {0.05 / every:.4f}) and two with it; disks, compliant, jammed "
+                      f"(p = {p[1]:.4f}) and filling ({p[2]:.4f}), L/d = 8, lie at the limit, too.", report)
         self.assertIn(f"Not corrected, {strain} of {every} strains differ, all smaller in the plane, and {of_c} of {every} C, of polygons, rigid, filling (with the disks at rest "
                       f"alone {at_rest} and {of_c_at_rest}; with drift {sum(outside('C_drift'))}); over the periods that both starts have (section 5) "
                       f"{outside('strain_both')[0]} of {every} strains, corrected {outside('strain_both', True)[0]}.", report)
@@ -599,7 +620,7 @@ class Referee(unittest.TestCase):
         (strain, strain_other), (c, c_other) = texts
         for page in ("report.md", "README.md"):
             self.assertIn(f"(the strain of disks, over the periods that both have, correlates by {strain}, C by {c}) and do not confirm each other; rigid, filling is nearly "
-                          f"another packing ({strain_other} and {c_other}).", (RESULTS / page).read_text(encoding="utf8"))
+                          f"another packing for the strain ({strain_other}), not for C ({c_other}).", (RESULTS / page).read_text(encoding="utf8"))
 
     def test_verdicts_on_the_strain_of_the_plane(self):
         sets = {(c, s): of_all_lengths("strain", "disk", "sphere", c, s, 10.7) for c in ("rigid", "compliant") for s in ("filling", "jammed")}
@@ -614,7 +635,7 @@ class Referee(unittest.TestCase):
         self.assertEqual(polygons, [True, True, True])
         corrected = [compared(*(of_samples(chosen([s, *words]), period_strain) for s in ("polygon", "polyhedron")), True, 1 - 0.05 / 3)[2] < 1
                      for words in (("rigid", "filling"), ("compliant", "filling"), ("compliant", "jammed"))]
-        self.assertEqual(corrected, [True, False, False])  # "corrected for their number only the first"
+        self.assertEqual(corrected, [True, False, False])  # "corrected for their number rigid, filling, only"
         self.assertGreater(expected("control strain_both polygon compliant filling / polyhedron compliant filling")[2], 1)
         # "a rest beyond the length is not shown"
         found = [expected(f"control strain_root {s} compliant jammed {which} / {o} compliant jammed {which}") for s, o in (("polygon", "polyhedron"), ("disk", "sphere"))
@@ -671,25 +692,25 @@ class Referee(unittest.TestCase):
     def test_numbers_of_the_first_page(self):
         """In their order; those without a name are powers, which other tests compute."""
         section = (TOP / "README.md").read_text(encoding="utf8").split("## The study")[1].split("```")[0]
-        disks = [f"disk compliant jammed{more} / sphere compliant jammed{more}" for more in (" L=8", " thousand", " five", " ten")]
-        polygons = [f"control strain_root polygon compliant jammed {which} / polyhedron compliant jammed {which}" for which in ("thousand", "five", "ten")]
-        pooled = "pooled strain disk sphere compliant jammed 10.7"
+        disks = "disk compliant jammed L=8 / sphere compliant jammed L=8"
+        polygons = [f"control strain_root polygon compliant jammed {which} / polyhedron compliant jammed {which}" for which in ("thousand", "five")]
+        pooled, from_filling = (f"pooled strain disk sphere compliant {start} 10.7" for start in ("jammed", "filling"))
         names = (None, None, "control C polyhedron compliant jammed thousand", "C polyhedron jammed box=0.42",
-                 "control C_drift polygon rigid filling / polyhedron rigid filling", "pooled C disk sphere compliant jammed", f"control strain {disks[0]}", pooled,
-                 f"at_rest strain {disks[0]}", f"{pooled} settled", "control strain disk rigid filling L=8 / sphere rigid filling L=8",
-                 "control strain polygon compliant jammed thousand / polyhedron compliant jammed thousand", *polygons, f"control strain_root {disks[1]}", None)
+                 "control C_drift polygon rigid filling / polyhedron rigid filling", "pooled C disk sphere compliant jammed", f"control strain {disks}", pooled, from_filling,
+                 "control strain polygon compliant jammed thousand / polyhedron compliant jammed thousand", *polygons, None)
         told_of = [m[0] for m in NUMBERS.finditer(section)]
         self.assertEqual(len(told_of), len(names))
-        counts = [[len(of_samples([r for r in chosen([s, "compliant", "jammed", f"L={L}"]) if not rest or r["facts"]["settled"]], excursion_over_load)) for L in (8, 10.7, 16)]
-                  for s, rest in (("disk", False), ("sphere", False), ("disk", True))]
-        self.assertEqual(counts, [[20, 20, 20], [5, 5, 15], [10, 7, 14]])
+        counts = [[len(of_samples(chosen([s, "compliant", start, f"L={L}"]), period_strain)) for L in (8, 10.7, 16)]
+                  for s, start in (("disk", "jammed"), ("sphere", "jammed"), ("disk", "filling"), ("sphere", "filling"))]
+        self.assertEqual(counts, [[20, 20, 20], [5, 5, 15], [20, 20, 20], [5, 5, 3]])
+        self.assertTrue(expected(pooled)[2] < 1 <= expected(from_filling)[2])  # "but from the filling on", "not shown"
         for name, text in zip(names, told_of):
             if name and name.startswith("pooled"):
                 self.assertIn(text_of(expected(name)[:3]), text)
             elif name:
                 self.assertEqual(text, text_of(expected(name)), name)
         for text in (f"{text_of(expected('pooled C disk sphere compliant jammed')[:3])} times the C of spheres (three lengths, 8 to 15 grains; 20 and 5 to 15 samples)",
-                     f"{text_of(expected(pooled)[:3])} (20 and 5 to 15)", f"{text_of(expected(pooled + ' settled')[:3])} (7 to 14 and 5 to 15)"):
+                     f"{text_of(expected(pooled)[:3])} (20 and 5 to 15; not corrected)", f"{text_of(expected(from_filling)[:3])} (20 and 3 to 5): not shown"):
             self.assertIn(text, section)
 
     def test_intervals_hold_by_the_bootstrap(self):
