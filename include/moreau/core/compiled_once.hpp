@@ -28,6 +28,15 @@
 #define MOREAU_COLD
 #endif
 
+/// Before a function that is called from one place, or is about as small as a call: it is inlined. In code that it takes
+/// for seldom run g++ does not do so by itself, and has one more function to compile: templates and members of a
+/// class may be called from other files as well.
+#if defined(__GNUC__) || defined(__clang__)
+#define MOREAU_INLINED [[gnu::always_inline]]
+#else
+#define MOREAU_INLINED
+#endif
+
 namespace moreau::detail {
 
 /// The same pointer. The compiler does not know where it points: it cannot inline or copy that function.

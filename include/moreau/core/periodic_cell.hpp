@@ -29,6 +29,7 @@
 #include <tuple>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -259,7 +260,7 @@ class PeriodicCell {
 
   /// Replaces a vector by its sum with others, each once or minus once, if that is shorter.
   /// @returns whether there was one
-  static bool shorten(Matrix& vectors) {
+  MOREAU_INLINED static bool shorten(Matrix& vectors) {
     int combinations = 1;
     for (int axis = 0; axis < S::dim; ++axis) combinations *= 3;
     for (int n = 0; n < combinations; ++n) {

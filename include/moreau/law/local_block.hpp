@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/simd/wide.hpp"
 
@@ -65,7 +66,7 @@ struct LocalBlock {
     return normal * squares + slips;
   }
   /// W, D x D, normal first [1/kg]; of one contact.
-  typename S::Matrix matrix() const {
+  MOREAU_INLINED typename S::Matrix matrix() const {
     typename S::Matrix w;
     for (int k = 0; k < S::dim; ++k) w.col(k) = *this * Vector(Vector::Unit(k));
     return w;

@@ -90,16 +90,13 @@ class IslandNewton {
            visits_per_block * (double(bodies) + 2 * double(pairs));
   }
   /// The cost of a step of Newton's method, in visits of a contact by a sweep. Finds the order of the factorization.
-  double cost_of_step() {
+  MOREAU_INLINED double cost_of_step() {
     matrix_.analyse(points_.bodies(), points_.edges());
     return visits_per_contact * double(points_.points().size()) + visits_per_block * matrix_.work();
   }
 
   /// Whether a contact has no friction: solve() then refines the impulses.
-  bool has_smooth_point() const {
-    return std::any_of(points_.points().begin(), points_.points().end(),
-                       [](const auto& point) { return point.friction == 0; });
-  }
+  bool has_smooth_point() const { return points_.has_smooth(); }
   /// The mass of the heaviest body over that of the lightest [-].
   double mass_ratio() const {
     double least = std::numeric_limits<double>::infinity(), largest = 0;
@@ -120,8 +117,7 @@ class IslandNewton {
     set_centre(impulses);
     move_to_centre();
     first_shifts();
-    respond(1, y_);
-    const double defect = rest(), motion = scale(y_);
+    const double defect = respond(1, y_).rest, motion = scale(y_);
     return motion > 0 ? defect / motion : defect > 0 ? 1 : 0;
   }
 
@@ -151,7 +147,7 @@ class IslandNewton {
     first_ = 0;
     double error = 0, before = 0, solved = std::numeric_limits<double>::infinity();
     while (proximal_step(epsilon, precision.most_steps, tolerance)) {
-      const double change = std::max(largest_change(), next_shifts());
+      const double change = take_shifts();
       if (!std::isfinite(change)) break;
       const double q = before > 0 ? std::min(largest_q, change / before) : 0;
       error = change / (1 - q);
@@ -184,12 +180,12 @@ class IslandNewton {
     common_ = std::numeric_limits<double>::infinity();
     for (const auto& point : points_.points()) common_ = std::min(common_, point.diagonal);
     std::fill(shift_.begin(), shift_.end(), 0);
-    set_centre(before);
-    double error = solve(epsilon, precision);
-    if (error <= precision.tolerance &&
-        std::any_of(shift_.begin(), shift_.end(), [](double s) { return s > 0; })) {
+    double error = 0;
+    for (int pass = 0; pass < 2; ++pass) {
       set_centre(before);
       error = solve(epsilon, precision);
+      const bool slips = std::any_of(shift_.begin(), shift_.end(), [](double s) { return s > 0; });
+      if (!(error <= precision.tolerance && slips)) break;
     }
     return error;
   }
@@ -253,9 +249,11 @@ class IslandNewton {
     }
   }
   /// Sets the shifts of the motion that a proximal step has found.
-  /// @returns their largest change, relative to scale() [-]
-  double next_shifts() {
+  /// @returns the largest change of a shift and of the velocity of a body by the step, relative to scale() [-]
+  MOREAU_INLINED double take_shifts() {
     double largest = 0;
+    for (std::size_t i = 0; i < y_.size(); ++i)
+      largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
     for (std::size_t k = 0; k < shift_.size(); ++k) {
       const double shift = points_.points()[k].friction * slip_of(slip_[k]);
       if (found_[k][0] > 0) largest = std::max(largest, std::abs(shift - shift_[k]));
@@ -270,20 +268,6 @@ class IslandNewton {
       largest = std::max(largest, std::max(y_[i].norm(), other[i].norm()) * points_.speed(i));
     return largest;
   }
-  /// Largest velocity of a body in F, at the motion of the last respond() [m/s].
-  double rest() const {
-    double largest = 0;
-    for (std::size_t i = 0; i < f_.size(); ++i)
-      largest = std::max(largest, f_[i].norm() * points_.speed(i));
-    return largest;
-  }
-  /// Largest change of the velocity of a body by the last proximal step, relative to scale() [-].
-  double largest_change() const {
-    double largest = 0;
-    for (std::size_t i = 0; i < y_.size(); ++i)
-      largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
-    return largest > 0 ? largest / scale(next_) : 0;
-  }
 
   bool polishes() const { return points_.bodies() <= polish_bodies; }
   /// One more proximal step from a solution, of a large compliance. Impulses have the rounding of velocities, divided
@@ -296,20 +280,19 @@ class IslandNewton {
     respond(firm, next_);
     if (!newton_direction()) return;
     for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = along(next_[i], 1, direction_[i]);
-    respond(firm, next_);
-    if (!(rest() <= several * rounding / firm * scale(next_))) return;
+    const double left = respond(firm, next_).rest;
+    if (!(left <= several * rounding / firm * scale(next_))) return;
     move_by_impulses();
     std::swap(centre_, found_);
     std::swap(y_, next_);
   }
-  /// phi and F at a motion.
+  /// F at a motion: |F|, and the largest velocity of a body in it [m/s].
   struct Value {
-    double phi, norm;
+    double norm, rest;
   };
   /// Sets found_, slip_, stiffness_ and f_ for a motion y.
   Value respond(double epsilon, std::span<const Coordinates> y) {
     std::copy(y.begin(), y.end(), f_.begin());
-    double energy = 0;
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
       const double soft = epsilon * (common_ > 0 ? common_ : point.diagonal);
@@ -330,60 +313,60 @@ class IslandNewton {
       stiffness_[k] = answer.stiffness;
       Vector back;
       for (int i = 0; i < S::dim; ++i) {
-        const double soft_part = s[i] * answer.impulse[i];
-        slip_[k][i] += soft_part;
-        energy += soft_part * answer.impulse[i];
+        slip_[k][i] += s[i] * answer.impulse[i];
         back[i] = -answer.impulse[i];
       }
       points_.push(point, back, f_);
     }
-    double squares = 0;
+    double squares = 0, rest = 0;
     for (std::size_t i = 0; i < f_.size(); ++i) {
-      squares += f_[i].squaredNorm();
-      energy += y[i].squaredNorm();
+      const double square = f_[i].squaredNorm();
+      squares += square;
+      rest = std::max(rest, std::sqrt(square) * points_.speed(i));
     }
-    return {energy / 2, std::sqrt(squares)};
+    return {std::sqrt(squares), rest};
   }
 
   /// One proximal step from y_ and centre_ to next_ and found_.
   /// @returns whether Newton's method has converged
-  bool proximal_step(double epsilon, int most_steps, double tolerance) {
+  MOREAU_INLINED bool proximal_step(double epsilon, int most_steps, double tolerance) {
     constexpr double share = 0.03;
     constexpr int most_of_one = 30;  // structures take 2 to 6, packings that come to rest up to 20
     most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
     Value value = respond(epsilon, next_);
     double before = std::numeric_limits<double>::infinity();
-    while (std::isfinite(value.norm)) {
-      const double left = rest() / scale(next_), exact = rounding / epsilon;
+    for (;;) {
+      if (!std::isfinite(value.norm)) return false;
+      const double left = value.rest / scale(next_), exact = rounding / epsilon;
       const double aim = std::max(share * tolerance, exact);
       const bool solved = !(left > aim);
       // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
       if (!(left > (polishes() ? exact : aim)) ||
           (solved && (left > polish * before || steps_ == most_steps)))
-        return move_by_impulses();
+        break;
       if (steps_ == most_steps) return false;
       ++steps_;
       before = left;
       if (!newton_direction() || !shorten(epsilon, value)) {
         if (!solved) return false;
         respond(epsilon, next_);
-        return move_by_impulses();
+        break;
       }
       std::swap(next_, trial_);
     }
-    return false;
-  }
-  /// Sets next_ to the motion by the impulses of the last respond(). @returns true
-  bool move_by_impulses() {
-    for (std::size_t i = 0; i < f_.size(); ++i) next_[i] -= f_[i];
+    move_by_impulses();
     return true;
+  }
+  /// Sets next_ to the motion by the impulses of the last respond().
+  MOREAU_INLINED void move_by_impulses() {
+    for (std::size_t i = 0; i < f_.size(); ++i) next_[i] -= f_[i];
   }
   /// Minimizes phi along direction_, roughly: phi is convex, and its slope is about linear in pieces. trial_ is the
   /// point that the step leads to.
-  /// @param value  in: phi and |F| at next_, out: at trial_
+  /// @param value  in: F at next_, out: at trial_
   /// @returns whether there is such a step
-  bool shorten(double epsilon, Value& value) {
+  MOREAU_INLINED bool shorten(double epsilon, Value& value) {
     constexpr int most = 30;
     constexpr double enough = 0.3;
     const double first = slope();
@@ -414,7 +397,7 @@ class IslandNewton {
     }
     return false;
   }
-  double slope() const {
+  MOREAU_INLINED double slope() const {
     double sum = 0;
     for (std::size_t i = 0; i < f_.size(); ++i) sum += f_[i].dot(direction_[i]);
     return sum;

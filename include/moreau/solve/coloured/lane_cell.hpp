@@ -49,10 +49,7 @@ class LaneCell {
     const auto pass = [&](std::size_t part) {
       const Share share(points.size(), int(part), int(parts));
       for (std::size_t p = share.begin; p < share.end; ++p)
-        if (adds)
-          add(points[p], factor, sums[part]);
-        else
-          offset(points[p], sums[0]);
+        visit(points[p], adds, factor, sums[adds ? part : 0]);
     };
     team.share_each(parts, 1, pass);
     for (std::size_t k = 0; k < sums[0].size(); ++k) {
@@ -64,8 +61,15 @@ class LaneCell {
     adds = false;
     team.share_each(parts, 1, pass);
   }
+  /// add() or offset().
+  MOREAU_COLD static void visit(Points& point, bool adds, const Values& beta, LaneMatrix& matrix) {
+    if (adds)
+      add(point, beta, matrix);
+    else
+      offset(point, matrix);
+  }
   /// Adds p d^T of the impulses.
-  MOREAU_COLD static void add(const Points& point, const Values& beta, LaneMatrix& sum) {
+  MOREAU_INLINED static void add(const Points& point, const Values& beta, LaneMatrix& sum) {
     for (std::size_t d = 0; d < S::dim; ++d) {
       const Values guess = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
       for (std::size_t j = 0; j < S::dim; ++j) {
@@ -75,7 +79,7 @@ class LaneCell {
     }
   }
   /// Adds F^T change d to the free velocity.
-  MOREAU_COLD static void offset(Points& point, const LaneMatrix& change) {
+  MOREAU_INLINED static void offset(Points& point, const LaneMatrix& change) {
     for (std::size_t j = 0; j < S::dim; ++j) {
       const Values branch = point.lever_a[j] - point.lever_b[j];
       for (std::size_t i = 0; i < S::dim; ++i) {

@@ -122,7 +122,7 @@ class BlockFactorization {
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < N; ++i) to.data()[j * N + i] += block.data()[j * along + i * down];
   }
-  void connect(std::size_t i, std::size_t j) {
+  MOREAU_INLINED void connect(std::size_t i, std::size_t j) {
     if (slots_[i * count_ + j] != none) return;
     slots_[i * count_ + j] = slots_[j * count_ + i] = slot_count_++;
     ++degree_[i];
@@ -135,7 +135,7 @@ class BlockFactorization {
       if (!gone_[i] && (best == none || degree_[i] < degree_[best])) best = i;
     return best;
   }
-  void eliminate(std::uint32_t p) {
+  MOREAU_INLINED void eliminate(std::uint32_t p) {
     order_.push_back(p);
     place_[p] = static_cast<std::uint32_t>(order_.size() - 1);
     gone_[p] = 1;

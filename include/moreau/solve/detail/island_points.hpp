@@ -130,6 +130,7 @@ class IslandPoints {
     speeds_.clear();
     bodies_.clear();
     edges_.clear();
+    has_smooth_ = false;
   }
   /// Adds a contact, unless it cannot act. Contacts of the same two bodies follow one another.
   /// @param masses of all bodies
@@ -154,6 +155,7 @@ class IslandPoints {
     if (point.body_a != none && point.body_b != none &&
         (edges_.empty() || edges_.back() != std::array{point.body_a, point.body_b}))
       edges_.push_back({point.body_a, point.body_b});
+    has_smooth_ = has_smooth_ || point.friction == 0;
     points_.push_back(point);
   }
   /// Ends the island.
@@ -163,6 +165,7 @@ class IslandPoints {
 
   std::span<const Point> points() const { return points_; }
   std::size_t bodies() const { return roots_.size(); }
+  bool has_smooth() const { return has_smooth_; }  ///< whether a contact has no friction
   /// The pairs of bodies that both move.
   std::span<const std::array<std::uint32_t, 2>> edges() const { return edges_; }
   /// The speed of a body for |y| = 1 of the body [kg^-1/2]: the root mean square over its mass.
@@ -213,8 +216,8 @@ class IslandPoints {
     }
     return l;
   }
-  Rows rows(const typename S::Matrix& frame, std::uint32_t body, const typename S::Vector& lever,
-            double sign) const {
+  MOREAU_COMPILED_ONCE Rows rows(const typename S::Matrix& frame, std::uint32_t body,
+                                 const typename S::Vector& lever, double sign) const {
     Rows by_root = Rows::Zero();
     if (body == none) return by_root;
     add_product(by_root, jacobian_rows<S>(frame, lever, sign), roots_[body]);
@@ -226,6 +229,7 @@ class IslandPoints {
   std::vector<double> speeds_;
   std::vector<std::uint32_t> bodies_, number_;
   std::vector<std::array<std::uint32_t, 2>> edges_;
+  bool has_smooth_ = false;
 };
 
 }  // namespace moreau::detail

@@ -169,7 +169,7 @@ class IslandSolver {
   /// times as much is allowed for weakly held bodies. Islands with contacts without friction are refined instead: their
   /// errors add up from step to step.
   /// @param defect of the impulses
-  MOREAU_COLD bool accept(Small& one, double defect) const {
+  bool accept(Small& one, double defect) const {
     const double n = std::max(10.0, double(islands_.bodies(one.island)));
     const double error = 10 * n * n * newton_.mass_ratio() * defect;
     if (!(error <= tolerance_) || newton_.has_smooth_point()) return false;
@@ -186,10 +186,10 @@ class IslandSolver {
             std::max(2, int(warm_visits / one.cost)));
   }
   /// Of the island that take() took.
-  MOREAU_COLD void find_cost(Small& one) {
+  MOREAU_INLINED void find_cost(Small& one) {
     one.cost = newton_.cost_of_step() / double(islands_.contacts(one.island).size());
   }
-  void take(const Problem& problem, std::size_t island) {
+  MOREAU_COMPILED_ONCE void take(const Problem& problem, std::size_t island) {
     newton_.assign(
         problem.delassus, islands_.contacts(island), islands_.moves(),
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },

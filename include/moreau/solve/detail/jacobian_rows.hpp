@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau::detail {
@@ -13,8 +14,8 @@ namespace moreau::detail {
 /// @param lever from the centre of the body to the contact point, world axes [m]
 /// @param sign  1 for body b, -1 for body a
 template <class S>
-Eigen::Matrix<double, S::dim, S::dofs> jacobian_rows(const typename S::Matrix& frame,
-                                                     const typename S::Vector& lever, double sign) {
+MOREAU_INLINED inline Eigen::Matrix<double, S::dim, S::dofs> jacobian_rows(
+    const typename S::Matrix& frame, const typename S::Vector& lever, double sign) {
   using Exact = Space<S::dim, double>;
   Eigen::Matrix<double, S::dim, S::dofs> rows;
   typename Exact::Vector arm, axis;

@@ -87,12 +87,8 @@ class RestitutionLimit {
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
     islands_.resize(bodies.size());
     measure(problem, impulses, springs, Scalar(0), bouncing_);
-    if (!gains(bodies, problem)) return;
-    offset_all(problem, -1);
-    rest(bodies, problem, impulses, springs, solver, workspace, report);
-    offset_all(problem, 1);
-    combine(bodies, problem, impulses);
-    set_impulses(problem.delassus, std::span<const Row>(impulses));
+    if (gains(bodies, problem))
+      limit(bodies, problem, impulses, springs, solver, workspace, report);
   }
 
  private:
@@ -146,12 +142,22 @@ class RestitutionLimit {
       state.gain += double(state.impulse.dot(free + state.velocity)) / 2;
     }
   }
-  /// Solves the problem without restitution. Its exact solution adds no energy. An approximate one can, within every
-  /// tolerance on means over the contacts: then it is solved further from there, and if that does not help, the step is
-  /// not converged.
-  MOREAU_COLD void rest(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
-                        const auto& springs, const auto& solver, auto& workspace,
-                        SolveReport& report) {
+  /// Replaces impulses that add energy.
+  MOREAU_COLD void limit(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
+                         const auto& springs, const auto& solver, auto& workspace,
+                         SolveReport& report) {
+    offset_all(problem, -1);
+    rest(bodies, problem, impulses, springs, solver, workspace, report);
+    offset_all(problem, 1);
+    combine(bodies, problem, impulses);
+    set_impulses(problem.delassus, std::span<const Row>(impulses));
+  }
+  /// Solves the problem without restitution, and adds up the energies of the islands. Its exact solution adds no energy.
+  /// An approximate one can, within every tolerance on means over the contacts: then it is solved further from there, and
+  /// if that does not help, the step is not converged.
+  MOREAU_INLINED void rest(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
+                           const auto& springs, const auto& solver, auto& workspace,
+                           SolveReport& report) {
     constexpr int most_solves = 32;
     for (int k = 0; k < most_solves; ++k) {
       const SolveReport found = solver.solve(problem, impulses, workspace);
@@ -187,8 +193,9 @@ class RestitutionLimit {
       for (std::size_t c = 0; c < aside_.size(); ++c)
         problem.delassus.offset(c, Row(sign * aside_[c]));
   }
-  void combine(const Bodies<S>& bodies, const Problem& problem, std::span<Row> impulses) {
-    add_up(bodies, problem);
+  /// Sets the impulses between those without and with restitution, by the islands of rest().
+  MOREAU_INLINED void combine(const Bodies<S>& bodies, const Problem& problem,
+                              std::span<Row> impulses) {
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Row& rest = resting_[c].impulse;
       const Scalar share = islands_[island_of(bodies, problem, c)].share();

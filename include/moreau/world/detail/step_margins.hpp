@@ -37,6 +37,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
@@ -107,7 +108,7 @@ class StepMargins {
   void use_whole() { fitted_ = false; }  ///< gives all pairs the whole margin
   /// Chooses the margins of a step.
   /// @param bounds ApproachBounds by the velocities before the step
-  void fit(const Team& team, const auto& bounds) {
+  MOREAU_INLINED void fit(const Team& team, const auto& bounds) {
     fitted_ = true;
     near_.resize(bounds.pairs.size());
     of_grain_.resize(bounds.grains.size());
