@@ -8,7 +8,9 @@ namespace moreau::detail {
 /// Cells of a grid in D dimensions that touch a cell, with the cell itself: 3^D.
 template <int D>
 constexpr int neighbour_cells() {
-  return D == 0 ? 1 : 3 * neighbour_cells < D == 0 ? 0 : D - 1 > ();
+  int count = 1;
+  for (int axis = 0; axis < D; ++axis) count *= 3;
+  return count;
 }
 
 /// Where neighbour k < 3^D of a cell lies: -1, 0 or 1 cell along each axis. Neighbours k and 3^D - 1 - k are opposite; the

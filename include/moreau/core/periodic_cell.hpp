@@ -31,6 +31,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/neighbour_cells.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
@@ -261,12 +262,8 @@ class PeriodicCell {
   /// Replaces a vector by its sum with others, each once or minus once, if that is shorter.
   /// @returns whether there was one
   MOREAU_INLINED static bool shorten(Matrix& vectors) {
-    int combinations = 1;
-    for (int axis = 0; axis < S::dim; ++axis) combinations *= 3;
-    for (int n = 0; n < combinations; ++n) {
-      Vector parts;
-      for (int axis = 0, rest = n; axis < S::dim; ++axis, rest /= 3)
-        parts[axis] = Scalar(rest % 3 - 1);
+    for (int n = 0; n < detail::neighbour_cells<S::dim>(); ++n) {
+      const Vector parts = detail::neighbour_cell<Vector>(n);
       const Vector sum = product(vectors, parts);
       for (int k = 0; k < S::dim; ++k)
         if (parts[k] == 1 && sum.squaredNorm() < Scalar(0.99) * vectors.col(k).squaredNorm()) {
