@@ -2,18 +2,23 @@
 // A column of grains on a rough floor loses its walls, once dry and once wet, in the plane and in space from one source. Dry
 // grains run out; wet grains of this size stand, because a bridge of water pulls with a multiple of their weight. The
 // program prints the height and the radius of what is left, and the number of bridges.
+//
+//   wet_heap [folder for pictures]
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <moreau/moreau.hpp>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "moreau/law/bridges.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/picture/write_picture.hpp"
 
 namespace {
 
@@ -80,6 +85,20 @@ class Column {
       return Law::is_bridged(contact.variant);
     }));
   }
+  /// Grains of the floor are darker.
+  void draw(const std::filesystem::path& file) const {
+    moreau::rendering::Picture picture;
+    picture.width = 900;
+    picture.height = S::dim == 2 ? 240 : 500;
+    picture.azimuth = picture.elevation = 12;
+    moreau::write_picture(
+        file, simulation_,
+        [&](moreau::BodyId grain) {
+          return moreau::rendering::stone_color(simulation_.is_prescribed(grain) ? 0.7 : 0,
+                                                grain.index());
+        },
+        picture);
+  }
 
  private:
   /// Calls use(center) for the places of a lattice with a spacing of 2.1 radii around the axis.
@@ -102,25 +121,28 @@ class Column {
 };
 
 template <class Shape>
-void collapse(const char* name) {
+void collapse(const std::string& name, const std::string& folder) {
   for (const double surface_tension : {0.0, 0.073}) {
     Column<Shape> column(surface_tension);
+    const char* water = surface_tension > 0 ? "wet" : "dry";
     const double before = column.width();
     column.run(0.3);
     std::printf("%s, %s: height %.1f diameters, width %.2f times that of the column, %zu bridges\n",
-                name, surface_tension > 0 ? "wet" : "dry", column.height(), column.width() / before,
-                column.bridges());
+                name.c_str(), water, column.height(), column.width() / before, column.bridges());
+    if (!folder.empty()) column.draw(std::filesystem::path(folder) / (name + "_" + water + ".png"));
   }
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   try {
+    const std::string folder = argc > 1 ? argv[1] : "";
+    if (!folder.empty()) std::filesystem::create_directories(folder);
     const double bond_number = Water(volume, 0.073).force(0, radius) / (mass * 9.81);
     std::printf("a bridge pulls with %.0f times the weight of a grain\n", bond_number);
-    collapse<moreau::Disk<>>("disks");
-    collapse<moreau::Ball<>>("balls");
+    collapse<moreau::Disk<>>("disks", folder);
+    collapse<moreau::Ball<>>("balls", folder);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
