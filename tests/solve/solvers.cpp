@@ -56,8 +56,10 @@ TEST_CASE_TEMPLATE("a heavy body that no floor holds shares the lanes of its par
           problem.solve(NonlinearGaussSeidel(options), problem.laws, swept);
       const SolveReport report =
           problem.solve(ColouredGaussSeidel(fast<S>(1e-8)), problem.laws, impulses);
+      // At a mobility of 1e-4 a residual of 1e-8 can leave velocities that are wrong by a half: the islands say so.
       CHECK(report.converged == (report.residual <= 1e-8 &&
-                                 report.relative_approach <= SolveReport::max_relative_approach));
+                                 report.relative_approach <= SolveReport::max_relative_approach &&
+                                 report.unsolved_islands == 0));
       CHECK(problem.measure(impulses).residual == report.residual);
       if (reference.converged) CHECK(report.converged);
       solved += reference.converged;

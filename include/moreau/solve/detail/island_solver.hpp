@@ -100,7 +100,7 @@ class IslandSolver {
            newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}));
       if (one.error <= near * tolerance_) continue;
       newton_.start(impulses);
-      improve(one, impulses, late_epsilon, most_steps);
+      solve_directly(one, impulses, late_epsilon, most_steps);
     }
   }
   /// Whether the direct method has estimated the error of an island.
@@ -182,8 +182,8 @@ class IslandSolver {
     find_cost(one);
     if (one.cost > most_visits) return;
     if (one.defect > solved_defect && !is_drawn(one, warm_visits, 0)) return;
-    improve(one, impulses, std::clamp(one.defect, warm_epsilon, late_epsilon),
-            std::max(2, int(warm_visits / one.cost)));
+    solve_directly(one, impulses, std::clamp(one.defect, warm_epsilon, late_epsilon),
+                   std::max(2, int(warm_visits / one.cost)));
   }
   /// Of the island that take() took.
   MOREAU_INLINED void find_cost(Small& one) {
@@ -195,7 +195,7 @@ class IslandSolver {
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
-  void improve(Small& one, Impulses impulses, double epsilon, int steps) {
+  void solve_directly(Small& one, Impulses impulses, double epsilon, int steps) {
     keep(one, impulses, newton_.solve(epsilon, {tolerance_, least_epsilon, steps}));
   }
   /// Keeps the impulses that the direct method has found, if they are good enough.
