@@ -13,11 +13,7 @@
 // springs in series (law/compliant.hpp) the operator is W + D with a diagonal matrix D, the compliance of the springs
 // over the square of the time step.
 //
-// A periodic cell that moves by its stress is one more body, with D x D velocities Lambda, that all contacts touch:
-//
-//     u_c has F^T Lambda d,     Lambda_ij += R_ij p_i d_j,       d = l_a - l_b,
-//
-// with the response R of the cell (world/detail/cell_servo.hpp).
+// A periodic cell that moves by its stress is one more body that all contacts touch (detail/operator_cell.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -31,6 +27,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/contact_lanes.hpp"
+#include "moreau/contact/detail/operator_cell.hpp"
 #include "moreau/contact/detail/operator_point.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -85,7 +82,7 @@ class BodyDelassus {
     heads_.resize(contacts.size());
     masses_.resize(roots.size());
     changes_.assign(roots.size(), PaddedTwist::Zero());
-    has_cell_ = false;
+    cell_.forget();
     if constexpr (Springs) {
       springs_.compliance.assign(compliance.begin(), compliance.end());
       springs_.stretch.assign(compliance.size(), Vector::Zero());
@@ -180,7 +177,7 @@ class BodyDelassus {
   void apply(std::size_t c, const Vector& impulse) {
     apply_to_bodies(c, impulse);
     stretch(c, impulse);
-    if (has_cell_) push_cell(c, impulse);
+    if (cell_.exists()) cell_.push(points_[c], impulse);
   }
   /// The same without the springs.
   void apply_to_bodies(std::size_t c, const Vector& impulse) {
@@ -249,27 +246,17 @@ class BodyDelassus {
   /// if it had a share |d| / sum of |d| of the mass of the cell. With this block, sweeps converge that change Lambda
   /// after all contacts.
   /// @param response R [1/(kg m^2)]
-  void add_cell(const typename S::Matrix& response) {
-    cell_response_ = response;
-    cell_change_.setZero();
-    if (!has_cell_) scale_blocks(true);
-    has_cell_ = true;
-  }
+  void add_cell(const typename S::Matrix& response) { cell_.start(response, std::span(points_)); }
   /// Removes the cell, with its velocities.
-  void remove_cell() {
-    scale_blocks(false);
-    has_cell_ = false;
-  }
-  bool has_cell() const { return has_cell_; }  ///< whether add_cell() has been called
+  void remove_cell() { cell_.stop(std::span(points_)); }
+  bool has_cell() const { return cell_.exists(); }  ///< whether add_cell() has been called
   /// R of the cell [1/(kg m^2)].
-  const typename S::Matrix& cell_response() const { return cell_response_; }
+  const typename S::Matrix& cell_response() const { return cell_.response(); }
   /// Lambda, by the impulses applied so far [1/s].
-  const typename S::Matrix& cell_change() const { return cell_change_; }
+  const typename S::Matrix& cell_change() const { return cell_.change(); }
   /// Sets Lambda by all impulses, after move(); nothing without a cell.
   MOREAU_COLD void move_cell(std::span<const Vector> impulses) {
-    if (!has_cell_) return;
-    cell_change_.setZero();
-    for (std::size_t c = 0; c < impulses.size(); ++c) push_cell(c, impulses[c]);
+    if (cell_.exists()) cell_.push_all(std::span<const Point>(points_), impulses);
   }
   /// @}
 
@@ -385,44 +372,15 @@ class BodyDelassus {
   typename S::Vector change_between(const Point& point) const {
     typename S::Vector difference = detail::velocity_at<S>(changes_[point.b], point.lever_b);
     difference -= detail::velocity_at<S>(changes_[point.a], point.lever_a);
-    if (has_cell_) add_cell_velocity(point, difference);
+    if (cell_.exists()) cell_.add_velocity(point, difference);
     return difference;
-  }
-  /// d, from the centre of body a to that of the image of b, world axes [m].
-  static typename S::Vector branch(const Point& point) { return point.lever_a - point.lever_b; }
-  MOREAU_COLD void add_cell_velocity(const Point& point, typename S::Vector& velocity) const {
-    velocity += product(cell_change_, branch(point));
-  }
-  [[gnu::always_inline]] void push_cell(std::size_t c, const Vector& impulse) {
-    const typename S::Vector push = points_[c].push_of(impulse), d = branch(points_[c]);
-    for (int j = 0; j < S::dim; ++j)
-      for (int i = 0; i < S::dim; ++i) cell_change_(i, j) += cell_response_(i, j) * push[i] * d[j];
-  }
-  /// Multiplies the blocks by 1 + tr(W^-1 W_cell), W_cell = max R |d| sum of |d|: by the inequality of Cauchy and
-  /// Schwarz the sum of these blocks is at least the operator of the cell. Or divides by it.
-  MOREAU_COLD void scale_blocks(bool up) {
-    Scalar sum = 0;
-    for (const Point& point : points_) sum += branch(point).norm();
-    if (up) cell_factors_.resize(points_.size());
-    for (std::size_t c = 0; c < points_.size(); ++c) {
-      Scalar& factor = cell_factors_[c];
-      if (up) {
-        const Matrix inverse = points_[c].block.matrix().inverse();
-        factor = 1 + cell_response_.maxCoeff() * branch(points_[c]).norm() * sum *
-                         inverse.template topLeftCorner<S::dim, S::dim>().trace();
-        if (!(factor >= 1)) factor = 1;  // between bodies that cannot move
-      }
-      points_[c].block *= up ? factor : 1 / factor;
-    }
   }
 
   std::vector<Point> points_;
   std::vector<Head> heads_;
   std::vector<InverseMass<S>> masses_;
   std::vector<PaddedTwist> changes_;
-  bool has_cell_ = false;
-  typename S::Matrix cell_response_ = S::Matrix::Zero(), cell_change_ = S::Matrix::Zero();
-  std::vector<Scalar> cell_factors_;  // of the blocks [-]
+  detail::OperatorCell<S> cell_;
   [[no_unique_address]] detail::SpringRows<Vector, Springs> springs_;
 };
 

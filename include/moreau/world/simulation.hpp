@@ -29,7 +29,6 @@
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/solve/concepts.hpp"
-#include "moreau/world/assign_laws.hpp"
 #include "moreau/world/body_control.hpp"
 #include "moreau/world/bond.hpp"
 #include "moreau/world/cell_control.hpp"
@@ -40,7 +39,6 @@
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 #include "moreau/world/detail/impulse_dynamics.hpp"
-#include "moreau/world/detail/policies.hpp"
 #include "moreau/world/detail/state_access.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/overlap_correction.hpp"
@@ -177,15 +175,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
   ///         a wall across the axis, a mesh wall, or a cell not longer than two of the widest grain
   ///         with margin and skins: a pair could touch through two images
-  void set_periodic(int axis, Scalar lower, Scalar upper) {
-    constexpr const char* self = "Simulation::set_periodic";
-    require(assembly_.meshes().empty(), self, "axis", axis, "must be open, with mesh walls");
-    PeriodicCell<S> cell = detector_.cell();
-    cell.set(axis, lower, upper, self);
-    detector_.place_walls(assembly_.bodies().pose);
-    detector_.set_cell(cell, lengths(), self);
-    assembly_.note_all_placed();
-  }
+  void set_periodic(int axis, Scalar lower, Scalar upper);
   /// Makes the world periodic along D vectors, with a cell that can deform (control_cell()). Poses are not
   /// wrapped. Walls, cylinders and meshes do not fit into it. An oblique cell, as after a large shear, gets other
   /// vectors of the same lattice: read cell().vectors() again after this call and after each step.
@@ -194,27 +184,13 @@ class Simulation : public BodyControl<ShapeT> {
   /// @throws std::invalid_argument for vectors that are not finite or without volume, a simulation with walls, or a
   ///         cell whose height is not more than two of the widest grain with margin and skins (core/periodic_cell.hpp)
   void set_cell(const Matrix& vectors,
-                const VectorArgument<S>& lower = Vector(Vector::Zero())) requires set_valued {
-    constexpr const char* self = "Simulation::set_cell";
-    require(assembly_.meshes().empty(), self, "cell", "(deforming)", "must be without mesh walls");
-    PeriodicCell<S> cell;
-    cell.set_vectors(vectors, lower, self);
-    cell.reduce();  // an oblique cell may have more room
-    detector_.place_walls(assembly_.bodies().pose);
-    detector_.set_cell(cell, lengths(), self);
-    cell_motion_ = {};
-    assembly_.note_all_placed();
-  }
+                const VectorArgument<S>& lower = Vector(Vector::Zero())) requires
+      SetValuedLaw<Law, SpaceOf<ShapeT>>;
   /// Sets how the cell of set_cell() deforms, from the next step on. From then on velocities of bodies are relative
   /// to the cell: velocity(body) + cell_motion().rate() (x - corner) is that in the world. No velocity changes by the call.
   /// step() throws std::invalid_argument if the cell becomes too small for the grains.
   /// @throws std::invalid_argument without such a cell, for numbers that are not finite, or a mass or damping < 0
-  void control_cell(const CellControl<S>& control) requires set_valued {
-    constexpr const char* self = "Simulation::control_cell";
-    require(cell().is_lattice(), self, "cell", "(none)", "must be one of set_cell()");
-    control.check(self);
-    cell_motion_.set_control(control);
-  }
+  void control_cell(const CellControl<S>& control) requires SetValuedLaw<Law, SpaceOf<ShapeT>>;
   const CellMotion<S>& cell_motion() const { return cell_motion_; }  ///< of the cell of set_cell()
   const PeriodicCell<S>& cell() const { return detector_.cell(); }   ///< open unless set
 
@@ -274,36 +250,11 @@ class Simulation : public BodyControl<ShapeT> {
   /// @returns how many bonds were made
   /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin
   std::size_t bond_touching(Scalar gap, std::span<const BodyId> among = {}) requires
-      BondingLaw<Law, SpaceOf<ShapeT>> {
-    constexpr const char* self = "Simulation::bond_touching";
-    require(gap >= 0 && gap <= lengths().margin, self, "gap", gap, "must lie in [0, margin]");
-    std::vector<bool> listed(bodies().size(), among.empty());
-    for (const BodyId body : among) {
-      assembly_.require_body(body, self);
-      listed[body.index()] = true;
-    }
-    return add_bonds([&](const Contact<S>& contact) {
-      return contact.gap <= gap && listed[contact.a] && listed[contact.b];
-    });
-  }
+      BondingLaw<Law, SpaceOf<ShapeT>>;
   /// Bonds two bodies at the middle of their contact points, unless they have a bond.
   /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
   ///         or that both have a prescribed motion
-  void bond(BodyId a, BodyId b) requires BondingLaw<Law, SpaceOf<ShapeT>> {
-    constexpr const char* self = "Simulation::bond";
-    assembly_.require_body(a, self);
-    assembly_.require_body(b, self);
-    const auto is_pair = [&](BodyId first, BodyId second) {
-      return (first == a && second == b) || (first == b && second == a);
-    };
-    for (const Bond<S>& one : bonds())
-      if (is_pair(one.a, one.b)) return;
-    const std::size_t made = add_bonds([&](const Contact<S>& contact) {
-      return is_pair(bodies().id[contact.a], bodies().id[contact.b]);
-    });
-    require(made == 1, self, "b", b,
-            "must be within the margin of a, and one of them free to move");
-  }
+  void bond(BodyId a, BodyId b) requires BondingLaw<Law, SpaceOf<ShapeT>>;
   /// All bonds, sorted by their bodies. The span is valid until bonds are made or break.
   std::span<const Bond<S>> bonds() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
     return dynamics_.bonds().bonds();
@@ -394,17 +345,7 @@ class Simulation : public BodyControl<ShapeT> {
   }
 
   /// Bonds the pairs of contacts, in the present configuration, for which keeps(contact) is true.
-  std::size_t add_bonds(const auto& keeps) {
-    ContactsOf<Law, S> touching;
-    detector_.place(std::span<const Pose<S>>(bodies().pose),
-                    [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
-    const Matrix vectors = cell().vectors();
-    detector_.find_pairs(lengths());
-    if (cell().is_lattice()) dynamics_.bonds().recount_cells(vectors, cell());
-    detector_.use_whole_margin();
-    detector_.detect(lengths(), bodies(), contacts_, touching);
-    return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
-  }
+  std::size_t add_bonds(const auto& keeps);
 
   /// Detects the contacts at the predicted configuration and assigns their laws.
   /// @param report out: results and times of detection
@@ -426,25 +367,8 @@ class Simulation : public BodyControl<ShapeT> {
   /// After the contact problem was solved: detects the contacts again, up to the whole margin, if a pair
   /// approaches by more than its margin.
   /// @returns whether it did
-  bool detect_again(StepReport& report,
-                    const detail::StepContext<S, Law>& context) requires set_valued {
-    if (!detector_.has_fitted_margins()) return false;
-    const bool enough = detector_.margins_suffice(lengths(), bodies(),
-                                                  dynamics_.motion(context, chords_.has_any()));
-    attempts_.end(!enough);
-    if (enough) return false;
-    StepReport::StageClock clock;
-    dynamics_.undo_shifts(assembly_.bodies());
-    detector_.use_whole_margin();
-    detector_.detect(lengths(), bodies(), previous_, contacts_);
-    if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), contacts_);
-    assign_laws(assembly_.bodies(), materials_, contacts_, team_);
-    report.ms_collide += clock.lap();
-    count_contacts(report);
-    if constexpr (bonding) dynamics_.find_free_velocities(context, report);  // with their strength
-    report.repeated = true;
-    return true;
-  }
+  bool detect_again(StepReport& report, const detail::StepContext<S, Law>& context) requires
+      SetValuedLaw<Law, SpaceOf<ShapeT>>;
 
   Scalar grain_size_;
   Tolerances tolerances_;
@@ -465,42 +389,12 @@ class Simulation : public BodyControl<ShapeT> {
   std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
-// The functions below are not inline: a program can instantiate them in one source and declare them extern
-// (moreau/instances). A function in the class is inline, and is compiled in each unit that uses it.
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Scalar grain_size,
-                                                               const Materials<Law>& materials,
-                                                               const Tolerances& tolerances,
-                                                               const Parts& parts)
-    : grain_size_(grain_size),
-      tolerances_(tolerances),
-      materials_(materials),
-      dynamics_(std::make_from_tuple<Dynamics>(parts)) {
-  // Not in the class, where further errors would hide the reason.
-  static_assert(sizeof(detail::Policies<S, Law, Integrator, Broad, Solver>) > 0);
-  require_positive(grain_size, "Simulation", "grain_size");
-  tolerances.check("Simulation");
-}
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(const Simulation&) = default;
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Simulation&&) = default;
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-Simulation<ShapeT, Law, Integrator, Broad, Solver>&
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::operator=(const Simulation&) = default;
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-Simulation<ShapeT, Law, Integrator, Broad, Solver>&
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::operator=(Simulation&&) = default;
-
-template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-Simulation<ShapeT, Law, Integrator, Broad, Solver>::~Simulation() = default;
-
 }  // namespace moreau
 
+// Functions that are not in the class are not inline: a program can instantiate them in one source and declare them
+// extern (moreau/instances). A function in the class is inline, and is compiled in each unit that uses it.
 #include "moreau/world/detail/add_bodies.hpp"
+#include "moreau/world/detail/make_bonds.hpp"
+#include "moreau/world/detail/make_simulation.hpp"
+#include "moreau/world/detail/set_cell.hpp"
 #include "moreau/world/detail/simulation_step.hpp"

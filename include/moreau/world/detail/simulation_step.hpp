@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -104,6 +105,28 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
   report.candidate_pairs = detector_.pair_count();
   count_contacts(report);
   if constexpr (BridgingLaw<Law, S>) report.pairs = pairs;
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+MOREAU_INLINED bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect_again(
+    StepReport& report,
+    const detail::StepContext<S, Law>& context) requires SetValuedLaw<Law, SpaceOf<ShapeT>> {
+  if (!detector_.has_fitted_margins()) return false;
+  const bool enough =
+      detector_.margins_suffice(lengths(), bodies(), dynamics_.motion(context, chords_.has_any()));
+  attempts_.end(!enough);
+  if (enough) return false;
+  StepReport::StageClock clock;
+  dynamics_.undo_shifts(assembly_.bodies());
+  detector_.use_whole_margin();
+  detector_.detect(lengths(), bodies(), previous_, contacts_);
+  if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), contacts_);
+  assign_laws(assembly_.bodies(), materials_, contacts_, team_);
+  report.ms_collide += clock.lap();
+  count_contacts(report);
+  if constexpr (bonding) dynamics_.find_free_velocities(context, report);  // with their strength
+  report.repeated = true;
+  return true;
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// One proximal step of the direct method for an island (solve/island_newton.hpp has the equations): from a centre of
+// impulses and shifts, y that minimizes phi, by Newton's method with a line search.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/solve/detail/block_factorization.hpp"
+#include "moreau/solve/detail/island_points.hpp"
+
+namespace moreau::detail {
+
+/// The points, the centre, the shifts and the motion of an island, and the steps that change them. Keeps its memory.
+template <class SpaceT>
+class ProximalStep {
+ public:
+  using Points = IslandPoints<SpaceT>;
+  using S = typename Points::S;
+  using Impulse = typename SpaceT::Vector;
+  /// Rounding of impulses times their compliance, relative to the motion. Steps go on below the tolerance while the
+  /// error falls by `polish`: errors that stay the same in every step add up.
+  static constexpr double rounding = 1e-15, polish = 0.1;
+
+  Points& points() { return points_; }              ///< of the island
+  const Points& points() const { return points_; }  ///< the same
+
+  /// Makes room for the contacts and bodies of an island.
+  MOREAU_COLD void make_room() {
+    const std::size_t count = points_.points().size();
+    shift_.resize(count);
+    stiffness_.resize(count);
+    for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
+    for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
+  }
+  /// Finds the order of the factorization.
+  /// @returns its cost, in products of two blocks
+  MOREAU_INLINED double analyse() {
+    matrix_.analyse(points_.bodies(), points_.edges());
+    return matrix_.work();
+  }
+
+  /// Moves to impulses, with the shifts of their motion. The compliance of each contact is epsilon w.
+  void start(std::span<const Impulse> impulses) {
+    common_ = 0;
+    set_centre(impulses);
+    move_to_centre();
+    first_shifts();
+  }
+  /// Gives all contacts one compliance, epsilon times the least w, and no shift.
+  MOREAU_INLINED void make_even() {
+    common_ = std::numeric_limits<double>::infinity();
+    for (const auto& point : points_.points()) common_ = std::min(common_, point.diagonal);
+    std::fill(shift_.begin(), shift_.end(), 0);
+  }
+  /// Whether a contact has a shift.
+  bool has_shift() const {
+    return std::any_of(shift_.begin(), shift_.end(), [](double s) { return s > 0; });
+  }
+  /// Sets the centre alone [N s].
+  void set_centre(std::span<const Impulse> impulses) {
+    for (std::size_t k = 0; k < centre_.size(); ++k)
+      centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
+  }
+  /// The change of the motion by the laws, with a compliance w in series with every contact, relative to the motion [-].
+  MOREAU_INLINED double defect() {
+    const double defect = respond(1, y_).rest, motion = scale(y_);
+    return motion > 0 ? defect / motion : defect > 0 ? 1 : 0;
+  }
+  /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
+  /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
+  double slip() const {
+    double fastest = 0;
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      if (!(centre_[k][0] > 0)) continue;
+      const auto& point = points_.points()[k];
+      const Vector u = point.free + points_.velocity(point, y_);
+      fastest = std::max(fastest, slip_of(u));
+    }
+    const double motion = scale(y_);
+    return motion > 0 ? fastest / motion : 0;
+  }
+
+  /// Counts the steps of Newton's method from zero.
+  void begin() { steps_ = 0; }
+  int steps() const { return steps_; }  ///< since begin(), each with a factorization
+  /// One proximal step from y_ and centre_ to next_ and found_.
+  /// @returns whether Newton's method has converged
+  MOREAU_INLINED bool make(double epsilon, int most_steps, double tolerance) {
+    constexpr double share = 0.03;
+    constexpr int most_of_one = 30;  // structures take 2 to 6, packings that come to rest up to 20
+    most_steps = std::min(most_steps, steps_ + most_of_one);
+    next_ = y_;
+    Value value = respond(epsilon, next_);
+    double before = std::numeric_limits<double>::infinity();
+    for (;;) {
+      if (!std::isfinite(value.norm)) return false;
+      const double left = value.rest / scale(next_), exact = rounding / epsilon;
+      const double aim = std::max(share * tolerance, exact);
+      const bool solved = !(left > aim);
+      // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
+      if (!(left > (polishes() ? exact : aim)) ||
+          (solved && (left > polish * before || steps_ == most_steps)))
+        break;
+      if (steps_ == most_steps) return false;
+      ++steps_;
+      before = left;
+      if (!newton_direction() || !shorten(epsilon, value)) {
+        if (!solved) return false;
+        respond(epsilon, next_);
+        break;
+      }
+      std::swap(next_, trial_);
+    }
+    move_by_impulses();
+    return true;
+  }
+  /// Sets the shifts of the motion that a proximal step has found.
+  /// @returns the largest change of a shift and of the velocity of a body by the step, relative to scale() [-]
+  MOREAU_INLINED double take_shifts() {
+    double largest = 0;
+    for (std::size_t i = 0; i < y_.size(); ++i)
+      largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
+    for (std::size_t k = 0; k < shift_.size(); ++k) {
+      const double shift = points_.points()[k].friction * slip_of(slip_[k]);
+      if (found_[k][0] > 0) largest = std::max(largest, std::abs(shift - shift_[k]));
+      shift_[k] = shift;
+    }
+    return largest > 0 ? largest / scale(next_) : 0;
+  }
+  /// Makes the solution that make() has found the next centre.
+  void accept() {
+    std::swap(centre_, found_);
+    std::swap(y_, next_);
+  }
+  /// One more proximal step from a solution, of a large compliance. Impulses have the rounding of velocities, divided
+  /// by the compliance: 1e-9 of them after the steps of the least one. Friction holds bodies against that. Without it
+  /// the tilts of a light body under a heavy one add up, and the load drives it out along the wedge. No line search:
+  /// near its solution the problem is linear.
+  MOREAU_COLD void refine() {
+    constexpr double firm = 0.01, several = 10;
+    next_ = y_;
+    respond(firm, next_);
+    if (!newton_direction()) return;
+    for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = along(next_[i], 1, direction_[i]);
+    const double left = respond(firm, next_).rest;
+    if (!(left <= several * rounding / firm * scale(next_))) return;
+    move_by_impulses();
+    accept();
+  }
+  /// Whether the island is so small that steps below the tolerance cost little.
+  bool polishes() const { return points_.bodies() <= polish_bodies; }
+  /// Writes the impulses of the centre [N s].
+  void finish(std::span<Impulse> impulses) const {
+    for (std::size_t k = 0; k < centre_.size(); ++k)
+      impulses[points_.points()[k].contact] = centre_[k].template cast<typename S::Scalar>();
+  }
+
+ private:
+  using Vector = typename Points::Vector;
+  using Coordinates = typename Points::Coordinates;
+  static constexpr std::size_t polish_bodies = 10;
+
+  /// The speed along the tangents of a contact.
+  static double slip_of(const Vector& u) {
+    double square = 0;
+    for (int k = 1; k < S::dim; ++k) square += u[k] * u[k];
+    return std::sqrt(square);
+  }
+  void move_to_centre() {
+    std::fill(y_.begin(), y_.end(), Coordinates::Zero());
+    for (std::size_t k = 0; k < centre_.size(); ++k)
+      points_.push(points_.points()[k], centre_[k], y_);
+  }
+  /// Shifts of the motion of the centre.
+  void first_shifts() {
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      Vector u = point.free + points_.velocity(point, y_);
+      for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
+      shift_[k] = point.friction * slip_of(u);
+    }
+  }
+  /// Largest velocity of a body in the motion of the centre and in another one [m/s].
+  double scale(std::span<const Coordinates> other) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < y_.size(); ++i)
+      largest = std::max(largest, std::max(y_[i].norm(), other[i].norm()) * points_.speed(i));
+    return largest;
+  }
+  /// F at a motion: |F|, and the largest velocity of a body in it [m/s].
+  struct Value {
+    double norm, rest;
+  };
+  /// Sets found_, slip_, stiffness_ and f_ for a motion y.
+  Value respond(double epsilon, std::span<const Coordinates> y) {
+    std::copy(y.begin(), y.end(), f_.begin());
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      const double soft = epsilon * (common_ > 0 ? common_ : point.diagonal);
+      const Vector caused = points_.velocity(point, y);
+      Vector s, b;
+      for (int i = 0; i < S::dim; ++i) {
+        s[i] = point.compliance[i] + soft;
+        b[i] = point.free[i] + caused[i] - soft * centre_[k][i];
+      }
+      slip_[k] = b;
+      b[0] += shift_[k];
+      if (is_open<S>(point.friction, b)) {
+        found_[k].setZero();  // stiffness_ is not used
+        continue;
+      }
+      const ContactResponse<S> answer = response<S>(point.friction, s, b);
+      found_[k] = answer.impulse;
+      stiffness_[k] = answer.stiffness;
+      Vector back;
+      for (int i = 0; i < S::dim; ++i) {
+        slip_[k][i] += s[i] * answer.impulse[i];
+        back[i] = -answer.impulse[i];
+      }
+      points_.push(point, back, f_);
+    }
+    double squares = 0, rest = 0;
+    for (std::size_t i = 0; i < f_.size(); ++i) {
+      const double square = f_[i].squaredNorm();
+      squares += square;
+      rest = std::max(rest, std::sqrt(square) * points_.speed(i));
+    }
+    return {std::sqrt(squares), rest};
+  }
+
+  /// Sets next_ to the motion by the impulses of the last respond().
+  MOREAU_INLINED void move_by_impulses() {
+    for (std::size_t i = 0; i < f_.size(); ++i) next_[i] -= f_[i];
+  }
+  /// Minimizes phi along direction_, roughly: phi is convex, and its slope is about linear in pieces. trial_ is the
+  /// point that the step leads to.
+  /// @param value  in: F at next_, out: at trial_
+  /// @returns whether there is such a step
+  MOREAU_INLINED bool shorten(double epsilon, Value& value) {
+    constexpr int most = 30;
+    constexpr double enough = 0.3;
+    const double first = slope();
+    if (!(first < 0)) return false;
+    double length = 1, low = 0, low_slope = first, high = 0, high_slope = 0;
+    for (int k = 0; k < most; ++k) {
+      for (std::size_t i = 0; i < next_.size(); ++i)
+        trial_[i] = along(next_[i], length, direction_[i]);
+      const Value reached = respond(epsilon, trial_);
+      const double here = slope();
+      if (std::abs(here) <= -enough * first || reached.norm < value.norm / 2) {
+        value = reached;
+        return true;
+      }
+      if (here < 0) {
+        if (high == 0) {
+          value = reached;
+          return true;
+        }
+        if (low > 0) high_slope /= 2;
+        low = length, low_slope = here;
+      } else {
+        if (high > 0) low_slope /= 2;
+        high = length, high_slope = here;
+      }
+      const double secant = low - low_slope * (high - low) / (high_slope - low_slope);
+      length = std::clamp(secant, low + 0.02 * (high - low), high - 0.02 * (high - low));
+    }
+    return false;
+  }
+  MOREAU_INLINED double slope() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < f_.size(); ++i) sum += f_[i].dot(direction_[i]);
+    return sum;
+  }
+  using Block = typename BlockFactorization<S::dofs>::Block;
+  /// Adds J^T A J of a contact and two of its bodies, from J of the first and A J of the second.
+  MOREAU_COMPILED_ONCE static void add_block(Block& to, const typename Points::Rows& a,
+                                             const typename Points::Rows& stiff_b) {
+    add_transposed_product(to, a, stiff_b);
+  }
+  /// A J of a contact and one of its bodies.
+  MOREAU_COMPILED_ONCE typename Points::Rows stiff(std::size_t k,
+                                                   const typename Points::Rows& j) const {
+    typename Points::Rows rows = Points::Rows::Zero();
+    add_product(rows, stiffness_[k], j);
+    return rows;
+  }
+  /// Solves phi'' direction_ = -F at the motion of the last respond().
+  bool newton_direction() {
+    matrix_.clear();
+    for (std::size_t i = 0; i < points_.bodies(); ++i) matrix_.diagonal(i).setIdentity();
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      if (found_[k][0] == 0) continue;
+      if (point.body_a != Points::none)
+        add_block(matrix_.diagonal(point.body_a), point.a, stiff(k, point.a));
+      if (point.body_b == Points::none) continue;
+      const typename Points::Rows of_b = stiff(k, point.b);
+      add_block(matrix_.diagonal(point.body_b), point.b, of_b);
+      if (point.body_a == Points::none) continue;
+      block_.setZero();
+      add_block(block_, point.a, of_b);
+      matrix_.add(point.body_a, point.body_b, block_);
+    }
+    if (!matrix_.factorize()) return false;
+    for (std::size_t i = 0; i < f_.size(); ++i) direction_[i] = -f_[i];
+    matrix_.solve(direction_);
+    return std::all_of(direction_.begin(), direction_.end(),
+                       [](const Coordinates& d) { return d.allFinite(); });
+  }
+
+  Points points_;
+  int steps_ = 0;
+  double common_ = 0;  // in place of w, > 0 [1/kg]; 0: each contact has its own
+  std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
+  std::vector<double> shift_;                  // sigma [m/s]
+  std::vector<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
+  std::vector<Coordinates> y_;                                    // of the centre
+  std::vector<Coordinates> next_, trial_, f_, direction_;
+  BlockFactorization<S::dofs> matrix_;
+  Block block_;
+};
+
+}  // namespace moreau::detail

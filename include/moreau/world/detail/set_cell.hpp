@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The functions of Simulation that set a periodic cell and how it deforms.
+#pragma once
+
+#include <span>
+
+#include "moreau/core/error.hpp"
+#include "moreau/core/periodic_cell.hpp"
+#include "moreau/world/cell_control.hpp"
+#include "moreau/world/simulation.hpp"
+
+namespace moreau {
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_periodic(int axis, Scalar lower,
+                                                                      Scalar upper) {
+  constexpr const char* self = "Simulation::set_periodic";
+  require(assembly_.meshes().empty(), self, "axis", axis, "must be open, with mesh walls");
+  PeriodicCell<S> cell = detector_.cell();
+  cell.set(axis, lower, upper, self);
+  detector_.place_walls(assembly_.bodies().pose);
+  detector_.set_cell(cell, lengths(), self);
+  assembly_.note_all_placed();
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_cell(
+    const Matrix& vectors,
+    const VectorArgument<S>& lower) requires SetValuedLaw<Law, SpaceOf<ShapeT>> {
+  constexpr const char* self = "Simulation::set_cell";
+  require(assembly_.meshes().empty(), self, "cell", "(deforming)", "must be without mesh walls");
+  PeriodicCell<S> cell;
+  cell.set_vectors(vectors, lower, self);
+  cell.reduce();  // an oblique cell may have more room
+  detector_.place_walls(assembly_.bodies().pose);
+  detector_.set_cell(cell, lengths(), self);
+  cell_motion_ = {};
+  assembly_.note_all_placed();
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+void Simulation<ShapeT, Law, Integrator, Broad, Solver>::control_cell(
+    const CellControl<S>& control) requires SetValuedLaw<Law, SpaceOf<ShapeT>> {
+  constexpr const char* self = "Simulation::control_cell";
+  require(cell().is_lattice(), self, "cell", "(none)", "must be one of set_cell()");
+  control.check(self);
+  cell_motion_.set_control(control);
+}
+
+}  // namespace moreau
