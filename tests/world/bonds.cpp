@@ -5,6 +5,7 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -651,4 +652,26 @@ TEST_CASE_TEMPLATE("bond: a step that is repeated with more contacts yields once
         worst,
         (one.world.pose(one.grains[i]).position - two.world.pose(two.grains[i]).position).norm());
   CHECK(worst < 1e-6 * radius);
+}
+
+TEST_CASE_TEMPLATE("bond: in a step that is repeated, a torque acts once", ShapeT, Circle, Globe) {
+  Shower<ShapeT, Rigid> scene(Rigid({tension, shear, bending}, friction), true);
+  using S = SpaceOf<ShapeT>;
+  typename S::Vector far = S::Vector::Zero();
+  far[0] = 3;
+  const BodyId lone =
+      scene.world.add_grain(scene.world.add_shape(ShapeT(radius)), Pose<S>(far), 1000);
+  const typename S::Angular torque = S::Angular::Constant(1e-5);
+  scene.world.set_torque(lone, torque);
+  scene.world.set_force(lone, S::Vector::UnitX());
+  const double h = 1e-4, inertia = S::dim == 2
+                                       ? 1000 * std::numbers::pi * std::pow(radius, 4) / 2
+                                       : 1000 * 8 * std::numbers::pi * std::pow(radius, 5) / 15;
+  int repeated = 0;
+  for (int k = 1; k <= 20; ++k) {
+    repeated += scene.world.step(h).repeated;
+    CHECK((inertia * scene.world.spin(lone) - k * h * torque).norm() <
+          1e-12 * k * h * torque.norm());
+  }
+  CHECK(repeated > 0);
 }

@@ -194,14 +194,17 @@ class IslandPoints {
     number = static_cast<std::uint32_t>(bodies_.size());
     bodies_.push_back(body);
     const Root inverse = dense<Space<dim, double>>(mass);
-    roots_.push_back(root(inverse));
+    roots_.push_back(root(inverse, 8 * double(std::numeric_limits<typename S::Scalar>::epsilon())));
     const double linear_trace = inverse.diagonal().template head<dim>().sum();
     const double speed = linear_trace > 0 ? linear_trace / dim : inverse.trace();
     speeds_.push_back(std::sqrt(speed));
     return number;
   }
   /// L of a positive semidefinite matrix L L^T, lower triangle; a zero pivot gives a zero column.
-  static Root root(const Root& m) {
+  /// @param rounding of a part of the matrix, as a share of its trace
+  static Root root(const Root& m, double rounding) {
+    const double linear = rounding * m.diagonal().template head<dim>().sum();
+    const double angular = rounding * m.diagonal().template tail<dofs - dim>().sum();
     Root l = Root::Zero();
     const auto rest = [&](int i, int k) {
       double sum = m(i, k);
@@ -210,7 +213,7 @@ class IslandPoints {
     };
     for (int k = 0; k < dofs; ++k) {
       const double pivot = rest(k, k);
-      if (!(pivot > 1e-14 * m(k, k))) continue;
+      if (!(pivot > (k < dim ? linear : angular))) continue;
       l(k, k) = std::sqrt(pivot);
       for (int i = k + 1; i < dofs; ++i) l(i, k) = rest(i, k) / l(k, k);
     }

@@ -51,12 +51,14 @@ struct ApproachBounds {
     return a.width < b.width ? motion.approach(i, j, -to_b, a.width / 2 + margin)
                              : motion.approach(j, i, to_b, b.width / 2 + margin);
   }
-  /// Largest bound on the approach of grain k and a wall within the margin [m]; 0 if there is none.
+  /// Largest bound on the approach of grain k and a wall within the margin [m]; 0 if there is none, or no impulse can
+  /// change its motion.
   Scalar of_walls(std::size_t k) const {
     Scalar largest = 0;
     const GrainT& grain = grains[k];
     const std::size_t i = grain.body.index();
     const auto take = [&](BodyId wall) {
+      if (is_prescribed(k) && bodies.is_prescribed(wall.index())) return;
       const Vector to_grain = bodies.pose[i].position - bodies.pose[wall.index()].position;
       largest =
           std::max(largest, motion.approach(i, wall.index(), to_grain, grain.width / 2 + margin));

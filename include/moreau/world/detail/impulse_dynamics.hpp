@@ -137,6 +137,8 @@ class ImpulseDynamics {
   bool shares_bodies() const { return shared_ != nullptr; }
   /// Stage 2.
   void find_free_velocities(const Context& context, StepReport& report);
+  /// Stage 2 again, with the attraction of other contacts: after detection was repeated.
+  void attract_again(const Context& context, StepReport& report);
   /// Stages 3 to 9.
   /// @param report out: all but the results of detection and of stage 10, and the times
   void solve_contacts(const Context& context, StepReport& report);
@@ -360,6 +362,7 @@ class ImpulseDynamics {
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
   std::vector<Twist> free_, after_;            // velocities without and with the impulses
+  std::vector<Twist> unattracted_;  // free_ without attraction, if steps can be repeated for bonds
   std::vector<MobilityRoot<S>> roots_;
   std::vector<unsigned char> touched_;  // by contacts
   [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
@@ -377,7 +380,18 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Con
   free_velocity<S>(integrator_, bodies, context.gravity, momentum_, free, context.step, team_);
   if (context.deforms())
     CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
+  if constexpr (bonding) unattracted_ = free_;
   attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), free);
+  report.ms_assemble += clock.lap();
+}
+
+// An integrator may change the momenta when it finds the velocities: it is not asked twice.
+template <class S, class Law, class Integrator, class Solver>
+void ImpulseDynamics<S, Law, Integrator, Solver>::attract_again(const Context& context,
+                                                                StepReport& report) {
+  StepReport::StageClock clock;
+  free_ = unattracted_;
+  attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), std::span(free_));
   report.ms_assemble += clock.lap();
 }
 

@@ -124,7 +124,7 @@ MOREAU_INLINED bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect_a
   assign_laws(assembly_.bodies(), materials_, contacts_, team_);
   report.ms_collide += clock.lap();
   count_contacts(report);
-  if constexpr (bonding) dynamics_.find_free_velocities(context, report);  // with their strength
+  if constexpr (bonding) dynamics_.attract_again(context, report);  // bonds with their strength
   report.repeated = true;
   return true;
 }
