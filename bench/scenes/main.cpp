@@ -10,6 +10,8 @@
 //   concave        the same with 400 concave grains of four parts; to compare with pressed size=400
 //   falling        1,000 hulls of 32 vertices fall onto a floor; h = 1/60 s, as all scenes below
 //   resting        the same at rest
+//   convex_pile    1,280 equal hulls of 32 points (radius 2 m) fall from a grid of 8 x 8 x 20, as in Box3D's
+//                  benchmark of this name (there 80 layers)
 //   pyramid        820 boxes in 40 rows
 //   mesh           1,000 hulls on a wavy mesh of 20,000 triangles
 //   plane_falling, plane_resting, plane_pyramid   2,000 polygons, 820 squares in the plane
@@ -18,7 +20,10 @@
 //   points=few     at most D points of a contact between faces (default all)
 //   tolerance=R    of the residual (default 1e-3)
 //   narrows=no     contacts of all pairs within the margin (default: up to the gap that a pair can close in a step)
-//   islands=no     small islands by sweeps, too (default: by the direct method)
+//   islands=no     small islands by sweeps, too, also those of the overlap correction (default: by the direct method)
+//   interval=N, cap=N, accelerate=no    ColouredOptions::check_interval, max_sweeps, accelerate
+//   correct=no     without overlap correction; correction_sweeps=N, slop=S, rate=R: its options
+//   skin=S         Tolerances::skin
 //   margin=M       of detection, relative to the grain size (default: that of the scene)
 //   order=O        of the grains: added (default; the order of pouring), curve or random
 //   size=N         grains, or rows of a pyramid
@@ -27,15 +32,20 @@
 //   settle=N, steps=N   steps before the measurement, and of it
 //   state=FILE     poses and velocities at the beginning of the measurement: read, or made and written. So
 //                  versions are compared from one state
+//   write=FILE     only writes what bench/peers/engines need to build the scene
+//   poses=FILE     writes the poses of the grains at four times of the measurement
+//   check=FILE     only prints the overlaps of such poses, of whatever program
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
-#include "scene.hpp"
+#include "measure.hpp"
 
 namespace {
 
@@ -72,37 +82,42 @@ void set(Options& options, const std::string& argument) {
   const auto at = argument.find('=');
   if (at == std::string::npos) throw std::invalid_argument(argument + ": NAME=VALUE expected");
   const std::string name = argument.substr(0, at), value = argument.substr(at + 1);
-  if (name == "scalar")
-    options.scalar = value;
-  else if (name == "points")
-    options.points = value;
-  else if (name == "order")
-    options.order = value;
-  else if (name == "state")
-    options.state = value;
-  else if (name == "narrows")
-    options.narrows = value != "no";
-  else if (name == "islands")
-    options.islands = value != "no";
-  else if (name == "tolerance")
-    options.tolerance = std::stod(value);
-  else if (name == "margin")
-    options.margin = std::stod(value);
-  else if (name == "size")
-    options.size = std::stoi(value);
-  else if (name == "threads")
-    options.threads = std::stoi(value);
-  else if (name == "settle")
-    options.settle = std::stoi(value);
-  else if (name == "steps")
-    options.steps = std::stoi(value);
-  else
-    throw std::invalid_argument(name + ": no such option");
+  const auto number = [&] { return std::stod(value); };
+  const auto count = [&] { return std::stoi(value); };
+  const bool yes = value != "no";
+  const std::map<std::string, std::function<void()>> setters{
+      {"scalar", [&] { options.scalar = value; }},
+      {"points", [&] { options.points = value; }},
+      {"order", [&] { options.order = value; }},
+      {"state", [&] { options.state = value; }},
+      {"write", [&] { options.write = value; }},
+      {"poses", [&] { options.poses = value; }},
+      {"check", [&] { options.check = value; }},
+      {"narrows", [&] { options.tolerances.narrows = yes; }},
+      {"skin", [&] { options.tolerances.skin = number(); }},
+      {"islands", [&] { options.solver.islands = options.correction.islands = yes; }},
+      {"tolerance", [&] { options.solver.tolerance = number(); }},
+      {"interval", [&] { options.solver.check_interval = count(); }},
+      {"cap", [&] { options.solver.max_sweeps = count(); }},
+      {"accelerate", [&] { options.solver.accelerate = yes; }},
+      {"correct", [&] { options.correction.enabled = yes; }},
+      {"correction_sweeps", [&] { options.correction.sweeps = count(); }},
+      {"slop", [&] { options.correction.slop = number(); }},
+      {"rate", [&] { options.correction.rate = number(); }},
+      {"margin", [&] { options.margin = number(); }},
+      {"size", [&] { options.size = count(); }},
+      {"threads", [&] { options.threads = count(); }},
+      {"settle", [&] { options.settle = count(); }},
+      {"steps", [&] { options.steps = count(); }},
+  };
+  const auto setter = setters.find(name);
+  if (setter == setters.end()) throw std::invalid_argument(name + ": no such option");
+  setter->second();
 }
 
 void run(const Options& options) {
   const bool in_float = options.scalar == "float";
-  if (options.threads > 1)
+  if (options.threads > 1 && options.write.empty() && options.check.empty())
     std::printf("a cache line takes %.0f ns from one core to another\n", time_of_cache_line());
   const bool done =
       in_float ? scenes::run_polyhedra_float(options) || scenes::run_polygons_float(options)

@@ -13,8 +13,8 @@
 
 #include "moreau/sample/random_rotation.hpp"
 
+#include "measure.hpp"
 #include "pairs.hpp"
-#include "scene.hpp"
 
 namespace scenes {
 
@@ -39,13 +39,15 @@ ShapeT cube() {
 /// An empty world with a floor at height 0, under gravity.
 template <class ShapeT>
 std::unique_ptr<typename Scene<ShapeT>::World> world_with_floor(double friction, double margin,
-                                                                const Options& options) {
+                                                                const Options& options,
+                                                                double grain_size = 1) {
   using Made = Scene<ShapeT>;
   using S = typename Made::S;
   using Scalar = typename S::Scalar;
   const Materials<typename Made::Law> materials(1, typename Made::Law(Scalar(friction)));
-  auto world = std::make_unique<typename Made::World>(Scalar(1), materials, solver(options),
-                                                      tolerances(margin, options));
+  auto world =
+      std::make_unique<typename Made::World>(Scalar(grain_size), materials, solver(options),
+                                             tolerances(margin, options), options.correction);
   world->add_wall(S::Vector::Unit(S::dim - 1), S::Vector::Zero());
   world->set_gravity(Scalar(-9.81) * S::Vector::Unit(S::dim - 1));
   return world;
@@ -66,8 +68,9 @@ Scene<ShapeT> pyramid(const Options& options) {
       pose.position[0] = Scalar(1.1 * (k - 0.5 * (rows - row)));
       pose.position[S::dim - 1] = Scalar(0.5 + row);
       boxes.poses.push_back(pose);
-      boxes.shapes.push_back(cube<ShapeT>());
     }
+  boxes.shapes.push_back(cube<ShapeT>());
+  boxes.shape_of.assign(boxes.poses.size(), 0);
   boxes.add_to(*world, 1000, options);
   return {std::move(world), Scalar(frame), 120, 300};
 }
@@ -83,11 +86,10 @@ Scene<ShapeT> pile(int settle, int steps, const Options& options) {
   const int count = options.size > 0 ? options.size : (S::dim == 3 ? 1000 : 2000);
   auto world = world_with_floor<ShapeT>(0.5, margin_of_falling, options);
   std::mt19937_64 random(1);
-  std::vector<ShapeT> kinds;
-  for (int k = 0; k < 8; ++k)
-    kinds.push_back(S::dim == 3 ? pairs::with_vertices(S{}, 32, random).scaled(Scalar(0.5))
-                                : Ballast<ShapeT>::draw(random).scaled(Scalar(0.5)));
   Grains<ShapeT> grains;
+  for (int k = 0; k < 8; ++k)
+    grains.shapes.push_back(S::dim == 3 ? pairs::with_vertices(S{}, 32, random).scaled(Scalar(0.5))
+                                        : Ballast<ShapeT>::draw(random).scaled(Scalar(0.5)));
   for (int k = 0; k < count; ++k) {
     Pose<S> pose;
     int left = k;
@@ -96,7 +98,7 @@ Scene<ShapeT> pile(int settle, int steps, const Options& options) {
     pose.position[up] = Scalar(0.6 + 1.1 * left);
     pose.rotation = random_rotation<S>(random);
     grains.poses.push_back(pose);
-    grains.shapes.push_back(kinds[std::size_t(k) % kinds.size()]);
+    grains.shape_of.push_back(std::size_t(k) % grains.shapes.size());
   }
   grains.add_to(*world, 1000, options);
   // In the plane the pile stands between two walls, in space it is free.
@@ -105,6 +107,31 @@ Scene<ShapeT> pile(int settle, int steps, const Options& options) {
     world->add_wall(-S::Vector::UnitX(), Scalar(1.1 * across) * S::Vector::UnitX());
   }
   return {std::move(world), Scalar(frame), settle, steps};
+}
+
+/// Equal hulls of 32 random points on a sphere with a radius of 2 m fall, from a grid with as much space between centres
+/// as a diameter. `size` is the number of layers of 8 x 8 hulls.
+template <class ShapeT>
+Scene<ShapeT> convex_pile(const Options& options) {
+  using Made = Scene<ShapeT>;
+  using S = typename Made::S;
+  using Scalar = typename S::Scalar;
+  constexpr double radius = 2;
+  const int layers = options.size > 0 ? options.size : 20;
+  auto world = world_with_floor<ShapeT>(0.6, margin_of_falling, options, 2 * radius);
+  std::mt19937_64 random(42);
+  std::vector<typename S::Vector> corners;
+  for (int k = 0; k < 32; ++k)
+    corners.push_back(Scalar(radius) * pairs::random_direction<S>(random));
+  Grains<ShapeT> grains;
+  grains.shapes.emplace_back(std::span<const typename S::Vector>(corners));
+  for (int k = 0; k < 64 * layers; ++k)
+    grains.poses.push_back(
+        Pose<S>({Scalar(2 * radius * (k % 8 - 4)), Scalar(2 * radius * (k / 8 % 8 - 4)),
+                 Scalar(radius * (1 + 2 * (k / 64)))}));
+  grains.shape_of.assign(grains.poses.size(), 0);
+  grains.add_to(*world, 1000, options);
+  return {std::move(world), Scalar(frame), 0, 500};
 }
 
 /// 1,000 hulls at rest on a wavy floor of 20,000 triangles with edges of 0.4 grain sizes, in layers.
@@ -128,7 +155,8 @@ Scene<ShapeT> on_mesh(const Options& options) {
     }
   const Materials<typename Made::Law> materials(1, typename Made::Law(Scalar(0.5)));
   auto world = std::make_unique<typename Made::World>(Scalar(1), materials, solver(options),
-                                                      tolerances(margin_of_falling, options));
+                                                      tolerances(margin_of_falling, options),
+                                                      options.correction);
   world->set_gravity(Scalar(-9.81) * S::Vector::Unit(2));
   std::mt19937_64 random(1);
   Grains<ShapeT> grains;

@@ -16,6 +16,8 @@ bool run_polyhedra_of(const Options& options) {
     measure(pile<Shape>(0, 300, options), options);
   else if (name == "resting")
     measure(pile<Shape>(900, 300, options), options);
+  else if (name == "convex_pile")
+    measure(convex_pile<Shape>(options), options);
   else if (name == "pyramid")
     measure(pyramid<Shape>(options), options);
   else if (name == "mesh")

@@ -14,7 +14,7 @@
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/sample/size_distribution.hpp"
 
-#include "scene.hpp"
+#include "measure.hpp"
 
 namespace scenes {
 
@@ -44,8 +44,9 @@ Scene<ShapeT> pressed_box(const Options& options) {
 
   Materials<typename Made::Law> materials(2, typename Made::Law(0));
   materials.set(MaterialId(0), MaterialId(0), typename Made::Law(Scalar(0.5)));
-  auto world = std::make_unique<World>(Scalar(0.05), materials, solver(options),
-                                       tolerances(Tolerances{}.margin, options));
+  auto world =
+      std::make_unique<World>(Scalar(0.05), materials, solver(options),
+                              tolerances(Tolerances{}.margin, options), options.correction);
   grains.add_to(*world, 2700, options);
   Scalar top = 0;
   for (std::size_t k = 0; k < count; ++k)
