@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""compare.py FOLDER_OF_PROGRAMS [RUNS]: bench_scenes beside the physics engines of bench/peers/engines, in turn.
+"""compare.py FOLDER [RUNS [SCENE..]]: bench_scenes beside the physics engines of bench/peers/engines, in turn.
 
-FOLDER_OF_PROGRAMS has bench_scenes and what there is of bench_box3d, bench_jolt and bench_box2d. Prints a table
-with the median CPU times of RUNS (default 3) runs on one thread, and the overlaps of the poses of the first run,
-which bench_scenes measures for all programs."""
+FOLDER is that of the benches in a build: it has scenes/bench_scenes and what there is of peers/bench_box3d,
+peers/bench_jolt and peers/bench_box2d. Prints a table with the median CPU times of RUNS (default 3) runs on one
+thread, and the overlaps of the poses of the last run, which bench_scenes measures for all programs."""
 import os
 import re
 import statistics
@@ -11,22 +11,20 @@ import subprocess
 import sys
 import tempfile
 
-SCENES = [  # scene, options, engines
-    ("convex_pile", [], ["box3d", "jolt"]),
-    ("falling", [], ["box3d", "jolt"]),
-    ("pyramid", [], ["box3d", "jolt"]),
-    ("plane_pyramid", [], ["box2d"]),
-    ("plane_falling", [], ["box2d"]),
-]
-GAME = ["setting=game"]
+ENGINES = {
+    "convex_pile": ["box3d", "jolt"],
+    "falling": ["box3d", "jolt"],
+    "pyramid": ["box3d", "jolt"],
+    "plane_pyramid": ["box2d"],
+    "plane_falling": ["box2d"],
+}
 SETTINGS = [  # name in the table, options of bench_scenes
     ("default, 1e-4", ["tolerance=1e-4"]),
-    ("1e-3, sweeps alone", ["tolerance=1e-3", "islands=no"]),
-    ("1e-3, few", ["tolerance=1e-3", "islands=no", "points=few"]),
-    ("1e-2, few", ["tolerance=1e-2", "islands=no", "points=few"]),
-    ("1e-3, float", ["tolerance=1e-3", "islands=no", "scalar=float"]),
-    ("game", GAME),
-    ("game, float", [*GAME, "scalar=float"]),
+    ("1e-3, islands=no", ["tolerance=1e-3", "islands=no"]),
+    ("1e-3, islands=no, float", ["tolerance=1e-3", "islands=no", "scalar=float"]),
+    ("1e-2, islands=no, points=few", ["tolerance=1e-2", "islands=no", "points=few"]),
+    ("games", ["setting=games"]),
+    ("games, float", ["setting=games", "scalar=float"]),
 ]
 
 
@@ -34,27 +32,28 @@ def output_of(command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def main(folder, runs):
+def main(folder, runs=3, *scenes):
     """Prints the table."""
-    ours = os.path.join(folder, "bench_scenes")
+    ours = os.path.join(folder, "scenes", "bench_scenes")
     header = [cell.strip() for cell in output_of([ours]).splitlines()[0].split("|")]
     column = header.index("CPU time of a step, mean [ms]")
     step = 1 / 60
     print("| scene | program | ms per step | ms per second | overlapping pairs | "
           "overlap, mean | largest |\n" + "|---" * 7 + "|")
-    for scene, options, engines in SCENES:
+    for scene in scenes or ENGINES:
+        engines = ENGINES[scene]
         with tempfile.TemporaryDirectory() as place:
             text = os.path.join(place, "scene")
-            output_of([ours, scene, *options, "write=" + text])
+            output_of([ours, scene, "write=" + text])
             programs = {}
             for engine in engines:
-                path = os.path.join(folder, "bench_" + engine)
+                path = os.path.join(folder, "peers", "bench_" + engine)
                 if os.path.exists(path):
                     programs[engine] = [path, text]
             for name, setting in SETTINGS:
-                programs[name] = [ours, scene, *options, *setting]
+                programs[name] = [ours, scene, *setting]
             times = {name: [] for name in programs}
-            for _ in range(runs):
+            for _ in range(int(runs)):
                 for name, command in programs.items():
                     line = output_of([*command, "poses=" + os.path.join(place, name)])
                     if name in engines:
@@ -62,7 +61,7 @@ def main(folder, runs):
                     else:
                         times[name].append(float(line.split("|")[column]))
             for name, values in times.items():
-                check = output_of([ours, scene, *options, "check=" + os.path.join(place, name)])
+                check = output_of([ours, scene, "check=" + os.path.join(place, name)])
                 pairs, mean, largest = re.search(
                     r"pairs (\S+), mean overlap (\S+), largest (\S+),", check).groups()
                 time = statistics.median(values)
@@ -71,4 +70,4 @@ def main(folder, runs):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 3)
+    main(*sys.argv[1:])

@@ -24,6 +24,7 @@
 //   interval=N, cap=N, accelerate=no    ColouredOptions::check_interval, max_sweeps, accelerate
 //   correct=no     without overlap correction; correction_sweeps=N, slop=S, rate=R: its options
 //   skin=S         Tolerances::skin
+//   setting=games  the options of examples/guide/choosing.md for the accuracy of physics engines for games
 //   margin=M       of detection, relative to the grain size (default: that of the scene)
 //   order=O        of the grains: added (default; the order of pouring), curve or random
 //   size=N         grains, or rows of a pyramid
@@ -78,6 +79,16 @@ double time_of_cache_line() {
   return times.median();
 }
 
+/// As accurate as physics engines for games, and as fast for piles.
+void set_as_for_games(moreau::ColouredOptions& sweeps,
+                      moreau::OverlapCorrectionOptions& correction) {
+  sweeps.tolerance = 1e-2;
+  sweeps.check_interval = 12;
+  sweeps.islands = correction.islands = false;
+  correction.slop = 5e-3;
+  correction.sweeps = 4;
+}
+
 void set(Options& options, const std::string& argument) {
   const auto at = argument.find('=');
   if (at == std::string::npos) throw std::invalid_argument(argument + ": NAME=VALUE expected");
@@ -93,6 +104,11 @@ void set(Options& options, const std::string& argument) {
       {"write", [&] { options.write = value; }},
       {"poses", [&] { options.poses = value; }},
       {"check", [&] { options.check = value; }},
+      {"setting",
+       [&] {
+         if (value != "games") throw std::invalid_argument(value + ": no such setting");
+         set_as_for_games(options.solver, options.correction);
+       }},
       {"narrows", [&] { options.tolerances.narrows = yes; }},
       {"skin", [&] { options.tolerances.skin = number(); }},
       {"islands", [&] { options.solver.islands = options.correction.islands = yes; }},
