@@ -46,8 +46,8 @@ class Box2D {
     }
   }
   void start() { stages_ = {}; }
-  void step(double h, int substeps) {
-    b2World_Step(world_, float(h), substeps);
+  void step(double h, int count) {
+    b2World_Step(world_, float(h), count);
     const b2Profile profile = b2World_GetProfile(world_);
     stages_[0] += double(profile.pairs), stages_[1] += double(profile.collide);
     stages_[2] += double(profile.solve), stages_[3] += double(profile.step);

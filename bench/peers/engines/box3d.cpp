@@ -50,8 +50,8 @@ class Box3D {
     }
   }
   void start() { stages_ = {}; }
-  void step(double h, int substeps) {
-    b3World_Step(world_, float(h), substeps);
+  void step(double h, int count) {
+    b3World_Step(world_, float(h), count);
     const b3Profile profile = b3World_GetProfile(world_);
     stages_[0] += double(profile.pairs), stages_[1] += double(profile.collide);
     stages_[2] += double(profile.solve), stages_[3] += double(profile.step);

@@ -79,8 +79,8 @@ class Jolt {
     world_.OptimizeBroadPhase();
   }
   void start() {}
-  void step(double h, int substeps) {
-    if (world_.Update(float(h), substeps, &memory_, &jobs_) != JPH::EPhysicsUpdateError::None)
+  void step(double h, int count) {
+    if (world_.Update(float(h), count, &memory_, &jobs_) != JPH::EPhysicsUpdateError::None)
       throw std::runtime_error("a buffer is full");
   }
   /// Jolt does not count them.
