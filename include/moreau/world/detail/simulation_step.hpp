@@ -108,7 +108,7 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-MOREAU_INLINED bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect_again(
+MOREAU_INLINED inline bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect_again(
     StepReport& report,
     const detail::StepContext<S, Law>& context) requires SetValuedLaw<Law, SpaceOf<ShapeT>> {
   if (!detector_.has_fitted_margins()) return false;
