@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grains are poured on a finite rough plate, where they form a heap. What falls off is removed. Prints the angle of
-// repose: the slope of the free surface when the heap is at rest.
+// Grains are poured on a finite plate, where they form a heap. What falls off is removed. Prints the angle of
+// repose: the slope of the free surface when the heap is at rest. The plate is rough; `heap smooth` takes a smooth one.
 #include <iostream>
 #include <moreau/measure/heap.hpp>
 #include <moreau/measure/rest_test.hpp>
@@ -13,7 +13,7 @@
 
 namespace {
 
-// Or moreau::Polyhedron<double>, moreau::Ball<double>, moreau::Disk<double>:
+// Or moreau::Polyhedron<double>; without add_smooth_plate(), moreau::Ball<double>, moreau::Disk<double>:
 using Shape = moreau::Polygon<double>;
 using S = moreau::SpaceOf<Shape>;
 using Vector = S::Vector;
@@ -39,6 +39,14 @@ void add_plate(Simulation& heap, const std::vector<moreau::ShapeId>& shapes) {
   }
 }
 
+/// The same plate, smooth: one flat obstacle, a square in space. Its upper side is at height 0.
+void add_smooth_plate(Simulation& heap) {
+  Vector half = Vector::Constant(plate);
+  half[up] = size / 2;
+  const moreau::ShapeId slab = heap.add_shape(moreau::cuboid<Shape>(half));
+  heap.prescribe_motion(heap.add_grain(slab, {axis - half[up] * Vector::Unit(up)}, 2700));
+}
+
 /// Removes the grains that fell off the plate.
 void remove_fallen(Simulation& heap) {
   std::vector<moreau::BodyId> fallen;
@@ -56,7 +64,7 @@ double top_of(const Simulation& heap) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char**) {
   std::mt19937_64 random(1);
   moreau::Tolerances tolerances;
   tolerances.margin = 0.08;  // of the grain size: in one step a falling grain moves by up to 1.5 mm
@@ -64,7 +72,10 @@ int main() {
   std::vector<moreau::ShapeId> shapes;
   for (const Shape& shape : moreau::ballast_shapes<Shape>(20, random))
     shapes.push_back(heap.add_shape(shape.scaled(size / 2)));
-  add_plate(heap, shapes);
+  if (argc > 1)
+    add_smooth_plate(heap);
+  else
+    add_plate(heap, shapes);
   heap.set_gravity(-9.81 * Vector::Unit(up));
 
   // One grain in 20 ms, from two grain sizes above the top, not exactly on the axis.

@@ -10,6 +10,7 @@
 
 #include "detect/oracle.hpp"
 #include "detect/shapes.hpp"
+#include "rotation_between.hpp"
 #include "sanitized.hpp"
 
 using namespace moreau;
@@ -265,8 +266,7 @@ TEST_CASE("polyhedra: classes of boxes that meet by face, edge and vertex") {
   touch(turned(quarter, 0), turned(0, quarter), 2 * edge + 1e-4);
   CHECK(manifold.contact_class == ContactClass::edge_edge);
   CHECK(manifold.points.size() == 1);
-  const Eigen::Quaterniond on_vertex =
-      Eigen::Quaterniond::FromTwoVectors(Vector(1, 1, 1), Vector(0, 0, -1));
+  const Eigen::Quaterniond on_vertex = rotation_between(Vector(1, 1, 1), Vector(0, 0, -1));
   touch(turned(0, 0), on_vertex, 0.5 + std::sqrt(0.75) + 1e-4);
   CHECK(manifold.contact_class == ContactClass::vertex_face);
   CHECK(manifold.points.size() == 1);
@@ -283,8 +283,7 @@ TEST_CASE("polyhedra: boxes apart by corner and by edge are named so") {
   CHECK((manifold.normal - Vector(1, 2, 2) / 3).norm() < 1e-12);
   CHECK(manifold.points.size() == 1);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 4, Vector::UnitX()));
-  const Eigen::Quaterniond on_corner =
-      Eigen::Quaterniond::FromTwoVectors(Vector(1, 1, 1), Vector(0, -0.3, -1));
+  const Eigen::Quaterniond on_corner = rotation_between(Vector(1, 1, 1), Vector(0, -0.3, -1));
   const Vector corner = on_corner * Vector(0.5, 0.5, 0.5);
   // The corner lies beside the upper edge of a box that stands on an edge, outside both faces at
   // the upper edge.

@@ -15,6 +15,7 @@
 #include "moreau/detect/reduce.hpp"
 
 #include "detect/shapes.hpp"
+#include "rotation_between.hpp"
 #include "sanitized.hpp"
 
 using namespace moreau;
@@ -100,7 +101,7 @@ struct FaceToFace {
     pose_a.rotation = samples::rotation(S{}, random);
     const Vector n = pose_a.rotation * a.face_normals().row(of_a).transpose();
     frame = S::contact_frame(n);
-    pose_b.rotation = S::Rotation::FromTwoVectors(b.face_normals().row(of_b).transpose(), -n);
+    pose_b.rotation = rotation_between(b.face_normals().row(of_b).transpose(), -n);
     pose_b.rotation = Eigen::AngleAxisd(std::numbers::pi * unit(random), n) * pose_b.rotation;
     const auto under = corners(a, of_a, pose_a);
     const auto over = corners(b, of_b, pose_b);
