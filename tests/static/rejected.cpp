@@ -96,6 +96,57 @@ void glue(const moreau::Cohesive<Push>& law) {
 }
 #endif  // cohesive_bonds
 
+#ifdef bridged_bonds
+// A law with bonds, and bridges beside them.
+// expect: Bridged<Bridge, Law>: Law has an attraction of its own
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/bridges.hpp"
+
+using Push = EITHER(moreau::Bonded<>, moreau::RollingResistance<>);
+void wet(const moreau::Bridged<moreau::CapillaryBridge<>, Push>& law) {
+  (void)law.reach();
+}
+#endif  // bridged_bonds
+
+#ifdef cohesion_twice
+// Two attractions at every contact.
+// expect: Cohesive<Law>: Law has an attraction of its own
+#include "moreau/law/cohesive.hpp"
+
+using Push = EITHER(moreau::Cohesive<>, moreau::SignoriniCoulomb<>);
+void stick(const moreau::Cohesive<Push>& law) {
+  (void)law.adhesion();
+}
+#endif  // cohesion_twice
+
+#ifdef springs_in_a_deforming_cell
+// A regularized law in a cell that deforms.
+// expect: (set_cell|constraints not satisfied)
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Law = EITHER(moreau::LinearSpringDashpot<>, moreau::SignoriniCoulomb<>);
+void shear(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
+  simulation.set_cell(moreau::Space<3>::Matrix::Identity());
+}
+#endif  // springs_in_a_deforming_cell
+
+#ifdef bonds_of_a_law_without
+// A bond under a law that has none.
+// expect: (bond|constraints not satisfied)
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Law = EITHER(moreau::SignoriniCoulomb<>, moreau::Bonded<>);
+void glue(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
+  simulation.bond_touching(1e-5);
+}
+#endif  // bonds_of_a_law_without
+
 #ifdef shape_without_mass
 // A simulation of a shape without mass properties. The message names the missing expression.
 // expect: shape.mass_properties\(density\)
