@@ -271,8 +271,10 @@ class ImpulseDynamics {
           std::span<const MobilityRoot<S>>(roots_), free_, [&] { solve_problem(context, report); },
           report.solve);
     if (!shared_)
-      laws_.limit().apply(context.bodies, problem_, impulses, springs_, solver_, workspace_,
-                          report.solve);
+      laws_.limit().apply(
+          context.bodies, problem_, impulses, springs_, solver_, workspace_,
+          RestitutionLimit<S, Law>::negligible_velocity(context.grain_size, context.step),
+          report.solve);
     if (moves_cell(context)) end_cell(context);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)

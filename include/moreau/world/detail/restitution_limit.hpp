@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Newton's restitution, limited so that the impulses of a step add no kinetic energy.
+// The impulses of a step add no kinetic energy: Newton's restitution is limited, and problems are solved until they
+// add none.
 //
 // With friction, or where several contacts of a body act at once, Newton's law of restitution can add energy
 // (T. R. Kane and D. A. Levinson, Dynamics: Theory and Applications, 1985, section 5.8). Without restitution
@@ -21,6 +22,13 @@
 // prescribed bodies, to the chord of their motion where they turn (chord_velocities.hpp): nothing above asks how
 // these move, and their work is not counted.
 //
+// An approximate r_0 can add energy, within every tolerance on means over the contacts: a heavy body that squeezes a light
+// grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
+// further, from there, and if that does not help, the step is not converged, and the impulses of the island are multiplied
+// by the largest s for which G(s r_0) <= 0. So are those of problems without any restitution.
+// Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
+// rest move less.
+//
 // A tangential restitution (law/tangential_restitution.hpp) is a part of the restitution: r_0 has neither.
 //
 // Springs (law/compliant.hpp) store energy. Let c be the compliance of a contact over h^2, s the impulse that
@@ -36,11 +44,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/disjoint_sets.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -80,15 +91,25 @@ class RestitutionLimit {
   /// Limits the impulses of a solved problem; leaves the operator with their velocities.
   /// @param springs          of the contacts: their relaxation(c) and energy_before(c)
   /// @param solver,workspace solve the problem without restitution, if it is needed
+  /// @param negligible       velocity at which the impulses add energy that does not count, see negligible_velocity() [m/s]
   /// @param report           of the problem with restitution; becomes that of both
   void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
-             const auto& springs, const auto& solver, auto& workspace, SolveReport& report) {
-    if (!bounces()) return;
+             const auto& springs, const auto& solver, auto& workspace, Scalar negligible,
+             SolveReport& report) {
+    bounces_ = bounces();
+    if (!bounces_ && !dissipates) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
     islands_.resize(bodies.size());
+    if (sets_.size() != bodies.size()) sets_.assign(bodies.size());
+    negligible_ = negligible;
     measure(problem, impulses, springs, Scalar(0), bouncing_);
-    if (gains(bodies, problem))
-      limit(bodies, problem, impulses, springs, solver, workspace, report);
+    if (!gains(bodies, problem)) return;
+    limit(bodies, problem, impulses, springs, solver, workspace, report);
+  }
+  /// The velocity of bodies at rest, at most [m/s].
+  static Scalar negligible_velocity(Scalar grain_size, Scalar step) {
+    constexpr Scalar share = std::max(Scalar(1e-12), 16 * std::numeric_limits<Scalar>::epsilon());
+    return share * grain_size / step;
   }
 
  private:
@@ -102,9 +123,20 @@ class RestitutionLimit {
     double gain = 0, size = 0;                   // with restitution: G and the sum of |r . u_f|
     double start = 0, slope = 0, curvature = 0;  // of the parabola G(s)
     double rest = 0;                             // size without restitution
+    double work = 0;                             // of rest: the sum of r . u
+    double least = 0, rest_least = 0;            // energy that does not count
 
     /// More than the rounding of its terms.
     bool makes_energy() const { return gain > 1e-12 * size; }
+    /// More than what does not count.
+    bool counts() const { return gain > 1e-12 * size + least; }
+    bool rest_counts() const { return start > 1e-12 * rest + rest_least; }
+    /// Of the impulses without restitution, if these are no solution: the largest share that adds no energy.
+    MOREAU_INLINED Scalar rest_share() const {
+      if (!rest_counts()) return 1;
+      const double free = 2 * start - work, curve = work - start;  // r . u_f, r . W r / 2
+      return free < 0 ? Scalar(std::min(1.0, -free / curve)) : Scalar(0);
+    }
     Scalar share() const {
       if (!makes_energy()) return 1;
       if (start > 0 || curvature <= 0) return 0;
@@ -114,6 +146,10 @@ class RestitutionLimit {
     }
   };
 
+  /// Whether impulses without restitution never add energy. Springs that a user has compressed release theirs, and a law
+  /// of one's own may drive bodies.
+  static constexpr bool dissipates =
+      (CoulombLaw<Law, S> || RollingLaw<Law, S>)&&!CompliantLaw<Law, S>;
   static constexpr bool aside = TangentialRestitutionLaw<Law, S>;
   bool bounces() const {
     bool any = std::any_of(bounce_.begin(), bounce_.end(), [](Scalar x) { return x != 0; });
@@ -132,7 +168,8 @@ class RestitutionLimit {
       state.velocity.setZero();
       state.gain = -springs.energy_before(c);
       state.acts = !impulses[c].isZero(0);
-      if (!std::isfinite(offset_[c])) continue;
+      // The parabola of the restitution needs velocities of contacts that act in one of the states only.
+      if (!std::isfinite(offset_[c]) || !(state.acts || bounces_)) continue;
       Row offset = springs.relaxation(c);
       offset[0] += offset_[c] - without * bounce_[c];
       if constexpr (aside) offset += (1 - without) * aside_[c];
@@ -146,45 +183,62 @@ class RestitutionLimit {
   MOREAU_COLD void limit(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
                          const auto& springs, const auto& solver, auto& workspace,
                          SolveReport& report) {
-    offset_all(problem, -1);
-    rest(bodies, problem, impulses, springs, solver, workspace, report);
-    offset_all(problem, 1);
-    combine(bodies, problem, impulses);
-    set_impulses(problem.delassus, std::span<const Row>(impulses));
-  }
-  /// Solves the problem without restitution, and adds up the energies of the islands. Its exact solution adds no energy.
-  /// An approximate one can, within every tolerance on means over the contacts: then it is solved further from there, and
-  /// if that does not help, the step is not converged.
-  MOREAU_INLINED void rest(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
-                           const auto& springs, const auto& solver, auto& workspace,
-                           SolveReport& report) {
-    constexpr int most_solves = 32;
-    for (int k = 0; k < most_solves; ++k) {
-      const SolveReport found = solver.solve(problem, impulses, workspace);
-      measure(problem, impulses, springs, Scalar(1), resting_);
+    if (bounces_) offset_all(problem, -1);
+    SolveReport found = report;
+    if (bounces_ || report.converged) {
+      found = rest(bodies, problem, impulses, springs, solver, workspace, report.sweeps);
+    } else {
+      std::swap(resting_, bouncing_);
       add_up(bodies, problem);
-      const bool gains = std::any_of(islands_.begin(), islands_.end(), [](const Island& island) {
-        return island.start > 1e-12 * island.rest;
-      });
-      report.sweeps += found.sweeps;
-      if (gains && found.converged && k + 1 < most_solves) continue;
-      report.converged = report.converged && found.converged && !gains;
-      report.capped = report.capped || found.capped || gains;
+    }
+    if (bounces_) {
+      report.sweeps = found.sweeps;
+      report.converged = report.converged && found.converged;
+      report.capped = report.capped || found.capped;
       report.residual = std::max(report.residual, found.residual);
       report.relative_approach = std::max(report.relative_approach, found.relative_approach);
       report.worst_velocity = std::max(report.worst_velocity, found.worst_velocity);
-      return;
+      offset_all(problem, 1);
+    } else {
+      report = found;
+      if (!damps()) return;
+    }
+    combine(bodies, problem, impulses);
+  }
+  /// Whether impulses without restitution add energy in an island.
+  MOREAU_INLINED bool damps() const {
+    return std::any_of(islands_.begin(), islands_.end(),
+                       [](const Island& island) { return island.rest_counts(); });
+  }
+  /// Solves the problem without restitution until it adds no energy, and adds up the energies of the islands.
+  /// @param sweeps so far
+  MOREAU_INLINED SolveReport rest(const Bodies<S>& bodies, Problem& problem,
+                                  std::span<Row> impulses, const auto& springs, const auto& solver,
+                                  auto& workspace, int sweeps) {
+    constexpr int most_solves = 32;
+    for (int k = 1;; ++k) {
+      SolveReport found = solver.solve(problem, impulses, workspace);
+      measure(problem, impulses, springs, Scalar(1), resting_);
+      add_up(bodies, problem);
+      const bool gains = damps();
+      sweeps += found.sweeps;
+      if (gains && found.converged && k < most_solves) continue;
+      found.sweeps = sweeps;
+      found.converged = found.converged && !gains;
+      found.capped = !found.converged;
+      return found;
     }
   }
-  /// Whether the impulses with restitution add energy in an island.
+  /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   bool gains(const Bodies<S>& bodies, const Problem& problem) {
     if (std::none_of(bouncing_.begin(), bouncing_.end(),
                      [](const State& state) { return state.gain > 0; }))
       return false;
     std::fill(resting_.begin(), resting_.end(), State{Row::Zero(), Row::Zero()});
     add_up(bodies, problem);
-    return std::any_of(islands_.begin(), islands_.end(),
-                       [](const Island& island) { return island.makes_energy(); });
+    return std::any_of(islands_.begin(), islands_.end(), [this](const Island& island) {
+      return bounces_ ? island.makes_energy() : island.counts();
+    });
   }
   void offset_all(Problem& problem, Scalar sign) const {
     for (std::size_t c = 0; c < bounce_.size(); ++c)
@@ -193,15 +247,15 @@ class RestitutionLimit {
       for (std::size_t c = 0; c < aside_.size(); ++c)
         problem.delassus.offset(c, Row(sign * aside_[c]));
   }
-  /// Sets the impulses between those without and with restitution, by the islands of rest().
-  MOREAU_INLINED void combine(const Bodies<S>& bodies, const Problem& problem,
-                              std::span<Row> impulses) {
+  /// Sets the impulses between those without and with restitution, by the islands of rest(), and their velocities.
+  MOREAU_INLINED void combine(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses) {
     for (std::size_t c = 0; c < impulses.size(); ++c) {
-      const Row& rest = resting_[c].impulse;
-      const Scalar share = islands_[island_of(bodies, problem, c)].share();
-      impulses[c] =
-          share == 1 ? bouncing_[c].impulse : Row(rest + share * (bouncing_[c].impulse - rest));
+      const Island& island = islands_[island_of(bodies, problem, c)];
+      const Scalar share = bounces_ ? island.share() : Scalar(0);
+      const Row &rest = resting_[c].impulse, &bounce = bouncing_[c].impulse;
+      impulses[c] = share == 1 ? bounce : Row(island.rest_share() * rest + share * (bounce - rest));
     }
+    set_impulses(problem.delassus, std::span<const Row>(impulses));
   }
   /// Finds the islands of contacts that act in one of the two states, and adds up their energies.
   void add_up(const Bodies<S>& bodies, const Problem& problem) {
@@ -219,17 +273,23 @@ class RestitutionLimit {
       const Row change = bounce.impulse - rest.impulse;
       island.gain += bounce.gain;
       island.size += std::abs(bounce.gain) + std::abs(double(bounce.impulse.dot(bounce.velocity)));
+      island.least += double(negligible_ * bounce.impulse.norm());
+      island.rest_least += double(negligible_ * rest.impulse.norm());
+      island.work += double(rest.impulse.dot(rest.velocity));
       island.start += rest.gain;
       island.rest += std::abs(rest.gain) + std::abs(double(rest.impulse.dot(rest.velocity)));
       island.slope += double(change.dot(rest.velocity));
       island.curvature += double(change.dot(bounce.velocity - rest.velocity));
     }
   }
-  std::uint32_t island_of(const Bodies<S>& bodies, const Problem& problem, std::size_t c) {
+  MOREAU_INLINED std::uint32_t island_of(const Bodies<S>& bodies, const Problem& problem,
+                                         std::size_t c) {
     const auto [a, b] = problem.delassus.bodies(c);
     return sets_.find(bodies.is_prescribed(b) ? a : b);
   }
 
+  bool bounces_ = false;                 // some contact has a restitution in this step
+  Scalar negligible_ = 0;                // velocity of bodies at rest [m/s]
   std::vector<Scalar> offset_, bounce_;  // one per contact: all of the offset, its part by e [m/s]
   std::vector<Row> aside_;  // one per contact, if the law has a tangential restitution [m/s]
   std::vector<State> bouncing_, resting_;  // one per contact: with restitution, without
