@@ -36,11 +36,12 @@ TEST_CASE_TEMPLATE("a semicircular arch of 17 voussoirs stands", ShapeT, Polyhed
 }
 
 // Errors of rounding tilt the light block, and the load drives it out along the wedge: after 7 s with impulses of the
-// rounding of compliances, after 30 s and more since they are refined.
-TEST_CASE_TEMPLATE("a light block holds a heavy one without friction for a while", ShapeT,
-                   Polyhedron<>, Polygon<>) {
+// rounding of compliances, after 20 s with velocities by impulses, which have the rounding of the heavy block.
+TEST_CASE_TEMPLATE("a light block holds a heavy one without friction", ShapeT, Polyhedron<>,
+                   Polygon<>) {
   constexpr double h = 1.0 / 60;
-  masonry::check_stands_by_default(masonry::stack<ShapeT>(2, 0, 0, 1e3), h, rounds(900));
+  for (const double ratio : {1e2, 1e3})
+    masonry::check_stands_by_default(masonry::stack<ShapeT>(2, 0, 0, ratio), h, rounds(3900));
 }
 
 TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedron<>, Polygon<>) {

@@ -154,6 +154,7 @@ class ColouredGaussSeidel {
     if (!swept || report.residual <= std::max(residual, options_.tolerance)) return report;
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
+    islands.forget_motion();
     judge(problem, impulses, swept, islands, report);
     return report;
   }
@@ -165,6 +166,7 @@ class ColouredGaussSeidel {
              bool swept, const detail::IslandSolver<Operator, Law>& islands,
              SolveReport& report) const {
     detail::set_impulses<Operator>(problem.delassus, impulses);
+    islands.move(problem.delassus);
     measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_);
     islands.write(report);
     const bool by_changes = options_.stop_test == StopTest::qm16 && swept;

@@ -143,7 +143,10 @@ class IslandNewton {
       if (is_exact || error * epsilon <= tolerance * least) {
         if (is_exact || !step_.polishes() || step_.steps() == 0 || step_.steps() >= polish_steps ||
             error > Step::polish * solved) {
-          if (has_smooth_point()) step_.refine();
+          if (has_smooth_point()) {
+            step_.refine(mass_ratio());
+            is_better_ = true;  // the changes of the steps before are those of rounding
+          }
           return error;
         }
         solved = error;
@@ -177,6 +180,10 @@ class IslandNewton {
   double first_change() const { return first_; }
   /// Writes the impulses that solve() has found [N s].
   void finish(std::span<Impulse> impulses) const { step_.finish(impulses); }
+  /// Calls take(body, its change of velocity) for each body, in the motion that solve() has found. It is that of
+  /// finish() without the rounding of impulses, which a light body under a heavy one would feel multiplied by the ratio
+  /// of their masses.
+  MOREAU_INLINED void finish_motion(const auto& take) const { step_.finish_motion(take); }
 
  private:
   using Vector = typename Points::Vector;

@@ -171,6 +171,15 @@ class IslandPoints {
   /// The speed of a body for |y| = 1 of the body [kg^-1/2]: the root mean square over its mass.
   double speed(std::size_t body) const { return speeds_[body]; }
 
+  /// The body of the problem that has a number in the island.
+  std::uint32_t body(std::size_t number) const { return bodies_[number]; }
+  /// L y of a body, the change of its velocity (v, w) in world axes [m/s, rad/s].
+  MOREAU_INLINED Coordinates change(std::size_t body, const Coordinates& y) const {
+    Coordinates sum = Coordinates::Zero();
+    for (int k = 0; k < dofs; ++k)
+      for (int i = k; i < dofs; ++i) sum[i] += roots_[body](i, k) * y[k];
+    return sum;
+  }
   /// Change of the relative velocity of a contact by the motion y of the bodies [m/s].
   Vector velocity(const Point& point, std::span<const Coordinates> y) const {
     Vector u = Vector::Zero();

@@ -43,6 +43,8 @@ class IslandSolver {
     tolerance_ = tolerance;
     islands_.find(problem.delassus);
     small_.clear();
+    moved_.assign(problem.delassus.body_count(), 0);
+    motion_.resize(moved_.size());
     others_ = false;
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto contacts = islands_.contacts(k);
@@ -108,6 +110,17 @@ class IslandSolver {
     return std::any_of(small_.begin(), small_.end(),
                        [](const Small& one) { return one.error < not_attempted; });
   }
+  /// Gives the bodies of islands the velocities that the direct method has found, in place of those by its impulses.
+  MOREAU_INLINED void move(Operator& delassus) const {
+    const auto changes = delassus.velocity_changes();
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      if (!moved_[i]) continue;
+      for (int k = 0; k < Operator::Space::dofs; ++k)
+        changes[i * std::size_t(Operator::width) + std::size_t(k)] = motion_[i][k];
+    }
+  }
+  /// Where the impulses are not those of the islands.
+  MOREAU_INLINED void forget_motion() { std::fill(moved_.begin(), moved_.end(), 0); }
   /// Writes what the islands have come to.
   void write(SolveReport& report) const {
     report.islands = report.unsolved_islands = 0;
@@ -201,9 +214,13 @@ class IslandSolver {
   /// Keeps the impulses that the direct method has found, if they are good enough.
   void keep(Small& one, Impulses impulses, double error) {
     one.error = error;
-    if (newton_.is_better() && one.error <= near * tolerance_)
+    if (newton_.is_better() && one.error <= near * tolerance_) {
       newton_.finish(impulses);
-    else
+      newton_.finish_motion([&](std::uint32_t body, const auto& change) {
+        moved_[body] = 1;
+        motion_[body] = change.template cast<typename Operator::Scalar>();
+      });
+    } else
       one.error = newton_.first_change() > 0 ? newton_.first_change() : not_attempted;
   }
 
@@ -213,6 +230,8 @@ class IslandSolver {
   Newton newton_;
   std::vector<Small> small_;
   std::vector<Impulse> saved_;
+  std::vector<unsigned char> moved_;                     // by the direct method, one per body
+  std::vector<typename Operator::Space::Twist> motion_;  // change of the velocity, where moved_
 };
 
 }  // namespace moreau::detail

@@ -141,20 +141,30 @@ class ProximalStep {
     std::swap(centre_, found_);
     std::swap(y_, next_);
   }
-  /// One more proximal step from a solution, of a large compliance. Impulses have the rounding of velocities, divided
+  /// Further proximal steps from a solution, of a large compliance. Impulses have the rounding of velocities, divided
   /// by the compliance: 1e-9 of them after the steps of the least one. Friction holds bodies against that. Without it
-  /// the tilts of a light body under a heavy one add up, and the load drives it out along the wedge. No line search:
-  /// near its solution the problem is linear.
-  MOREAU_COLD void refine() {
-    constexpr double firm = 0.01, several = 10;
-    next_ = y_;
-    respond(firm, next_);
-    if (!newton_direction()) return;
-    for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = along(next_[i], 1, direction_[i]);
-    const double left = respond(firm, next_).rest;
-    if (!(left <= several * rounding / firm * scale(next_))) return;
-    move_by_impulses();
-    accept();
+  /// the tilt of a light body under a heavy one stays, and the load drives it out along the wedge. The velocities that are
+  /// left at the contacts shrink by the compliance in each step, down to rounding. For the same reason the motion is that
+  /// for which the contacts ask, and not J^T r: the rounding of r, times the ratio of the masses, tilts the light body.
+  /// No line search: near its solution the problem is linear.
+  /// @param mass_ratio of the heaviest body and the lightest [-]
+  MOREAU_COLD void refine(double mass_ratio) {
+    constexpr double several = 10;
+    constexpr int most = 4;
+    const double firm = std::min(0.01, 1 / mass_ratio);
+    for (int k = 0; k < most; ++k) {
+      respond(firm, y_);
+      if (!newton_direction()) return;
+      double change = 0;
+      for (std::size_t i = 0; i < next_.size(); ++i) {
+        next_[i] = along(y_[i], 1, direction_[i]);
+        change = std::max(change, direction_[i].norm() * points_.speed(i));
+      }
+      const double left = respond(firm, next_).rest, motion = scale(next_);
+      if (!(left <= several * rounding / firm * motion)) return;
+      accept();
+      if (change <= rounding * motion) return;
+    }
   }
   /// Whether the island is so small that steps below the tolerance cost little.
   bool polishes() const { return points_.bodies() <= polish_bodies; }
@@ -162,6 +172,10 @@ class ProximalStep {
   void finish(std::span<Impulse> impulses) const {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       impulses[points_.points()[k].contact] = centre_[k].template cast<typename S::Scalar>();
+  }
+  /// Calls take(body, its change of velocity) for each body, in the motion of the centre.
+  MOREAU_INLINED void finish_motion(const auto& take) const {
+    for (std::size_t i = 0; i < y_.size(); ++i) take(points_.body(i), points_.change(i, y_[i]));
   }
 
  private:
