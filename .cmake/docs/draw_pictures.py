@@ -23,7 +23,7 @@ STEP = [
     ("Find pairs", "boxes with margin and skin", "q_m", "pairs"),
     ("Detect contacts", "points, normals, gaps, keys", "pairs, pair cache", "contacts"),
     ("Free velocities", "forces, gyroscopic terms", "v, f", "v_free"),
-    ("Assemble", "frame, levers and block of each contact", "contacts, M", "W"),
+    ("Assemble", "tangents, levers and block of each contact", "contacts, M", "W"),
     ("Warm start", "impulses of the last step, by key", "contacts, last r", "r"),
     ("Correct overlaps", "a fifth of what is beyond the slop", "gaps, W", "q_m, gaps"),
     ("Variants", "static or kinetic friction", "last slip", "laws"),

@@ -464,7 +464,10 @@ class Scene : public AnyScene {
       const Vector u = problem.delassus.velocity(c);
       if (!std::isfinite(u[0])) continue;
       const double scale = problem.delassus.block(c).trace() / S::dim;
-      const double left = problem.law(c).natural_map(u, Vector(scale * contacts.impulse(c))).norm();
+      const double left =
+          problem.law(c)
+              .natural_map(u, Vector(scale * problem.delassus.turned(c, contacts.impulse(c))))
+              .norm();
       for (const std::uint32_t body : {contacts.points[c].a, contacts.points[c].b})
         residual_[body] = std::max(residual_[body], left);
     }

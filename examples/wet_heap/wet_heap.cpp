@@ -80,10 +80,8 @@ class Column {
   }
   /// Contacts with a bridge.
   std::size_t bridges() const {
-    const auto& points = simulation_.contacts().points;
-    return std::size_t(std::count_if(points.begin(), points.end(), [](const auto& contact) {
-      return Law::is_bridged(contact.variant);
-    }));
+    const auto& variants = simulation_.contacts().variants;
+    return std::size_t(std::count_if(variants.begin(), variants.end(), Law::is_bridged));
   }
   /// Grains of the floor are darker.
   void draw(const std::filesystem::path& file) const {

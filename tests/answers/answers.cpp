@@ -138,7 +138,10 @@ void add_state(Hash& hash, const World& world) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     hash.add(contacts.points[c].a);
     hash.add(contacts.points[c].b);
-    hash.add(contacts.points[c].gap);
+    auto gap = contacts.points[c].gap;
+    if constexpr (requires { world.correction(); })
+      gap += world.correction().gap_change(contacts.points[c]);
+    hash.add(gap);
     hash.add(contacts.points[c].frame);
     hash.add(contacts.points[c].lever_a);
     hash.add(contacts.points[c].lever_b);

@@ -159,7 +159,8 @@ SolveReport measured_on_one_rank(World before, const World& after) {
   std::vector<Row> impulses;
   for (std::size_t c = 0; c < mine.size(); ++c) {
     Row& row = impulses.emplace_back();
-    const typename S::Matrix &my_frame = mine.points[c].frame, &found_frame = found.points[c].frame;
+    const typename S::Matrix &my_frame = problem.delassus.frame(c),
+                             &found_frame = found.points[c].frame;
     linear<S>(row) = my_frame.transpose() * (found_frame * found.impulse(c));
     if constexpr (Rolls<LawIn<World>>)
       angular<S>(row) = S::angular_frame(my_frame).transpose() *

@@ -53,6 +53,27 @@ TEST_CASE_TEMPLATE("impulses one after the other and all at once give the same v
     CHECK((op.velocity_change(i) - expected[i]).norm() < 1e-12);
 }
 
+TEST_CASE_TEMPLATE("impulses in the frames of the contacts are rows in the frames of the operator",
+                   S, Space<2>, Space<3>) {
+  const Assembly<S> problem(5);
+  const auto& op = problem.op;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<typename S::Vector> impulses(op.size());
+  for (auto& impulse : impulses)
+    for (double& x : impulse) x = unit(random);
+  std::vector<typename S::Vector> rows = impulses;
+  op.to_rows(rows);
+  for (std::size_t c = 0; c < op.size(); ++c) {
+    const typename S::Vector push = problem.contacts[c].frame * impulses[c];
+    CHECK((op.frame(c) * rows[c] - push).norm() < 1e-14);
+    CHECK(op.turned(c, impulses[c]) == rows[c]);
+    CHECK((op.turned_back(c, rows[c]) - impulses[c]).norm() < 1e-14);
+  }
+  op.from_rows(rows);
+  for (std::size_t c = 0; c < op.size(); ++c) CHECK((rows[c] - impulses[c]).norm() < 1e-14);
+}
+
 TEST_CASE("the inverse mass of a wall that moves along one axis") {
   using S = Space<3>;
   const MobilityRoot<S> grain{S::Matrix::Identity() / 2, 3 * S::Inertia::Identity(), true};

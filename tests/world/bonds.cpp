@@ -512,7 +512,7 @@ TEST_CASE("bond: a broken bond is a contact with friction") {
   row.world.step(1e-4);
   const auto& contacts = row.world.contacts();
   CHECK(contacts.size() == 1);
-  CHECK(contacts.points[0].variant == 0);
+  CHECK(contacts.variants[0] == 0);
   CHECK(agree(double(contacts.impulses[0][0]), 10e-4, 1e-3));
   CHECK(agree(double(std::abs(contacts.impulses[0][1])), 3.9e-4, 1e-2));  // 0.4 * 10 would slip
 }

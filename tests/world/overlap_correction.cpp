@@ -71,13 +71,13 @@ std::vector<typename S::Twist> plain_shifts(const Assembly<S>& assembly,
 }
 
 template <class S>
-void check_gaps(const Assembly<S>& assembly, std::span<const Contact<S>> before,
-                const OverlapCorrection<S>& correction, double rounding) {
-  for (std::size_t c = 0; c < before.size(); ++c) {
-    const Contact<S>& contact = before[c];
+void check_gaps(const Assembly<S>& assembly, const OverlapCorrection<S>& correction,
+                double rounding) {
+  for (std::size_t c = 0; c < assembly.contacts.size(); ++c) {
+    const Contact<S>& contact = assembly.contacts[c];
     const double change = double(BodyDelassus<S>::relative_velocity(
         contact, correction.shifts()[contact.a], correction.shifts()[contact.b])[0]);
-    CHECK(double(assembly.contacts[c].gap) ==
+    CHECK(double(contact.gap) + double(correction.gap_change(contact)) ==
           doctest::Approx(double(contact.gap) + change).epsilon(rounding));
   }
 }
@@ -89,9 +89,8 @@ void check_shifts(Assembly<S> assembly, unsigned every, int sweeps, double round
   set_gaps(assembly, 5, every);
   const OverlapCorrectionOptions options = sweeps_only(sweeps);
   const auto expected = plain_shifts(assembly, options);
-  const std::vector<Contact<S>> before = assembly.contacts;
   OverlapCorrection<S> correction(options);
-  const auto report = correction.solve(assembly.op, std::span(assembly.contacts), 1);
+  const auto report = correction.solve(assembly.op, assembly.contacts, 1);
   CHECK(report.corrected > 5);
   double square = 0, norm = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -100,7 +99,7 @@ void check_shifts(Assembly<S> assembly, unsigned every, int sweeps, double round
   }
   CHECK(norm > 0);
   CHECK(std::sqrt(square / norm) <= rounding);
-  check_gaps(assembly, std::span<const Contact<S>>(before), correction, rounding);
+  check_gaps(assembly, correction, rounding);
 }
 
 }  // namespace
@@ -129,12 +128,11 @@ TEST_CASE_TEMPLATE("overlap correction: threads change no bit", S,
   set_gaps(assembly, 5, 2);
   std::vector<typename S::Twist> alone;
   for (const int threads : {1, 2, 3, 8}) {
-    auto contacts = assembly.contacts;
     OverlapCorrection<S> correction(sweeps_only(10));
     auto pool = std::make_shared<detail::ThreadPool>(threads);
     pool->shares = true;
     const auto report =
-        correction.solve(assembly.op, std::span(contacts), T(1), Team(std::move(pool)));
+        correction.solve(assembly.op, assembly.contacts, T(1), Team(std::move(pool)));
     CHECK(report.corrected > 2000);
     if (threads == 1) alone.assign(correction.shifts().begin(), correction.shifts().end());
     CHECK(std::equal(alone.begin(), alone.end(), correction.shifts().begin()));

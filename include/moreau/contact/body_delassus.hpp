@@ -38,19 +38,6 @@
 
 namespace moreau {
 
-namespace detail {
-
-/// D of the contacts with springs, and what their impulses have stretched; nothing without springs.
-template <class Vector, bool Springs>
-struct SpringRows {};
-template <class Vector>
-struct SpringRows<Vector, true> {
-  std::vector<Vector> compliance;  ///< diagonal of D_cc [1/kg]
-  std::vector<Vector> stretch;     ///< D_cc r_c [m/s]
-};
-
-}  // namespace detail
-
 /// The operator of a set of contacts.
 /// @tparam Couples whether a contact has D + A rows, (velocity, R spin) and (impulse, couple / R), or D
 /// @tparam Springs whether springs are in series with the contacts
@@ -68,18 +55,20 @@ class BodyDelassus {
   using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
 
   /// Computes blocks and free relative velocities; without any impulse.
-  /// @param contacts in: bodies, frames, levers; out: frames with turned tangents, see LocalBlock
+  /// @param contacts bodies, frames and levers. The operator turns the tangents of their frames so that W_cc is a
+  ///                 LocalBlock; its own vectors and those of its arguments are in the turned frames, frame(c)
   /// @param roots    M^-1/2 of every body
   /// @param free     velocity of every body without contacts, (v, w) in world axes [m/s, rad/s]
   /// @param compliance of the springs in series with the contacts, the diagonal of D [1/kg]: one row per
   ///                 contact, normal first. The entries of the tangents must be equal, because the tangents
   ///                 are turned, and those of the couple / R. Empty without springs
   /// @param team     threads that share the work
-  void assemble(std::span<Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
+  void assemble(std::span<const Contact<S>> contacts, std::span<const MobilityRoot<S>> roots,
                 std::span<const typename S::Twist> free, std::span<const Vector> compliance = {},
                 const Team& team = {}) {
     points_.resize(contacts.size());
     heads_.resize(contacts.size());
+    if constexpr (Turn::turns) turns_.resize(contacts.size());
     masses_.resize(roots.size());
     changes_.assign(roots.size(), PaddedTwist::Zero());
     cell_.forget();
@@ -101,7 +90,7 @@ class BodyDelassus {
   std::size_t size() const { return points_.size(); }        ///< contacts
   std::size_t body_count() const { return masses_.size(); }  ///< bodies, walls included
 
-  /// W_cc + D_cc in the contact's frame [1/kg].
+  /// W_cc + D_cc in frame(c) [1/kg].
   const Block& block(std::size_t c) const { return points_[c].block; }
   /// w_nn of a contact, with the compliance of its normal spring [1/kg].
   Scalar normal(std::size_t c) const {
@@ -116,7 +105,8 @@ class BodyDelassus {
   Scalar radius(std::size_t c) const requires Couples { return points_[c].radius; }
   /// The two bodies of a contact, a and b.
   std::array<std::uint32_t, 2> bodies(std::size_t c) const { return heads_[c].bodies; }
-  /// Frame of a contact as assemble() left it, columns n, t[, s], world axes.
+  /// Frame of a contact in the operator, columns n, t[, s], world axes. In the plane that of the Contact; in space
+  /// the tangents are turned, see LocalBlock.
   const typename S::Matrix& frame(std::size_t c) const { return points_[c].frame; }
   /// From the centre of body a to the contact point, world axes [m].
   const typename S::Vector& lever_a(std::size_t c) const { return points_[c].lever_a; }
@@ -192,13 +182,23 @@ class BodyDelassus {
     }
   }
 
-  /// Makes the rows r = (impulse, couple / R) of impulses with couples, Contacts::impulses; nothing without couples.
-  void to_rows(std::span<Vector> impulses, const Team& team) const {
-    scale_couples(impulses, team, [](auto& couple, Scalar radius) { couple /= radius; });
+  /// Makes the rows r of impulses, Contacts::impulses: turned into frame(c), and couple / R in place of couples.
+  void to_rows(std::span<Vector> impulses, const Team& team = {}) const {
+    change_rows(impulses, team, false);
   }
-  /// Makes impulses with couples of the rows r.
-  void from_rows(std::span<Vector> impulses, const Team& team) const {
-    scale_couples(impulses, team, [](auto& couple, Scalar radius) { couple *= radius; });
+  /// Makes impulses of the rows r.
+  void from_rows(std::span<Vector> impulses, const Team& team = {}) const {
+    change_rows(impulses, team, true);
+  }
+  /// A vector in the frame of a Contact, in frame(c).
+  typename S::Vector turned([[maybe_unused]] std::size_t c, typename S::Vector vector) const {
+    if constexpr (Turn::turns) turns_[c].apply(vector, 1, false);
+    return vector;
+  }
+  /// A vector in frame(c), in the frame of the Contact.
+  typename S::Vector turned_back([[maybe_unused]] std::size_t c, typename S::Vector vector) const {
+    if constexpr (Turn::turns) turns_[c].apply(vector, 1, true);
+    return vector;
   }
 
   /// @name All impulses at once
@@ -273,7 +273,7 @@ class BodyDelassus {
     detail::prefetch(points_.data() + first, count * sizeof(Point));
   }
 
-  /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in its frame [m/s].
+  /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in the frame of the Contact [m/s].
   static typename S::Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
                                               const typename S::Twist& b) {
     typename S::Vector difference = detail::velocity_at<S>(b, contact.lever_b);
@@ -284,6 +284,7 @@ class BodyDelassus {
  private:
   using Lanes = detail::ContactLanes<S>;
   using Point = detail::OperatorPoint<S, Couples>;
+  using Turn = detail::TangentTurn<S>;
   using Momentum = typename Point::Momentum;
   /// The data of a contact that a pass reads if it does not need the point: a pass over these reads less memory.
   struct Head {
@@ -291,14 +292,23 @@ class BodyDelassus {
     Scalar trace;
   };
 
-  /// Calls scale(couple of an impulse, R of its contact) for each contact.
-  void scale_couples([[maybe_unused]] std::span<Vector> impulses, [[maybe_unused]] const Team& team,
-                     [[maybe_unused]] const auto& scale) const {
-    if constexpr (Couples)
+  /// to_rows(), or back.
+  void change_rows([[maybe_unused]] std::span<Vector> impulses, [[maybe_unused]] const Team& team,
+                   [[maybe_unused]] bool back) const {
+    if constexpr (Couples || Turn::turns)
       team.share_each(impulses.size(), 256, [&](std::size_t c) {
-        typename S::Angular couple = angular<S>(impulses[c]);
-        scale(couple, points_[c].radius);
-        angular<S>(impulses[c]) = couple;
+        Vector& row = impulses[c];
+        if constexpr (Turn::turns) turns_[c].apply(row, 1, back);
+        if constexpr (Couples) {
+          [[maybe_unused]] constexpr int couples = S::dim;  // the rows before the couple
+          if constexpr (Turn::turns) turns_[c].apply(row, couples + 1, back);
+          typename S::Angular couple = angular<S>(row);
+          if (back)
+            couple *= points_[c].radius;
+          else
+            couple /= points_[c].radius;
+          angular<S>(row) = couple;
+        }
       });
   }
   void give(std::uint32_t a, const Momentum& momentum) {
@@ -321,7 +331,7 @@ class BodyDelassus {
 
   /// @param end at most as many contacts as there are lanes
   MOREAU_COMPILED_ONCE void assemble_some(std::size_t begin, std::size_t end,
-                                          std::span<Contact<S>> contacts,
+                                          std::span<const Contact<S>> contacts,
                                           std::span<const typename S::Twist> free) {
     Lanes some;
     for (std::size_t lane = 0; lane < Lanes::lanes; ++lane) {
@@ -337,10 +347,11 @@ class BodyDelassus {
     some.assemble();
     for (std::size_t c = begin; c < end; ++c) {
       const std::size_t lane = c - begin;
-      Contact<S>& contact = contacts[c];
-      some.get_frame(lane, contact.frame);
+      const Contact<S>& contact = contacts[c];
       Point& point = points_[c];
-      point.frame = contact.frame;
+      point.frame.col(0) = contact.frame.col(0);
+      some.get_tangents(lane, point.frame);
+      if constexpr (Turn::turns) turns_[c] = some.turn(lane);
       point.lever_a = contact.lever_a;
       point.lever_b = contact.lever_b;
       point.a = contact.a;
@@ -378,6 +389,7 @@ class BodyDelassus {
 
   std::vector<Point> points_;
   std::vector<Head> heads_;
+  std::vector<Turn> turns_;  // empty in the plane
   std::vector<InverseMass<S>> masses_;
   std::vector<PaddedTwist> changes_;
   detail::OperatorCell<S> cell_;

@@ -7,10 +7,10 @@
 // The impulse r acts on b, in the frame: r_n > 0 pushes. Body a receives -F r. Under a law with couples, r has A
 // more entries: the couple on b, in the angular frame.
 //
-// Detection writes a contact, assign_laws() its law. Three members are written later in the step, because they need what
-// is known only then: the tangents of the frame by BodyDelassus::assemble(), the gap by OverlapCorrection::solve(), the
-// variant by carry() and after the solution. So the impulses of a step, its contact problem and its contacts have one
-// frame, and the gap is that for which the problem was solved.
+// Detection writes a Contact, assign_laws() its law; from then on it stays as it is. The contact problem has tangents of
+// its own (BodyDelassus::frame()): its solution is turned back into the frames of the contacts when it is stored. The gaps
+// for which the problem is solved are those of the contacts with what the overlap correction has changed
+// (OverlapCorrection::gap_change()).
 #pragma once
 
 #include <Eigen/Core>
@@ -38,12 +38,10 @@ struct Contact {
   std::uint32_t b;             ///< second body
   std::uint32_t law;           ///< index into the table of laws, Materials::laws()
   typename S::Scalar gap;      ///< along the normal at the detection configuration [m], < 0 is
-                               ///< penetration; after the step, with the overlap correction
+                               ///< penetration
   typename S::Matrix frame;    ///< columns n (unit, from a to b), t[, s]; right-handed, world axes
   typename S::Vector lever_a;  ///< from the centre of a to the contact point, world axes [m]
   typename S::Vector lever_b;  ///< from the centre of b to the contact point, world axes [m]
-  /// After the step: variant of the law in the next step, see StatefulLaw.
-  std::uint32_t variant = 0;
 };
 
 /// Identifies a contact point from step to step. Keys are ordered by the bodies, then by their parts,
@@ -94,7 +92,7 @@ struct DetectedContacts {
   }
 };
 
-/// The contacts of a step with their impulses.
+/// The contacts of a step with their impulses and the memory of their laws.
 /// @tparam Rows entries of an impulse: D, or D + A under a law with couples
 template <class S, int Rows = S::dim>
 struct Contacts : DetectedContacts<S> {
@@ -106,6 +104,8 @@ struct Contacts : DetectedContacts<S> {
   using Impulse = Eigen::Matrix<typename S::Scalar, Rows, 1>;
 
   std::vector<Impulse> impulses;  ///< one per point
+  /// One per point: the memory of the law, after the step the variant of the next step, see StatefulLaw.
+  std::vector<std::uint32_t> variants;
 
   using DetectedContacts<S>::size;
   using DetectedContacts<S>::points;
@@ -125,11 +125,15 @@ struct Contacts : DetectedContacts<S> {
   }
   /// Whether all arrays have one size, and bodies, laws and variants are below these numbers.
   bool are_valid(std::size_t bodies, std::size_t laws, std::size_t variants) const {
-    if (this->keys.size() != size() || this->classes.size() != size() || impulses.size() != size())
+    if (this->keys.size() != size() || this->classes.size() != size() ||
+        impulses.size() != size() || this->variants.size() != size())
       return false;
-    return std::all_of(points.begin(), points.end(), [&](const Contact<S>& point) {
-      return point.a < bodies && point.b < bodies && point.law < laws && point.variant < variants;
-    });
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Contact<S>& point) {
+                         return point.a < bodies && point.b < bodies && point.law < laws;
+                       }) &&
+           std::all_of(this->variants.begin(), this->variants.end(),
+                       [&](std::uint32_t k) { return k < variants; });
   }
   /// Sum of the impulses that a body received, world axes [N s].
   Value<typename S::Vector> impulse_on(std::uint32_t body) const {
@@ -142,18 +146,22 @@ struct Contacts : DetectedContacts<S> {
     }
     return sum;
   }
-  /// Removes points, as DetectedContacts::erase(), and their impulses.
+  /// Removes points, as DetectedContacts::erase(), with their impulses and variants.
   void erase(const auto& is_gone) {
     DetectedContacts<S>::erase(is_gone);
     erase_at(impulses, is_gone);
+    erase_at(variants, is_gone);
   }
   /// Removes all points; keeps the memory.
   void clear() {
     DetectedContacts<S>::clear();
     impulses.clear();
+    variants.clear();
   }
   /// All arrays, see core/serialize.hpp.
-  auto serialized_members() { return std::tie(points, this->keys, this->classes, impulses); }
+  auto serialized_members() {
+    return std::tie(points, this->keys, this->classes, impulses, variants);
+  }
 };
 
 namespace detail {

@@ -98,16 +98,16 @@ Row carried(const auto& turn, const Contact<S>& before, const Contact<S>& now, c
 
 }  // namespace detail
 
-/// Carries vectors in contact frames, or impulses with couples, and the variants of the laws, over to the contacts of
-/// the same keys. Contacts without a predecessor get zero.
+/// Carries vectors in contact frames, or impulses with couples, and the variants of the laws, if `before` has any, over to
+/// the contacts of the same keys. Contacts without a predecessor get zero.
 /// @param before,now each sorted by its keys
 /// @param old        one per contact of `before`
 /// @param out        out: one per contact of `now`
 /// @param turn       ImpulseTurn or SpringTurn
 /// @param team       threads that share the work
 /// @returns how many contacts have a predecessor
-template <class S, class Row>
-std::size_t carry(const DetectedContacts<S>& before, DetectedContacts<S>& now,
+template <class S, int Rows, class Row>
+std::size_t carry(const Contacts<S, Rows>& before, Contacts<S, Rows>& now,
                   const std::vector<Row>& old, std::vector<Row>& out, const auto& turn,
                   const Team& team = {}) {
   struct Count {
@@ -115,6 +115,7 @@ std::size_t carry(const DetectedContacts<S>& before, DetectedContacts<S>& now,
     void add(const Count& other) { value += other.value; }
   };
   out.resize(now.size());
+  now.variants.resize(now.size());
   return detail::sum_of_parts<Count>(
              team, now.size(),
              [&](std::size_t begin, std::size_t end) -> Count {
@@ -131,7 +132,8 @@ std::size_t carry(const DetectedContacts<S>& before, DetectedContacts<S>& now,
                                     j += skipped;
                                     out[i] = detail::carried<S>(turn, before.points[j],
                                                                 now.points[i], old[j]);
-                                    now.points[i].variant = before.points[j].variant;
+                                    if (!before.variants.empty())
+                                      now.variants[i] = before.variants[j];
                                   })};
              })
       .value;
@@ -191,7 +193,8 @@ std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, c
   detail::for_each_heir<S>(
       before, now, before.impulses, [](const ContactKey&) { return true; },
       [&](std::size_t i, std::size_t j) {
-        if (now.impulses[i].isZero(0)) now.points[i].variant = before.points[j].variant;
+        if (now.impulses[i].isZero(0) && !before.variants.empty())
+          now.variants[i] = before.variants[j];
         now.impulses[i] +=
             detail::carried<S>(turn, before.points[j], now.points[i], before.impulses[j]);
         ++count;

@@ -103,6 +103,26 @@ struct AlignedBlock {
   std::array<std::array<Values, tangents>, tangents> turn;
 };
 
+/// The turn of the tangents of one contact about its normal, for vectors. One tangent has none.
+template <class S, int Tangents = S::dim - 1>
+struct TangentTurn {
+  static constexpr bool turns = false;
+};
+template <class S>
+struct TangentTurn<S, 2> {
+  static constexpr bool turns = true;
+  typename S::Scalar cosine, sine;
+
+  /// Writes a vector with entries along the tangents as one along the turned tangents.
+  /// @param vector in, out: entries k and k + 1 are those along the tangents
+  /// @param back   the other way round
+  void apply(auto& vector, int k, bool back) const {
+    const typename S::Scalar s = back ? -sine : sine, first = vector[k], second = vector[k + 1];
+    vector[k] = cosine * first + s * second;
+    vector[k + 1] = cosine * second - s * first;
+  }
+};
+
 /// @param w lower triangle of W, row after row
 template <class S, class Number>
 AlignedBlock<S, Number> aligned_block(

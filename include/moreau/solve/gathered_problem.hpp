@@ -7,8 +7,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/motion/mobility.hpp"
@@ -41,13 +43,15 @@ void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
 
 }  // namespace detail
 
-/// Forms the matrix W = J M^-1 J^T, each contact in its own frame. Contacts whose free velocity is
-/// infinite, which cannot act in the step, are left out.
-/// @param step its laws have friction()
+/// Forms the matrix W = J M^-1 J^T. Contacts whose free velocity is infinite, which cannot act in the step, are left out.
+/// @param step   its laws have friction()
+/// @param frames the contacts of the step: each row is in the frame of its contact; empty: in that of the operator, as the
+///               rows that solvers of the step find
 /// @returns a GatheredProblem in double
 /// @throws std::invalid_argument if step.law_of has another size than the operator
 template <class Operator, class Law>
-auto gather_problem(const ContactProblem<Operator, Law>& step) {
+auto gather_problem(const ContactProblem<Operator, Law>& step,
+                    std::span<const Contact<typename Operator::Space>> frames = {}) {
   constexpr int rows = Operator::Space::dim;
   using S = Space<rows>;  // in double for every scalar of the step
   const Operator& op = step.delassus;
@@ -72,14 +76,16 @@ auto gather_problem(const ContactProblem<Operator, Law>& step) {
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::size_t c = contacts[std::size_t(k)];
     problem.friction[k] = double(step.law(c).friction());
-    problem.free_velocity.template segment<rows>(rows * k) =
-        op.free_velocity(c).template cast<double>();
+    typename Operator::Space::Vector free = op.free_velocity(c).template head<rows>();
+    if (!frames.empty()) free = op.turned_back(c, free);
+    problem.free_velocity.template segment<rows>(rows * k) = free.template cast<double>();
+    const auto& frame = frames.empty() ? op.frame(c) : frames[c].frame;
     const auto [a, b] = op.bodies(c);
     const auto touch = [&](std::uint32_t body, const typename S::Vector& lever, double sign) {
       const InverseMass<S>& mass = op.inverse_mass(body);
       if (!mass.moves()) return;
       Touch one{k, {}, {}};
-      one.forces = detail::jacobian_rows<S>(op.frame(c), lever, sign).transpose();
+      one.forces = detail::jacobian_rows<S>(frame, lever, sign).transpose();
       one.velocities = detail::dense<Exact>(mass) * one.forces;
       touches[body].push_back(one);
     };

@@ -145,7 +145,7 @@ class ContactDetector {
                        const detail::StepMotion<S>& motion) const;
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, parts, feature), with zero
-  /// impulse and law 0. Pairs of two bodies whose motion is prescribed have none: no impulse could
+  /// impulse, law and variant 0. Pairs of two bodies whose motion is prescribed have none: no impulse could
   /// change their relative velocity. Call find_pairs() before.
   /// @param bodies    with the poses that place() was given
   /// @param previous  contacts of the step before: where a contact between faces has more
@@ -156,6 +156,7 @@ class ContactDetector {
               const Contacts<S, Rows>& previous, Contacts<S, Rows>& out) {
     detect_points(lengths, bodies, detail::PreviousContacts<S>(previous), out);
     out.impulses.assign(out.size(), Contacts<S, Rows>::Impulse::Zero());
+    out.variants.assign(out.size(), 0);
   }
 
   /// Replaces grains and walls after their shapes have been read from a file; keeps the pairs.

@@ -4,6 +4,9 @@
 // because it includes Eigen's sparse matrices.
 #pragma once
 
+#include <span>
+
+#include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/solve/gathered_problem.hpp"
 #include "moreau/world/simulation.hpp"
@@ -24,7 +27,8 @@ auto gather_problem(const Simulation<ShapeT, Law, Integrator, Broad, Solver>& si
   require(simulation.contact_problem().size() == simulation.contacts().size(), "gather_problem",
           "contacts", simulation.contacts().size(),
           "must be those of a step made since they were read or grains were removed");
-  return gather_problem(simulation.contact_problem());
+  return gather_problem(simulation.contact_problem(),
+                        std::span<const Contact<SpaceOf<ShapeT>>>(simulation.contacts().points));
 }
 
 }  // namespace moreau

@@ -79,14 +79,14 @@ class OverlapCorrection {
 
   /// Computes the shift of every body, (displacement [m], rotation vector [rad]) in world axes.
   /// @param op         the operator of the contacts
-  /// @param contacts   in: gaps; out: gaps after the shift, to first order [m]
+  /// @param contacts   with their gaps [m]; gap_change() is what the shift changes
   /// @param grain_size length that the slop is relative to [m]
   /// @param team       threads that share the work around the sweeps
   /// @param shared     bodies that other processes share; null: none
   /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are
   ///          zero. Its work and largest_shift are 0: they need the forces
   template <class Operator>
-  OverlapCorrectionReport solve(const Operator& op, std::span<Contact<S>> contacts,
+  OverlapCorrectionReport solve(const Operator& op, std::span<const Contact<S>> contacts,
                                 Scalar grain_size, const Team& team = {},
                                 SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
@@ -107,16 +107,17 @@ class OverlapCorrection {
         [&](Scalar depth) { return target(depth, largest); }, team, shared);
     std::copy(sweeps_.shifts().begin(), sweeps_.shifts().end(), shifts_.begin());
     limit(largest, grain_size / 2);
-    team.share_each(contacts.size(), 512, [&](std::size_t c) {
-      Contact<S>& contact = contacts[c];
-      if (moved_[contact.a] || moved_[contact.b]) contact.gap += closing(contact);
-    });
     return report;
   }
 
   /// Shifts of the last solve(), one per body: (displacement [m], rotation vector [rad]), world
   /// axes.
   std::span<const typename S::Twist> shifts() const { return shifts_; }
+  /// By how much the shifts of the last solve() change the gap of one of its contacts, to first order [m].
+  Scalar gap_change(const Contact<S>& contact) const {
+    if (shifts_.empty()) return 0;
+    return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
+  }
   const Options& options() const { return options_; }  ///< as given
 
  private:
@@ -159,10 +160,6 @@ class OverlapCorrection {
     });
   }
 
-  /// First-order change of the gap of a contact by the present shifts [m].
-  Scalar closing(const Contact<S>& contact) const {
-    return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
-  }
   /// Least change of a gap [m].
   /// @param largest displacement that one contact asks for at most [m]
   Scalar target(Scalar depth, Scalar largest) const {
@@ -208,11 +205,8 @@ class OverlapCorrection {
   /// Shortens shifts by which a body would move farther than `largest` [m].
   /// @param radius distance from the centre at which rotations are measured [m]
   void limit(Scalar largest, Scalar radius) {
-    moved_.assign(shifts_.size(), 0);
-    for (std::size_t i = 0; i < shifts_.size(); ++i) {
-      typename S::Twist& shift = shifts_[i];
+    for (typename S::Twist& shift : shifts_) {
       if (shift.isZero(0)) continue;
-      moved_[i] = 1;
       const Scalar length = std::max(linear<S>(shift).norm(), radius * angular<S>(shift).norm());
       if (length > largest) shift *= largest / length;
     }
@@ -225,7 +219,6 @@ class OverlapCorrection {
   Newton newton_;
   std::vector<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
   std::vector<unsigned char> turns_;        // bodies that can rotate
-  std::vector<unsigned char> moved_;        // bodies with a shift
   std::vector<Candidate> candidates_;       // contacts
   detail::OverlapSweeps<S> sweeps_;
   std::vector<typename S::Twist> shifts_;

@@ -70,10 +70,19 @@ class ContactLanes {
   }
 
   // Results of assemble().
-  void get_frame(std::size_t lane, typename S::Matrix& frame) const {
+  void get_tangents(std::size_t lane, typename S::Matrix& frame) const {
     for (std::size_t d = 1; d < dim; ++d)
       for (std::size_t k = 0; k < dim; ++k)
         frame(Eigen::Index(k), Eigen::Index(d)) = axes_[d][k][lane];
+  }
+  /// By which the tangents have been turned.
+  TangentTurn<S> turn(std::size_t lane) const {
+    TangentTurn<S> turn;
+    if constexpr (TangentTurn<S>::turns) {
+      turn.cosine = aligned_.turn[0][0][lane];
+      turn.sine = aligned_.turn[1][0][lane];
+    }
+    return turn;
   }
   LocalBlock<S> block(std::size_t lane) const { return aligned_.block[lane]; }
   typename S::Vector free_velocity(std::size_t lane) const {

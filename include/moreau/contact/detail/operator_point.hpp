@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/effective_radius.hpp"
@@ -35,6 +36,15 @@ template <class S>
 struct CoupleArm<S, true> {
   typename S::Inertia axes;   ///< R times the axes of rotation of the frame, world axes [m]
   typename S::Scalar radius;  ///< R [m]
+};
+
+/// D of the contacts with springs, and what their impulses have stretched; nothing without springs.
+template <class Vector, bool Springs>
+struct SpringRows {};
+template <class Vector>
+struct SpringRows<Vector, true> {
+  std::vector<Vector> compliance;  ///< diagonal of D_cc [1/kg]
+  std::vector<Vector> stretch;     ///< D_cc r_c [m/s]
 };
 
 /// The data that BodyDelassus stores of a contact.
@@ -85,7 +95,7 @@ struct OperatorPoint : CoupleArm<S, Couples> {
       return roots[body].grain || !roots[body].angular.isZero(0);
     };
     this->radius = effective_radius(contact, is_round(contact.a), is_round(contact.b));
-    this->axes = this->radius * S::angular_frame(contact.frame);
+    this->axes = this->radius * S::angular_frame(frame);
     angular<S>(free) = this->axes.transpose() *
                        (angular<S>(velocities[contact.b]) - angular<S>(velocities[contact.a]));
     for (int k = 0; k < S::angular_dim; ++k) {

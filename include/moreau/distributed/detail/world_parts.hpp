@@ -168,6 +168,7 @@ struct ContactList {
     contacts.keys.back().b = b;
     contacts.classes.push_back(from.classes[c]);
     contacts.impulses.push_back(from.impulses[c]);
+    contacts.variants.push_back(from.variants[c]);
     if (!from_energies.empty()) energies.push_back(from_energies[c]);
   }
   void add_all(const ContactList& from) {

@@ -74,7 +74,7 @@ class Attraction {
       if (a.isZero(0) && b.isZero(0)) continue;
       const typename S::Angular spin = angular<S>(b) - angular<S>(a);
       typename std::decay_t<decltype(op)>::Vector row;
-      linear<S>(row) = BodyDelassus<S>::relative_velocity(contact, a, b);
+      linear<S>(row) = op.turned(c, BodyDelassus<S>::relative_velocity(contact, a, b));
       angular<S>(row) = op.radius(c) * (S::angular_frame(op.frame(c)).transpose() * spin);
       op.offset(c, row);
     }

@@ -130,8 +130,8 @@ class BondList {
   }
   /// Gives the contacts of bonds the variant with a bond, and all others that without.
   void start(ContactsOf<Law, S>& contacts) const {
-    for (Contact<S>& contact : contacts.points) contact.variant = 0;
-    for_each([&](std::size_t, std::size_t c) { contacts.points[c].variant = 1; });
+    contacts.variants.assign(contacts.size(), 0);
+    for_each([&](std::size_t, std::size_t c) { contacts.variants[c] = 1; });
   }
   /// Hides the impulses of bonds, of which springs have no memory, while `use` is called.
   void hide(std::span<Row> impulses, const auto& use) {
@@ -248,7 +248,7 @@ class BondList {
       report.fracture += taken;
       bond.dissipated += taken;
       if (!broken_[i]) return;
-      contacts.points[c].variant = 0;
+      contacts.variants[c] = 0;
       breakages_.push_back({0, bond.a, bond.b, bond.dissipated});
       ++new_breakages_;
     });
@@ -342,13 +342,15 @@ class BondList {
     merged_.keys.push_back(from.keys[c]);
     merged_.classes.push_back(from.classes[c]);
     merged_.impulses.push_back(from.impulses[c]);
+    merged_.variants.push_back(from.variants[c]);
   }
   void add_contact(std::uint32_t a, std::uint32_t b, const BondPlace<S>& at) {
     constexpr std::size_t last = 0xfffffff;  // an index that no feature has
-    merged_.points.push_back({a, b, 0, Scalar(0), at.frame, at.middle_a, at.middle_b, 1});
+    merged_.points.push_back({a, b, 0, Scalar(0), at.frame, at.middle_a, at.middle_b});
     merged_.keys.push_back({a, b, FeatureKey(FeatureKey::Kind::vertex_vertex, last, last)});
     merged_.classes.push_back(ContactClass::vertex_vertex);
     merged_.impulses.push_back(Row::Zero());
+    merged_.variants.push_back(1);
   }
 
   std::vector<Bond<S>> bonds_;

@@ -46,7 +46,7 @@ class Bridges {
       for (std::size_t c = first; c < last; ++c) least = std::min(least, now.points[c].gap);
       bridged = (bridged || least <= 0) && least <= materials.laws()[now.points[first].law].reach();
       for (std::size_t c = first; c < last; ++c) {
-        now.points[c].variant = static_cast<std::uint32_t>(Law::with_bridge(0, bridged));
+        now.variants[c] = static_cast<std::uint32_t>(Law::with_bridge(0, bridged));
         gone_[c] = !bridged && now.points[c].gap > margin;
       }
       pairs += bridged || least <= margin;
@@ -62,7 +62,7 @@ class Bridges {
     while (at < before.size() && before.keys[at].bodies() < key.bodies()) ++at;
     bool bridged = false;
     for (; at < before.size() && before.keys[at].bodies() == key.bodies(); ++at)
-      bridged = bridged || Law::is_bridged(before.points[at].variant) || before.impulses[at][0] > 0;
+      bridged = bridged || Law::is_bridged(before.variants[at]) || before.impulses[at][0] > 0;
     return bridged;
   }
 
@@ -76,13 +76,13 @@ class BridgeBits {
   /// Remembers the bridges.
   void save(const ContactsOf<Law, S>& contacts) {
     bridged_.clear();
-    for (const Contact<S>& contact : contacts.points)
-      bridged_.push_back(Law::is_bridged(contact.variant));
+    for (const std::uint32_t variant : contacts.variants)
+      bridged_.push_back(Law::is_bridged(variant));
   }
   /// Gives the variants the bridges of save().
   void restore(ContactsOf<Law, S>& contacts) const {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      std::uint32_t& variant = contacts.points[c].variant;
+      std::uint32_t& variant = contacts.variants[c];
       variant = static_cast<std::uint32_t>(Law::with_bridge(variant, bridged_[c] != 0));
     }
   }
@@ -106,7 +106,7 @@ void attractions(const Bodies<S>& bodies, const Materials<Law>& materials,
       for (std::size_t c = first; c < last; ++c) {
         const Contact<S>& contact = contacts.points[c];
         forces[c] = 0;
-        if (!Law::is_bridged(contact.variant)) continue;
+        if (!Law::is_bridged(contacts.variants[c])) continue;
         const auto radius_at = [&](std::uint32_t body, const typename S::Vector& lever) {
           return bodies.grain_mass[body] > 0 ? 1 / (lever.norm() - contact.gap / 2)
                                              : typename S::Scalar(0);

@@ -37,15 +37,12 @@ class CellJumps {
   }
   /// Computes the velocities of the cell at the contacts, F^T L d, and adds them to the free velocities of
   /// the operator.
-  /// @param contacts with the frames of the operator
   void add(const Matrix& rate, const DetectedContacts<S>& contacts, auto& op, const Team& team) {
     using Row = typename std::decay_t<decltype(op)>::Vector;
     jumps_.resize(contacts.size());
     team.share_each(contacts.size(), 256, [&](std::size_t c) {
       jumps_[c] = jump_at(contacts.points[c], rate);
-      Row row = Row::Zero();
-      for (int k = 0; k < S::dim; ++k) row[k] = jumps_[c][k];
-      op.offset(c, row);
+      op.offset(c, row_of<Row>(op, c, jumps_[c]));
     });
   }
   /// Replaces the velocities of the cell by those of another rate.
@@ -53,9 +50,7 @@ class CellJumps {
     using Row = typename std::decay_t<decltype(op)>::Vector;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Vector jump = jump_at(contacts.points[c], rate), change = jump - jumps_[c];
-      Row row = Row::Zero();
-      for (int k = 0; k < S::dim; ++k) row[k] = change[k];
-      op.offset(c, row);
+      op.offset(c, row_of<Row>(op, c, change));
       jumps_[c] = jump;
     }
   }
@@ -106,6 +101,14 @@ class CellJumps {
   }
 
  private:
+  /// A velocity at a contact, in its frame, in the rows of the operator.
+  template <class Row>
+  static Row row_of(const auto& op, std::size_t c, const Vector& velocity) {
+    const Vector turned = op.turned(c, velocity);
+    Row row = Row::Zero();
+    for (int k = 0; k < S::dim; ++k) row[k] = turned[k];
+    return row;
+  }
   MOREAU_COMPILED_ONCE static void turn_velocity(const Twist& velocity, const Matrix& rate,
                                                  Scalar step, Twist& free) {
     const Vector p = linear<S>(velocity);

@@ -226,7 +226,7 @@ template <class Operator>
 typename Operator::Scalar add_chord(Operator& op, const auto& context, std::size_t c,
                                     const auto& before) {
   if (context.chords.empty()) return 0;
-  auto chord = transposed_product(context.contacts.points[c].frame, context.chords[c]);
+  auto chord = transposed_product(op.frame(c), context.chords[c]);
   using Scalar = typename Operator::Scalar;
   chord[0] = std::max(chord[0], std::min(Scalar(0), before[0]));
   typename Operator::Vector row = Operator::Vector::Zero();

@@ -21,6 +21,7 @@
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 
 namespace moreau::detail {
 
@@ -33,25 +34,28 @@ struct Closing {
 
 /// Whether the pair of contact c touches.
 template <class S>
-bool touches(const DetectedContacts<S>& contacts, std::size_t c) {
+MOREAU_INLINED inline bool touches(const DetectedContacts<S>& contacts, const auto& gap_of,
+                                   std::size_t c) {
   const std::size_t first = first_of_pair(contacts, c), last = end_of_pair(contacts, first);
   for (std::size_t k = first; k < last; ++k)
-    if (!(contacts.points[k].gap > 0)) return true;
+    if (!(gap_of(k) > 0)) return true;
   return false;
 }
 
 /// How contact c acts; the head of this file has the cases.
 /// @param context StepContext of the step
+/// @param gap_of  function: contact -> its gap [m]
 /// @param before  u_n before the step [m/s], > 0 separates
 /// @param free    u_n after it without impulses [m/s]
 template <class Law, class T>
-Closing<T> closing_of(const auto& context, std::size_t c, const Law& law, T before, T free) {
-  const T gap = context.contacts.points[c].gap, step = context.step;
+Closing<T> closing_of(const auto& context, const auto& gap_of, std::size_t c, const Law& law,
+                      T before, T free) {
+  const T gap = gap_of(c), step = context.step;
   if (!(gap > 0) || !(gap + step * free < 0) ||
       std::isfinite(law.velocity_offset(gap, before, step)))
     return {gap};
   if (2 * before >= free) return {T(0), gap / step};
-  return touches(context.contacts, c) ? Closing<T>{T(0)} : Closing<T>{gap};
+  return touches(context.contacts, gap_of, c) ? Closing<T>{T(0)} : Closing<T>{gap};
 }
 
 }  // namespace moreau::detail

@@ -49,10 +49,11 @@ class ContactLaws {
   /// Chooses the law of each contact, computes the relative velocities before the step and adds the
   /// offsets of the laws to b.
   /// @param impulses out: 0 where the law says that the contact cannot act
+  /// @param gap_of   function: contact -> its gap, with the overlap correction [m]
   /// @param jumps    of the cell, if it deforms
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context, Problem& problem, std::span<Row> impulses,
-                           const CellJumps<S>& jumps, const Team& team) {
+                           const auto& gap_of, const CellJumps<S>& jumps, const Team& team) {
     const Bodies<S>& bodies = context.bodies;
     const bool deforms = context.deforms();
     before_.resize(context.contacts.size());
@@ -62,7 +63,7 @@ class ContactLaws {
                [&](Largest& fastest, std::size_t c) {
                  const Contact<S>& contact = context.contacts.points[c];
                  const Law& law = context.materials.laws()[contact.law];
-                 problem.law_of[c] = law_of(contact);
+                 problem.law_of[c] = law_of(context.contacts, c);
                  before_[c] = BodyDelassus<S>::relative_velocity(
                      contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
                  if (deforms) before_[c] += jumps[c];
@@ -70,7 +71,7 @@ class ContactLaws {
                  const Scalar approach =
                      before_[c][0] - add_chord(problem.delassus, context, c, before_[c]);
                  const Scalar free = problem.delassus.free_velocity(c)[0];
-                 const auto closing = closing_of(context, c, law, approach, free);
+                 const auto closing = closing_of(context, gap_of, c, law, approach, free);
                  const Scalar offset =
                      law.velocity_offset(closing.gap, approach, context.step) + closing.offset;
                  limit_.set(c, law, closing.gap, approach, context.step, offset - closing.offset,
@@ -88,9 +89,9 @@ class ContactLaws {
   void choose_variants(const Materials<Law>& materials, Contacts& contacts) const {
     if constexpr (stateful)
       for (std::size_t c = 0; c < contacts.size(); ++c) {
-        Contact<S>& contact = contacts.points[c];
-        contact.variant = static_cast<std::uint32_t>(materials.laws()[contact.law].variant_after(
-            contact.variant, Vector(contacts.impulse(c))));
+        std::uint32_t& variant = contacts.variants[c];
+        variant = static_cast<std::uint32_t>(materials.laws()[contacts.points[c].law].variant_after(
+            variant, Vector(contacts.impulse(c))));
       }
   }
 
@@ -111,17 +112,18 @@ class ContactLaws {
   };
 
   /// Index into the table of laws.
-  static std::uint32_t law_of(const Contact<S>& contact) {
+  static std::uint32_t law_of(const ContactsOf<Law, S>& contacts, std::size_t c) {
+    const std::uint32_t law = contacts.points[c].law;
     if constexpr (stateful)
-      return contact.law * static_cast<std::uint32_t>(Law::variants) + contact.variant;
+      return law * static_cast<std::uint32_t>(Law::variants) + contacts.variants[c];
     else
-      return contact.law;
+      return law;
   }
   /// Adds beta0 u_t^- of an impact to u_t.
   /// @param approach u_n before the step, without the chord of a turning wall [m/s]
   template <class L>  // explicit instantiations would instantiate a function that is no template
   void bounce_aside(Problem& problem, std::size_t c, const L& law, Scalar gap, Scalar approach) {
-    Row aside = law.tangential_share(gap, approach) * before_[c];
+    Row aside = law.tangential_share(gap, approach) * problem.delassus.turned(c, before_[c]);
     aside[0] = 0;
     problem.delassus.offset(c, aside);
     limit_.set_aside(c, aside);

@@ -153,7 +153,7 @@ class ContactSprings {
     double stiffest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const Contact<S>& point = context.contacts.points[c];
-      const bool bonded = is_bonded(point);
+      const bool bonded = is_bonded(context.contacts, c);
       Row r = impulses[c];
       if (bonded) r[0] -= pulls[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
@@ -228,9 +228,10 @@ class ContactSprings {
     auto serialized_members() { return std::tie(normal, tangential, rolling); }
   };
 
-  static bool is_bonded([[maybe_unused]] const Contact<S>& point) {
+  static bool is_bonded([[maybe_unused]] const ContactsOf<Law, S>& contacts,
+                        [[maybe_unused]] std::size_t c) {
     if constexpr (BondingLaw<Law, S>)
-      return Law::is_bonded(point.variant);
+      return Law::is_bonded(contacts.variants[c]);
     else
       return false;
   }

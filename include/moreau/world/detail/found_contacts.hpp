@@ -127,7 +127,6 @@ class alignas(64) FoundContacts {
         contact.a = a;
         contact.b = pair.b;
         contact.law = 0;
-        contact.variant = 0;
         contact.gap = point.gap;
         contact.frame = frame;
         for (int d = 0; d < S::dim; ++d) {

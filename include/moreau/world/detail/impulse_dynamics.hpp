@@ -5,11 +5,12 @@
 //   2. find_free_velocities(): of every body at the end of the step without contacts, attraction included
 //   3. assemble(): the Delassus operator; bodies that other processes share are split
 //   4. warm_start(): from the impulses of the step before
-//   5. correct_overlaps(): bodies and gaps move, velocities do not
+//   5. correct_overlaps(): bodies move, velocities do not
 //   6. ContactLaws::list_variants(): of the laws with a memory (each contact gets its own in 7)
 //   7. ContactLaws::offset_velocities(): the law of each contact, u before the step, and what chord and law add to b,
 //      from the corrected gaps
-//   8. solve(): the contact problem, by default with solve/coloured_gauss_seidel.hpp; limits the restitution
+//   8. solve(): the contact problem, by default with solve/coloured_gauss_seidel.hpp; limits the restitution. Its end,
+//      BodyDelassus::from_rows(), stores the impulses of the contacts
 //   9. find_velocities(): after the impulses
 //  10. measure_losses(): the dissipation
 //  11. advance_configuration(): to the end of the step
@@ -407,8 +408,12 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   report.correction = correct_overlaps(context);
   report.ms_correct += clock.lap();
   laws_.list_variants(context, problem_);
+  const auto gap_of = [&](std::size_t c) {
+    const Contact<S>& contact = context.contacts.points[c];
+    return contact.gap + correction_.gap_change(contact);
+  };
   const Scalar approach =
-      laws_.offset_velocities(context, problem_, context.contacts.impulses, jumps_, team_);
+      laws_.offset_velocities(context, problem_, context.contacts.impulses, gap_of, jumps_, team_);
   report.approach = double(approach * context.step / context.margin);
   solve(context, report);
   report.ms_contacts += clock.lap();
