@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The contact problem of one island by a direct method in the coordinates y of its bodies (see
-// island_points.hpp). With the shift sigma = mu |u_t|, Coulomb's law is that of convex cones (G. De Saxce and
+// island_points.hpp). With the lift sigma = mu |u_t|, Coulomb's law is that of convex cones (G. De Saxce and
 // Z.-Q. Feng, Math. Comput. Modelling 28 (1998) 225),
 //
 //     K contains r,   K* contains u + sigma n,   both perpendicular,
 //
-// and with fixed shifts the problem is convex (V. Acary, F. Cadoux, C. Lemarechal and J. Malick, ZAMM 91 (2011)
+// and with fixed lifts the problem is convex (V. Acary, F. Cadoux, C. Lemarechal and J. Malick, ZAMM 91 (2011)
 // 155). It is solved by the proximal point method: with a centre c of impulses and a compliance s = epsilon w in
 // series with every contact, where w is the mean of the diagonal of W_cc,
 //
@@ -14,14 +14,14 @@
 //
 // by a semismooth Newton method with a line search, which converges from everywhere: A = -dr/du is symmetric and
 // not negative. phi'' has one block per body and per pair of bodies, and is regular also where contacts are
-// redundant. The solution r becomes the next centre, and its velocities give the next shifts. A centre that
-// stays where it is, with its shifts, solves the problem of the law. The change of y by one step is the error of
+// redundant. The solution r becomes the next centre, and its velocities give the next lifts. A centre that
+// stays where it is, with its lifts, solves the problem of the law. The change of y by one step is the error of
 // the velocities of the centre, except for modes whose stiffness is small against epsilon, and for slip. Their
 // error shrinks by a factor q per step; q is the ratio of the changes by two steps, and the error is taken as
 // change / (1 - q).
 //
 // Where contacts are redundant, many impulses solve the problem. That of a proximal step is the one nearest to its
-// centre in the norm of s. With the warm start as centre, equal s and no shift where contacts stick, what has changed
+// centre in the norm of s. With the warm start as centre, equal s and no lift where contacts stick, what has changed
 // is shared among the contacts as if by equal springs: of a pair that touches anew the pressure is even. Sweeps give it
 // to the point that they visit first, and with friction such an uneven pressure can turn a body.
 #pragma once
@@ -131,7 +131,7 @@ class IslandNewton {
     first_ = 0;
     double error = 0, before = 0, solved = std::numeric_limits<double>::infinity();
     while (step_.make(epsilon, precision.most_steps, tolerance)) {
-      const double change = step_.take_shifts();
+      const double change = step_.take_lifts();
       if (!std::isfinite(change)) break;
       const double q = before > 0 ? std::min(largest_q, change / before) : 0;
       error = change / (1 - q);
@@ -159,8 +159,8 @@ class IslandNewton {
     return std::max(error, 2 * tolerance);
   }
   /// solve(), but near other impulses than those of start(), of which only the motion is taken. What they do not bear is
-  /// shared as if by equal springs. The shifts begin with zero; if some contacts slip, the steps are done again with the
-  /// shifts found.
+  /// shared as if by equal springs. The lifts begin with zero; if some contacts slip, the steps are done again with the
+  /// lifts found.
   /// @param before the warm start [N s]
   double solve_near(std::span<const Impulse> before, double epsilon, const Precision& precision) {
     step_.make_even();
@@ -168,7 +168,7 @@ class IslandNewton {
     for (int pass = 0; pass < 2; ++pass) {
       step_.set_centre(before);
       error = solve(epsilon, precision);
-      if (!(error <= precision.tolerance && step_.has_shift())) break;
+      if (!(error <= precision.tolerance && step_.has_lift())) break;
     }
     return error;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One proximal step of the direct method for an island (solve/island_newton.hpp has the equations): from a centre of
-// impulses and shifts, y that minimizes phi, by Newton's method with a line search.
+// impulses and lifts, y that minimizes phi, by Newton's method with a line search.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@
 
 namespace moreau::detail {
 
-/// The points, the centre, the shifts and the motion of an island, and the steps that change them. Keeps its memory.
+/// The points, the centre, the lifts and the motion of an island, and the steps that change them. Keeps its memory.
 template <class SpaceT>
 class ProximalStep {
  public:
@@ -36,7 +36,7 @@ class ProximalStep {
   /// Makes room for the contacts and bodies of an island.
   MOREAU_COLD void make_room() {
     const std::size_t count = points_.points().size();
-    shift_.resize(count);
+    lift_.resize(count);
     stiffness_.resize(count);
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
@@ -48,22 +48,22 @@ class ProximalStep {
     return matrix_.work();
   }
 
-  /// Moves to impulses, with the shifts of their motion. The compliance of each contact is epsilon w.
+  /// Moves to impulses, with the lifts of their motion. The compliance of each contact is epsilon w.
   void start(std::span<const Impulse> impulses) {
     common_ = 0;
     set_centre(impulses);
     move_to_centre();
-    first_shifts();
+    first_lifts();
   }
-  /// Gives all contacts one compliance, epsilon times the least w, and no shift.
+  /// Gives all contacts one compliance, epsilon times the least w, and no lift.
   MOREAU_INLINED void make_even() {
     common_ = std::numeric_limits<double>::infinity();
     for (const auto& point : points_.points()) common_ = std::min(common_, point.diagonal);
-    std::fill(shift_.begin(), shift_.end(), 0);
+    std::fill(lift_.begin(), lift_.end(), 0);
   }
-  /// Whether a contact has a shift.
-  bool has_shift() const {
-    return std::any_of(shift_.begin(), shift_.end(), [](double s) { return s > 0; });
+  /// Whether a contact has a lift.
+  bool has_lift() const {
+    return std::any_of(lift_.begin(), lift_.end(), [](double s) { return s > 0; });
   }
   /// Sets the centre alone [N s].
   void set_centre(std::span<const Impulse> impulses) {
@@ -123,16 +123,16 @@ class ProximalStep {
     move_by_impulses();
     return true;
   }
-  /// Sets the shifts of the motion that a proximal step has found.
-  /// @returns the largest change of a shift and of the velocity of a body by the step, relative to scale() [-]
-  MOREAU_INLINED double take_shifts() {
+  /// Sets the lifts of the motion that a proximal step has found.
+  /// @returns the largest change of a lift and of the velocity of a body by the step, relative to scale() [-]
+  MOREAU_INLINED double take_lifts() {
     double largest = 0;
     for (std::size_t i = 0; i < y_.size(); ++i)
       largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
-    for (std::size_t k = 0; k < shift_.size(); ++k) {
-      const double shift = points_.points()[k].friction * slip_of(slip_[k]);
-      if (found_[k][0] > 0) largest = std::max(largest, std::abs(shift - shift_[k]));
-      shift_[k] = shift;
+    for (std::size_t k = 0; k < lift_.size(); ++k) {
+      const double lift = points_.points()[k].friction * slip_of(slip_[k]);
+      if (found_[k][0] > 0) largest = std::max(largest, std::abs(lift - lift_[k]));
+      lift_[k] = lift;
     }
     return largest > 0 ? largest / scale(next_) : 0;
   }
@@ -194,13 +194,13 @@ class ProximalStep {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       points_.push(points_.points()[k], centre_[k], y_);
   }
-  /// Shifts of the motion of the centre.
-  void first_shifts() {
+  /// Lifts of the motion of the centre.
+  void first_lifts() {
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
       Vector u = point.free + points_.velocity(point, y_);
       for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
-      shift_[k] = point.friction * slip_of(u);
+      lift_[k] = point.friction * slip_of(u);
     }
   }
   /// Largest velocity of a body in the motion of the centre and in another one [m/s].
@@ -227,7 +227,7 @@ class ProximalStep {
         b[i] = point.free[i] + caused[i] - soft * centre_[k][i];
       }
       slip_[k] = b;
-      b[0] += shift_[k];
+      b[0] += lift_[k];
       if (is_open<S>(point.friction, b)) {
         found_[k].setZero();  // stiffness_ is not used
         continue;
@@ -336,7 +336,7 @@ class ProximalStep {
   int steps_ = 0;
   double common_ = 0;  // in place of w, > 0 [1/kg]; 0: each contact has its own
   std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
-  std::vector<double> shift_;                  // sigma [m/s]
+  std::vector<double> lift_;                   // sigma [m/s]
   std::vector<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
   std::vector<Coordinates> y_;                                    // of the centre
   std::vector<Coordinates> next_, trial_, f_, direction_;
