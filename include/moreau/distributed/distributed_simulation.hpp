@@ -66,8 +66,8 @@ struct DistributionReport {
 ///
 /// A std::exception in one process ends all processes with one message that names the process.
 ///
-/// @tparam World a Simulation whose law is a SetValuedLaw without attraction, and whose solver can share
-///               bodies (ColouredGaussSeidel, ReproducibleGaussSeidel)
+/// @tparam World a Simulation whose law is a SetValuedLaw without attraction, or one with bonds, and whose solver can
+///               share bodies (ColouredGaussSeidel; ReproducibleGaussSeidel without bonds)
 template <class World>
 class DistributedSimulation;
 
@@ -81,10 +81,14 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   static_assert(SetValuedLaw<Law, S>, "DistributedSimulation: the law is regularized");
-  static_assert(!AttractiveLaw<Law, S>, "DistributedSimulation: the law attracts");
   static_assert(
       requires(Solver solver) { solver.share_bodies(nullptr); },
       "DistributedSimulation: the solver cannot share bodies");
+  static_assert(!AttractiveLaw<Law, S> || BondingLaw<Law, S>,
+                "DistributedSimulation: the law attracts, and has no bonds");
+  static_assert(
+      !BondingLaw<Law, S> || !requires { Solver::splits_bodies; },
+      "DistributedSimulation: the law has bonds, for which bodies must be split");
 
   /// Distributes the simulation of rank 0. The other processes give one of the same type, which may be
   /// empty; it is replaced.
@@ -179,8 +183,8 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
     return sum;
   }
 
-  /// The part of this process: its grains, the ghosts and the walls, numbered anew. Its contacts are
-  /// those of this process.
+  /// The part of this process: its grains, the ghosts and the walls, numbered anew. Its contacts and bonds are
+  /// those of this process, its breakages those since grains could last change their owner; gather() has all.
   const World& local() const { return world_; }
   /// The id in the whole simulation of a body of local().
   BodyId id(BodyId local) const { return redistribution_.id(local.index()); }

@@ -49,6 +49,16 @@ inline double sum_over(SharedBodies* shared, double value) {
   return value;
 }
 
+/// Replaces the velocities of every shared body by their mean over its copies. Communicates.
+/// @param twists in, out: one per body [m/s, rad/s]
+template <class S>
+void average_twists(SharedBodies& shared, std::span<typename S::Twist> twists) {
+  using Scalar = typename S::Scalar;
+  const std::size_t width = S::dofs;
+  Scalar* const first = twists.empty() ? nullptr : twists[0].data();
+  shared.average(std::span<Scalar>(first, twists.size() * width), width);
+}
+
 }  // namespace detail
 
 }  // namespace moreau

@@ -7,7 +7,8 @@
 //
 // of the centre of b now, with the circumradii R and the slack that each centre may move before the
 // next redistribution. Each grain is therefore lent to all owners of the box around its centre with
-// R_b of the widest grain. In a periodic cell the same is done for its images. Poses are not wrapped.
+// R_b of the widest grain. In a periodic cell the same is done for its images. Poses are not wrapped. The slack
+// includes half of what the longest bond is stretched.
 #pragma once
 
 #include <algorithm>
@@ -35,6 +36,7 @@
 #include "moreau/distributed/detail/world_parts.hpp"
 #include "moreau/distributed/domain_decomposition.hpp"
 #include "moreau/shape/circumradius.hpp"
+#include "moreau/world/bond.hpp"
 
 namespace moreau::detail {
 
@@ -65,7 +67,7 @@ class Redistribution {
   void refresh_ghosts() { ghost_motion_.refresh(Parts(world_).bodies(), topology_, processes_); }
   /// The whole simulation, on rank 0.
   std::optional<World> gather() {
-    return whole_.gather(world_, processes_, topology_, shape_ids_, own_);
+    return whole_.gather(world_, processes_, topology_, shape_ids_, own_, breakages_);
   }
 
   std::size_t own_grains() const { return own_.size(); }
@@ -103,6 +105,9 @@ class Redistribution {
   void assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
                 const std::vector<std::vector<BodyId>>& lent);
   void take_contacts(ContactsOnTheWay& contacts);
+  void take_bonds();
+  /// Largest distance of the two points of a bond here [m].
+  Scalar longest_stretch();
 
   /// The ranks that need a grain at x.
   void find_ranks(const Vector& x, Scalar reach, std::vector<int>& found);
@@ -132,6 +137,8 @@ class Redistribution {
   WholeSimulation<World> whole_;
   GhostMotion<S> ghost_motion_;
   std::vector<int> ranks_of_image_;
+  std::vector<Bond<S>> bonds_;       // during a redistribution, with bodies of the whole simulation
+  std::vector<Breakage> breakages_;  // of this process up to the last one, likewise
 };
 
 template <class World>
@@ -142,6 +149,7 @@ void Redistribution<World>::begin() {
     const std::vector<BodyId> all(empty.grains().begin(), empty.grains().end());
     empty.remove_grains(all);
     Parts(empty).shapes().clear();
+    Parts(empty).set_bonds({}, {});
     settings = packed(empty);
   }
   processes_.broadcast(settings);
@@ -162,6 +170,10 @@ void Redistribution<World>::begin() {
   std::sort(topology_.walls.begin(), topology_.walls.end());
   for (const auto& grain : parts.grains()) own_.push_back(grain.body.value);
   for (std::uint32_t k = 0; k < parts.shapes().size(); ++k) shape_ids_.push_back(k);
+  if constexpr (Parts::has_bonds) {  // bodies of earlier breakages may have been removed
+    breakages_.assign(world_.breakages().begin(), world_.breakages().end());
+    parts.set_bonds(parts.bonds(ids_), {});
+  }
   redistribute(0, 1);
 }
 
@@ -191,11 +203,13 @@ void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
   Grains walls, grains;
   for (const std::uint32_t i : topology_.walls) walls.add(parts.bodies(), i, ids_[i], ShapeId());
   ContactsOnTheWay contacts;
+  const Scalar longest = Scalar(processes_.largest(double(longest_stretch())));
   migrate(grains, contacts);
   std::vector<std::vector<BodyId>> lent(ranks());
-  std::vector<Grains> ghosts = lend(grains, slack, lent);
+  std::vector<Grains> ghosts = lend(grains, slack + longest / 2, lent);
   assemble(grains, ghosts, walls, lent);
   take_contacts(contacts);
+  take_bonds();
   parts.finish();
   slack_ = slack;
 }
@@ -241,17 +255,30 @@ void Redistribution<World>::migrate(Grains& grains, ContactsOnTheWay& contacts) 
     const int to = RankTopology::owner_of_contact(owner[a], owner[b]);
     leaving_contacts[std::size_t(to)].add(all, parts.energies(), c, ids_[a].value, ids_[b].value);
   }
+  std::vector<std::vector<Bond<S>>> leaving_bonds(ranks());
+  const std::vector<Bond<S>> bonds = parts.bonds(ids_);
+  for (const Bond<S>& bond : bonds) {
+    const int to = RankTopology::owner_of_contact(owner[local_index(bond.a.value)],
+                                                  owner[local_index(bond.b.value)]);
+    leaving_bonds[std::size_t(to)].push_back(bond);
+  }
+  for (const Breakage& one : parts.breakages(ids_)) breakages_.push_back(one);
   std::vector<std::string> out;
   for (std::size_t rank = 0; rank < ranks(); ++rank)
-    out.push_back(leaving[rank].size() + leaving_contacts[rank].contacts.size() == 0
+    out.push_back(leaving[rank].size() + leaving_contacts[rank].contacts.size() +
+                              leaving_bonds[rank].size() ==
+                          0
                       ? std::string()
-                      : packed(leaving[rank], leaving_contacts[rank]));
+                      : packed(leaving[rank], leaving_contacts[rank], leaving_bonds[rank]));
+  bonds_.clear();
   const std::vector<std::string> in = processes_.exchange(std::move(out));
   std::vector<Grains> from(ranks());
   for (std::size_t rank = 0; rank < ranks(); ++rank) {
     if (in[rank].empty()) continue;
     ContactsOnTheWay more;
-    unpack(in[rank], from[rank], more);
+    std::vector<Bond<S>> more_bonds;
+    unpack(in[rank], from[rank], more, more_bonds);
+    bonds_.insert(bonds_.end(), more_bonds.begin(), more_bonds.end());
     grains.add_all(from[rank]);
     contacts.add_all(more);
   }
@@ -386,6 +413,27 @@ void Redistribution<World>::take_contacts(ContactsOnTheWay& contacts) {
   Parts parts(world_);
   parts.contacts() = std::move(here.contacts);
   if constexpr (Parts::has_springs) parts.spring_energies() = std::move(here.energies);
+}
+
+template <class World>
+void Redistribution<World>::take_bonds() {
+  for (Bond<S>& bond : bonds_) {
+    bond.a = BodyId(local_index(bond.a.value));
+    bond.b = BodyId(local_index(bond.b.value));
+  }
+  Parts(world_).set_bonds(std::move(bonds_), {});
+  bonds_.clear();
+}
+
+template <class World>
+typename Redistribution<World>::Scalar Redistribution<World>::longest_stretch() {
+  Scalar longest = 0;
+  if constexpr (Parts::has_bonds)
+    for (const Bond<S>& bond : world_.bonds()) {
+      const Vector shift = world_.cell().shift(bond.cells);
+      longest = std::max(longest, place_of(bond, world_.bodies(), shift).stretch.norm());
+    }
+  return longest;
 }
 
 }  // namespace moreau::detail

@@ -11,11 +11,12 @@ namespace moreau::detail {
 /// Makes the report of each process that of all together. The report of the solver is so already.
 inline void reduce(StepReport& report, Communicator& processes) {
   std::size_t* const counts[] = {
-      &report.candidate_pairs,   &report.pairs,       &report.points,
-      &report.warm_started,      &report.overlapping, &report.correction.corrected,
-      &report.correction.limited};
+      &report.candidate_pairs,    &report.pairs,       &report.points,
+      &report.warm_started,       &report.overlapping, &report.correction.corrected,
+      &report.correction.limited, &report.bonds,       &report.broken_bonds};
   double* const sums[] = {&report.dissipation,    &report.friction,     &report.rolling,
-                          &report.elastic_energy, &report.elastic_work, &report.correction.work};
+                          &report.elastic_energy, &report.elastic_work, &report.correction.work,
+                          &report.fracture};
   double* const extremes[] = {&report.approach,
                               &report.max_overlap,
                               &report.max_elastic_overlap,

@@ -48,10 +48,12 @@ class WholeSimulation {
   /// @param world     the part of this process
   /// @param shape_ids of the whole simulation, one per shape of the part
   /// @param own       bodies of the part that are grains of this process
+  /// @param breakages of this process before those that the part has
   /// @returns the whole simulation, on rank 0
   std::optional<World> gather(World& world, Communicator& processes, const RankTopology& topology,
                               const std::vector<std::uint32_t>& shape_ids,
-                              const std::vector<std::uint32_t>& own);
+                              const std::vector<std::uint32_t>& own,
+                              const std::vector<Breakage>& breakages);
 
  private:
   using Parts = WorldParts<World>;
@@ -59,7 +61,8 @@ class WholeSimulation {
 
   static std::string packed_part(World& world, const RankTopology& topology,
                                  const std::vector<std::uint32_t>& shape_ids,
-                                 const std::vector<std::uint32_t>& own);
+                                 const std::vector<std::uint32_t>& own,
+                                 std::vector<Breakage> breakages);
   /// Replaces bodies and shapes of a copy of a part.
   /// @param list   grains, then all other bodies
   /// @param grains how many are grains
@@ -72,7 +75,8 @@ class WholeSimulation {
 template <class World>
 std::string WholeSimulation<World>::packed_part(World& world, const RankTopology& topology,
                                                 const std::vector<std::uint32_t>& shape_ids,
-                                                const std::vector<std::uint32_t>& own) {
+                                                const std::vector<std::uint32_t>& own,
+                                                std::vector<Breakage> breakages) {
   Parts parts(world);
   std::vector<std::uint32_t> shape(parts.bodies().size(), 0);
   for (const auto& grain : parts.grains())
@@ -85,7 +89,9 @@ std::string WholeSimulation<World>::packed_part(World& world, const RankTopology
   for (std::size_t c = 0; c < all.size(); ++c)
     contacts.add(all, parts.energies(), c, topology.ids[all.points[c].a].value,
                  topology.ids[all.points[c].b].value);
-  return packed(grains, contacts);
+  std::vector<Bond<S>> bonds = parts.bonds(topology.ids);
+  for (const Breakage& one : parts.breakages(topology.ids)) breakages.push_back(one);
+  return packed(grains, contacts, bonds, breakages);
 }
 
 template <class World>
@@ -108,16 +114,23 @@ template <class World>
 std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& processes,
                                                     const RankTopology& topology,
                                                     const std::vector<std::uint32_t>& shape_ids,
-                                                    const std::vector<std::uint32_t>& own) {
+                                                    const std::vector<std::uint32_t>& own,
+                                                    const std::vector<Breakage>& breakages) {
   const std::vector<std::string> in =
-      processes.gather(packed_part(world, topology, shape_ids, own));
+      processes.gather(packed_part(world, topology, shape_ids, own, breakages));
   if (processes.rank() != 0) return std::nullopt;
   BodyList<S> list;
   ContactsOnTheWay<World> contacts;
+  std::vector<Bond<S>> bonds;
+  std::vector<Breakage> broken;
   for (const std::string& bytes : in) {
     BodyList<S> grains;
     ContactsOnTheWay<World> more;
-    unpack(bytes, grains, more);
+    std::vector<Bond<S>> more_bonds;
+    std::vector<Breakage> more_broken;
+    unpack(bytes, grains, more, more_bonds, more_broken);
+    bonds.insert(bonds.end(), more_bonds.begin(), more_bonds.end());
+    broken.insert(broken.end(), more_broken.begin(), more_broken.end());
     list.add_all(grains);
     contacts.add_all(more);
   }
@@ -137,6 +150,7 @@ std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& 
   set_bodies(whole, list, grains);
   whole.contacts() = std::move(contacts.contacts);
   if constexpr (Parts::has_springs) whole.spring_energies() = std::move(contacts.energies);
+  whole.set_bonds(std::move(bonds), std::move(broken));
   whole.finish();
   return result;
 }

@@ -18,6 +18,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/io/archive.hpp"
 #include "moreau/motion/bodies.hpp"
+#include "moreau/world/bond.hpp"
 
 namespace moreau::detail {
 
@@ -56,6 +57,11 @@ struct StateAccess {
   static constexpr bool has_springs() {
     return Dynamics::compliant;
   }
+  /// Whether the law has bonds.
+  template <class Dynamics>
+  static constexpr bool has_bonds() {
+    return Dynamics::bonding;
+  }
   static auto& springs(auto& dynamics) { return dynamics.springs_; }
   static auto& energies(auto& springs) { return springs.energies_; }
   static auto& shifts(auto& dynamics) { return dynamics.correction_.shifts_; }
@@ -67,6 +73,7 @@ struct StateAccess {
 /// The parts of a simulation.
 template <class World>
 struct WorldParts {
+  using S = typename World::S;
   World& world;
 
   explicit WorldParts(World& whole) : world(whole) {}
@@ -109,11 +116,55 @@ struct WorldParts {
   /// The shifts of the overlap correction in the last step, which the next step does not need.
   auto& shifts() { return StateAccess::shifts(dynamics()); }
 
+  static constexpr bool has_bonds = StateAccess::has_bonds<
+      std::remove_cvref_t<decltype(StateAccess::dynamics(std::declval<World&>()))>>();
+  /// The bonds with the ids of their bodies in the whole simulation; none of a law without.
+  /// @param ids one per body
+  std::vector<Bond<S>> bonds(std::span<const BodyId> ids) {
+    std::vector<Bond<S>> bonds;
+    if constexpr (has_bonds) {
+      for (Bond<S> bond : dynamics().bonds().bonds()) {
+        bond.a = ids[bond.a.index()];
+        bond.b = ids[bond.b.index()];
+        bonds.push_back(bond);
+      }
+    }
+    return bonds;
+  }
+  /// The same of the breakages.
+  std::vector<Breakage> breakages(std::span<const BodyId> ids) {
+    std::vector<Breakage> breakages;
+    if constexpr (has_bonds) {
+      for (Breakage one : dynamics().bonds().breakages()) {
+        one.a = ids[one.a.index()];
+        one.b = ids[one.b.index()];
+        breakages.push_back(one);
+      }
+    }
+    return breakages;
+  }
+  /// Replaces bonds and breakages.
+  /// @param bonds     of bodies here, in any order
+  /// @param breakages in any order
+  void set_bonds([[maybe_unused]] std::vector<Bond<S>> bonds,
+                 [[maybe_unused]] std::vector<Breakage> breakages) {
+    if constexpr (has_bonds) {
+      std::sort(bonds.begin(), bonds.end(), [](const Bond<S>& l, const Bond<S>& r) {
+        return std::pair(l.a, l.b) < std::pair(r.a, r.b);
+      });
+      std::sort(breakages.begin(), breakages.end(), [](const Breakage& l, const Breakage& r) {
+        return std::tuple(l.time, l.a, l.b) < std::tuple(r.time, r.a, r.b);
+      });
+      dynamics().bonds().set_bonds(std::move(bonds));
+      dynamics().bonds().set_breakages(std::move(breakages));
+    }
+  }
+
   void forget_pairs() { StateAccess::forget_pairs(detector()); }
   /// Computes what depends on the members, after they were set.
   void finish() {
     forget_pairs();
-    shifts().assign(bodies().size(), World::S::Twist::Zero());
+    shifts().assign(bodies().size(), S::Twist::Zero());
     SerializationAccess::deserialized(assembly());
     if constexpr (has_springs) SerializationAccess::deserialized(springs());
     SerializationAccess::deserialized(world);

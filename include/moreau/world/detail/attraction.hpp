@@ -2,6 +2,9 @@
 // The attraction of a cohesive law in a step: an external force on the bodies (stage 2 of impulse_dynamics.hpp).
 // The contact problem has the pushes of the contacts, which the law's solve() finds; between steps, contacts have
 // the impulses on the bodies, which are the pushes less the attraction.
+//
+// Of bodies that several processes share, each process attracts its copies of a part of the mass by its own contacts;
+// the mean of the copies is the body under all of them (solve/shared_bodies.hpp).
 #pragma once
 
 #include <cstddef>
@@ -16,6 +19,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/step_context.hpp"
 
@@ -64,9 +68,15 @@ class Attraction {
     push[0] += change;
   }
   /// Adds what change() has changed to the free velocities of bodies and contacts.
-  /// @param free in, out: one per body [m/s, rad/s]
-  /// @param op   in, out: operator of contacts with couples
-  void offset(const ContactsOf<Law, S>& contacts, std::span<Twist> free, auto& op) {
+  /// @param free   in, out: one per body [m/s, rad/s]
+  /// @param op     in, out: operator of contacts with couples
+  /// @param shared by several processes, or null
+  void offset(const ContactsOf<Law, S>& contacts, std::span<Twist> free, auto& op,
+              SharedBodies* shared) {
+    if (shared) {
+      changes_.resize(free.size(), Twist::Zero());
+      average_twists<S>(*shared, std::span<Twist>(changes_));
+    }
     for (std::size_t i = 0; i < changes_.size(); ++i) free[i] += changes_[i];
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];

@@ -86,6 +86,14 @@ class BondList {
     });
     contact_of_.clear();
   }
+  /// Replaces the bonds, between two steps.
+  /// @param bonds sorted by their bodies
+  void set_bonds(std::vector<Bond<S>> bonds) {
+    bonds_ = std::move(bonds);
+    contact_of_.clear();
+  }
+  /// Replaces the list of breakages.
+  void set_breakages(std::vector<Breakage> breakages) { breakages_ = std::move(breakages); }
   /// Whether the bonds, read from a file, are of bodies that exist, and sorted.
   bool are_valid(const Bodies<S>& bodies) const {
     const auto exists = [&](BodyId id) {

@@ -195,9 +195,18 @@ class ImpulseDynamics {
     return correction;
   }
 
+  void attract(const Context& context) {
+    attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_),
+                      std::span<Twist>(free_));
+  }
   void assemble(const Context& context) {
-    if (shared_)
+    if (shared_) {
       split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
+      if constexpr (AttractiveLaw<Law, S>) {
+        attract(context);
+        average_twists<S>(*shared_, std::span<Twist>(free_));
+      }
+    }
     problem_.delassus.assemble(context.contacts.points, roots_, free_,
                                springs_.compliances(context), team_);
     if (context.deforms()) {
@@ -270,7 +279,7 @@ class ImpulseDynamics {
       soften_bonds(
           context, bonds_, attraction_, problem_.delassus, impulses,
           std::span<const MobilityRoot<S>>(roots_), free_, [&] { solve_problem(context, report); },
-          report.solve);
+          report.solve, shared_.get());
     if (!shared_)
       laws_.limit().apply(
           context.bodies, problem_, impulses, springs_, solver_, workspace_,
@@ -384,7 +393,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Con
   if (context.deforms())
     CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
   if constexpr (bonding) unattracted_ = free_;
-  attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), free);
+  if (!shared_) attract(context);
   report.ms_assemble += clock.lap();
 }
 

@@ -6,6 +6,7 @@
 
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
 #include "moreau/world/detail/attraction.hpp"
 #include "moreau/world/detail/bond_list.hpp"
@@ -19,12 +20,13 @@ namespace moreau::detail {
 /// @param roots    M^-1/2 of every body
 /// @param free     velocities without contacts, one per body [m/s, rad/s]
 /// @param solve    function: solves the problem and replaces the report
+/// @param shared   bodies that other processes share; null: none
 template <class S, class Law, class Operator>
 void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
                   Attraction<S, Law>& attraction, Operator& op,
                   std::span<typename Operator::Vector> impulses,
                   std::span<const MobilityRoot<S>> roots, auto& free, const auto& solve,
-                  SolveReport& report) {
+                  SolveReport& report, SharedBodies* shared) {
   using Scalar = typename S::Scalar;
   const auto change = [&](std::size_t c, Scalar pull) {
     attraction.change(c, pull, context.contacts, roots, impulses[c]);
@@ -35,10 +37,11 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
     }
   };
   for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
-    if (!bonds.soften(context.materials, op, context.contacts, impulses, attraction.pulls(),
-                      context.step, change))
-      return;
-    attraction.offset(context.contacts, free, op);
+    double changed = bonds.soften(context.materials, op, context.contacts, impulses,
+                                  attraction.pulls(), context.step, change);
+    if (shared) shared->largest({&changed, 1});
+    if (changed == 0) return;
+    attraction.offset(context.contacts, free, op, shared);
     const int sweeps = report.sweeps;
     solve();
     report.sweeps += sweeps;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Bonds over several processes: the motion is that of one process, bonds and breakages move with their grains, also
+// through a restart over the processes.
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "moreau/law/bonded.hpp"
+
+#include "distributed/worlds.hpp"
+
+using namespace distributed_test;
+
+namespace {
+
+using Glue = Bonded<>;
+using SoftGlue = Compliant<Bonded<>>;
+
+/// A block of grains that touch, turned against the floor that it falls on; grains bonded in rows, with springs all
+/// that touch. Half of the block is faster, so that it tears.
+template <class ShapeT, class Law>
+Simulation<ShapeT, Law> block(const Law& law, double speed) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  ColouredOptions options;
+  options.tolerance = 1e-10;
+  options.max_sweeps = 3000;
+  Tolerances tolerances;
+  tolerances.narrows = false;
+  Simulation<ShapeT, Law> world(size, Materials<Law>(1, law), ColouredGaussSeidel(options),
+                                tolerances);
+  OverlapCorrectionOptions correction;
+  correction.enabled = false;
+  world.set_correction(correction);
+  if (rank() != 0) return world;
+  const ShapeId shape = world.add_shape(ShapeT(size / 2));
+  const int side = S::dim == 2 ? 7 : 4, count = S::dim == 2 ? side * side : side * side * side;
+  const auto turn = S::exp(S::Angular::Constant(0.4));
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> noise(-0.05, 0.05);
+  std::vector<BodyId> grains;
+  for (int k = 0; k < count; ++k) {
+    Vector x = Vector::Zero(), v = Vector::Zero();
+    for (int axis = 0, rest = k; axis < S::dim; ++axis, rest /= side)
+      x[axis] = size * (rest % side);
+    grains.push_back(world.add_grain(shape, Pose<S>(turn * x), 2700));
+    for (int axis = 0; axis < S::dim; ++axis) v[axis] = speed * noise(random);
+    v[S::dim - 1] -= speed;
+    v[0] += k % side < side / 2 ? 0.0 : speed;
+    world.set_velocity(grains.back(), v);
+  }
+  const Vector up = Vector::Unit(S::dim - 1);
+  double lowest = 0;
+  for (const BodyId grain : grains) lowest = std::min(lowest, world.pose(grain).position.dot(up));
+  world.add_wall(up, Vector((lowest - 0.7 * size) * up));
+  if constexpr (CompliantLaw<Law, S> && BondingLaw<Law, S>) {
+    world.bond_touching(1e-6);
+  } else if constexpr (BondingLaw<Law, S>) {
+    for (int k = 0; k < count; ++k)
+      if (k % side != 0) world.bond(grains[std::size_t(k - 1)], grains[std::size_t(k)]);
+  }
+  return world;
+}
+
+/// Compares some steps with those of one process; in the middle the simulation is gathered and distributed again.
+/// @returns on rank 0 the simulation at the end
+template <class World>
+std::optional<World> check_motion(const World& scene, int steps) {
+  constexpr bool bonds = BondingLaw<LawIn<World>, typename World::S>;
+  World alone = scene;
+  std::optional<World> result;
+  std::size_t redistributions = 0, broken = 0;
+  std::optional<DistributedSimulation<World>> packing;
+  packing.emplace(MPI_COMM_WORLD, scene);
+  double scale = 0, worst = 0, fracture = 0;
+  for (int k = 0; k < steps; ++k) {
+    if (k == steps / 2) {
+      redistributions += packing->distribution().redistributions;
+      std::optional<World> whole = packing->gather();
+      packing.emplace(MPI_COMM_WORLD, whole ? *whole : scene);
+    }
+    const StepReport report = packing->step(step);
+    result = packing->gather();
+    if (!result) continue;
+    const StepReport expected = alone.step(step);
+    CHECK(report.points == expected.points);
+    CHECK(report.bonds == expected.bonds);
+    CHECK(report.broken_bonds == expected.broken_bonds);
+    broken += expected.broken_bonds;
+    fracture += report.fracture - expected.fracture;
+    scale += expected.fracture;
+    for (const BodyId grain : alone.grains())
+      worst = std::max(worst, (alone.pose(grain).position - result->pose(grain).position).norm());
+    if constexpr (bonds) {
+      REQUIRE(result->bonds().size() == alone.bonds().size());
+      for (std::size_t i = 0; i < alone.bonds().size(); ++i) {
+        const auto &mine = result->bonds()[i], &other = alone.bonds()[i];
+        CHECK(mine.a == other.a);
+        CHECK(mine.b == other.b);
+        CHECK(mine.strength_left == doctest::Approx(other.strength_left).epsilon(1e-5));
+      }
+    }
+  }
+  redistributions += packing->distribution().redistributions;
+  if (!result) return result;
+  CHECK(redistributions > 5);
+  CHECK(worst < 1e-6 * size);
+  CHECK(std::abs(fracture) <= 1e-5 * scale);
+  if constexpr (bonds) {
+    CHECK(broken > 3);
+    REQUIRE(result->breakages().size() == alone.breakages().size());
+    for (std::size_t i = 0; i < alone.breakages().size(); ++i) {
+      const Breakage &mine = result->breakages()[i], &other = alone.breakages()[i];
+      CHECK(mine.time == doctest::Approx(other.time));
+      CHECK(std::pair(mine.a, mine.b) == std::pair(other.a, other.b));
+    }
+  }
+  MESSAGE(ranks(), " processes: largest difference ", worst / size, " diameters, ", broken,
+          " bonds broke, ", redistributions, " redistributions");
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Rigid bonds over processes hold and break as in one") {
+  check_motion(block<Disk<>>(Glue({3e3, 2e3, 2e3}, 0.4), 1), 120);
+}
+
+TEST_CASE("Bonds with springs and a fracture energy soften and break over processes as in one") {
+  check_motion(block<Ball<>>(SoftGlue(Glue({20, 15, 15, 2e-4}, 0.4), 1e5), 1), 120);
+}
