@@ -208,7 +208,7 @@ class IslandSolver {
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
-  void solve_directly(Small& one, Impulses impulses, double epsilon, int steps) {
+  MOREAU_INLINED void solve_directly(Small& one, Impulses impulses, double epsilon, int steps) {
     keep(one, impulses, newton_.solve(epsilon, {tolerance_, least_epsilon, steps}));
   }
   /// Keeps the impulses that the direct method has found, if they are good enough.

@@ -34,7 +34,7 @@ class ProximalStep {
   const Points& points() const { return points_; }  ///< the same
 
   /// Makes room for the contacts and bodies of an island.
-  MOREAU_COLD void make_room() {
+  MOREAU_INLINED void make_room() {
     const std::size_t count = points_.points().size();
     lift_.resize(count);
     stiffness_.resize(count);
