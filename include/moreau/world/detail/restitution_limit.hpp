@@ -24,8 +24,9 @@
 //
 // An approximate r_0 can add energy, within every tolerance on means over the contacts: a heavy body that squeezes a light
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
-// further, from there, and if that does not help, the step is not converged, and the impulses of the island are multiplied
-// by the largest s for which G(s r_0) <= 0. So are those of problems without any restitution.
+// further, from there, and if that does not help, the step is not converged. In any case the impulses of the island are
+// multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
+// thousandth of the largest, the step is as solved as it was. So are those of problems without any restitution.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
 // rest move less.
 //
@@ -119,6 +120,8 @@ class RestitutionLimit {
     double gain = 0;        ///< r . (u_f + u + c r) / 2 - s . c s / 2 [J]
     bool acts = false;      ///< r is not zero
   };
+  static constexpr double rounding =
+      std::max(1e-12, 8 * double(std::numeric_limits<Scalar>::epsilon()));  ///< of sums, relative
   struct Island {
     double gain = 0, size = 0;                   // with restitution: G and the sum of |r . u_f|
     double start = 0, slope = 0, curvature = 0;  // of the parabola G(s)
@@ -127,10 +130,10 @@ class RestitutionLimit {
     double least = 0, rest_least = 0;            // energy that does not count
 
     /// More than the rounding of its terms.
-    bool makes_energy() const { return gain > 1e-12 * size; }
+    bool makes_energy() const { return gain > rounding * size; }
     /// More than what does not count.
-    bool counts() const { return gain > 1e-12 * size + least; }
-    bool rest_counts() const { return start > 1e-12 * rest + rest_least; }
+    bool counts() const { return gain > rounding * size + least; }
+    bool rest_counts() const { return start > rounding * rest + rest_least; }
     /// Of the impulses without restitution, if these are no solution: the largest share that adds no energy.
     MOREAU_INLINED Scalar rest_share() const {
       if (!rest_counts()) return 1;
@@ -139,9 +142,10 @@ class RestitutionLimit {
     }
     Scalar share() const {
       if (!makes_energy()) return 1;
-      if (start > 0 || curvature <= 0) return 0;
-      const double root = std::sqrt(slope * slope - 2 * curvature * start);
-      const double s = slope < 0 ? (root - slope) / curvature : -2 * start / (slope + root);
+      if (rest_counts() || curvature <= 0) return 0;
+      const double below = std::min(start, 0.);
+      const double root = std::sqrt(slope * slope - 2 * curvature * below);
+      const double s = slope < 0 ? (root - slope) / curvature : -2 * below / (slope + root);
       return s < 1 ? Scalar(s) : s >= 1 ? Scalar(1) : Scalar(0);  // 0 of 0/0
     }
   };
@@ -216,18 +220,43 @@ class RestitutionLimit {
                                   std::span<Row> impulses, const auto& springs, const auto& solver,
                                   auto& workspace, int sweeps) {
     constexpr int most_solves = 32;
+    constexpr double small =
+        std::max(1e-5, rounding);  // as the velocities of bodies, see ColouredOptions
     for (int k = 1;; ++k) {
       SolveReport found = solver.solve(problem, impulses, workspace);
       measure(problem, impulses, springs, Scalar(1), resting_);
       add_up(bodies, problem);
-      const bool gains = damps();
+      const double change = change_by_shares(bodies, problem);
+      const bool gains = change > small;
       sweeps += found.sweeps;
-      if (gains && found.converged && k < most_solves) continue;
+      if (gains && found.converged && found.sweeps > 0 && k < most_solves) continue;
+      if (change > 0 && !gains) {
+        for (std::size_t c = 0; c < impulses.size(); ++c)
+          impulses[c] *= islands_[island_of(bodies, problem, c)].rest_share();
+        set_impulses(problem.delassus, std::span<const Row>(impulses));
+        measure(problem, impulses, springs, Scalar(1), resting_);
+        add_up(bodies, problem);
+      }
       found.sweeps = sweeps;
       found.converged = found.converged && !gains;
       found.capped = !found.converged;
       return found;
     }
+  }
+  /// By how much rest_share() of the islands changes relative velocities at most, as a share of the largest without impulses.
+  double change_by_shares(const Bodies<S>& bodies, const Problem& problem) {
+    if (!damps()) return 0;
+    double change = 0, largest = 0;
+    for (std::size_t c = 0; c < resting_.size(); ++c) {
+      if (!std::isfinite(offset_[c])) continue;
+      const Row free = problem.delassus.free_velocity(c);
+      const double rest = 1 - double(islands_[island_of(bodies, problem, c)].rest_share());
+      largest = std::max(largest, double(free.template head<S::dim>().norm()));
+      if (rest == 0) continue;
+      const Row by_impulses = problem.delassus.velocity(c) - free;
+      change = std::max(change, rest * double(by_impulses.template head<S::dim>().norm()));
+    }
+    return change > 0 ? change / largest : 0;
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   bool gains(const Bodies<S>& bodies, const Problem& problem) {
