@@ -124,16 +124,16 @@ struct Contacts : DetectedContacts<S> {
       return S::Angular::Zero();
   }
   /// Whether all arrays have one size, and bodies, laws and variants are below these numbers.
-  bool are_valid(std::size_t bodies, std::size_t laws, std::size_t variants) const {
+  bool are_valid(std::size_t bodies, std::size_t laws, std::size_t variant_count) const {
     if (this->keys.size() != size() || this->classes.size() != size() ||
-        impulses.size() != size() || this->variants.size() != size())
+        impulses.size() != size() || variants.size() != size())
       return false;
     return std::all_of(points.begin(), points.end(),
                        [&](const Contact<S>& point) {
                          return point.a < bodies && point.b < bodies && point.law < laws;
                        }) &&
-           std::all_of(this->variants.begin(), this->variants.end(),
-                       [&](std::uint32_t k) { return k < variants; });
+           std::all_of(variants.begin(), variants.end(),
+                       [&](std::uint32_t k) { return k < variant_count; });
   }
   /// Sum of the impulses that a body received, world axes [N s].
   Value<typename S::Vector> impulse_on(std::uint32_t body) const {
