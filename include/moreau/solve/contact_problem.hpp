@@ -58,7 +58,9 @@ void set_impulses(Operator& delassus, std::span<const typename Operator::Vector>
 /// Sets the warm start to zero if the square of an impulse is not finite, in any process.
 template <class Vector>
 void drop_if_not_finite(std::span<Vector> impulses, SharedBodies* shared = nullptr) {
-  const auto is_usable = [](const Vector& r) { return std::isfinite(r.squaredNorm()); };
+  const auto is_usable = [](const Vector& r) {
+    return std::isfinite(r.template cast<double>().squaredNorm());
+  };
   const bool all_usable = std::all_of(impulses.begin(), impulses.end(), is_usable);
   if (sum_over(shared, all_usable ? 0 : 1) > 0)
     std::fill(impulses.begin(), impulses.end(), Vector::Zero());

@@ -127,7 +127,9 @@ struct ResidualSums {
     complementarity = std::max(complementarity, std::abs(double(u[0] * r[0])));
     dissipation += std::max(0.0, power);
     const Vector still = Vector::Zero();
-    cone = std::max(cone, double(problem.law(c).natural_map(still, r).norm()));
+    // As a velocity: in single precision, squares of impulses of grains of 1e-6 m or 1e4 m are no numbers.
+    cone = std::max(cone,
+                    double(natural_map(problem.law(c), still, scaled, to_velocity).norm()) / scale);
   }
 };
 

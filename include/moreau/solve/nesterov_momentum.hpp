@@ -22,7 +22,7 @@ class NesterovMomentum {
   /// @returns beta in [0, 1)
   double next(double change2) {
     double rate = last_ > 0 ? change2 / last_ : 0;
-    if (rate > 1) rate = grown_;
+    if (!(rate <= 1)) rate = grown_;  // also if squares of impulses overflow, in single precision
     last_ = change2;
     beta_ = memory * beta_ + (1 - memory) * rate;
     return std::min(beta_, most);

@@ -51,8 +51,9 @@ class CoulombLanes {
       tangent[t] = -c[t] * block.inverse_slip[t];
       normal -= block.coupling[t] * tangent[t];
     }
-    const Values limit = friction * normal;
-    const Indices sticks = (limit >= zero) & (squared(tangent) <= limit * limit);
+    const Values limit = friction * normal, unit = unit_of(block);
+    const Indices sticks =
+        (limit >= zero) & (squared(tangent, unit) <= (unit * limit) * (unit * limit));
     const Indices slips = acts & ~sticks;
     if (Lanes::any(slips)) {
       const CoulombLanes problem(block, c, slips ? free : Lanes::broadcast(1), friction);
@@ -83,11 +84,32 @@ class CoulombLanes {
   /// @param c    b_t - k b_n
   /// @param free impulse without friction
   CoulombLanes(const Block& block, const Tangent& c, const Values& free, const Values& friction)
-      : coupling_(block.coupling), slip_(block.slip), friction_(friction), free_(free), c_(c) {}
+      : coupling_(block.coupling),
+        slip_(block.slip),
+        friction_(friction),
+        free_(free),
+        c_(c),
+        unit_(unit_of(block)),
+        inverse_unit_(inverse_unit_of(block)) {}
 
-  static Values squared(const Tangent& r) {
+  /// What impulses are multiplied by before they are squared: 1, and w_nn in single precision, where squares of the impulses
+  /// of grains of 1e-6 m or 1e4 m are no numbers.
+  static Values unit_of(const Block& block) {
+    if constexpr (fine)
+      return Lanes::broadcast(1);
+    else
+      return block.normal;
+  }
+  static Values inverse_unit_of(const Block& block) {
+    if constexpr (fine)
+      return Lanes::broadcast(1);
+    else
+      return block.inverse_normal;
+  }
+  /// |unit r|^2.
+  static Values squared(const Tangent& r, const Values& unit) {
     Values sum{};
-    for (Index t = 0; t < tangents; ++t) sum += r[t] * r[t];
+    for (Index t = 0; t < tangents; ++t) sum += (unit * r[t]) * (unit * r[t]);
     return sum;
   }
   /// mu r_n.
@@ -122,7 +144,7 @@ class CoulombLanes {
       p.limit_slope += coupling_[t] * p.fall[t];
     }
     p.limit_slope *= friction_;
-    p.length2 = squared(p.r);
+    p.length2 = squared(p.r, Lanes::broadcast(1));
     Values normal = unit * free_;
     for (Index t = 0; t < tangents; ++t) normal -= coupling_[t] * p.r[t];
     p.limit = friction_ * normal;
@@ -139,7 +161,7 @@ class CoulombLanes {
   /// root, is enough, because alpha of the last visit is near.
   Tangent slide(const Indices& open, Values& alpha) const requires(tangents > 1) {
     const Values zero{};
-    const Point p = at(alpha, Lanes::broadcast(1));
+    const Point p = at(alpha, unit_);
     const Values limit2 = p.limit * p.limit, phi = p.length2 - limit2;
     const Values slope = T(2) * (p.along + p.limit * p.limit_slope);
     const Values change = phi / (slope > zero ? slope : Lanes::broadcast(1));
@@ -150,7 +172,8 @@ class CoulombLanes {
     if (Lanes::any(open & ~near)) return search(open, alpha);
     alpha = open ? next : alpha;
     Tangent r;
-    for (Index t = 0; t < tangents; ++t) r[t] = open ? p.r[t] - change * p.fall[t] : zero;
+    for (Index t = 0; t < tangents; ++t)
+      r[t] = open ? inverse_unit_ * (p.r[t] - change * p.fall[t]) : zero;
     return r;
   }
 
@@ -235,9 +258,10 @@ class CoulombLanes {
   /// The tangential impulse moved onto the rim of the disk of radius mu r_n: Newton's method leaves a small distance. Impulses so small that their
   /// square underflows, whose root may be 0, stay as they are.
   Tangent onto_disk(const Tangent& r) const {
-    const Values length2 = squared(r), least = Lanes::broadcast(std::numeric_limits<T>::min());
+    const Values length2 = squared(r, unit_),
+                 least = Lanes::broadcast(std::numeric_limits<T>::min());
     const Values scale =
-        length2 >= least ? limit(r) / Lanes::square_root(length2) : Lanes::broadcast(1);
+        length2 >= least ? unit_ * limit(r) / Lanes::square_root(length2) : Lanes::broadcast(1);
     Tangent on;
     for (Index t = 0; t < tangents; ++t) on[t] = scale * r[t];
     return on;
@@ -246,6 +270,7 @@ class CoulombLanes {
   Tangent coupling_, slip_;
   Values friction_, free_;
   Tangent c_;
+  Values unit_, inverse_unit_;
 };
 
 }  // namespace moreau::detail

@@ -56,12 +56,20 @@ class AndersonMixing {
     next_ = (next_ + 1) % memory;
   }
 
-  /// The products of a vector with the stored changes.
+  /// The products of a vector with the stored changes. In double precision: squares of impulses of grains of 1e-6 m or 1e4 m
+  /// are no numbers in single precision.
   Weights products_with(const Vector& x, SharedBodies* shared) const {
     Weights products{};
-    for (std::size_t k = 0; k < known_; ++k) products[k] = double(change_[k].dot(x));
+    for (std::size_t k = 0; k < known_; ++k) products[k] = product(change_[k], x);
     if (shared) shared->sum(std::span(products).first(known_));
     return products;
+  }
+
+  static double product(const Vector& a, const Vector& b) {
+    if constexpr (std::is_same_v<T, double>)
+      return a.dot(b);
+    else
+      return a.template cast<double>().dot(b.template cast<double>());
   }
 
   /// Returns the weights w_k that minimize |f - sum_k w_k df_k|^2 + c sum_k (w_k |df_k|)^2, where
