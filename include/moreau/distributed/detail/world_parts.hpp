@@ -121,27 +121,13 @@ struct WorldParts {
   /// The bonds with the ids of their bodies in the whole simulation; none of a law without.
   /// @param ids one per body
   std::vector<Bond<S>> bonds(std::span<const BodyId> ids) {
-    std::vector<Bond<S>> bonds;
-    if constexpr (has_bonds) {
-      for (Bond<S> bond : dynamics().bonds().bonds()) {
-        bond.a = ids[bond.a.index()];
-        bond.b = ids[bond.b.index()];
-        bonds.push_back(bond);
-      }
-    }
-    return bonds;
+    if constexpr (has_bonds) return with_ids<Bond<S>>(dynamics().bonds().bonds(), ids);
+    return {};
   }
   /// The same of the breakages.
   std::vector<Breakage> breakages(std::span<const BodyId> ids) {
-    std::vector<Breakage> breakages;
-    if constexpr (has_bonds) {
-      for (Breakage one : dynamics().bonds().breakages()) {
-        one.a = ids[one.a.index()];
-        one.b = ids[one.b.index()];
-        breakages.push_back(one);
-      }
-    }
-    return breakages;
+    if constexpr (has_bonds) return with_ids<Breakage>(dynamics().bonds().breakages(), ids);
+    return {};
   }
   /// Replaces bonds and breakages.
   /// @param bonds     of bodies here, in any order
@@ -158,6 +144,17 @@ struct WorldParts {
       dynamics().bonds().set_bonds(std::move(bonds));
       dynamics().bonds().set_breakages(std::move(breakages));
     }
+  }
+
+  /// Copies, whose bodies a and b have their ids in the whole simulation.
+  template <class Pair>
+  static std::vector<Pair> with_ids(const auto& pairs, std::span<const BodyId> ids) {
+    std::vector<Pair> copies(pairs.begin(), pairs.end());
+    for (Pair& one : copies) {
+      one.a = ids[one.a.index()];
+      one.b = ids[one.b.index()];
+    }
+    return copies;
   }
 
   void forget_pairs() { StateAccess::forget_pairs(detector()); }
