@@ -16,6 +16,7 @@
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
+#include "moreau/world/defaults.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 
 #include "static/archetypes.hpp"
@@ -72,6 +73,21 @@ static_assert(moreau::AttractiveLaw<moreau::Cohesive<archetypes::MinimalLaw>, Sp
 // A law for three-dimensional space satisfies the concept in this space only.
 static_assert(SetValuedLaw<archetypes::MinimalLaw, Space<3>>);
 static_assert(!SetValuedLaw<archetypes::MinimalLaw, Space<2>>);
+
+/// A law with a coefficient of friction is not yet Coulomb's law: other methods than its solve() may not solve it.
+struct HasFriction : archetypes::MinimalLaw {
+  double friction() const;
+};
+struct SaysCoulomb : HasFriction {
+  static constexpr bool is_coulomb = true;
+};
+static_assert(!moreau::CoulombLaw<HasFriction, moreau::Space<3>>);
+static_assert(moreau::CoulombLaw<SaysCoulomb, moreau::Space<3>>);
+/// A law of a user with an attraction: a contact has one attraction.
+struct Sticky : archetypes::MinimalLaw {
+  double attraction(double gap) const;
+};
+static_assert(moreau::detail::Attracts<Sticky> && !moreau::detail::Attracts<HasFriction>);
 
 struct LeaksExpression : archetypes::MinimalLaw {
   auto natural_map(const S::Vector& velocity, const S::Vector& impulse) const {

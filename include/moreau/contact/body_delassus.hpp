@@ -126,16 +126,15 @@ class BodyDelassus {
   Matrix block_of_b(std::size_t c) const {
     return points_[c].block_of(points_[c].lever_b, masses_[points_[c].b]);
   }
-  /// Relative velocity b without any impulse, with the offset of the law, in the contact's frame
-  /// [m/s].
+  /// Relative velocity b without any impulse, with all offsets, in frame(c) [m/s].
   const Vector& free_velocity(std::size_t c) const { return points_[c].free; }
   /// Adds to the free normal velocity of a contact, > 0 separates [m/s].
   void offset_normal(std::size_t c, Scalar offset) { points_[c].free[0] += offset; }
-  /// Adds to the free velocity of a contact, in its frame [m/s].
+  /// Adds to the free velocity of a contact, in frame(c) [m/s].
   void offset(std::size_t c, const Vector& offset) { points_[c].free += offset; }
 
-  /// Relative velocity u under the impulses applied so far, in the contact's frame [m/s]; u_n > 0
-  /// separates. With springs it has D_cc r_c.
+  /// Relative velocity u under the impulses applied so far, in frame(c) [m/s]; u_n > 0 separates. With springs it has
+  /// D_cc r_c.
   Vector velocity(std::size_t c) const {
     Vector u = velocity_of_bodies(c);
     if constexpr (Springs) u += springs_.stretch[c];
@@ -163,7 +162,7 @@ class BodyDelassus {
     else
       return u;
   }
-  /// Applies an impulse, in the contact's frame, to b, its opposite to a, and to the springs [N s].
+  /// Applies an impulse, in frame(c), to b, its opposite to a, and to the springs [N s].
   void apply(std::size_t c, const Vector& impulse) {
     apply_to_bodies(c, impulse);
     stretch(c, impulse);
@@ -211,8 +210,7 @@ class BodyDelassus {
     changes_.assign(changes_.size(), PaddedTwist::Zero());
     if constexpr (Springs) springs_.stretch.assign(springs_.stretch.size(), Vector::Zero());
   }
-  /// Gives both bodies the momentum of an impulse at contact c, in its frame [N s], and stretches its
-  /// springs.
+  /// Gives both bodies the momentum of an impulse at contact c, in frame(c) [N s], and stretches its springs.
   void push(std::size_t c, const Vector& impulse) {
     const Momentum momentum = points_[c].momentum_of(impulse);
     take(points_[c].b, momentum);

@@ -103,7 +103,9 @@ struct Contacts : DetectedContacts<S> {
   /// twisting resistance on b [N m s], in the angular frame.
   using Impulse = Eigen::Matrix<typename S::Scalar, Rows, 1>;
 
-  std::vector<Impulse> impulses;  ///< one per point
+  /// One per point. Within a step, from the warm start to the end of the solve, they are rows of the operator: in its
+  /// frames, couple / R in place of the couple (BodyDelassus::to_rows()).
+  std::vector<Impulse> impulses;
   /// One per point: the memory of the law, after the step the variant of the next step, see StatefulLaw.
   std::vector<std::uint32_t> variants;
 

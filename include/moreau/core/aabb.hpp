@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "moreau/core/components.hpp"
+#include "moreau/core/pose.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -68,6 +69,16 @@ struct Aabb {
 template <class S>
 typename S::Scalar volume(const Aabb<S>& box) {
   return (box.upper - box.lower).prod();
+}
+
+/// The box around a box of a body's frame, for a body at this pose [m].
+template <class S>
+Aabb<S> box_around(const Aabb<S>& box_body, const Pose<S>& pose) {
+  using Vector = typename S::Vector;
+  const Vector half =
+      pose.rotation.toRotationMatrix().cwiseAbs() * (box_body.upper - box_body.lower) / 2;
+  const Vector center = pose((box_body.lower + box_body.upper) / 2);
+  return {center - half, center + half};
 }
 
 }  // namespace moreau

@@ -42,8 +42,8 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// A law with `static constexpr bool rolls = true` has a couple beside the force: block, u, r and b
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
-/// Optional: see AttractiveLaw, BondingLaw, BridgingLaw, CompliantLaw, TangentialRestitutionLaw,
-/// StatefulLaw, LaneLaw.
+/// Optional: see ActsWhereGapsClose, AttractiveLaw, BondingLaw, BridgingLaw, CompliantLaw, CoulombLaw,
+/// TangentialRestitutionLaw, StatefulLaw, LaneLaw.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -74,10 +74,12 @@ template <class L, class S>
 concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
 /// A law whose local problem is Coulomb's law with the coefficient friction(), so that matrices and
-/// coefficients of friction define the contact problem.
+/// coefficients of friction define the contact problem, and other methods than its solve() may solve it. It says so by
+/// `static constexpr bool is_coulomb = true`. A law that derives from one and has another local problem must say false.
 template <class L, class S>
 concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
+  requires L::is_coulomb;
 };
 
 /// A law under which a contact with a gap g > 0 acts only if g + h u_n < 0, u_n being its velocity at the end of the step
@@ -96,7 +98,7 @@ concept Attracts = requires {
   L::is_bonded(std::size_t{});
 }
 || requires(const L law) {
-  law.adhesion();
+  law.attraction(0.f);
 };
 }  // namespace detail
 

@@ -29,6 +29,7 @@ template <std::floating_point T = double>
 class SignoriniCoulomb {
  public:
   using ActsWhereGapsClose = SignoriniCoulomb;  ///< see the concept of this name
+  static constexpr bool is_coulomb = true;      ///< see CoulombLaw
   /// @param friction    mu >= 0 [-]
   /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
   /// @throws std::invalid_argument outside these ranges

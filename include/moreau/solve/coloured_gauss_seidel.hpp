@@ -10,7 +10,7 @@
 //  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can repel the
 //    sweeps, which then circle around it for thousands of sweeps;
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
-//    stopping test visits all contacts and updates the set.
+//    stopping test visits all contacts and updates the set, and so do sweeps 1, 2, 4, 8, .. of the first interval.
 //
 // Small islands, sets of up to 200 bodies that contacts connect, are solved to a tolerance on the velocities of their
 // bodies by a direct method, if the law is Coulomb's (detail/island_solver.hpp, island_newton.hpp). Sweeps do not get

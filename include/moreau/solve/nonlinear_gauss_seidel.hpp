@@ -72,8 +72,8 @@ class NonlinearGaussSeidel {
     if (problem.size() == 0) return report;
     report.converged = false;
     while (!report.converged && report.sweeps < options_.max_sweeps) {
-      const int block = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
-      for (int k = 1; k < block; ++k) sweep(problem, impulses, report.sweeps++);
+      const int count = std::min(options_.check_interval, options_.max_sweeps - report.sweeps);
+      for (int k = 1; k < count; ++k) sweep(problem, impulses, report.sweeps++);
       measuring_sweep(problem, impulses, report);
       ++report.sweeps;
       report.converged = passes(problem, impulses, report);

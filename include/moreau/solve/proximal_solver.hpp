@@ -92,13 +92,13 @@ class ProximalSolver {
 
     /// Gauss-Seidel while the residual falls fast.
     void start() {
-      constexpr int block = 200;
+      constexpr int sweeps = 200;
       constexpr double progress = 0.3;
       double before = std::numeric_limits<double>::infinity();
       Eigen::VectorXd r = best.r;
       while (!over() && best.residual < progress * before) {
         before = best.residual;
-        sweep(r, best, options.tolerance, block);
+        sweep(r, best, options.tolerance, sweeps);
       }
     }
 

@@ -47,7 +47,8 @@ class MeshCore {
   void for_each_above(const Vector& direction, T lowest, const Use& use) const {
     shape_.vertices().for_each_above(direction, lowest, use);
   }
-  /// Calls use(e, w) for each edge e at vertex v that is not a face; w is its other end.
+  /// Calls use(e, w) for each edge e at vertex v; w is its other end. In the plane, where edges are the faces, it calls
+  /// nothing.
   template <class Use>
   void for_each_edge_at(std::uint32_t v, const Use& use) const {
     if constexpr (requires { shape_.shape().edges(); }) {

@@ -43,9 +43,9 @@ class CoulombLanes {
                       bool polish) {
     const Values zero{};
     const Indices acts = b[0] < zero;
-    const Values free = -b[0] * block.inverse_normal;
+    const Values frictionless = -b[0] * block.inverse_normal;
     Tangent c, tangent;
-    Values normal = free;
+    Values normal = frictionless;
     for (Index t = 0; t < tangents; ++t) {
       c[t] = b[t + 1] - b[0] * block.coupling[t];
       tangent[t] = -c[t] * block.inverse_slip[t];
@@ -56,10 +56,10 @@ class CoulombLanes {
         (limit >= zero) & (squared(tangent, unit) <= (unit * limit) * (unit * limit));
     const Indices slips = acts & ~sticks;
     if (Lanes::any(slips)) {
-      const CoulombLanes problem(block, c, slips ? free : Lanes::broadcast(1), friction);
+      const CoulombLanes problem(block, c, slips ? frictionless : Lanes::broadcast(1), friction);
       Tangent sliding = problem.slide(slips & (friction > zero), alpha);
       if (polish) sliding = problem.onto_disk(sliding);
-      normal = slips ? free : normal;
+      normal = slips ? frictionless : normal;
       for (Index t = 0; t < tangents; ++t) {
         tangent[t] = slips ? sliding[t] : tangent[t];
         normal = slips ? normal - block.coupling[t] * tangent[t] : normal;
@@ -82,12 +82,13 @@ class CoulombLanes {
   static constexpr T far_outside = fine ? T(1e30) : T(1e9);
 
   /// @param c    b_t - k b_n
-  /// @param free impulse without friction
-  CoulombLanes(const Block& block, const Tangent& c, const Values& free, const Values& friction)
+  /// @param frictionless normal impulse without friction
+  CoulombLanes(const Block& block, const Tangent& c, const Values& frictionless,
+               const Values& friction)
       : coupling_(block.coupling),
         slip_(block.slip),
         friction_(friction),
-        free_(free),
+        frictionless_(frictionless),
         c_(c),
         unit_(unit_of(block)),
         inverse_unit_(inverse_unit_of(block)) {}
@@ -114,7 +115,7 @@ class CoulombLanes {
   }
   /// mu r_n.
   Values limit(const Tangent& r) const {
-    Values sum = free_;
+    Values sum = frictionless_;
     for (Index t = 0; t < tangents; ++t) sum -= coupling_[t] * r[t];
     return friction_ * sum;
   }
@@ -123,7 +124,7 @@ class CoulombLanes {
   Tangent slide(const Indices&, const Values&) const requires(tangents == 1) {
     const Values s = c_[0] > Values{} ? -friction_ : friction_;
     Tangent r;
-    r[0] = s * free_ / (T(1) + s * coupling_[0]);
+    r[0] = s * frictionless_ / (T(1) + s * coupling_[0]);
     return r;
   }
 
@@ -145,7 +146,7 @@ class CoulombLanes {
     }
     p.limit_slope *= friction_;
     p.length2 = squared(p.r, Lanes::broadcast(1));
-    Values normal = unit * free_;
+    Values normal = unit * frictionless_;
     for (Index t = 0; t < tangents; ++t) normal -= coupling_[t] * p.r[t];
     p.limit = friction_ * normal;
     return p;
@@ -157,9 +158,9 @@ class CoulombLanes {
     return Lanes::absolute(change) <= close * (least + alpha);
   }
 
-  /// slide() in space. In most visits one Newton step on |r_t|^2 - (mu r_n)^2, which needs no
+  /// slide() in space of the lanes that are not solved yet. In most visits one Newton step on |r_t|^2 - (mu r_n)^2, which needs no
   /// root, is enough, because alpha of the last visit is near.
-  Tangent slide(const Indices& open, Values& alpha) const requires(tangents > 1) {
+  Tangent slide(const Indices& unsolved, Values& alpha) const requires(tangents > 1) {
     const Values zero{};
     const Point p = at(alpha, unit_);
     const Values limit2 = p.limit * p.limit, phi = p.length2 - limit2;
@@ -169,11 +170,11 @@ class CoulombLanes {
     const Indices near = (p.limit > zero) & (slope > zero) & is_short(change, alpha) &
                          (next >= zero) &
                          (Lanes::absolute(phi) <= T(2) * close * (p.length2 + limit2));
-    if (Lanes::any(open & ~near)) return search(open, alpha);
-    alpha = open ? next : alpha;
+    if (Lanes::any(unsolved & ~near)) return search(unsolved, alpha);
+    alpha = unsolved ? next : alpha;
     Tangent r;
     for (Index t = 0; t < tangents; ++t)
-      r[t] = open ? inverse_unit_ * (p.r[t] - change * p.fall[t]) : zero;
+      r[t] = unsolved ? inverse_unit_ * (p.r[t] - change * p.fall[t]) : zero;
     return r;
   }
 
@@ -193,7 +194,7 @@ class CoulombLanes {
     }
     const Values length = Lanes::square_root(length2), share = length + friction_ * along;
     // If the share is negative there is no such impulse; if size is 0, it is not a number.
-    const Values normal = share > Values{} ? free_ / share : Values{};
+    const Values normal = share > Values{} ? frictionless_ / share : Values{};
     for (Index t = 0; t < tangents; ++t)
       r[t] = normal > Values{} ? friction_ * normal * r[t] : Values{};
     return r;
@@ -205,16 +206,16 @@ class CoulombLanes {
       size = one > size ? one : size;
       slip += slip_[t];
     }
-    return size > far_outside * (T(1) + friction_) * slip * free_;
+    return size > far_outside * (T(1) + friction_) * slip * frictionless_;
   }
 
   /// Newton's method in a bracket, from any alpha >= 0, in units of the impulse without friction.
-  Tangent search(Indices open, Values& alpha) const requires(tangents > 1) {
+  Tangent search(Indices unsolved, Values& alpha) const requires(tangents > 1) {
     const Values zero{}, most = Lanes::broadcast(std::numeric_limits<T>::max());
-    const Values unit = T(1) / free_;
-    const Indices all = open;
-    Indices direct = open & is_far();
-    open = open & ~direct;
+    const Values unit = T(1) / frictionless_;
+    const Indices all = unsolved;
+    Indices direct = unsolved & is_far();
+    unsolved = unsolved & ~direct;
     Values lower{}, upper = most, trial = alpha;
     Tangent result;
     for (Index t = 0; t < tangents; ++t) result[t] = zero;
@@ -233,11 +234,12 @@ class CoulombLanes {
       const Indices near = positive & is_short(change, trial) & (next >= lower) & (next <= upper) &
                            (Lanes::absolute(phi) <= close * (length + p.limit));
       const Indices narrow = (upper < most) & (upper - lower <= close * close * upper);
-      alpha = open ? (near ? next : trial) : alpha;
+      alpha = unsolved ? (near ? next : trial) : alpha;
       for (Index t = 0; t < tangents; ++t)
-        result[t] = open ? free_ * (p.r[t] - (near ? change * p.fall[t] : zero)) : result[t];
-      open = open & ~near & ~narrow;
-      if (!Lanes::any(open)) break;
+        result[t] =
+            unsolved ? frictionless_ * (p.r[t] - (near ? change * p.fall[t] : zero)) : result[t];
+      unsolved = unsolved & ~near & ~narrow;
+      if (!Lanes::any(unsolved)) break;
       Values fallback = (lower + upper) / T(2);
       Values beyond = T(2) * lower;
       for (Index t = 0; t < tangents; ++t) beyond += slip_[t];
@@ -268,7 +270,7 @@ class CoulombLanes {
   }
 
   Tangent coupling_, slip_;
-  Values friction_, free_;
+  Values friction_, frictionless_;
   Tangent c_;
   Values unit_, inverse_unit_;
 };

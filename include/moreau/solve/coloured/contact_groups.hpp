@@ -136,7 +136,12 @@ class ContactGroups {
  private:
   /// Pairs inside a chunk come first, sorted by chunk and colour; then the others, sorted by colour and
   /// hub. Of equal pairs, those with most points that are likely to act come first, then those with most
-  /// points.
+  /// points. Bits of the key, from the highest:
+  ///
+  ///     inside a chunk   63: 0   62-24: chunk                                    23-16: colour   15-8: idle   7-0: fewer
+  ///     other pairs      63: 1   62-50: colour   49-48: Hub   47-16: body of hub                 15-8: idle   7-0: fewer
+  ///
+  /// idle and fewer are 255 less the number of points that act, and of all points.
   struct Ordered {
     std::uint64_t key;
     std::uint32_t pair;

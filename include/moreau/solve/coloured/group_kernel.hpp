@@ -247,7 +247,8 @@ class GroupKernel {
       for (std::size_t k = 0; k < S::dim; ++k)
         for (std::size_t d = 0; d < S::dim; ++d) without_own[d] += point.frame[k][d] * between[k];
       if constexpr (Rolls<Law>) add_spin(point, a, b, without_own);
-      const Row impulse = point.law.solve(point.block, without_own, guess, Measure);
+      // Before a stopping test impulses are put onto the cone.
+      const Row impulse = point.law.solve(point.block, without_own, guess, /*polish=*/Measure);
       Row change;
       for (std::size_t d = 0; d < rows; ++d) {
         change[d] = impulse[d] - guess[d];

@@ -16,32 +16,32 @@ namespace moreau::detail {
 
 /// Velocities y = (v, w) of all bodies, one for each body, read and written for one body per SIMD lane
 /// at once.
-template <class S, class W>
+template <class S, class Number>
 class LaneVelocities {
  public:
   using T = typename S::Scalar;
-  using Values = typename W::Values;
-  static constexpr std::size_t registers = (S::dofs + W::lanes - 1) / W::lanes;
+  using Values = typename Number::Values;
+  static constexpr std::size_t registers = (S::dofs + Number::lanes - 1) / Number::lanes;
   /// Entry k of y, one body per lane.
-  using BodyLanes = std::array<Values, registers * W::lanes>;
-  using Bodies = std::array<std::uint32_t, std::size_t{W::lanes}>;
+  using BodyLanes = std::array<Values, registers * Number::lanes>;
+  using Bodies = std::array<std::uint32_t, std::size_t{Number::lanes}>;
 
   /// Sets all velocities to zero.
   void reset(std::size_t count) { now_.assign(registers * count, Values{}); }
   /// All velocities, `width` numbers each.
   std::span<T> scalars() {
-    return {reinterpret_cast<T*>(now_.data()), now_.size() * std::size_t{W::lanes}};
+    return {reinterpret_cast<T*>(now_.data()), now_.size() * std::size_t{Number::lanes}};
   }
-  static constexpr std::size_t width = registers * W::lanes;
+  static constexpr std::size_t width = registers * Number::lanes;
   void set(std::size_t body, const auto& y) {
     for (int k = 0; k < S::dofs; ++k)
-      now_[registers * body + std::size_t(k / W::lanes)][k % W::lanes] = y[k];
+      now_[registers * body + std::size_t(k / Number::lanes)][k % Number::lanes] = y[k];
   }
   /// Makes the present velocities the velocities before the next extrapolation, which then adds nothing.
   void forget_change() { before_ = now_; }
   /// Adds beta times the change since the last extrapolation; the work of one member of a team.
   MOREAU_COMPILED_ONCE void extrapolate(T beta, int rank, int size) {
-    const Values factor = W::broadcast(beta);
+    const Values factor = Number::broadcast(beta);
     const Share share(now_.size(), rank, size);
     for (std::size_t i = share.begin; i < share.end; ++i) {
       const Values now = now_[i];
@@ -57,10 +57,10 @@ class LaneVelocities {
   BodyLanes gather(const Bodies& bodies) const {
     BodyLanes y;
     for (std::size_t k = 0; k < registers; ++k) {
-      Values rows[W::lanes];
-      for (std::size_t l = 0; l < W::lanes; ++l) rows[l] = now_[registers * bodies[l] + k];
-      W::transpose(rows);
-      for (std::size_t l = 0; l < W::lanes; ++l) y[k * W::lanes + l] = rows[l];
+      Values rows[Number::lanes];
+      for (std::size_t l = 0; l < Number::lanes; ++l) rows[l] = now_[registers * bodies[l] + k];
+      Number::transpose(rows);
+      for (std::size_t l = 0; l < Number::lanes; ++l) y[k * Number::lanes + l] = rows[l];
     }
     return y;
   }
@@ -85,25 +85,25 @@ class LaneVelocities {
     const BodyLanes& y = hub_is_a ? a : b;
     Change change;
     for (std::size_t k = 0; k < S::dofs; ++k)
-      change[k] = W::sum(y[k] - W::broadcast(entry(hub_of(group), k)));
+      change[k] = Number::sum(y[k] - Number::broadcast(entry(hub_of(group), k)));
     return change;
   }
   /// Adds a change to the velocity of the hub of a group.
   template <class Group>
   void add(const Group& group, const Change& change) {
     for (std::size_t k = 0; k < S::dofs; ++k) {
-      Values& entries = now_[registers * hub_of(group) + k / W::lanes];
-      entries[k % W::lanes] += change[k];
+      Values& entries = now_[registers * hub_of(group) + k / Number::lanes];
+      entries[k % Number::lanes] += change[k];
     }
   }
 
  private:
   void scatter(const Bodies& bodies, const BodyLanes& y) {
     for (std::size_t k = 0; k < registers; ++k) {
-      Values rows[W::lanes];
-      for (std::size_t l = 0; l < W::lanes; ++l) rows[l] = y[k * W::lanes + l];
-      W::transpose(rows);
-      for (std::size_t l = 0; l < W::lanes; ++l) now_[registers * bodies[l] + k] = rows[l];
+      Values rows[Number::lanes];
+      for (std::size_t l = 0; l < Number::lanes; ++l) rows[l] = y[k * Number::lanes + l];
+      Number::transpose(rows);
+      for (std::size_t l = 0; l < Number::lanes; ++l) now_[registers * bodies[l] + k] = rows[l];
     }
   }
   template <class Group>
@@ -111,7 +111,7 @@ class LaneVelocities {
     return group.hub == Hub::a ? group.a[0] : group.b[0];
   }
   T entry(std::size_t body, std::size_t k) const {
-    return now_[registers * body + k / W::lanes][k % W::lanes];
+    return now_[registers * body + k / Number::lanes][k % Number::lanes];
   }
 
   std::vector<Values, CacheLineAllocator<Values>> now_, before_;

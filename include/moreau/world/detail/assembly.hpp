@@ -244,7 +244,7 @@ class Assembly {
     }
   }
 
-  /// Whether its members agree with one another, after they were read from a file.
+  /// Whether the lists of bodies, grains, shapes and walls agree with one another, after they were read from a file.
   bool is_valid(std::size_t materials) const {
     bool valid = bodies_.are_valid(materials) &&
                  std::adjacent_find(grain_ids_.begin(), grain_ids_.end(), std::greater_equal<>()) ==

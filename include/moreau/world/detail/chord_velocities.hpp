@@ -37,6 +37,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/detail/operator_point.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -152,11 +153,6 @@ class ChordVelocities {
     const Scalar radius = rounding_of(assembly.shape_of(assembly.bodies().id[grain]), part);
     return radius < 0 ? lever : Vector((radius + gap / 2) * outward);
   }
-  /// Velocity of the point at `lever` [m/s].
-  static Vector velocity_at(const typename S::Twist& twist, const Vector& lever) {
-    return linear<S>(twist) + S::spin(angular<S>(twist), lever);
-  }
-
   /// Of a half-space, a mesh wall or a grain whose rotation is prescribed.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
                                                         const Contact<S>& contact,
@@ -173,7 +169,7 @@ class ChordVelocities {
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
     const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
     const Vector slip =
-        velocity_at(bodies.velocity[b], lever_b) - velocity_at(bodies.velocity[a], lever_a);
+        velocity_at<S>(bodies.velocity[b], lever_b) - velocity_at<S>(bodies.velocity[a], lever_a);
     const auto face_of_b = vertex_on_face(S{});
     const auto face_of_a = FeatureKey(face_of_b, 0, 0).swapped().kind();
     const auto kind = key.feature.kind();
@@ -199,7 +195,7 @@ class ChordVelocities {
     const Vector own = chord_excess<S>(of_a, lever_a, step);
     const Vector tilted = chord_excess<S>(tilt, lever_b, step);
     const Vector slip = linear<S>(bodies.velocity[b]) + S::spin(tilt, lever_b) -
-                        velocity_at(bodies.velocity[a], lever_a);
+                        velocity_at<S>(bodies.velocity[a], lever_a);
     const Scalar radius = -S::spin(axis, S::spin(axis, lever_b)).dot(normal) + contact.gap;
     const Scalar along = step * S::spin(axis, normal).dot(slip + tilted - own);
     const Scalar inside = std::sqrt(std::max(Scalar(0), radius * radius - along * along));

@@ -2,11 +2,12 @@
 // The part of a step around the contacts, for laws that give impulses (contact dynamics):
 //
 //   1. predict_configuration(): that of detection; Simulation then detects the contacts and assigns laws
-//   2. find_free_velocities(): of every body at the end of the step without contacts, attraction included
+//   2. find_free_velocities(): of every body at the end of the step without contacts, attraction included (in several
+//      processes it is added in 3, after the bodies are split)
 //   3. assemble(): the Delassus operator; bodies that other processes share are split
-//   4. warm_start(): from the impulses of the step before
+//   4. warm_start(): from the impulses of the step before; the memory of springs and bonds is added to b
 //   5. correct_overlaps(): bodies move, velocities do not
-//   6. ContactLaws::list_variants(): of the laws with a memory (each contact gets its own in 7)
+//   6. ContactLaws::list_variants(): the table of all laws with their variants (each contact gets its own in 7)
 //   7. ContactLaws::offset_velocities(): the law of each contact, u before the step, and what chord and law add to b,
 //      from the corrected gaps
 //   8. solve(): the contact problem, by default with solve/coloured_gauss_seidel.hpp; limits the restitution. Its end,

@@ -52,7 +52,7 @@ class MeshWalls {
   void place(std::span<const Pose<S>> poses) {
     for (Wall& wall : walls_) {
       wall.placed.pose = poses[wall.body.index()];
-      wall.box = moved(wall.shape.tree().bounds(), wall.placed.pose);
+      wall.box = box_around(wall.shape.tree().bounds(), wall.placed.pose);
       wall.near.resize(poses.size());
     }
   }
@@ -87,12 +87,6 @@ class MeshWalls {
     std::vector<MeshNeighbours<S>> near;  // of every body, used by one thread at a time
   };
 
-  /// A box around a box at a pose [m].
-  static Aabb<S> moved(const Aabb<S>& box, const Pose<S>& pose) {
-    const Vector half = pose.rotation.toRotationMatrix().cwiseAbs() * (box.upper - box.lower) / 2;
-    const Vector center = pose((box.lower + box.upper) / 2);
-    return {center - half, center + half};
-  }
   static void detect_all(MeshWalls& self, const GrainInWorld<ShapeT>& grain, const Reach& reach,
                          const Bodies<S>& bodies, const PairFilter& filter,
                          const PreviousContacts<S>& previous, MeshBuffers<ShapeT>& buffers,

@@ -164,9 +164,9 @@ class OverlapSweeps {
     const std::size_t still = moves_.size();
     for (Row& row : std::span(rows_).first(row_count_)) {
       Twist &a = shifts_[row.a], &b = shifts_[row.b];
-      const Scalar closing = row.normal.dot(linear<S>(b) - linear<S>(a)) +
+      const Scalar opening = row.normal.dot(linear<S>(b) - linear<S>(a)) +
                              (row.arm_b.dot(angular<S>(b)) - row.arm_a.dot(angular<S>(a)));
-      const Scalar push = std::max(Scalar(0), row.push + (row.target - closing) * row.inverse);
+      const Scalar push = std::max(Scalar(0), row.push + (row.target - opening) * row.inverse);
       const Scalar change = push - row.push;
       row.push = push;
       if (row.a != still) {

@@ -26,7 +26,7 @@
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
 // further, from there, and if that does not help, the step is not converged. In any case the impulses of the island are
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
-// thousandth of the largest, the step is as solved as it was. So are those of problems without any restitution.
+// thousandth of the largest, the step is as solved as it was. Problems without any restitution are treated in the same way.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
 // rest move less.
 //
@@ -123,7 +123,9 @@ class RestitutionLimit {
   static constexpr double rounding =
       std::max(1e-12, 8 * double(std::numeric_limits<Scalar>::epsilon()));  ///< of sums, relative
   struct Island {
-    double gain = 0, size = 0;                   // with restitution: G and the sum of |r . u_f|
+    double gain = 0,
+           size =
+               0;  // with restitution: G and the sum of |gain| + |r . u|, which bounds its rounding
     double start = 0, slope = 0, curvature = 0;  // of the parabola G(s)
     double rest = 0;                             // size without restitution
     double work = 0;                             // of rest: the sum of r . u

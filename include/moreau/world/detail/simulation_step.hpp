@@ -91,16 +91,16 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
     detector_.fit_margins(lengths(), bodies(), step);
   else
     detector_.use_whole_margin();
-  detector_.detect(lengths(), bodies(), contacts_, previous_);
-  if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), previous_);
-  assign_laws(assembly_.bodies(), materials_, previous_, team_);
-  assembly_.require_no_deep_overlap(previous_, "Simulation::step");
+  // The contacts of the step before the last are replaced; the swap below makes the new ones contacts_.
+  auto& found = previous_;
+  detector_.detect(lengths(), bodies(), contacts_, found);
+  if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), found);
+  assign_laws(assembly_.bodies(), materials_, found, team_);
+  assembly_.require_no_deep_overlap(found, "Simulation::step");
   [[maybe_unused]] std::size_t pairs = 0;
   if constexpr (BridgingLaw<Law, S>)
-    pairs =
-        bridges_.update(materials_, contacts_, previous_, tolerances_.lengths(grain_size_).margin);
-  std::swap(contacts_,
-            previous_);  // last: if a function above throws, the contacts have not changed
+    pairs = bridges_.update(materials_, contacts_, found, tolerances_.lengths(grain_size_).margin);
+  std::swap(contacts_, found);  // last: if a function above throws, the contacts have not changed
   report.ms_collide = clock.lap();
   report.candidate_pairs = detector_.pair_count();
   count_contacts(report);
