@@ -23,7 +23,7 @@
 //   islands=no     small islands by sweeps, too, also those of the overlap correction (default: by the direct method)
 //   interval=N, cap=N, accelerate=no    ColouredOptions::check_interval, max_sweeps, accelerate
 //   correct=no     without overlap correction; correction_sweeps=N, slop=S, rate=R: its options
-//   skin=S         Tolerances::skin
+//   skin=S, carry=C    Tolerances::skin, Tolerances::carry
 //   setting=games  the options of examples/guide/choosing.md for the accuracy of physics engines for games
 //   margin=M       of detection, relative to the grain size (default: that of the scene)
 //   order=O        of the grains: added (default; the order of pouring), curve or random
@@ -80,8 +80,9 @@ double time_of_cache_line() {
 }
 
 /// As accurate as physics engines for games, and as fast for piles.
-void set_as_for_games(moreau::ColouredOptions& sweeps,
+void set_as_for_games(moreau::ColouredOptions& sweeps, moreau::Tolerances& tolerances,
                       moreau::OverlapCorrectionOptions& correction) {
+  tolerances.carry = 5e-3;
   sweeps.tolerance = 1e-2;
   sweeps.check_interval = 12;
   sweeps.islands = correction.islands = false;
@@ -107,9 +108,10 @@ void set(Options& options, const std::string& argument) {
       {"setting",
        [&] {
          if (value != "games") throw std::invalid_argument(value + ": no such setting");
-         set_as_for_games(options.solver, options.correction);
+         set_as_for_games(options.solver, options.tolerances, options.correction);
        }},
       {"narrows", [&] { options.tolerances.narrows = yes; }},
+      {"carry", [&] { options.tolerances.carry = number(); }},
       {"skin", [&] { options.tolerances.skin = number(); }},
       {"islands", [&] { options.solver.islands = options.correction.islands = yes; }},
       {"tolerance", [&] { options.solver.tolerance = number(); }},

@@ -207,7 +207,7 @@ TEST_CASE_TEMPLATE("what no body can be is refused where it is said", ShapeT, Po
         const moreau::Materials<Law> laws(1);
         for (double moreau::Tolerances::*member :
              {&moreau::Tolerances::margin, &moreau::Tolerances::skin,
-              &moreau::Tolerances::resolution}) {
+              &moreau::Tolerances::resolution, &moreau::Tolerances::carry}) {
           moreau::Tolerances tolerances;
           tolerances.*member = bad;
           refuses("must be finite", [&] { scenes::World<ShapeT>(0.1, laws, {}, tolerances); });

@@ -228,6 +228,14 @@ class ContactDetector {
     return *image;
   }
 
+  /// Whether no point of b moves faster than this in the axes of a [m/s].
+  static bool is_slow(const Grain& a, const Grain& b, const Bodies<S>& bodies, Scalar most) {
+    const auto &of_a = bodies.velocity[a.body.index()], &of_b = bodies.velocity[b.body.index()];
+    const Vector apart = b.placed.center() - a.placed.center();
+    const Vector shift = linear<S>(of_b) - linear<S>(of_a) - S::spin(angular<S>(of_a), apart);
+    return shift.norm() + b.width / 2 * (angular<S>(of_b) - angular<S>(of_a)).norm() <= most;
+  }
+
   MOREAU_COMPILED_ONCE static void place_one(Grain& grain, Aabb<S>& box, const ShapeT& shape,
                                              std::span<const Pose<S>> poses) {
     grain.shape = &shape;
@@ -245,7 +253,8 @@ class ContactDetector {
   void detect_points(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
                      const detail::PreviousContacts<S>& previous, DetectedContacts<S>& out);
   /// Finds the contacts of grain k with later grains and with walls.
-  MOREAU_COMPILED_ONCE void detect_of(std::size_t k, Scalar margin, const Bodies<S>& bodies,
+  MOREAU_COMPILED_ONCE void detect_of(std::size_t k, const DetectionLengths<Scalar>& lengths,
+                                      const Bodies<S>& bodies,
                                       const detail::PreviousContacts<S>& previous, Member& found);
 
   std::vector<Grain> grains_;  // ascending by body

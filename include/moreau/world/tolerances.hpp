@@ -13,6 +13,8 @@ struct DetectionLengths {
   T margin;      ///< largest gap at which a contact is made, >= 0 [m]
   T skin;        ///< the list of pairs stays valid for motions of this size, >= 0 [m]
   T resolution;  ///< contact points closer together than this are merged, >= 0 [m]
+  T carry;       ///< contacts are carried along up to this relative motion, >= 0 [m]
+  T slow = 0;    ///< and if the pair is slower than this, >= 0 [m/s]
 };
 
 /// Lengths that act as tolerances, each relative to the grain size [-].
@@ -26,12 +28,17 @@ struct Tolerances {
   /// a step have contacts up to a smaller gap, but for cells that deform (detail/step_margins.hpp): the solutions are
   /// the same, and a step has fewer contacts. Off: contacts up to the margin.
   bool narrows = true;
+  /// Relative motion of two polyhedra up to which the points of their contact stay where they are in the bodies, in
+  /// place of being detected again, >= 0. 0: contacts are detected in every step, exactly. With more, normals are wrong by
+  /// up to this over the radius, and points of a contact by up to this across the normal
+  /// (detail/carried_contact.hpp). Of use for structures at rest where speed counts more than accuracy.
+  double carry = 0;
 
   /// The lengths for grains of this size [m].
   template <class T>
   DetectionLengths<T> lengths(T grain_size) const {
     return {static_cast<T>(margin) * grain_size, static_cast<T>(skin) * grain_size,
-            static_cast<T>(resolution) * grain_size};
+            static_cast<T>(resolution) * grain_size, static_cast<T>(carry) * grain_size};
   }
   /// Checks the ranges.
   /// @param function the public name the caller used
@@ -41,6 +48,8 @@ struct Tolerances {
     require_positive(margin, function, "margin");
     require(std::isfinite(skin) && skin >= 0, function, "skin", skin, "must be finite and >= 0");
     require(std::isfinite(resolution) && resolution >= 0, function, "resolution", resolution,
+            "must be finite and >= 0");
+    require(std::isfinite(carry) && carry >= 0, function, "carry", carry,
             "must be finite and >= 0");
   }
 };

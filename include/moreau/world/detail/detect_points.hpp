@@ -85,7 +85,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_points(
         order_.prefetch(later, grains_, near_.pairs(),
                         [&](std::size_t p) { return margins_.is_near(p); });
       member.begin_run(k < place_.size() ? place_[k] : 0);
-      detect_of(k, lengths.margin, bodies, previous, member);
+      detect_of(k, lengths, bodies, previous, member);
       runs_[k] = member.end_run(std::uint32_t(rank));
     });
   });
@@ -112,10 +112,12 @@ bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(
 }
 
 template <class ShapeT, class BroadPhaseT>
-void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margin,
+void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k,
+                                                     const DetectionLengths<Scalar>& lengths,
                                                      const Bodies<S>& bodies,
                                                      const detail::PreviousContacts<S>& previous,
                                                      Member& found) {
+  const Scalar margin = lengths.margin;
   Manifold<S>& manifold = found.manifold();
   const std::span<const Pose<S>> poses(bodies.pose);
   const Grain& a = grains_[k];
@@ -135,8 +137,12 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k, Scalar margi
       continue;
     const Grain& b = crosses ? image_of(grains_[second], poses, near_.shifts()[p], found.image)
                              : grains_[second];
+    const Scalar carry =
+        lengths.slow > 0 && is_slow(a, b, bodies, lengths.slow) ? lengths.carry : 0;
     found.add(a, b, previous, [&](auto&& add) {
-      return near_.caches().collide_parts(p, a.placed, b.placed, of_pair, manifold, add);
+      return near_.caches().collide_parts(p, a.placed, poses[a.body.index()].rotation, b.placed,
+                                          poses[b.body.index()].rotation, of_pair, carry, manifold,
+                                          add);
     });
   }
   const Scalar of_walls = margins_.of_walls(k, margin);

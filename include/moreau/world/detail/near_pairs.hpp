@@ -192,6 +192,7 @@ bool NearPairs<ShapeT, BroadPhaseT>::find(const Grains& grains, std::span<const 
     images_.find_pairs(cell_, std::span<const Aabb<S>>(fat_), broad_phase_, pairs_, shifts_);
   filter_.erase(grains, pairs_, shifts_);
   caches_.renew(pairs_, old_pairs_, shifts_, grains, reach + lengths.skin);
+  caches_.set_carrying(lengths.carry > 0);
   return true;
 }
 

@@ -15,6 +15,8 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
+#include "moreau/shape/concepts.hpp"
+#include "moreau/world/detail/carried_contact.hpp"
 
 namespace moreau::detail {
 
@@ -24,6 +26,9 @@ class PairCaches {
  public:
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
+  using Rotation = typename S::Rotation;
+  /// Whether contacts can be carried along. To detect those of polygons takes no longer.
+  static constexpr bool can_carry = Polytope<ShapeT> && S::dim == 3;
 
   /// The list of pairs is new: pairs that are in both lists keep their cache. Both lists are sorted.
   /// The other arguments are for compound grains.
@@ -33,34 +38,71 @@ class PairCaches {
     caches_.assign(pairs.size(), PairCache<S>{});
     merge_join(pairs, old_pairs, [&](std::size_t i, std::size_t j) { caches_[i] = old_[j]; });
   }
+  /// Sets whether contacts are carried along, after renew(). All are detected again.
+  void set_carrying(bool carries) {
+    if constexpr (can_carry) {
+      carried_.resize(carries ? caches_.size() : 0);
+      for (CarriedContact<S>& contact : carried_) contact.clear();
+    }
+  }
   /// Whether the parts of grain k are where renew() left them. A convex grain has no parts.
   static constexpr bool holds(std::size_t, const auto&, Scalar) { return true; }
   /// The same in a cell that deforms.
   static constexpr bool holds(std::size_t, const auto&, Scalar, const auto&) { return true; }
   /// Erases the caches of pairs p with is_gone(p).
-  void erase_pairs(const auto& is_gone) { erase_at(caches_, is_gone); }
+  void erase_pairs(const auto& is_gone) {
+    erase_at(caches_, is_gone);
+    if (!carried_.empty()) erase_at(carried_, is_gone);
+  }
   /// Forgets grains k with is_gone(k).
   static void erase_grains(const auto&) {}
   /// Whether the caches, read from a file, are those of the pairs.
   bool are_valid(const std::vector<IndexPair>& pairs, const auto&, bool) const {
-    return caches_.size() == pairs.size();
+    return caches_.size() == pairs.size() && (carried_.empty() || carried_.size() == pairs.size());
   }
 
   /// Collides pair p.
-  /// @param use called if the pair is in contact, when `out` contains its points
+  /// @param rotation_a,rotation_b of the bodies
+  /// @param carry largest motion up to which its contact is carried along; 0: it is detected [m]
+  /// @param use   called if the pair is in contact, when `out` contains its points
   /// @returns whether it is
-  bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Placed<ShapeT>& b, Scalar margin,
-                     Manifold<S>& out, auto&& use) {
-    if (!collide(a, b, margin, out, caches_[p])) return false;
+  bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation& rotation_a,
+                     const Placed<ShapeT>& b, const Rotation& rotation_b, Scalar margin,
+                     Scalar carry, Manifold<S>& out, auto&& use) {
+    if constexpr (can_carry) {
+      if (!(carry == 0 ? collide(a, b, margin, out, caches_[p])
+                       : carry_along(p, a, {a.center(), rotation_a, b.center(), rotation_b}, b,
+                                     margin, carry, out)))
+        return false;
+    } else if (!collide(a, b, margin, out, caches_[p])) {
+      return false;
+    }
     use();
     return true;
   }
 
  private:
   friend struct moreau::SerializationAccess;
-  auto serialized_members() { return std::tie(caches_); }
+  auto serialized_members() { return std::tie(caches_, carried_); }
+
+  /// Collides pair p, or carries along the contact that it had.
+  [[gnu::noinline]] bool carry_along(std::size_t p, const Placed<ShapeT>& a,
+                                     const typename CarriedContact<S>::Placing& now,
+                                     const Placed<ShapeT>& b, Scalar margin, Scalar carry,
+                                     Manifold<S>& out) requires can_carry {
+    CarriedContact<S>& carried = carried_[p];
+    if (p + 1 < carried_.size()) prefetch(&carried_[p + 1], sizeof(CarriedContact<S>));
+    if (carried.holds(now, b.radius(), margin, carry)) return carried.write(now, margin, out);
+    const Scalar known = margin + 2 * carry;
+    carried.clear();
+    if (!collide(a, b, known, out, caches_[p])) return false;
+    carried.store(now, out, known);
+    std::erase_if(out.points, [&](const auto& point) { return !(point.gap <= margin); });
+    return !out.points.empty();
+  }
 
   std::vector<PairCache<S>> caches_, old_;  // one per pair of the list
+  std::vector<CarriedContact<S>> carried_;  // the same; empty if none are carried along
 };
 
 /// The near parts and the caches of pairs of compound grains.
@@ -70,7 +112,9 @@ class PairCaches<ShapeT> {
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
+  using Rotation = typename S::Rotation;
 
+  static void set_carrying(bool) {}  ///< contacts of parts are detected in every step
   /// The list of pairs is new: lists the parts of each pair whose boxes are closer than twice `reach`,
   /// sorted. Pairs of parts that were listed before keep their cache.
   /// @param shifts of the second grain of each pair; empty in an open cell
@@ -146,7 +190,8 @@ class PairCaches<ShapeT> {
   /// Collides the near parts of pair p.
   /// @param use called for each pair of parts in contact, when `out` contains its points
   /// @returns whether there was one
-  bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Placed<ShapeT>& b, Scalar margin,
+  bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation&,
+                     const Placed<ShapeT>& b, const Rotation&, Scalar margin, Scalar,
                      Manifold<S>& out, auto&& use) {
     bool touch = false;
     for (std::size_t k = begin(ends_, p); k < ends_[p]; ++k) {

@@ -93,7 +93,10 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
     detector_.use_whole_margin();
   // The contacts of the step before the last are replaced; the swap below makes the new ones contacts_.
   auto& found = previous_;
-  detector_.detect(lengths(), bodies(), contacts_, found);
+  DetectionLengths<Scalar> lengths_of_step = lengths();
+  // A contact that is stored then serves ten steps or more.
+  lengths_of_step.slow = lengths_of_step.carry / (10 * step);
+  detector_.detect(lengths_of_step, bodies(), contacts_, found);
   if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), found);
   assign_laws(assembly_.bodies(), materials_, found, team_);
   assembly_.require_no_deep_overlap(found, "Simulation::step");
