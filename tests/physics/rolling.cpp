@@ -76,3 +76,22 @@ TEST_CASE("a spin about the normal falls by eta R N / I") {
     CHECK(steps == int(std::ceil(50 / (fall * h))));
   }
 }
+
+TEST_CASE(
+    "a ball on a slope rolls from tan(tilt) = eta, with the acceleration g (sin - eta cos) / (1 + "
+    "2/5)") {
+  const double eta = 0.1;
+  for (const double slope : {0.999 * eta, 1.001 * eta, 0.3}) {
+    const double tilt = std::atan(slope), pull = g * (std::sin(tilt) - eta * std::cos(tilt)) / 1.4;
+    auto world = on_floor(Law(0.5, eta));
+    world.set_gravity(g * Vector(std::sin(tilt), 0, -std::cos(tilt)));
+    const BodyId ball =
+        world.add_grain(world.add_shape(Ball<>(radius)), Pose<S>(Vector(0, 0, radius)), 2500);
+    for (int step = 1; step <= 500; ++step) {
+      CHECK(world.step(h).solve.converged);
+      const double speed = std::max(0.0, pull * h * step);
+      CHECK(std::abs(world.velocity(ball).x() - speed) < 1e-9);
+      CHECK(std::abs(world.spin(ball).y() - speed / radius) < 1e-7);
+    }
+  }
+}
