@@ -96,6 +96,30 @@ TEST_CASE("check: a grain size in millimetres") {
       one_contains(run(world, 1e-3, 1), "grain size 20 m, but the ball around the smallest grain"));
 }
 
+TEST_CASE("check: nothing is said about a plate with a grain size between thickness and diameter") {
+  for (const double size : {0.002, 0.01, 0.05, 0.1}) {
+    World world(size, Materials<Law>(1, Law(0.5)));
+    const ShapeId plate = world.add_shape(cuboid<Polyhedron<>>({0.05, 0.05, 0.001}));
+    world.add_grain(plate, {}, 2700);
+    world.add_wall({0, 0, 1}, {0, 0, -0.001});
+    world.set_gravity({0, 0, -9.81});
+    CHECK(run(world, 1e-4, 3).empty());
+  }
+  World world(0.0005, Materials<Law>(1, Law(0.5)));
+  world.add_grain(world.add_shape(cuboid<Polyhedron<>>({0.05, 0.05, 0.001})), {}, 2700);
+  CHECK(one_contains(run(world, 1e-4, 1), "ball around the smallest grain"));
+}
+
+TEST_CASE("check: a grain that driven walls squeeze has no solution") {
+  World world(0.02, Materials<Law>(1, Law(0.3)));
+  world.add_grain(world.add_shape(cuboid<Polyhedron<>>({0.01, 0.01, 0.01})), {}, 2700);
+  const BodyId left = world.add_wall({1, 0, 0}, {-0.01, 0, 0}),
+               right = world.add_wall({-1, 0, 0}, {0.01, 0, 0});
+  world.set_velocity(left, {0.1, 0, 0});
+  world.set_velocity(right, {-0.1, 0, 0});
+  CHECK(one_contains(run(world, 1e-3, 3), "has no solution: change what drives it"));
+}
+
 TEST_CASE("check: a grain inside another") {
   World world = cube(0.02, 0.01);
   Pose<Space<3>> pose;

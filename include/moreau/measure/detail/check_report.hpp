@@ -64,7 +64,19 @@ inline double round_down(double x) {
         "should stand can move. Use a shorter step",
         {double(report.solve.unsolved_islands), double(report.solve.islands),
          report.solve.velocity_error});
-  if (report.solve.capped && report.solve.unsolved_islands == 0)
+  const bool has_approach = report.solve.relative_approach > SolveReport::max_relative_approach;
+  if (report.solve.capped && has_approach)
+    found.say(
+        "after % sweeps contacts still approach with % of the velocity that they have without "
+        "impulses "
+        "(relative_approach). A body that driven walls squeeze, or a wedge that friction jams, has "
+        "no "
+        "solution: change what drives it. A load that travels through a long chain of contacts "
+        "needs "
+        "more sweeps: simulation.set_solver(Solver({.max_sweeps = %})) with your solver's name, "
+        "ColouredGaussSeidel by default",
+        {double(report.solve.sweeps), report.solve.relative_approach, 5.0 * report.solve.sweeps});
+  else if (report.solve.capped && report.solve.unsolved_islands == 0)
     found.say(
         "the solver stopped after % sweeps at a residual of %, above its tolerance. Use a shorter "
         "step, "

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "moreau/core/ids.hpp"
+#include "moreau/detect/placed.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/shape/circumradius.hpp"
 
@@ -17,7 +18,9 @@ namespace moreau::detail {
 
 /// The extremes over the grains and over the laws that are judged.
 struct Extremes {
-  double width = std::numeric_limits<double>::infinity();    ///< smallest circumdiameter [m]
+  double width = std::numeric_limits<double>::infinity();  ///< smallest circumdiameter [m]
+  /// Of the grain of smallest circumdiameter: the least width of its box in body axes [m].
+  double thickness = 0;
   double density = std::numeric_limits<double>::infinity();  ///< smallest [kg/m^3]
   double heaviest = 0;                                       ///< largest density [kg/m^3]
   double friction = 0;  ///< largest of the laws from 5 to 90, else 0
@@ -27,7 +30,8 @@ struct Extremes {
 
 [[gnu::cold]] inline void judge(Findings& found, const Extremes& of, double size) {
   const bool earth = of.gravity > 9 && of.gravity<11, grains = of.heaviest> 0;
-  const bool fits = of.width > 0.2 * size && of.width < 5 * size;
+  // Of a plate or a stick any length between thickness and diameter will do.
+  const bool fits = of.width > 0.2 * size && (of.width < 5 * size || 0.999 * of.thickness <= size);
   if (grains && !fits)
     found.say(
         "grain size % m, but the ball around the smallest grain has a diameter of % m; all "
@@ -96,14 +100,22 @@ template <class Simulation>
 [[gnu::cold]] void check_units(Findings& found, const Simulation& simulation, double step) {
   Extremes of;
   of.step = step;
+  std::size_t smallest = 0;
   const auto& bodies = simulation.bodies();
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const auto& shape = simulation.shape_of_grain(k);
     const double density = double(bodies.grain_mass[simulation.grain(k).index()]) /
                            double(shape.mass_properties(1).mass);
-    of.width = std::min(of.width, 2 * double(circumradius(shape)));
+    if (const double width = 2 * double(circumradius(shape)); width < of.width) {
+      of.width = width;
+      smallest = k;
+    }
     of.density = std::min(of.density, density);
     of.heaviest = std::max(of.heaviest, density);
+  }
+  if (of.width >= 5 * double(simulation.grain_size()) && simulation.grain_count() > 0) {
+    const auto box = Placed(simulation.shape_of_grain(smallest)).bounding_box();
+    of.thickness = double((box.upper - box.lower).minCoeff());
   }
   for (const auto& law : simulation.materials().laws())
     if constexpr (requires {
