@@ -4,8 +4,11 @@
 //   TEST_CASE("mine") { conformance::solver<moreau::Space<3>>(MySolver(options), 1e-9); }
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <doctest/doctest.h>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,8 +21,9 @@ namespace conformance {
 /// Checks on random assemblies:
 ///   - The solver reaches its tolerance, also under a law that has only the functions of the
 ///     concept, if the solver takes such a law.
-///   - The residual that it reports equals the residual that is measured afterwards.
-///   - The velocities that the solver leaves in the operator are those that its impulses cause.
+///   - The residual that it reports equals the residual that is measured afterwards, up to rounding.
+///   - The velocities that the solver leaves in the operator are those that its impulses cause, up to rounding: bodies of
+///     islands have the motion that the direct method has found.
 ///   - Started from a solution, it needs no more sweeps.
 ///   - A problem without contacts is reported as converged.
 /// @param tolerance tolerance of the solver for the residual of the natural map
@@ -40,9 +44,12 @@ void solver(const V& solver, double tolerance) {
     CHECK(report.worst_cone <= tolerance);
     for (std::size_t c = 0; c < problem.op.size(); ++c)
       velocities.push_back(problem.op.velocity(c));
-    CHECK(report.residual == problem.measure(impulses).residual);
+    constexpr double rounding = 1e4 * double(std::numeric_limits<typename S::Scalar>::epsilon());
+    CHECK(std::abs(report.residual - problem.measure(impulses).residual) <= rounding);
+    double changed = 0;
     for (std::size_t c = 0; c < problem.op.size(); ++c)
-      CHECK(velocities[c] == problem.op.velocity(c));
+      changed = std::max(changed, double((velocities[c] - problem.op.velocity(c)).norm()));
+    CHECK(changed <= rounding);
 
     const moreau::SolveReport again = problem.solve(solver, problem.laws, impulses);
     CHECK(again.converged);

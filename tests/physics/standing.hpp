@@ -23,14 +23,15 @@ namespace masonry {
 /// carries n blocks it is n times that.) Joints of width w rotate by at most 2 u/w. A block that is
 /// connected to the floor by n joints, in a structure of diameter D, moves with at most sum u (1 +
 /// 2 D/w) <= e sqrt(n) (1 + 2 D/w). Velocities do not accumulate over steps. So the displacement is
-/// at most the sum of h times this velocity, and the kinetic energy is at most m/2 times its
-/// square. In addition, the overlap correction displaces blocks by the amount that it reports.
+/// at most the sum of h times this velocity. Gaps that the error of a step has opened close in the next one, so that
+/// the kinetic energy is at most m/2 times the square of the sum of the velocities of both. In addition, the overlap
+/// correction displaces blocks by the amount that it reports.
 template <class ShapeT, class Solver>
 void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle, int count) {
   const double lever =
       std::sqrt(double(structure.joints)) * (1 + 2 * structure.diameter / structure.joint);
   int failed = 0, sweeps = 0, first = 0;
-  double residual = 0, allowed = 0, velocity = 0, corrected = 0;
+  double residual = 0, allowed = 0, velocity = 0, corrected = 0, energy = 0;
   std::vector<typename Structure<ShapeT, Solver>::Vector> start;
   for (int k = 0; k < settle + count; ++k) {
     if (k == settle) start = structure.vertices();
@@ -40,8 +41,12 @@ void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle,
     if (k == 0) first = report.solve.sweeps;
     if (k < settle) continue;
     sweeps = std::max(sweeps, report.solve.sweeps);
+    const double before = velocity;
     velocity = lever * report.solve.residual * structure.impulse_velocity();
     allowed += step * velocity;
+    const double most = structure.mass() * (before + velocity) * (before + velocity) / 2;
+    if (k > settle)
+      energy = std::max(energy, moreau::kinetic_energy(structure.simulation).total() / most);
     corrected += report.correction.largest_shift;
   }
   double moved = 0;
@@ -52,8 +57,7 @@ void check_stands(Structure<ShapeT, Solver>& structure, double step, int settle,
   CHECK(failed == 0);
   CHECK(residual <= tolerance);
   CHECK(moved <= allowed + corrected);
-  CHECK(moreau::kinetic_energy(structure.simulation).total() <=
-        structure.mass() * velocity * velocity / 2);
+  CHECK(energy <= 1);
 }
 
 /// Simulates a structure with the default options. No block may move by 1 % of the width of a joint. After the step in
@@ -84,6 +88,26 @@ void check_stands_by_default(Structure<ShapeT> structure, double step, int count
   CHECK(unsolved <= 2 + count / 100);
   CHECK(error <= 100 * options.velocity_tolerance);
   CHECK(moved < 0.01 * structure.joint);
+}
+
+/// Simulates a structure at rest with the default options. Where a step converged, no block moves much faster than
+/// SolveReport::velocity_error says: also where a light block under a heavy one shows little of the error.
+template <class ShapeT>
+void check_reported_errors(Structure<ShapeT> structure, double step, int count) {
+  using S = typename Structure<ShapeT>::S;
+  auto& simulation = structure.simulation;
+  simulation.set_solver(moreau::ColouredGaussSeidel());
+  double largest = 0;  // velocity over what is allowed
+  for (int k = 0; k < count; ++k) {
+    const moreau::SolveReport report = simulation.step(step).solve;
+    if (!report.converged) break;  // blocks that have moved apart fall
+    const double allowed = gravity * step * std::max(1e-6, 30 * report.velocity_error);
+    for (std::size_t i = 0; i < simulation.grain_count(); ++i) {
+      const auto& twist = simulation.bodies().velocity[simulation.grain(i).index()];
+      largest = std::max(largest, twist.template head<S::dim>().norm() / allowed);
+    }
+  }
+  CHECK(largest <= 1);
 }
 
 }  // namespace masonry

@@ -44,6 +44,20 @@ TEST_CASE_TEMPLATE("a light block holds a heavy one without friction", ShapeT, P
     masonry::check_stands_by_default(masonry::stack<ShapeT>(2, 0, 0, ratio), h, rounds(3900));
 }
 
+TEST_CASE_TEMPLATE("blocks of all masses on each other: the error of velocities is reported",
+                   ShapeT, Polyhedron<>, Polygon<>) {
+  constexpr int count = rounds(20);
+  for (const double ratio : {1e-6, 1e-4, 1e-2, 1e2, 1e4, 1e6})
+    for (const int blocks : {2, 3})
+      for (const double jitter : {0.0, 0.005}) {
+        CAPTURE(ratio);
+        CAPTURE(blocks);
+        CAPTURE(jitter);
+        masonry::check_reported_errors(masonry::stack<ShapeT>(blocks, 0.5, jitter, ratio), 1e-3,
+                                       count);
+      }
+}
+
 TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedron<>, Polygon<>) {
   constexpr int count = rounds(40);
   for (const double h : {1e-3, 1.0 / 60}) {

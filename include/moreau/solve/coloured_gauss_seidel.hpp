@@ -154,7 +154,7 @@ class ColouredGaussSeidel {
     if (!swept || report.residual <= std::max(residual, options_.tolerance)) return report;
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
-    islands.forget_motion();
+    islands.roll_back();
     judge(problem, impulses, swept, islands, report);
     return report;
   }

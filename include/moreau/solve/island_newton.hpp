@@ -18,7 +18,8 @@
 // stays where it is, with its lifts, solves the problem of the law. The change of y by one step is the error of
 // the velocities of the centre, except for modes whose stiffness is small against epsilon, and for slip. Their
 // error shrinks by a factor q per step; q is the ratio of the changes by two steps, and the error is taken as
-// change / (1 - q).
+// change / (1 - q). A heavy body held by a light one through all n bodies has about the stiffness of the ratio
+// of their masses, over n^2: its q is taken at least. A change by a larger epsilon than the least counts in proportion.
 //
 // Where contacts are redundant, many impulses solve the problem. That of a proximal step is the one nearest to its
 // centre in the norm of s. With the warm start as centre, equal s and no lift where contacts stick, what has changed
@@ -129,34 +130,39 @@ class IslandNewton {
     step_.begin();
     is_better_ = false;
     first_ = 0;
+    // Of the mode that holds the heaviest body by the lightest, through all others.
+    const double bodies = double(step_.points().bodies());
+    const double softest = 1 + least * mass_ratio() * bodies * bodies;
     double error = 0, before = 0, solved = std::numeric_limits<double>::infinity();
     while (step_.make(epsilon, precision.most_steps, tolerance)) {
       const double change = step_.take_lifts();
-      if (!std::isfinite(change)) break;
       const double q = before > 0 ? std::min(largest_q, change / before) : 0;
-      error = change / (1 - q);
+      const double found = change * std::max(1 / (1 - q), softest) * std::max(1.0, epsilon / least);
+      if (!(found <= solved) || !std::isfinite(found)) {  // of rounding: the step before is better
+        step_.first_lifts();
+        break;
+      }
+      error = found;
       if (first_ == 0) first_ = change;
       is_better_ = change <= first_;
       step_.accept();
-      // A mode whose stiffness is `least` shows only the share least / epsilon of its error.
       const bool is_exact = epsilon <= least && change * epsilon <= Step::rounding;
-      if (is_exact || error * epsilon <= tolerance * least) {
-        if (is_exact || !step_.polishes() || step_.steps() == 0 || step_.steps() >= polish_steps ||
-            error > Step::polish * solved) {
-          if (has_smooth_point()) {
-            step_.refine(mass_ratio());
-            is_better_ = true;  // the changes of the steps before are those of rounding
-          }
-          return error;
-        }
+      if (is_exact || error <= tolerance) {
+        const bool falls = error <= Step::polish * solved;
         solved = error;
-      } else if (std::isfinite(solved)) {
-        return error;
+        if (is_exact || !falls || !step_.polishes() || step_.steps() == 0 ||
+            step_.steps() >= polish_steps)
+          break;
       }
       before = epsilon <= least ? change : 0;
       epsilon = std::max(least, lower * epsilon);
     }
-    return std::max(error, 2 * tolerance);
+    if (!std::isfinite(solved)) return std::max(error, 2 * tolerance);
+    if (has_smooth_point()) {
+      step_.refine(mass_ratio());
+      is_better_ = true;  // the changes of the steps before are those of rounding
+    }
+    return error;
   }
   /// solve(), but near other impulses than those of start(), of which only the motion is taken. What they do not bear is
   /// shared as if by equal springs. The lifts begin with zero; if some contacts slip, the steps are done again with the

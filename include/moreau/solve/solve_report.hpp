@@ -31,8 +31,8 @@ struct SolveReport {
   /// velocity, as a root mean square over the mass of a body, relative to the largest velocity that
   /// impulses gave to a body of its island in the step [-]. For a structure at rest this is g h. It is
   /// estimated by a direct method, which attempts structures at rest in every step, islands of many contacts
-  /// per body in some steps, and no colliding grains. 0 if none was attempted: small errors of many contacts
-  /// then add up unseen.
+  /// per body in some steps, and no colliding grains. Where the method does not succeed, it is a lower bound.
+  /// 0 if no island was attempted: small errors of many contacts then add up unseen.
   double velocity_error = 0;
   int islands = 0;           ///< that the direct method attempted
   int unsolved_islands = 0;  ///< of these, those whose error is above a hundred times

@@ -62,7 +62,7 @@ class IslandSolver {
         closes = closes || problem.delassus.free_velocity(c)[0] < 0;
       }
       // Without impulses the defect is 0 where no contact closes, and otherwise 1.
-      Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted};
+      Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted, not_attempted};
       if (!is_new) {
         take(problem, k);
         one.defect = newton_.start(impulses);
@@ -84,10 +84,11 @@ class IslandSolver {
   /// @param swept whether the sweeps have met their stopping test: if not, islands that slide are attempted as well
   void finish(const Problem& problem, Impulses impulses, int sweeps, bool swept) {
     for (Small& one : small_) {
+      one.swept = not_attempted;  // that was the error of the warm start
       if (one.error <= near * tolerance_)
         for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
       else
-        one.error = not_attempted;  // that was the error of the warm start
+        one.error = not_attempted;
       const bool is_open = one.is_new && one.defect == 0;
       if (is_open || is_solved(one) || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       take(problem, one.island);
@@ -99,10 +100,11 @@ class IslandSolver {
       if (newton_.slip() >= 1 && swept) continue;
       // Sweeps give the load of a pair to the point that they visit first.
       keep(one, impulses,
-           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}));
+           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}),
+           defect);
       if (one.error <= near * tolerance_) continue;
       newton_.start(impulses);
-      solve_directly(one, impulses, late_epsilon, most_steps);
+      solve_directly(one, impulses, late_epsilon, most_steps, defect);
     }
   }
   /// Whether the direct method has estimated the error of an island.
@@ -119,8 +121,11 @@ class IslandSolver {
         changes[i * std::size_t(Operator::width) + std::size_t(k)] = motion_[i][k];
     }
   }
-  /// Where the impulses are not those of the islands.
-  MOREAU_INLINED void forget_motion() { std::fill(moved_.begin(), moved_.end(), 0); }
+  /// Where the impulses are those of the sweeps after all: their errors, and no motion.
+  MOREAU_COLD void roll_back() {
+    std::fill(moved_.begin(), moved_.end(), 0);
+    for (Small& one : small_) one.error = one.swept;
+  }
   /// Writes what the islands have come to.
   void write(SolveReport& report) const {
     report.islands = report.unsolved_islands = 0;
@@ -141,6 +146,7 @@ class IslandSolver {
     double defect;  // of the warm start, see IslandNewton::start()
     bool is_new;    // no contact has an impulse in the warm start
     double error;   // relative [-]
+    double swept;   // the same of the impulses from which the direct method started, at least
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
@@ -196,7 +202,7 @@ class IslandSolver {
     if (one.cost > most_visits) return;
     if (one.defect > solved_defect && !is_drawn(one, warm_visits, 0)) return;
     solve_directly(one, impulses, std::clamp(one.defect, warm_epsilon, late_epsilon),
-                   std::max(2, int(warm_visits / one.cost)));
+                   std::max(2, int(warm_visits / one.cost)), one.defect);
   }
   /// Of the island that take() took.
   MOREAU_INLINED void find_cost(Small& one) {
@@ -208,20 +214,26 @@ class IslandSolver {
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
-  MOREAU_INLINED void solve_directly(Small& one, Impulses impulses, double epsilon, int steps) {
-    keep(one, impulses, newton_.solve(epsilon, {tolerance_, least_epsilon, steps}));
+  MOREAU_INLINED void solve_directly(Small& one, Impulses impulses, double epsilon, int steps,
+                                     double defect) {
+    const double error = newton_.solve(epsilon, {tolerance_, least_epsilon, steps});
+    keep(one, impulses, error, std::max(newton_.first_change(), defect));
   }
   /// Keeps the impulses that the direct method has found, if they are good enough.
-  void keep(Small& one, Impulses impulses, double error) {
+  /// @param error of these
+  /// @param swept of those from which it started, at least
+  void keep(Small& one, Impulses impulses, double error, double swept) {
+    one.swept = swept;
+    if (!newton_.is_better() || error > near * tolerance_) {
+      one.error = std::max(swept, 2 * tolerance_);
+      return;
+    }
     one.error = error;
-    if (newton_.is_better() && one.error <= near * tolerance_) {
-      newton_.finish(impulses);
-      newton_.finish_motion([&](std::uint32_t body, const auto& change) {
-        moved_[body] = 1;
-        motion_[body] = change.template cast<typename Operator::Scalar>();
-      });
-    } else
-      one.error = newton_.first_change() > 0 ? newton_.first_change() : not_attempted;
+    newton_.finish(impulses);
+    newton_.finish_motion([&](std::uint32_t body, const auto& change) {
+      moved_[body] = 1;
+      motion_[body] = change.template cast<typename Operator::Scalar>();
+    });
   }
 
   double tolerance_ = 0;

@@ -55,6 +55,15 @@ class ProximalStep {
     move_to_centre();
     first_lifts();
   }
+  /// Sets the lifts of the motion of the centre.
+  void first_lifts() {
+    for (std::size_t k = 0; k < centre_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      Vector u = point.free + points_.velocity(point, y_);
+      for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
+      lift_[k] = point.friction * slip_of(u);
+    }
+  }
   /// Gives all contacts one compliance, epsilon times the least w, and no lift.
   MOREAU_INLINED void make_even() {
     common_ = std::numeric_limits<double>::infinity();
@@ -193,15 +202,6 @@ class ProximalStep {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
     for (std::size_t k = 0; k < centre_.size(); ++k)
       points_.push(points_.points()[k], centre_[k], y_);
-  }
-  /// Lifts of the motion of the centre.
-  void first_lifts() {
-    for (std::size_t k = 0; k < centre_.size(); ++k) {
-      const auto& point = points_.points()[k];
-      Vector u = point.free + points_.velocity(point, y_);
-      for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
-      lift_[k] = point.friction * slip_of(u);
-    }
   }
   /// Largest velocity of a body in the motion of the centre and in another one [m/s].
   double scale(std::span<const Coordinates> other) const {
