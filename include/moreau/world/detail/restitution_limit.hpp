@@ -18,9 +18,10 @@
 //
 // with the largest s in [0, 1] for which G(r) <= 0: the root of a parabola. s exists because G(r_0) <= 0. The
 // impulses lie in the cones of friction, because these are convex, and the bodies do not approach, because u
-// is linear in r. Between prescribed bodies nothing is exchanged: they end islands. u and u_f are relative to the
-// prescribed bodies, to the chord of their motion where they turn (chord_velocities.hpp): nothing above asks how
-// these move, and their work is not counted.
+// is linear in r. Between prescribed bodies nothing is exchanged: they end islands. A periodic cell that moves by
+// its stress is a body that all contacts touch: they are one island, with the energy of the bodies and of the cell. u
+// and u_f are relative to the prescribed bodies, to the chord of their motion where they turn (chord_velocities.hpp):
+// nothing above asks how these move, and their work is not counted.
 //
 // An approximate r_0 can add energy, within every tolerance on means over the contacts: a heavy body that squeezes a light
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
@@ -204,6 +205,9 @@ class RestitutionLimit {
       report.residual = std::max(report.residual, found.residual);
       report.relative_approach = std::max(report.relative_approach, found.relative_approach);
       report.worst_velocity = std::max(report.worst_velocity, found.worst_velocity);
+      report.velocity_error = std::max(report.velocity_error, found.velocity_error);
+      report.islands = std::max(report.islands, found.islands);
+      report.unsolved_islands = std::max(report.unsolved_islands, found.unsolved_islands);
       offset_all(problem, 1);
     } else {
       report = found;
@@ -315,6 +319,7 @@ class RestitutionLimit {
   }
   MOREAU_INLINED std::uint32_t island_of(const Bodies<S>& bodies, const Problem& problem,
                                          std::size_t c) {
+    if (problem.delassus.has_cell()) return 0;
     const auto [a, b] = problem.delassus.bodies(c);
     return sets_.find(bodies.is_prescribed(b) ? a : b);
   }
