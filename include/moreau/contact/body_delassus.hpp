@@ -253,7 +253,7 @@ class BodyDelassus {
   /// Lambda, by the impulses applied so far [1/s].
   const typename S::Matrix& cell_change() const { return cell_.change(); }
   /// Sets Lambda by all impulses, after move(); nothing without a cell.
-  MOREAU_COLD void move_cell(std::span<const Vector> impulses) {
+  MOREAU_COMPILED_ONCE void move_cell(std::span<const Vector> impulses) {
     if (cell_.exists()) cell_.push_all(std::span<const Point>(points_), impulses);
   }
   /// @}

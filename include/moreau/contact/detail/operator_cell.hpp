@@ -54,7 +54,8 @@ class OperatorCell {
   template <class Point>
   [[gnu::always_inline]] void push_all(std::span<const Point> points, const auto& impulses) {
     change_.setZero();
-    for (std::size_t c = 0; c < impulses.size(); ++c) push(points[c], impulses[c]);
+    for (std::size_t c = 0; c < impulses.size(); ++c)
+      if (!impulses[c].isZero(0)) push(points[c], impulses[c]);
   }
   /// Adds Lambda d of a point to a relative velocity, world axes [m/s].
   template <class Point>
@@ -68,7 +69,7 @@ class OperatorCell {
   /// Multiplies the blocks by 1 + tr(W^-1 W_cell), W_cell = max R |d| sum of |d|: by the inequality of Cauchy and
   /// Schwarz the sum of these blocks is at least the operator of the cell. Or divides by it.
   template <class Point>
-  MOREAU_COLD void scale_blocks(std::span<Point> points, bool up) {
+  MOREAU_COMPILED_ONCE void scale_blocks(std::span<Point> points, bool up) {
     Scalar sum = 0;
     for (const Point& point : points) sum += branch(point).norm();
     if (up) factors_.resize(points.size());

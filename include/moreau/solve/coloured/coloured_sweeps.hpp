@@ -71,7 +71,7 @@ class ColouredSweeps {
     const bool mixing = acceleration_.is_mixing();
     const bool back = mixing && mixed_sweeps_ % 2 == 0;
     if (mixing) mix();
-    kernel_.move_cell(acceleration_.beta(), team);
+    kernel_.move_cell(active_.groups(), acceleration_.beta());
     run(TimedWork::sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       const auto visit = [this](std::uint32_t k) { kernel_.visit_active(k, acceleration_.beta()); };
       if (!mixing) {
@@ -88,7 +88,7 @@ class ColouredSweeps {
   }
   /// An accelerated sweep over all groups; updates the active set.
   void sweep_all(const Team& team) {
-    kernel_.move_cell(acceleration_.beta(), team);
+    kernel_.move_cell(active_.groups(), acceleration_.beta());
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
       wait();
@@ -107,7 +107,7 @@ class ColouredSweeps {
     kernel_.velocity().forget_change();
     acceleration_.interrupt();
     kernel_.clear_measures();
-    kernel_.move_cell(0, team);
+    kernel_.move_cell(active_.groups(), 0);
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       const auto visit = [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); };
       all_.forward(rank, size, wait, visit, settle_hub());

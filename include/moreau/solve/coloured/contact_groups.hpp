@@ -246,6 +246,7 @@ class ContactGroups {
     group.first = point_count_;
     group.count = group.active = 0;
     group.hub = hub_of(pair);
+    group.is_simple = group.hub == Hub::none;
     const std::uint64_t key = order_[begin].key;
     group.chunk = key & not_inside ? Group::shared : static_cast<std::uint32_t>(key >> chunk_bits);
     std::uint32_t together = 0;

@@ -43,10 +43,10 @@ class GroupKernel {
   void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team, SharedBodies* shared) {
     contacts_.build(problem, impulses, team);
-    cell_.start(problem.delassus);
     is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(contacts_.groups.size(), Values{});
     hub_changes_.resize(contacts_.groups.size());
+    start_cell(problem.delassus);
     set_impulses(problem.delassus, impulses, team, shared);
     team.share_each(contacts_.groups.size(), 128,
                     [&](std::size_t k) { update_active(contacts_.groups[k]); });
@@ -64,8 +64,9 @@ class GroupKernel {
   /// Computes the velocities of the bodies from the impulses alone.
   void recompute_velocities() {
     velocity_.reset(contacts_.velocities());
-    for (std::size_t k = 0; k < contacts_.groups.size(); ++k) {
+    for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
       apply(k);
+      if (cell_.moves()) take(k);
       update_active(contacts_.groups[k]);
     }
   }
@@ -88,15 +89,15 @@ class GroupKernel {
     Group& group = contacts_.groups[k];
     changes_[k] = Values{};
     if (group.delays_hub()) hub_changes_[k] = {};
-    if (group.active == 0 && !approaches(group)) return;
+    if (group.active == 0 && !approaches(k)) return;
     visit<Measure>(k, group.count, beta);
     update_active(group);
   }
 
-  /// In a cell that moves by its stress: gives all points the velocities of the cell with the impulses from which the
-  /// next sweep starts.
-  /// @param beta of that sweep
-  void move_cell(T beta, const Team& team) { cell_.move(contacts_.points, beta, team); }
+  /// Gives a cell that moves by its stress the velocity of the impulses from which the next sweep starts.
+  /// @param active all groups with active points
+  /// @param beta   of that sweep
+  void move_cell(const std::vector<std::uint32_t>& active, T beta) { cell_.move(active, beta); }
   /// After a phase of groups of a hub: adds to the velocity of the hub what the visits of a group
   /// have changed.
   void settle_hub(std::uint32_t k) { velocity_.add(contacts_.groups[k], hub_changes_[k]); }
@@ -126,9 +127,30 @@ class GroupKernel {
   /// Velocities that the processor's own cache holds are not loaded ahead [bytes].
   static constexpr std::size_t near_cache = std::size_t{1} << 18;
   void prefetch_from(std::uint32_t number) const {
-    if (!is_large_ || number >= contacts_.groups.size()) return;
+    if (number >= contacts_.groups.size()) return;
     velocity_.prefetch(contacts_.groups[number].a);
     velocity_.prefetch(contacts_.groups[number].b);
+  }
+
+  /// The first points of a group.
+  std::span<const Points> points_of(const Group& group, std::uint32_t count) const {
+    return std::span(contacts_.points).subspan(group.first, count);
+  }
+  void start_cell(const Operator& op) {
+    cell_.start(op, contacts_.groups.size());
+    has_extras_ = is_large_ || cell_.moves();
+    if (!cell_.moves()) return;
+    for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
+      Group& group = contacts_.groups[k];
+      group.is_simple = false;
+      cell_.place(k, contacts_.points[group.first]);
+      take(k);
+    }
+  }
+  /// Gives the cell the impulses of a group.
+  void take(std::uint32_t k) {
+    const Group& group = contacts_.groups[k];
+    cell_.take(k, points_of(group, group.count));
   }
 
   /// Adds what the impulses of a group do to its bodies.
@@ -211,8 +233,11 @@ class GroupKernel {
     }
   }
   /// Whether u_n < 0 at a point of the group.
-  MOREAU_COMPILED_ONCE bool approaches(const Group& group) const {
-    const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+  MOREAU_COMPILED_ONCE bool approaches(std::uint32_t number) const {
+    const Group& group = contacts_.groups[number];
+    const BodyLanes a = velocity_.gather(group.a);
+    BodyLanes b = velocity_.gather(group.b);
+    if (cell_.moves()) add(cell_.velocity(number), b);
     typename Lanes::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
       const Points& point = contacts_.points[p];
@@ -227,10 +252,13 @@ class GroupKernel {
   /// Solves the first `count` contacts of each pair in the group, one after the other.
   template <bool Measure>
   MOREAU_COMPILED_ONCE void visit(std::uint32_t number, std::uint32_t count, T extrapolation) {
-    prefetch_from(number + ahead);
     const Group& group = contacts_.groups[number];
     Values change2{};
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    if (has_extras_) {
+      if (is_large_) prefetch_from(number + ahead);
+      if (cell_.moves()) add(cell_.begin_visit(number), b);
+    }
     const Values beta = Lanes::broadcast(extrapolation);
     for (std::uint32_t p = group.first; p < group.first + count; ++p) {
       Points& point = contacts_.points[p];
@@ -263,10 +291,20 @@ class GroupKernel {
       if constexpr (Measure) measure(measures_[number], point.block, change, impulse);
     }
     changes_[number] = change2;
-    if (group.delays_hub())
-      hub_changes_[number] = velocity_.scatter_partners(group, a, b);
-    else
-      velocity_.scatter(group, a, b);
+    if (!group.is_simple) {
+      if (cell_.moves()) subtract(cell_.take(number, points_of(group, count)), b);
+      if (group.delays_hub()) {
+        hub_changes_[number] = velocity_.scatter_partners(group, a, b);
+        return;
+      }
+    }
+    velocity_.scatter(group, a, b);
+  }
+  static void add(const Vector& velocity, BodyLanes& b) {
+    for (std::size_t k = 0; k < S::dim; ++k) b[k] += velocity[k];
+  }
+  static void subtract(const Vector& velocity, BodyLanes& b) {
+    for (std::size_t k = 0; k < S::dim; ++k) b[k] -= velocity[k];
   }
 
   static void measure(SweepChange& sum, const typename Points::Block& block, const Row& change,
@@ -286,7 +324,8 @@ class GroupKernel {
   Groups contacts_;
   LaneCell<Operator, Points> cell_;
   LaneVelocities<S, Lanes> velocity_;
-  bool is_large_ = false;  // whether prefetch_from() does anything
+  bool is_large_ = false;    // whether velocities are loaded ahead
+  bool has_extras_ = false;  // whether a visit begins with more than loading its bodies
   // One entry per group.
   std::vector<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
   std::vector<SweepChange> measures_;

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 // A periodic cell that moves by its stress in coloured sweeps: BodyDelassus::add_cell(). All contacts of a sweep see
-// the velocity of the cell before the sweep. It is computed from the impulses, extrapolated like these, so that
-// acceleration, active set and stopping tests are those of a problem with one more body.
+// the velocity Lambda of the cell that the impulses before the sweep give, extrapolated like these: acceleration,
+// active set and stopping tests are those of a problem with one more body.
+//
+// All contact points of a pair of bodies have the same d = l_a - l_b (contact/detail/operator_cell.hpp). So a visit to a
+// group of pairs adds Lambda d to the velocities of the bodies b while it lasts, and leaves behind the sum P of the
+// impulses of each pair; the next sweep begins with Lambda_ij = R_ij times the sum of P_i d_j over all pairs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "moreau/core/compiled_once.hpp"
@@ -13,7 +20,7 @@
 
 namespace moreau::detail {
 
-/// The velocities of the cell at the contact points of the sweeps.
+/// The velocity of the cell at the pairs of bodies of the sweeps.
 template <class Operator, class Points>
 class LaneCell {
  public:
@@ -21,77 +28,86 @@ class LaneCell {
   using T = typename S::Scalar;
   using Lanes = typename Points::Block::Number;
   using Values = typename Points::Values;
+  using Vector = std::array<Values, std::size_t{S::dim}>;
 
-  /// Before points have the free velocities of the operator.
-  void start(const Operator& op) {
+  /// @param groups number of groups of pairs
+  void start(const Operator& op, std::size_t groups) {
     moves_ = op.has_cell();
+    if (!moves_) return;
     response_ = op.cell_response();
     rate_.setZero();
+    pairs_.assign(groups, {});
   }
-  /// Gives the free velocities of the points those of the cell.
-  /// @param beta the impulses are r + beta (r - r of the visit before)
-  void move(std::vector<Points>& points, T beta, const Team& team) {
-    if (moves_) set_free(points, beta, team);
+  /// Whether there is such a cell.
+  bool moves() const { return moves_; }
+  /// Before the first sweep: d of a group.
+  void place(std::uint32_t group, const Points& point) {
+    for (std::size_t i = 0; i < S::dim; ++i)
+      pairs_[group].branch[i] = point.lever_a[i] - point.lever_b[i];
+  }
+  /// Sums up the impulses of a group after a visit, or before the first one.
+  /// @param points of the group; points with an impulse are among them
+  /// @returns what begin_visit() has returned
+  MOREAU_COMPILED_ONCE const Vector& take(std::uint32_t group, std::span<const Points> points) {
+    Pairs& pairs = pairs_[group];
+    Vector sum{};
+    for (const Points& point : points)
+      for (std::size_t i = 0; i < S::dim; ++i)
+        for (std::size_t d = 0; d < S::dim; ++d) sum[i] += point.frame[i][d] * point.impulse[d];
+    pairs.impulse = sum;
+    return pairs.velocity;
+  }
+  /// Before a sweep: finds Lambda from the impulses that take() has summed up.
+  /// @param groups all groups with an impulse
+  /// @param beta   the sweep starts from the impulses r + beta (r - r of the sweep before)
+  void move(const std::vector<std::uint32_t>& groups, T beta) {
+    if (moves_) find_rate(groups, beta);
+  }
+  /// Lambda d of a group, which take() returns after the visit, world axes [m/s].
+  MOREAU_COMPILED_ONCE const Vector& begin_visit(std::uint32_t group) {
+    Vector& velocity = pairs_[group].velocity;
+    velocity = this->velocity(group);
+    return velocity;
+  }
+  /// Lambda d of a group, world axes [m/s].
+  MOREAU_INLINED Vector velocity(std::uint32_t group) const {
+    const Vector& branch = pairs_[group].branch;
+    Vector velocity{};
+    for (std::size_t j = 0; j < S::dim; ++j)
+      for (std::size_t i = 0; i < S::dim; ++i) velocity[i] += lanes_[j * S::dim + i] * branch[j];
+    return velocity;
   }
 
  private:
   using Matrix = typename S::Matrix;
-  /// D x D, column after column, one contact per lane.
-  using LaneMatrix = std::array<Values, std::size_t{S::dim * S::dim}>;
+  /// One pair of bodies per lane, world axes.
+  struct Pairs {
+    Vector branch{};    ///< d [m]
+    Vector impulse{};   ///< P [N s]
+    Vector velocity{};  ///< Lambda d of the present visit [m/s]
+  };
 
-  MOREAU_COLD void set_free(std::vector<Points>& points, T beta, const Team& team) {
-    // The sums do not depend on the team: as many as there are parts, which the number of points gives.
-    constexpr std::size_t most = 16;
-    const std::size_t parts = points.size() < 256 ? 1 : most;
-    const Values factor = Lanes::broadcast(beta);
-    std::array<LaneMatrix, most> sums{};
-    bool adds = true;
-    const auto pass = [&](std::size_t part) {
-      const Share share(points.size(), int(part), int(parts));
-      for (std::size_t p = share.begin; p < share.end; ++p)
-        visit(points[p], adds, factor, sums[adds ? part : 0]);
-    };
-    team.share_each(parts, 1, pass);
-    for (std::size_t k = 0; k < sums[0].size(); ++k) {
-      for (std::size_t part = 1; part < parts; ++part) sums[0][k] += sums[part][k];
-      const T rate = response_.data()[k] * Lanes::sum(sums[0][k]);
-      sums[0][k] = Lanes::broadcast(rate - rate_.data()[k]);
+  MOREAU_COMPILED_ONCE void find_rate(const std::vector<std::uint32_t>& groups, T beta) {
+    std::array<Values, std::size_t{S::dim * S::dim}> sums{};
+    for (const std::uint32_t k : groups) {
+      const Pairs& pairs = pairs_[k];
+      for (std::size_t j = 0; j < S::dim; ++j)
+        for (std::size_t i = 0; i < S::dim; ++i)
+          sums[j * S::dim + i] += pairs.impulse[i] * pairs.branch[j];
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const T rate = response_.data()[k] * Lanes::sum(sums[k]), before = rate_.data()[k];
       rate_.data()[k] = rate;
-    }
-    adds = false;
-    team.share_each(parts, 1, pass);
-  }
-  /// add() or offset().
-  MOREAU_COLD static void visit(Points& point, bool adds, const Values& beta, LaneMatrix& matrix) {
-    if (adds)
-      add(point, beta, matrix);
-    else
-      offset(point, matrix);
-  }
-  /// Adds p d^T of the impulses.
-  MOREAU_INLINED static void add(const Points& point, const Values& beta, LaneMatrix& sum) {
-    for (std::size_t d = 0; d < S::dim; ++d) {
-      const Values guess = point.impulse[d] + beta * (point.impulse[d] - point.before[d]);
-      for (std::size_t j = 0; j < S::dim; ++j) {
-        const Values moment = guess * (point.lever_a[j] - point.lever_b[j]);
-        for (std::size_t i = 0; i < S::dim; ++i) sum[j * S::dim + i] += point.frame[i][d] * moment;
-      }
-    }
-  }
-  /// Adds F^T change d to the free velocity.
-  MOREAU_INLINED static void offset(Points& point, const LaneMatrix& change) {
-    for (std::size_t j = 0; j < S::dim; ++j) {
-      const Values branch = point.lever_a[j] - point.lever_b[j];
-      for (std::size_t i = 0; i < S::dim; ++i) {
-        const Values velocity = change[j * S::dim + i] * branch;
-        for (std::size_t d = 0; d < S::dim; ++d) point.free[d] += point.frame[i][d] * velocity;
-      }
+      lanes_[k] = Lanes::broadcast(rate + beta * (rate - before));
     }
   }
 
   bool moves_ = false;
+  std::vector<Pairs> pairs_;  // of each group
   Matrix response_ = Matrix::Zero();
-  Matrix rate_ = Matrix::Zero();  // Lambda in the free velocities of the points [1/s]
+  Matrix rate_ = Matrix::Zero();  // Lambda before the sweep [1/s]
+  std::array<Values, std::size_t{S::dim * S::dim}>
+      lanes_;  // Lambda of the sweep, column after column, in all lanes
 };
 
 }  // namespace moreau::detail

@@ -62,6 +62,7 @@ struct PairGroup {
   std::uint32_t chunk;  ///< that all bodies of the group belong to, or `shared`
   static constexpr std::uint32_t shared = std::numeric_limits<std::uint32_t>::max();
   Hub hub;
+  bool is_simple;          ///< neither a hub nor a cell that moves by its stress
   std::uint32_t matrices;  ///< index into ContactGroups::mass_matrices; isotropic: none is needed
   static constexpr std::uint32_t isotropic = std::numeric_limits<std::uint32_t>::max();
 
