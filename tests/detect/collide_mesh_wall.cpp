@@ -269,6 +269,59 @@ TEST_CASE_TEMPLATE("facets that are known from earlier steps give the same conta
   }
 }
 
+// A grain keeps facets that were near it in earlier steps: those that its box has left change nothing.
+TEST_CASE_TEMPLATE("facets outside of the box of the grain change no contact", ShapeT,
+                   MOREAU_TYPES((Capsule<>), (Stadium<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  // The right end of a thin capsule touches a floor. A ceiling below the middle of the capsule is nearer to the
+  // centre than the floor, but outside of the box.
+  const auto strip = [](double x, double y, double z) {
+    Vector at = y * Vector::Unit(1);
+    at[0] = x;
+    at[S::dim - 1] = z;
+    return at;
+  };
+  FacetMesh<S> mesh;
+  const auto add = [&](double from, double to, double z, bool up) {
+    const auto first = std::uint32_t(mesh.vertices.size());
+    if constexpr (S::dim == 3) {
+      for (const double x : {from, to})
+        for (const double y : {-0.05, 0.05}) mesh.vertices.push_back(strip(x, y, z));
+      const std::uint32_t a = first, b = first + 1, c = first + 2, d = first + 3;
+      mesh.facets.insert(mesh.facets.end(), {{a, c, d}, {a, d, b}});
+    } else {
+      for (const double x : {to, from}) mesh.vertices.push_back(strip(x, 0, z));
+      mesh.facets.push_back({first, first + 1});
+    }
+    if (!up)
+      for (auto f = mesh.facets.end() - (S::dim - 1); f != mesh.facets.end(); ++f)
+        std::swap((*f)[0], (*f)[1]);
+  };
+  add(0.008, 0.03, -5e-4, true);
+  add(-0.03, 0.006, -0.002, false);
+  const MeshWall<S> wall(mesh);
+  const ShapeT shape(0.01, 6e-4);
+  const double margin = 1e-4;
+  const Placed<ShapeT> placed(shape, {Vector::Zero(), S::identity()});
+  MeshNeighbours<S> near;
+  near.update(wall, placed.bounding_box().inflated(0.1));
+  MeshScratch scratch;
+  Manifold<S> manifold;
+  int points = 0;
+  const auto add_points = [&](std::uint32_t) {
+    for (const auto& point : manifold.points) {
+      ++points;
+      CHECK(point.gap == doctest::Approx(-1e-4));
+      CHECK(manifold.normal[S::dim - 1] == doctest::Approx(-1));
+    }
+  };
+  collide_each(placed, wall, margin, scratch, manifold, add_points);
+  CHECK(points == 2);  // the end of the capsule, and the rim of the floor
+  collide_each(placed, wall, margin, margin, near, scratch, manifold, add_points);
+  CHECK(points == 4);
+}
+
 // Files hold coordinates in single precision: the corners of a plane floor lie off its plane by more than the
 // rounding of the grain.
 TEST_CASE("a large floor with rounded coordinates holds grains everywhere") {

@@ -444,6 +444,98 @@ TEST_CASE("a vertex below a floor of small facets has a contact, however deep it
 
 namespace {
 
+/// A spike with its tip at the origin, in the plane two segments.
+FacetMesh<Space<3>> spike(Space<3>) {
+  FacetMesh<Space<3>> mesh{{Space<3>::Vector::Zero()}, {}};
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    const double angle = 0.4 * std::numbers::pi * k;
+    mesh.vertices.push_back({0.02 * std::cos(angle), 0.02 * std::sin(angle), -0.06});
+    mesh.facets.push_back({0, 1 + k, 1 + (k + 1) % 5});
+  }
+  return mesh;
+}
+FacetMesh<Space<2>> spike(Space<2>) {
+  return {{{0.02, -0.06}, {0, 0}, {-0.02, -0.06}}, {{0, 1}, {1, 2}}};
+}
+/// The same with its outside within.
+template <class S>
+FacetMesh<S> reversed(FacetMesh<S> mesh) {
+  for (auto& facet : mesh.facets) std::swap(facet[0], facet[1]);
+  return mesh;
+}
+
+/// Rods that come from all directions and overlap a wall by 10 um.
+template <class ShapeT>
+struct Rods {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  int poses = 0, missing = 0, too_deep = 0;
+
+  void check(const MeshWall<S>& wall, const Vector& point, const Vector& up,
+             std::mt19937_64& random) {
+    Vector half = Vector::Constant(0.001);
+    half[0] = 0.015;
+    static const ShapeT rod = cuboid<ShapeT>(half);
+    const Vector aside = 0.012 * conformance::random_direction<S>(random);
+    Placed<ShapeT> shape(rod, {point + 0.045 * up + aside, random_rotation<S>(random)});
+    if (!lower(wall, up, shape)) return;
+    shape.move_to(shape.center() - 1e-5 * up);
+    const double gap = union_gap(wall, shape, margin);
+    if (gap > -1e-6) return;  // it slides past
+    ++poses;
+    double least = 1;
+    for (const auto& contact : contacts(shape, wall, margin)) least = std::min(least, contact.gap);
+    missing += least > -1e-7;
+    too_deep += least < -1.1e-5;
+  }
+};
+
+}  // namespace
+
+// The centre of a rod that touches the tip can be behind the planes of some of the faces that join there.
+TEST_CASE_TEMPLATE("a rod touches the tip of a spike from all sides", ShapeT, Polygon<>,
+                   Polyhedron<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  std::mt19937_64 random(5);
+  for (const bool is_back : {false, true}) {
+    const MeshWall<S> wall(is_back ? reversed(spike(S{})) : spike(S{}),
+                           is_back ? WallSides::both : WallSides::outside);
+    Rods<ShapeT> rods;
+    for (int k = 0; k < 40 * approaches; ++k) {
+      const Vector up =
+          (Vector::Unit(S::dim - 1) + conformance::random_direction<S>(random)).normalized();
+      rods.check(wall, Vector::Zero(), up, random);
+    }
+    CAPTURE(is_back);
+    CHECK(rods.poses > 100);
+    CHECK(rods.missing == 0);
+  }
+}
+
+// The end of a rod beside a crest lies behind the planes of facets on the other side of the wall.
+TEST_CASE_TEMPLATE("a rod beside a wavy wall with two sides has no contact with the other side",
+                   ShapeT, Polygon<>, Polyhedron<>) {
+  using S = SpaceOf<ShapeT>;
+  std::mt19937_64 random(6);
+  for (const double cell : {0.004, 0.02}) {
+    const MeshWall<S> wall(waves<S>(int(0.1 / cell), cell, 0.05, 0.006, 3), WallSides::both);
+    Rods<ShapeT> rods;
+    for (int k = 0; k < 20 * approaches; ++k) {
+      const auto [point, up] = above_facet(wall, k, random);
+      if (point.template head<S::dim - 1>().cwiseAbs().maxCoeff() > 0.03)
+        continue;  // not at the rim
+      rods.check(wall, point, up, random);
+    }
+    CAPTURE(cell);
+    CHECK(rods.poses > 30);
+    CHECK(rods.missing == 0);
+    CHECK(rods.too_deep == 0);
+  }
+}
+
+namespace {
+
 /// Whether a vertex of a wall lies in a shape, deeper than `depth` below each of its faces.
 template <class ShapeT>
 bool is_pierced(const Placed<ShapeT>& shape, const FacetMesh<SpaceOf<ShapeT>>& mesh, double depth) {

@@ -129,12 +129,10 @@ class MeshWall {
     for (std::size_t c = 0; c < facets_[k].size(); ++c) has = has || is_concave(k, c);
     return has;
   }
-  /// Whether side(k) has a rim that ends at vertex v.
-  bool has_rim_at(std::size_t k, std::uint32_t v) const {
-    bool has = false;
-    for (std::size_t c = 0; c < facets_[k].size(); ++c)
-      has = has || (neighbours_[k][c] == none && facets_[k][c] != v);
-    return has;
+  /// Whether a direction d, for which is_top() holds, leads from a tip to the outside, and not to the back of a
+  /// surface with one side. At a rim both are free.
+  bool is_outward(std::size_t v, const Vector& d) const {
+    return d.dot(outward_[v]) >= Scalar(-1e-6);
   }
   /// Whether a direction d is a possible contact normal at a tip, towards the grain: all faces at the
   /// vertex lie below the plane through it.
@@ -163,6 +161,7 @@ class MeshWall {
   void set_ridges(const std::vector<Ridge<S>>& ridges);
   void set_tips();
   void set_rings(const std::vector<Ridge<S>>& ridges);
+  void set_outward(const std::vector<Ridge<S>>& ridges);
   void sort_by_place();
   /// A vector without its component along a ridge.
   Vector across(const Ridge<S>& ridge, Vector x) const {
@@ -185,6 +184,7 @@ class MeshWall {
   /// Unit vectors from each tip along the lines in which its faces meet, and within the faces.
   std::vector<Vector> ring_;
   std::vector<std::uint32_t> ring_begin_;  ///< the first of each vertex
+  std::vector<Vector> outward_;            ///< of each vertex, see set_outward()
   detail::BoxTree<S> tree_;
   Scalar flat_ = 0;  ///< a corner closer to the plane of a neighbour than this lies in it [m]
 };
@@ -209,6 +209,7 @@ void MeshWall<S>::build() {
   set_ridges(ridges);
   set_tips();
   set_rings(ridges);
+  set_outward(ridges);
   sort_by_place();
 }
 
@@ -395,6 +396,32 @@ void MeshWall<S>::set_rings(const std::vector<Ridge<S>>& ridges) {
   ring_.resize(found.size());
   std::vector<std::uint32_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
   for (const auto& [v, along] : found) ring_[end[v]++] = along;
+}
+
+/// Sets a normal at each vertex that says on which side of the surface a point is that is nearest to the vertex: the
+/// mean of the normals of its facets, weighted by their angles at the vertex. It is 0 where both sides are free: of a
+/// wall with two sides, and at rims. Source: J. A. Baerentzen, H. Aanaes, Signed distance computation using the
+/// angle weighted pseudonormal (2005).
+template <EuclideanSpace S>
+void MeshWall<S>::set_outward(const std::vector<Ridge<S>>& ridges) {
+  outward_.assign(mesh_.vertices.size(), Vector::Zero());
+  if (sides_ == WallSides::both) return;
+  for (std::size_t f = 0; f < facets_.size(); ++f)
+    for (int k = 0; k < S::dim; ++k) {
+      Scalar angle = 1;
+      if constexpr (S::dim == 3) {
+        const Matrix& corners = facet_sides_[f].corners;
+        const Vector to_next = corners.col((k + 1) % 3) - corners.col(k);
+        const Vector to_last = corners.col((k + 2) % 3) - corners.col(k);
+        angle = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+      }
+      outward_[facets_[f][std::size_t(k)]] += angle * facet_sides_[f].normal;
+    }
+  for (Vector& outward : outward_) outward.normalize();
+  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
+    if (at.size() > 1) return;
+    for (const std::uint32_t v : at[0].vertices) outward_[v].setZero();
+  });
 }
 
 }  // namespace moreau

@@ -76,6 +76,7 @@ class MeshCollision {
     pair_.scratch.tips.clear();
     pair_.scratch.known.clear();
     pair_.scratch.passed.clear();
+    facets_ = near;
     const Aabb<S> around = box.inflated(pair_.margin - pair_.radius);
     const T beside = std::max(pair_.margin - pair_.radius, pair_.core.deepest() / 8);
     const FacetRegion<S> region{pair_.wall,        near,       around, pair_.reference,
@@ -108,8 +109,11 @@ class MeshCollision {
     };
     for (const std::uint32_t r : pair_.scratch.ridges) ridges_.touch(S{}, r, add);
     pair_.scratch.pierced.clear();
+    pair_.scratch.pricked.clear();
     tips_.touch(MeshPair<ShapeT>::aligned, add);
-    tips_.touch_pierced(add);
+    tips_.touch_pierced(pair_.scratch.pierced, add);
+    // A tip a little below the surface of the shape, whose vertices are on the other side of a rim: none touches a face.
+    if (!known.has_below(-double(pair_.near))) tips_.touch_pierced(pair_.scratch.pricked, add);
     if (pair_.radius > 0 && known.is_empty()) {
       // High above a corner of faces whose vertices lie near their planes only, normal cones that were
       // computed from these planes can leave a gap.
@@ -133,7 +137,7 @@ class MeshCollision {
     for (std::size_t i = begin; i < pair_.scratch.known.size(); ++i) {
       auto contact = pair_.scratch.known.template at<Vector>(i);
       if (contact.gap < -pair_.near) {
-        if (!ridges_.is_deepest(contact)) continue;
+        if (!ridges_.is_deepest(contact) || !passes_surface(contact)) continue;
         ridges_.leave_by_face(contact);
       }
       const Vector middle = contact.x - contact.gap / 2 * contact.to_shape;
@@ -143,6 +147,22 @@ class MeshCollision {
       touch = true;
     }
     return touch;
+  }
+  /// Whether a segment, the core of a capsule, passes through a facet, if the contact is one of the segment with a ridge.
+  /// Otherwise the segment lies behind the ridge without an overlap: beyond a rim, or within a thin wall. Shapes with
+  /// an inside are not asked.
+  bool passes_surface(const Known& contact) const {
+    if constexpr (MeshCore<ShapeT>::has_inside) {
+      return true;
+    } else {
+      if (contact.feature.kind() != FeatureKey::Kind::edge_edge) return true;
+      const Vector from = pair_.center + pair_.core.vertex(0),
+                   to = pair_.center + pair_.core.vertex(1);
+      return std::any_of(facets_.begin(), facets_.end(), [&](const NearFacet& facet) {
+        return goes_through(pair_.wall, facet.place, from, to, pair_.near) ||
+               goes_through(pair_.wall, facet.place, to, from, pair_.near);
+      });
+    }
   }
   /// Moves the reference point in front of a surface with one side, if the centre is behind the surface, less deep
   /// than the inradius: the centre of a thin shape passes the surface where a crest reaches into the shape, and the
@@ -154,7 +174,8 @@ class MeshCollision {
     Vector to_facet = Vector::Zero();
     std::uint32_t place = 0;
     for (const NearFacet& facet : region.facets) {
-      if (!pair_.wall.box(facet.place).inflated(least + pair_.near).contains(pair_.center))
+      const Aabb<S>& box = pair_.wall.box(facet.place);
+      if (!box.overlaps(region.around) || !box.inflated(least + pair_.near).contains(pair_.center))
         continue;
       const auto& side = pair_.wall.side(facet.place);
       const Vector nearest =
@@ -267,14 +288,15 @@ class MeshCollision {
     if (!(pair_.largest < pair_.margin)) return false;
     const T off = pair_.wall.flatness() + T(1e3) * pair_.near;
     return std::any_of(region.facets.begin(), region.facets.end(), [&](const NearFacet& facet) {
+      const Aabb<S>& box = pair_.wall.box(facet.place);
+      if (!box.overlaps(region.around)) return false;
       const auto& side = pair_.wall.side(facet.place);
       const T gap = side.normal.dot(x) - side.offset;
       if (!(gap > pair_.largest && gap <= pair_.margin) || !(pair_.reference_height(side) > 0) ||
           pair_.height(side) - pair_.core.reach(-side.normal) < -pair_.margin)
         return false;
       const T around = facet.has_concave ? off + region.beside : off;
-      return pair_.wall.box(facet.place).inflated(around).contains(x - gap * side.normal) &&
-             region.holds(facet, x, gap);
+      return box.inflated(around).contains(x - gap * side.normal) && region.holds(facet, x, gap);
     });
   }
 
@@ -293,7 +315,8 @@ class MeshCollision {
   RidgeContacts<ShapeT> ridges_{pair_};
   TipContacts<ShapeT> tips_{pair_};
   Manifold<S>& out_;
-  std::size_t begin_of_points_ = 0;  // of the known contacts, after those in manifolds of faces
+  std::span<const NearFacet> facets_;  // at least those within the margin
+  std::size_t begin_of_points_ = 0;    // of the known contacts, after those in manifolds of faces
   // Of take_face().
   const typename Wall::Side* plane_ = nullptr;
   T above_ = 0, gap_ = 0;  // of the centre above the plane, of the shape [m]

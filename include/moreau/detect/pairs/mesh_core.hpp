@@ -34,6 +34,7 @@ class MeshCore {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
+  static constexpr bool has_inside = true;
 
   explicit MeshCore(const Placed<ShapeT>& shape) : shape_(shape) {}
   Vector center() const { return shape_.center(); }
@@ -96,6 +97,7 @@ class MeshCore<BallIn<S>> {
  public:
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
+  static constexpr bool has_inside = true;  // has no edges: is not asked
 
   explicit MeshCore(const Placed<BallIn<S>>& shape) : shape_(shape) {}
   Vector center() const { return shape_.center(); }
@@ -128,6 +130,7 @@ class MeshCore<Segment<S>> {
  public:
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
+  static constexpr bool has_inside = false;
 
   explicit MeshCore(const Placed<Segment<S>>& shape) : shape_(shape) {}
   Vector center() const { return shape_.center(); }

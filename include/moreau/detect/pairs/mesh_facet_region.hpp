@@ -15,6 +15,20 @@
 
 namespace moreau::detail {
 
+/// Whether the segment from one point to another passes a facet of a mesh wall, from the front to the back.
+/// @param near lengths below it count as 0 [m]
+template <class S>
+bool goes_through(const MeshWall<S>& wall, std::uint32_t f, const typename S::Vector& from,
+                  const typename S::Vector& to, typename S::Scalar near) {
+  const auto& side = wall.side(f);
+  const auto above = side.normal.dot(from) - side.offset, below = side.normal.dot(to) - side.offset;
+  if (!(above > 0 && below < 0)) return false;
+  const typename S::Vector at_plane = from + above / (above - below) * (to - from);
+  for (std::size_t c = 0; c < side.inward.size(); ++c)
+    if (side.inward[c].dot(at_plane) < side.inward_offset[c] - near) return false;
+  return true;
+}
+
 /// The vertices of a shape that touch a facet of a mesh wall.
 ///
 ///   1. A vertex touches a facet onto which it projects.
@@ -26,7 +40,8 @@ namespace moreau::detail {
 ///      out of which it would be pushed.
 ///   4. A vertex below a facet does not touch it if it came around it: if the segment from the centre of
 ///      the shape to the vertex passes the face beyond a rim, beyond a concave ridge behind whose other
-///      facet the centre is, or beyond a convex ridge to whose other facet the vertex is nearer.
+///      facet the centre is, or beyond a convex ridge to whose other facet the vertex is nearer; and if the
+///      segment ends in front of the surface, as from a centre beside a thin wall to a vertex on the same side.
 ///
 /// Each of 2, 3 and 4 looks at one facet and its neighbours: of a vertex that is deep below a floor of small
 /// facets each facet can say that another has it. Therefore a vertex that no facet has, although the way
@@ -64,7 +79,8 @@ struct FacetRegion {
     if (gap >= -near) return true;
     // The segment to the centre moves aside by at most size |gap| / (height of the centre - gap).
     const T height = height_above(side, center);
-    return inside * (height - gap) > -gap * size || !came_around(facet.place, x, gap, height);
+    return inside * (height - gap) > -gap * size ||
+           (!came_around(facet.place, x, gap, height) && is_behind(x));
   }
   /// Whether a point is beyond a rim of a facet.
   bool is_beyond_rim(std::uint32_t f, const Vector& x) const {
@@ -99,15 +115,8 @@ struct FacetRegion {
   static T height_above(const Side& side, const Vector& x) {
     return side.normal.dot(x) - side.offset;
   }
-  /// Whether the segment from one point to another passes a facet, from the front to the back.
   bool goes_through(std::uint32_t f, const Vector& from, const Vector& to) const {
-    const Side& side = wall.side(f);
-    const T above = height_above(side, from), below = height_above(side, to);
-    if (!(above > 0 && below < 0)) return false;
-    const Vector at_plane = from + above / (above - below) * (to - from);
-    for (std::size_t c = 0; c < side.inward.size(); ++c)
-      if (side.inward[c].dot(at_plane) < side.inward_offset[c] - near) return false;
-    return true;
+    return detail::goes_through(wall, f, from, to, near);
   }
   /// Whether the segment from the centre to a point goes through the surface once more inwards than
   /// outwards. A surface with two sides has each facet twice: of it the inwards alone count.

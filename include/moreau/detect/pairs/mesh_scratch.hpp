@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,10 @@ class KnownContacts {
 
   void clear() { list_.clear(); }
   bool is_empty() const { return list_.empty(); }
+  /// Whether a contact has a gap below a number [m].
+  bool has_below(double gap) const {
+    return std::any_of(list_.begin(), list_.end(), [&](const Stored& s) { return s.gap < gap; });
+  }
   std::size_t size() const { return list_.size(); }
   template <class Vector>
   Contact<Vector> at(std::size_t i) const {
@@ -116,8 +121,9 @@ struct MeshScratch {
   std::vector<std::uint32_t> passed;  ///< vertices that passed through a facet and do not touch it
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tips;  ///< (vertex, facet)
   std::vector<std::size_t>
-      pierced;                  ///< places in `tips` of tips in the shape, without a contact there
-  detail::KnownContacts known;  ///< of the shape
+      pierced;  ///< places in `tips` of tips in the shape, without a contact there
+  std::vector<std::size_t> pricked;  ///< the same for tips that are less deep in the shape
+  detail::KnownContacts known;       ///< of the shape
 };
 
 }  // namespace moreau

@@ -96,8 +96,10 @@ class RidgeContacts {
     if (!(across2 > T(1e-8) * edge.squaredNorm() * along.squaredNorm())) return;
     const T on_edge = apart.cross(along).dot(across), on_ridge = apart.cross(edge).dot(across);
     if (!(on_edge >= 0 && on_edge <= across2 && on_ridge >= 0 && on_ridge <= across2)) return;
-    // At a rim two opposite directions can lie in the normal cone.
-    for (const T length : {std::sqrt(across2), -std::sqrt(across2)}) {
+    // At a rim two opposite directions can lie in the normal cone. A capsule is on the side of its segment.
+    T first = std::sqrt(across2);
+    if (!MeshCore<ShapeT>::has_inside && across.dot(apart) > 0) first = -first;
+    for (const T length : {first, -first}) {
       const Vector d = across / length;
       if (is_in_cone(r, d) && pair_.is_near(-d.dot(apart)) && pair_.is_low(p, -d.dot(apart), d))
         return add(d, -d.dot(apart), Vector(p + on_edge / across2 * edge),

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
@@ -38,12 +39,13 @@ class TipContacts {
   /// cone of the tip: a crest is beyond the middle of a thin shape, or higher than its neighbours along this
   /// normal. The nearest face counts whose normal is in the cone, otherwise the nearest one that leads out of the
   /// facets at the tip.
+  /// @param tips scratch.pierced, or scratch.pricked
   template <class Add>
-  void touch_pierced(const Add& add) {
+  void touch_pierced(const std::vector<std::size_t>& tips, const Add& add) {
     const auto bounds = [&](const Known& other) {
       return pair_.is_lowest(other.x, other.to_shape);
     };
-    for (const std::size_t first : pair_.scratch.pierced) {
+    for (const std::size_t first : tips) {
       const std::uint32_t v = pair_.scratch.tips[first].first;
       const Vector x = pair_.wall.vertex(v) - pair_.center;
       int best = 0;
@@ -70,28 +72,19 @@ class TipContacts {
     const auto found = pair_.core.distance(x, pair_.largest);
     if (!pair_.is_near(found.distance)) return;
     const Vector d = -found.outward;
-    if (pair_.wall.is_top(v, d, tolerance) && is_outside(first, d))
+    if (pair_.wall.is_top(v, d, tolerance) && pair_.wall.is_outward(v, d))
       return add(d, found.distance, Vector(x - found.distance * found.outward),
                  FeatureKey(found.feature.kind(), found.feature.a(), v));
-    if (found.distance < -pair_.core.deepest() / 8) pair_.scratch.pierced.push_back(first);
-  }
-  /// Whether a direction at a tip leads out of one of its facets that are near the shape.
-  bool is_outside(std::size_t first, const Vector& d) const {
-    const std::uint32_t v = pair_.scratch.tips[first].first;
-    bool is = false;
-    for (std::size_t k = first; k < pair_.scratch.tips.size() && pair_.scratch.tips[k].first == v;
-         ++k)
-      is = is ||
-           d.dot(pair_.wall.side(pair_.scratch.tips[k].second).normal) >=
-               -MeshPair<ShapeT>::aligned ||
-           pair_.wall.has_rim_at(pair_.scratch.tips[k].second, v);
-    return is;
+    if (found.distance < -pair_.core.deepest() / 8)
+      pair_.scratch.pierced.push_back(first);
+    else if (found.distance < -pair_.near)
+      pair_.scratch.pricked.push_back(first);
   }
   /// 2 if a direction is in the normal cone of a tip; 1 if it leads out of all facets at the tip that are near the
   /// shape, or of a surface with two sides out of the facet above which the centre is highest; otherwise 0.
   int rank_of(std::size_t first, const Vector& d) const {
     const std::uint32_t v = pair_.scratch.tips[first].first;
-    if (pair_.wall.is_top(v, d, MeshPair<ShapeT>::aligned) && is_outside(first, d)) return 2;
+    if (pair_.wall.is_top(v, d, MeshPair<ShapeT>::aligned) && pair_.wall.is_outward(v, d)) return 2;
     T least = 1, highest = 0, of_highest = 0;  // cosines, and a height [m]
     for (std::size_t k = first; k < pair_.scratch.tips.size() && pair_.scratch.tips[k].first == v;
          ++k) {
