@@ -25,7 +25,9 @@ struct StepReport {
   /// if its impulse was 0.
   std::size_t warm_started = 0;
   /// Largest approach velocity of the contacts that were found, before the step, x step / margin [-].
-  /// Above 1, surfaces can come within the margin and overlap in one step. 0 under a regularized law.
+  /// Above 1, surfaces can come within the margin and overlap in one step. Speed that a body gets in a step shows
+  /// in the step in which it meets another body; two that pass through each other between two detections have no
+  /// contact, and show in none. 0 under a regularized law.
   double approach = 0;
   std::size_t overlapping = 0;  ///< points with gap < 0 as detected
   double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]

@@ -122,7 +122,7 @@ class IslandSolver {
     }
   }
   /// Where the impulses are those of the sweeps after all: their errors, and no motion.
-  MOREAU_COLD void roll_back() {
+  MOREAU_INLINED void roll_back() {
     std::fill(moved_.begin(), moved_.end(), 0);
     for (Small& one : small_) one.error = one.swept;
   }
