@@ -117,7 +117,9 @@ class Bridged : public Law {
       !detail::Attracts<Law>,
       "Bridged<Bridge, Law>: Law has an attraction of its own, and a contact has one attraction");
   static constexpr std::size_t variants_of_law() {
-    if constexpr (requires { Law::variants; })
+    if constexpr (requires(const Law& law) {
+                    { law.variant(0) } -> std::same_as<Law>;
+                  })  // deleted where a law derives from one with variants
       return Law::variants;
     else
       return 1;
