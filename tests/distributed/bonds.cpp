@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bonds over several processes: the motion is that of one process, bonds and breakages move with their grains, also
-// through a restart over the processes.
+// Bonds and bridges over several processes: the motion is that of one process, bonds and breakages move with
+// their grains, also through a restart over the processes.
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "moreau/law/bonded.hpp"
+#include "moreau/law/bridges.hpp"
 
 #include "distributed/worlds.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 using Glue = Bonded<>;
 using SoftGlue = Compliant<Bonded<>>;
+using SoftWet = Compliant<Bridged<CapillaryBridge<>, Rigid>>;
 
 /// A block of grains that touch, turned against the floor that it falls on; grains bonded in rows, with springs all
 /// that touch. Half of the block is faster, so that it tears.
@@ -133,4 +135,17 @@ TEST_CASE("Rigid bonds over processes hold and break as in one") {
 
 TEST_CASE("Bonds with springs and a fracture energy soften and break over processes as in one") {
   check_motion(block<Ball<>>(SoftGlue(Glue({20, 15, 15, 2e-4}, 0.4), 1e5), 1, 0.7 * size), 120);
+}
+
+TEST_CASE("Bridges with springs form, hold and break over processes as in one") {
+  const CapillaryBridge<> bridge(1e-9, 50);  // reaches farther than the margin
+  const auto scene = block<Ball<>>(
+      SoftWet(Bridged<CapillaryBridge<>, Rigid>(bridge, Rigid(0.4)), 1e5), 1, 0.7 * size);
+  const auto result = check_motion(scene, 120);
+  if (!result) return;
+  CHECK(bridge.rupture_distance() > 1.5 * Tolerances().margin * size);
+  std::size_t apart = 0;  // contacts that a bridge holds over a gap above the margin
+  for (const auto& point : result->contacts().points)
+    apart += point.gap > Tolerances().margin * size;
+  CHECK(apart > 0);
 }

@@ -66,8 +66,8 @@ struct DistributionReport {
 ///
 /// A std::exception in one process ends all processes with one message that names the process.
 ///
-/// @tparam World a Simulation whose law is a SetValuedLaw without attraction, or one with bonds, and whose solver can
-///               share bodies (ColouredGaussSeidel; ReproducibleGaussSeidel without bonds)
+/// @tparam World a Simulation whose law is a SetValuedLaw, and whose solver can share bodies (ColouredGaussSeidel;
+///               ReproducibleGaussSeidel for laws without attraction)
 template <class World>
 class DistributedSimulation;
 
@@ -84,11 +84,9 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   static_assert(
       requires(Solver solver) { solver.share_bodies(nullptr); },
       "DistributedSimulation: the solver cannot share bodies");
-  static_assert(!AttractiveLaw<Law, S> || BondingLaw<Law, S>,
-                "DistributedSimulation: the law attracts, and has no bonds");
   static_assert(
-      !BondingLaw<Law, S> || !requires { Solver::splits_bodies; },
-      "DistributedSimulation: the law has bonds, for which bodies must be split");
+      !AttractiveLaw<Law, S> || !requires { Solver::splits_bodies; },
+      "DistributedSimulation: the law attracts, for which bodies must be split");
 
   /// Distributes the simulation of rank 0. The other processes give one of the same type, which may be
   /// empty; it is replaced.

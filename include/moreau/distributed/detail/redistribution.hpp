@@ -5,10 +5,10 @@
 //
 //     R_a + R_b + margin + 2 slack
 //
-// of the centre of b now, with the circumradii R and the slack that each centre may move before the
-// next redistribution. Each grain is therefore lent to all owners of the box around its centre with
-// R_b of the widest grain. In a periodic cell the same is done for its images. Poses are not wrapped. The slack
-// includes half of what the longest bond is stretched.
+// of the centre of b now, with the circumradii R, the margin (or the reach of bridges if it is larger), and the slack
+// that each centre may move before the next redistribution. Each grain is therefore lent to all owners of the box around
+// its centre with R_b of the widest grain. In a periodic cell the same is done for its images. Poses are not wrapped.
+// The slack includes half of what the longest bond is stretched.
 #pragma once
 
 #include <algorithm>
@@ -190,7 +190,7 @@ void Redistribution<World>::update(Scalar step, double imbalance) {
   processes_.largest(std::span(values));
   if (values[0] <= double(slack_)) return;
   Parts parts(world_);
-  const Scalar skin = parts.tolerances().lengths(world_.grain_size()).skin;
+  const Scalar skin = parts.lengths().skin;
   redistribute(std::max(skin, 2 * Scalar(values[1])), imbalance);
 }
 
@@ -295,8 +295,7 @@ std::vector<typename Redistribution<World>::Grains> Redistribution<World>::lend(
   for (const Scalar r : radius) widest = std::max(widest, double(r));
   widest = processes_.largest(widest);
   Parts parts(world_);
-  const Scalar around =
-      Scalar(widest) + parts.tolerances().lengths(world_.grain_size()).margin + 2 * slack;
+  const Scalar around = Scalar(widest) + parts.lengths().margin + 2 * slack;
   std::vector<Grains> out(ranks());
   std::vector<int> found;
   for (std::size_t k = 0; k < grains.size(); ++k) {

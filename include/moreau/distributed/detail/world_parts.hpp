@@ -43,7 +43,7 @@ struct StateAccess {
   static auto& assembly(auto& world) { return world.assembly_; }
   static auto& contacts(auto& world) { return world.contacts_; }
   static auto& detector(auto& world) { return world.detector_; }
-  static const auto& tolerances(auto& world) { return world.tolerances_; }
+  static auto lengths(const auto& world) { return world.lengths(); }
 
   static auto& shapes(auto& assembly) { return assembly.shapes_; }
   static auto& grains(auto& assembly) { return assembly.grains_; }
@@ -83,7 +83,7 @@ struct WorldParts {
   auto& assembly() { return StateAccess::assembly(world); }
   auto& contacts() { return StateAccess::contacts(world); }
   auto& detector() { return StateAccess::detector(world); }
-  const auto& tolerances() { return StateAccess::tolerances(world); }
+  auto lengths() { return StateAccess::lengths(world); }
 
   auto& shapes() { return StateAccess::shapes(assembly()); }
   auto& grains() { return StateAccess::grains(assembly()); }
