@@ -152,6 +152,14 @@ class ColouredGaussSeidel {
     if (!islands.attempted()) return report;
     judge(problem, impulses, swept, islands, report);
     if (!swept || report.residual <= std::max(residual, options_.tolerance)) return report;
+    // Under tolerances near rounding sweeps go on from even pressures, and keep them.
+    if (islands.made_even()) {
+      const int before = report.sweeps;
+      islands.roll_back();
+      report = sweep(problem, impulses, workspace);
+      report.sweeps += before;
+      if (report.converged) return report;
+    }
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
     islands.roll_back();

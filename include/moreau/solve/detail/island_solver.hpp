@@ -45,7 +45,7 @@ class IslandSolver {
     small_.clear();
     moved_.assign(problem.delassus.body_count(), 0);
     motion_.resize(moved_.size());
-    others_ = false;
+    others_ = made_even_ = false;
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto contacts = islands_.contacts(k);
       // A matrix with more blocks takes more work.
@@ -99,14 +99,22 @@ class IslandSolver {
       if (!one.is_new && accept(one, defect)) continue;
       if (newton_.slip() >= 1 && swept) continue;
       // Sweeps give the load of a pair to the point that they visit first.
-      keep(one, impulses,
-           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}),
-           defect);
+      const double error =
+          newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps});
+      keep(one, impulses, error, defect);
+      if (one.is_new && newton_.is_better() && error <= std::max(near * tolerance_, even_enough)) {
+        newton_.finish(impulses);
+        one.error = error;
+        made_even_ = true;
+        continue;
+      }
       if (one.error <= near * tolerance_) continue;
       newton_.start(impulses);
       solve_directly(one, impulses, late_epsilon, most_steps, defect);
     }
   }
+  /// Whether finish() has made the pressures of an island even that had no warm start.
+  bool made_even() const { return made_even_; }
   /// Whether the direct method has estimated the error of an island.
   bool attempted() const {
     return std::any_of(small_.begin(), small_.end(),
@@ -161,6 +169,9 @@ class IslandSolver {
   /// Multiples of the tolerance: up to the first one impulses are kept, as a better start for the next step; up to the
   /// second one an island counts as solved.
   static constexpr double near = 10, accepted = 100;
+  /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
+  /// near rounding.
+  static constexpr double even_enough = 1e-6;
   /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
   /// Newton step of islands that are attempted in every step, as in columns, arches and low walls; a Newton step at
   /// most; all Newton steps before the sweeps at most.
@@ -237,7 +248,8 @@ class IslandSolver {
   }
 
   double tolerance_ = 0;
-  bool others_ = false;  // contacts outside of small islands
+  bool others_ = false;     // contacts outside of small islands
+  bool made_even_ = false;  // see made_even()
   ContactIslands islands_;
   Newton newton_;
   std::vector<Small> small_;
