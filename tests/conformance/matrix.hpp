@@ -93,6 +93,10 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   SUBCASE("RollingResistance") {
     world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
   }
+  SUBCASE("Compliant RollingResistance") {
+    const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
+    world(shapes, moreau::Compliant<moreau::RollingResistance<T>>(rolling, T(1e9) * mass), size);
+  }
   SUBCASE("Compliant Bridged") {
     using Wet = moreau::Bridged<moreau::LinearCohesion<T>, moreau::RollingResistance<T>>;
     const Wet wet(moreau::LinearCohesion<T>(T(1e-4), T(1e-4)),

@@ -11,6 +11,7 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
+#include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
@@ -145,6 +146,37 @@ struct Assembly {
   }
 
   std::uniform_real_distribution<T> unit_{-1, 1};
+};
+
+/// An Assembly under one law, which may have couples and springs.
+template <class S, class Law>
+struct AssemblyUnder {
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
+
+  ContactProblem<Operator, Law> problem;
+
+  AssemblyUnder(std::uint64_t seed, const Law& law) {
+    Assembly<S> points(seed);
+    const std::vector<Row> compliance(CompliantLaw<Law, S> ? points.contacts.size() : 0,
+                                      Row::Constant(typename S::Scalar(0.3)));
+    problem.delassus.assemble(points.contacts, points.roots, points.free,
+                              std::span<const Row>(compliance));
+    problem.laws = {law};
+    problem.law_of.assign(points.contacts.size(), 0);
+  }
+  template <class Solver>
+  SolveReport solve(const Solver& solver, std::vector<Row>& impulses) {
+    impulses.resize(problem.size(), Row::Zero());
+    typename Solver::template Workspace<Operator, Law> workspace;
+    return solver.solve(problem, std::span(impulses), workspace);
+  }
+  SolveReport measure(const std::vector<Row>& impulses) {
+    detail::set_impulses(problem.delassus, std::span<const Row>(impulses));
+    SolveReport report;
+    measure_residual(problem, std::span<const Row>(impulses), report);
+    return report;
+  }
 };
 
 template <class S>

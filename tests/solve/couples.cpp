@@ -22,37 +22,6 @@ using namespace solve_test;
 namespace {
 
 template <class S, class Law>
-struct CoupledAssembly {
-  using Operator = OperatorOf<Law, S>;
-  using Row = typename Operator::Vector;
-
-  ContactProblem<Operator, Law> problem;
-
-  CoupledAssembly(std::uint64_t seed, const Law& law) {
-    Assembly<S> points(seed);
-    const std::vector<Row> compliance(CompliantLaw<Law, S> ? points.contacts.size() : 0,
-                                      Row::Constant(typename S::Scalar(0.3)));
-    problem.delassus.assemble(points.contacts, points.roots, points.free,
-                              std::span<const Row>(compliance));
-    problem.laws = {law};
-    problem.law_of.assign(points.contacts.size(), 0);
-  }
-  template <class Solver>
-  std::vector<Row> solve(const Solver& solver, double tolerance) {
-    std::vector<Row> impulses(problem.size(), Row::Zero());
-    typename Solver::template Workspace<Operator, Law> workspace;
-    const SolveReport report = solver.solve(problem, std::span(impulses), workspace);
-    CHECK(report.converged);
-    CHECK(report.residual <= tolerance);
-    SolveReport again;
-    detail::set_impulses(problem.delassus, std::span<const Row>(impulses));
-    measure_residual(problem, std::span<const Row>(impulses), again);
-    CHECK(again.residual == report.residual);
-    return impulses;
-  }
-};
-
-template <class S, class Law>
 void check_solvers(const Law& law) {
   const double tolerance = 1e-9;
   ColouredOptions coloured;
@@ -60,9 +29,17 @@ void check_solvers(const Law& law) {
   coloured.tolerance = plain.tolerance = tolerance;
   coloured.max_sweeps = plain.max_sweeps = 20000;
   for (const std::uint64_t seed : {1u, 2u}) {
-    CoupledAssembly<S, Law> assembly(seed, law);
-    const auto one = assembly.solve(ColouredGaussSeidel(coloured), tolerance);
-    const auto other = assembly.solve(NonlinearGaussSeidel(plain), tolerance);
+    AssemblyUnder<S, Law> assembly(seed, law);
+    const auto solve = [&](const auto& solver) {
+      std::vector<typename AssemblyUnder<S, Law>::Row> impulses;
+      const SolveReport report = assembly.solve(solver, impulses);
+      CHECK(report.converged);
+      CHECK(report.residual <= tolerance);
+      CHECK(assembly.measure(impulses).residual == report.residual);
+      return impulses;
+    };
+    const auto one = solve(ColouredGaussSeidel(coloured));
+    const auto other = solve(NonlinearGaussSeidel(plain));
     if constexpr (CompliantLaw<Law, S>) {  // the solution is unique
       double square = 0, norm = 0, couples = 0;
       for (std::size_t c = 0; c < one.size(); ++c) {
@@ -89,8 +66,8 @@ TEST_CASE_TEMPLATE("both solvers solve problems with couples", S,
 
 TEST_CASE("the operator of points is that of couples without its last rows") {
   using S = Space<3>;
-  CoupledAssembly<S, RollingResistance<>> coupled(3, RollingResistance<>(0.3, 0.1));
-  CoupledAssembly<S, SignoriniCoulomb<>> points(3, SignoriniCoulomb<>(0.3));
+  AssemblyUnder<S, RollingResistance<>> coupled(3, RollingResistance<>(0.3, 0.1));
+  AssemblyUnder<S, SignoriniCoulomb<>> points(3, SignoriniCoulomb<>(0.3));
   auto& all = coupled.problem.delassus;
   auto& some = points.problem.delassus;
   for (std::size_t c = 0; c < some.size(); ++c) {
