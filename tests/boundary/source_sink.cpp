@@ -161,7 +161,7 @@ TEST_CASE_TEMPLATE("a sink removes the grains behind a plane or outside a box", 
 }
 
 TEST_CASE("a run with a source and a sink restarts with the same bits") {
-  Shaft<Polygon<>> shaft, other;
+  Shaft<Disk<>> shaft, other;
   using S = Space<2>;
   for (auto* one : {&shaft, &other}) one->world.add_wall({0.6, 0.8}, {0.1, -0.1});
   auto options = shaft.options();

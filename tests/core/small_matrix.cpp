@@ -99,6 +99,27 @@ void check_inverse(std::mt19937_64& random) {
   }
 }
 
+template <class T, int N>
+void check_solution(std::mt19937_64& random) {
+  using Matrix = Eigen::Matrix<T, N, N>;
+  using Vector = Eigen::Matrix<T, N, 1>;
+  Matrix m = random_matrix<T, N, N>(random);
+  if (N > 1) m(0, 0) = 0;  // not without a change of rows
+  for (int k = 0; k < N; ++k) m(k, (k + 1) % N) += T(6);
+  const Vector x = random_matrix<T, N, 1>(random);
+  Vector b = Vector::Zero();
+  moreau::add_product(b, m, x);
+  const Vector found = moreau::solve_linear(m, b);
+  CHECK(error_of(Table(found), Table(x), 0, Table(m), Table(x)) <
+        100 * std::numeric_limits<T>::epsilon());
+  Matrix singular = m;
+  for (int j = 0; j < N; ++j) singular(N - 1, j) = N > 1 ? singular(0, j) : T(0);
+  const Vector none = moreau::solve_linear(singular, Vector(Vector::Ones()));
+  bool finite = true;
+  for (const T entry : none) finite = finite && std::isfinite(entry);
+  CHECK_FALSE(finite);
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("sums of products of small matrices", T, double, float) {
@@ -118,5 +139,15 @@ TEST_CASE_TEMPLATE("the inverse of a definite matrix, and which matrices are not
     check_inverse<T, 1>(random);
     check_inverse<T, 3>(random);
     check_inverse<T, 6>(random);
+  }
+}
+
+TEST_CASE_TEMPLATE("the solution of a linear system, also where rows have to change places", T,
+                   double, float) {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    check_solution<T, 1>(random);
+    check_solution<T, 3>(random);
+    check_solution<T, 6>(random);
   }
 }

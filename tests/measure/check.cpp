@@ -15,6 +15,8 @@
 #include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "types.hpp"
+
 using namespace moreau;
 
 namespace {
@@ -70,8 +72,8 @@ TEST_CASE("check: a step too long for the speeds") {
   CHECK(one_contains(all, "overlap of"));
 }
 
-TEST_CASE_TEMPLATE("check: a step in milliseconds, of one grain at rest", ShapeT, Polyhedron<>,
-                   Polygon<>, Ball<>, Disk<>) {
+TEST_CASE_TEMPLATE("check: a step in milliseconds, of one grain at rest", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   const Vector up = Vector::Unit(S::dim - 1);
@@ -175,7 +177,7 @@ std::vector<std::string> sentences(const Typed& typed) {
 }  // namespace
 
 TEST_CASE_TEMPLATE("check: numbers in other units, and gravity of the wrong sign", ShapeT,
-                   Polyhedron<>, Polygon<>, Ball<>, Disk<>) {
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
   CHECK(sentences<ShapeT>({}).empty());
   for (const double gravity : {0.0, -1.62, -9.81, -10.0, -50.0})
     for (const double density : {15.0, 100.0, 1000.0, 2700.0, 22600.0})
@@ -208,7 +210,7 @@ TEST_CASE_TEMPLATE("check: numbers in other units, and gravity of the wrong sign
 }
 
 TEST_CASE_TEMPLATE("check: gravity along the last axis is right where something lies there", ShapeT,
-                   Polyhedron<>, Polygon<>, Ball<>, Disk<>) {
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   const Vector down = Vector::Unit(S::dim - 1);
@@ -227,7 +229,7 @@ TEST_CASE_TEMPLATE("check: gravity along the last axis is right where something 
 }
 
 TEST_CASE_TEMPLATE("check: a lost grain is named, and one beyond what the scalar holds", ShapeT,
-                   Polyhedron<>, Polygon<>, Ball<>, Disk<>) {
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;
   for (const int count : {3, 8, 30})

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "rotation_between.hpp"
 #include "world/assemblies.hpp"
 
 namespace {
@@ -56,7 +57,7 @@ struct Scene {
         const Vector& up = Vector::UnitZ(), Floor floor = Floor::wall)
       : world(size, moreau::Materials<scenes::LawOf<Polyhedron<>>>(
                         1, scenes::LawOf<Polyhedron<>>(friction))),
-        tilt(S::Rotation::FromTwoVectors(Vector::UnitZ(), up)) {
+        tilt(rotation_between(Vector::UnitZ(), up)) {
     const moreau::Pose<S> placed{tilt * pose.position, tilt * pose.rotation};
     const auto plate = [&] {
       const auto id = world.add_shape(scenes::cuboid<Polyhedron<>>({2, 2, 0.5}));

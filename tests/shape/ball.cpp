@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -14,7 +15,7 @@ using moreau::Ball;
 using moreau::Disk;
 
 TEST_CASE_TEMPLATE("ball and disk: volume, inertia, box, support, for every space", Shape,
-                   Ball<double>, Ball<float>, Disk<double>, Disk<float>) {
+                   MOREAU_TYPES((Ball<double>, Disk<float>), (Ball<float>, Disk<double>))) {
   using S = typename Shape::Space;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
@@ -30,14 +31,19 @@ TEST_CASE_TEMPLATE("ball and disk: volume, inertia, box, support, for every spac
   CHECK(mass.mass == doctest::Approx(3 * volume).epsilon(1e-6));
   CHECK(mass.center == Vector::Zero());
   const double inertia = (S::dim == 3 ? 0.4 : 0.5) * 3 * volume * 4;
-  CHECK(mass.inertia.isApprox(S::Inertia::Identity() * static_cast<T>(inertia), T(1e-6)));
+  for (int i = 0; i < S::angular_dim; ++i)
+    for (int j = 0; j < S::angular_dim; ++j)
+      CHECK(std::abs(double(mass.inertia(i, j)) - (i == j ? inertia : 0)) <= 1e-6 * inertia);
 
   moreau::Pose<S> pose;
-  pose.position = Vector::LinSpaced(1, S::dim);
-  CHECK(sphere.bounding_box(pose).lower == (pose.position.array() - 2).matrix());
-  CHECK(sphere.bounding_box(pose).upper == (pose.position.array() + 2).matrix());
-  CHECK(sphere.support(Vector::Constant(T(1e-3)))
-            .isApprox(Vector::Constant(2 / std::sqrt(static_cast<T>(S::dim))), T(1e-6)));
+  for (int k = 0; k < S::dim; ++k) pose.position[k] = T(k + 1);
+  const auto box = sphere.bounding_box(pose);
+  const Vector corner = sphere.support(Vector::Constant(T(1e-3)));
+  for (int k = 0; k < S::dim; ++k) {
+    CHECK(box.lower[k] == pose.position[k] - 2);
+    CHECK(box.upper[k] == pose.position[k] + 2);
+    CHECK(corner[k] == doctest::Approx(2 / std::sqrt(double(S::dim))).epsilon(1e-6));
+  }
   CHECK(sphere.scaled(T(0.5)).radius() == 1);
 }
 

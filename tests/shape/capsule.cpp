@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -15,7 +16,7 @@ constexpr double pi = std::numbers::pi;
 static_assert(ConvexShape<moreau::Stadium<>> && ConvexShape<moreau::Capsule<float>>);
 static_assert(ConvexCore<Segment<Space<3>>> && !Shape<Segment<Space<3>>>);
 
-TEST_CASE_TEMPLATE("a stadium in closed form", T, double, float) {
+TEST_CASE_TEMPLATE("a stadium in closed form", T, MOREAU_TYPES((double), (float))) {
   const double h = 1.5, r = 0.5;
   const moreau::Stadium<T> stadium(T(1.5), T(0.5));
   CHECK(stadium.volume() == doctest::Approx(4 * h * r + pi * r * r).epsilon(1e-6));
@@ -26,7 +27,7 @@ TEST_CASE_TEMPLATE("a stadium in closed form", T, double, float) {
   CHECK(stadium.inradius() == T(0.5));
 }
 
-TEST_CASE_TEMPLATE("a capsule in closed form", T, double, float) {
+TEST_CASE_TEMPLATE("a capsule in closed form", T, MOREAU_TYPES((double), (float))) {
   const double h = 1.5, r = 0.5;
   const moreau::Capsule<T> capsule(T(1.5), T(0.5));
   const double tube = 2 * h * pi * r * r, ball = 4 * pi / 3 * r * r * r;

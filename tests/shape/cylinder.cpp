@@ -9,6 +9,7 @@
 #include "moreau/sample/random_rotation.hpp"
 
 #include "shape/message_of.hpp"
+#include "types.hpp"
 
 namespace {
 
@@ -18,7 +19,7 @@ using Vector = S::Vector;
 
 static_assert(ConvexShape<Cylinder<>> && ConvexShape<Cylinder<float>> && GrainShape<Cylinder<>>);
 
-TEST_CASE_TEMPLATE("a cylinder in closed form", T, double, float) {
+TEST_CASE_TEMPLATE("a cylinder in closed form", T, MOREAU_TYPES((double), (float))) {
   const Cylinder<T> cylinder(T(1.5), T(0.5));
   const auto mass = cylinder.mass_properties(2);
   const double volume = std::numbers::pi * 0.25 * 3;
@@ -90,7 +91,8 @@ TEST_CASE("contacts of cylinders") {
   }
 }
 
-TEST_CASE_TEMPLATE("a lying cylinder touches a floor along its lowest line", T, double, float) {
+TEST_CASE_TEMPLATE("a lying cylinder touches a floor along its lowest line", T,
+                   MOREAU_TYPES((double), (float))) {
   using S3 = Space<3, T>;
   using V3 = typename S3::Vector;
   const HalfSpace<S3> half({0, 0, 1});

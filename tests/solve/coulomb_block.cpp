@@ -24,7 +24,7 @@ struct Case {
 template <class S>
 Case<S> random_case(std::mt19937_64& random, double skew) {
   std::uniform_real_distribution<double> unit(-1, 1);
-  typename S::Matrix root, turn;
+  typename S::Matrix root, turn, w;
   typename S::Vector b;
   for (int i = 0; i < S::dim; ++i) {
     b[i] = unit(random);
@@ -33,8 +33,11 @@ Case<S> random_case(std::mt19937_64& random, double skew) {
       turn(i, j) = skew * unit(random);
     }
   }
-  typename S::Matrix w = root * root.transpose() + turn - turn.transpose();
-  w.diagonal().array() += 1e-4;
+  for (int i = 0; i < S::dim; ++i)
+    for (int j = 0; j < S::dim; ++j) {
+      w(i, j) = turn(i, j) - turn(j, i) + (i == j ? 1e-4 : 0);
+      for (int k = 0; k < S::dim; ++k) w(i, j) += root(i, k) * root(j, k);
+    }
   return {w, b, std::abs(unit(random)) * 2};
 }
 

@@ -35,11 +35,16 @@ FrictionProblem<S> random_problem(std::uint64_t seed, int contacts, int bodies, 
       for (int row = 0; row < S::dim; ++row)
         for (int k = 0; k < S::dofs; ++k) j(S::dim * c + row, S::dofs * body + k) = unit(random);
   }
-  Eigen::MatrixXd other = j;
-  for (double& entry : other.reshaped()) entry *= 1 + skew * unit(random);
-  const Eigen::MatrixXd w = 1e-3 * j * other.transpose();
+  Eigen::MatrixXd other = j, w = Eigen::MatrixXd::Zero(j.rows(), j.rows());
+  for (Eigen::Index k = 0; k < other.size(); ++k) other.data()[k] *= 1 + skew * unit(random);
+  problem.free_velocity = Eigen::VectorXd::Zero(j.rows());
+  for (Eigen::Index k = 0; k < j.cols(); ++k)
+    for (Eigen::Index row = 0; row < j.rows(); ++row) {
+      problem.free_velocity[row] += j(row, k) * velocity[k];
+      for (Eigen::Index column = 0; column < j.rows(); ++column)
+        w(row, column) += 1e-3 * j(row, k) * other(column, k);
+    }
   problem.delassus = w.sparseView();
-  problem.free_velocity = j * velocity;
   return problem;
 }
 

@@ -44,7 +44,7 @@ TEST_CASE_TEMPLATE("a step's problem is solved by the step's impulses, and by an
 }
 
 TEST_CASE("a simulation that was read from a snapshot has no problem to gather") {
-  BoxOfGrains<Polygon<>> scene(4);
+  BoxOfGrains<Polyhedron<>> scene(4);
   auto& simulation = scene.simulation;
   for (int k = 0; k < 400; ++k) simulation.step(5e-4);
   const std::string before = snapshot(simulation);

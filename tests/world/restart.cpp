@@ -161,12 +161,12 @@ TEST_CASE("a refusal says why") {
 
   const auto path = folder / "disks.snapshot";
   write_snapshot(path, disks());
-  World<Polygon<>> polygons = other_world<Polygon<>>();
-  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains("holds moreau::BallIn<"),
+  World<Polyhedron<>> polyhedra = other_world<Polyhedron<>>();
+  CHECK_THROWS_WITH_AS(read_snapshot(path, polyhedra), doctest::Contains("holds moreau::BallIn<"),
                        std::runtime_error);
-  CHECK_THROWS_WITH_AS(read_snapshot(path, polygons), doctest::Contains(path.c_str()),
+  CHECK_THROWS_WITH_AS(read_snapshot(path, polyhedra), doctest::Contains(path.c_str()),
                        std::runtime_error);
-  CHECK_THROWS_WITH_AS(read_snapshot(folder / "none", polygons), doctest::Contains("cannot read"),
+  CHECK_THROWS_WITH_AS(read_snapshot(folder / "none", polyhedra), doctest::Contains("cannot read"),
                        std::system_error);
 }
 

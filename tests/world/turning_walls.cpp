@@ -7,6 +7,7 @@
 
 #include "moreau/measure/energy_balance.hpp"
 
+#include "rotation_between.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
@@ -44,9 +45,7 @@ Drift drift_on(Table kind, const Volume::Vector& normal, double spin, double h, 
                double theta = 0.5) {
   World<ShapeT> world(0.02, friction<ShapeT>(1.0));
   world.set_integrator(MoreauJean(theta));
-  const Pose<Volume> frame{{0.01, 0.02, 0.03},
-                           Volume::normalized(Volume::Rotation(Eigen::Quaterniond::FromTwoVectors(
-                               Eigen::Vector3d::UnitZ(), normal)))};
+  const Pose<Volume> frame{{0.01, 0.02, 0.03}, rotation_between(Eigen::Vector3d::UnitZ(), normal)};
   const ShapeId shape = world.add_shape(regular_shape<ShapeT>(0.02));
   BodyId table;
   if (kind == Table::half_space) table = world.add_wall(normal, frame.position);

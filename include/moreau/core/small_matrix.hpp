@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "moreau/core/compiler.hpp"
 
@@ -140,6 +141,32 @@ template <class T, int N>
       m.data()[j * N + i] = m.data()[i * N + j] = sum;
     }
   return true;
+}
+
+/// x of m x = b, by elimination with the largest pivot of each column. Not finite if m is singular.
+template <class T, int N>
+Eigen::Matrix<T, N, 1> solve_linear(Eigen::Matrix<T, N, N> m, Eigen::Matrix<T, N, 1> b) {
+  T* const entry = m.data();  // of row i and column j at j N + i
+  T* const x = b.data();
+  for (int k = 0; k < N; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < N; ++i)
+      if (std::abs(entry[k * N + i]) > std::abs(entry[k * N + pivot])) pivot = i;
+    if (pivot != k) {
+      for (int j = k; j < N; ++j) std::swap(entry[j * N + k], entry[j * N + pivot]);
+      std::swap(x[k], x[pivot]);
+    }
+    for (int i = k + 1; i < N; ++i) {
+      const T factor = entry[k * N + i] / entry[k * N + k];
+      for (int j = k + 1; j < N; ++j) entry[j * N + i] -= factor * entry[j * N + k];
+      x[i] -= factor * x[k];
+    }
+  }
+  for (int k = N - 1; k >= 0; --k) {
+    for (int j = k + 1; j < N; ++j) x[k] -= entry[j * N + k] * x[j];
+    x[k] /= entry[k * N + k];
+  }
+  return b;
 }
 
 /// x + t d, for instance the point at t of a line.

@@ -209,7 +209,7 @@ class RollingResistance {
   template <class S>
   static typename RollingBlock<S>::Vector sticking(const RollingBlock<S>& block,
                                                    const typename RollingBlock<S>::Vector& b) {
-    return -block.matrix().partialPivLu().solve(b);
+    return solve_linear(block.matrix(), typename RollingBlock<S>::Vector(-b));
   }
 
   SignoriniCoulomb<T> point_;
