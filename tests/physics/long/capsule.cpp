@@ -12,7 +12,7 @@
 TEST_CASE("a capsule does not swing down between pads, however light they are") {
   using Capsule = moreau::Capsule<double>;
   using Vector = moreau::Space<3>::Vector;
-  constexpr double radius = 0.004, mass = 0.045, h = 2e-4;
+  constexpr double radius = 0.004, mass = 0.045, h = 2e-4, weight = 9.81;
   const Capsule capsule(0.02, radius);
   // Near rounding a step may be reported as unsolved; the pressures are even nevertheless.
   for (const auto& [ratio, force, tolerance] :
