@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The requirements on every contact solver. A new solver is tested by one line, under a law other than Coulomb's by
-// another:
+// The requirements on every contact solver. A new solver is tested by one line:
 //
 //   TEST_CASE("mine") { conformance::solver<moreau::Space<3>>(MySolver(options), 1e-9); }
-//   TEST_CASE("under a law") { conformance::solver_under<moreau::Space<3>>(MyLaw(), MySolver(options), 1e-9); }
 #pragma once
 
 #include <algorithm>
@@ -71,28 +69,6 @@ void solver(const V& solver, double tolerance) {
   const moreau::SolveReport report = solver.solve(none, std::span<Vector>(), workspace);
   CHECK(report.converged);
   CHECK(report.sweeps == 0);
-}
-
-/// Checks on random assemblies under one law, which may have couples and springs:
-///   - The solver reaches its tolerance.
-///   - The residual that it reports equals the residual that is measured afterwards.
-///   - Started from a solution, it needs no more sweeps.
-/// @param tolerance tolerance of the solver for the residual of the natural map
-template <class S, class Law, class V>
-requires moreau::ContactSolver<V, Law, S>
-void solver_under(const Law& law, const V& solver, double tolerance) {
-  for (const std::uint64_t seed : {1u, 2u}) {
-    solve_test::AssemblyUnder<S, Law> problem(seed, law);
-    std::vector<typename solve_test::AssemblyUnder<S, Law>::Row> impulses;
-    const moreau::SolveReport report = problem.solve(solver, impulses);
-    CHECK(report.converged);
-    CHECK_FALSE(report.capped);
-    CHECK(report.residual <= tolerance);
-    CHECK(problem.measure(impulses).residual == report.residual);
-    const moreau::SolveReport again = problem.solve(solver, impulses);
-    CHECK(again.converged);
-    CHECK(again.sweeps <= report.sweeps);
-  }
 }
 
 }  // namespace conformance

@@ -36,4 +36,18 @@ auto angular(const Eigen::MatrixBase<Derived>& twist) {
   return twist.template segment<S::angular_dim>(S::dim);
 }
 
+namespace detail {
+
+/// Velocity of a point of a body, world axes [m/s].
+/// @param twist (v, w) [m/s, rad/s], or a longer vector that begins with it
+/// @param lever from the centre of the body to the point, world axes [m]
+template <class S>
+typename S::Vector velocity_at(const auto& twist, const typename S::Vector& lever) {
+  typename S::Vector velocity = S::spin(angular<S>(twist), lever);
+  for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
+  return velocity;
+}
+
+}  // namespace detail
+
 }  // namespace moreau

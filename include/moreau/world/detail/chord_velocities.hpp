@@ -37,7 +37,6 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/detail/operator_point.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,9 +17,16 @@
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/shape/polyhedron.hpp"
 #include "moreau/world/detail/carried_contact.hpp"
 
 namespace moreau::detail {
+
+/// Whether contacts of these shapes can be carried along. To detect those of polygons takes no longer.
+template <class ShapeT>
+inline constexpr bool can_carry = false;
+template <std::floating_point T>
+inline constexpr bool can_carry<Polyhedron<T>> = true;
 
 /// The caches of pairs of convex grains.
 template <class ShapeT>
@@ -27,8 +35,6 @@ class PairCaches {
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
   using Rotation = typename S::Rotation;
-  /// Whether contacts can be carried along. To detect those of polygons takes no longer.
-  static constexpr bool can_carry = Polytope<ShapeT> && S::dim == 3;
 
   /// The list of pairs is new: pairs that are in both lists keep their cache. Both lists are sorted.
   /// The other arguments are for compound grains.
@@ -40,7 +46,7 @@ class PairCaches {
   }
   /// Sets whether contacts are carried along, after renew(). All are detected again.
   void set_carrying(bool carries) {
-    if constexpr (can_carry) {
+    if constexpr (can_carry<ShapeT>) {
       carried_.resize(carries ? caches_.size() : 0);
       for (CarriedContact<S>& contact : carried_) contact.clear();
     }
@@ -69,7 +75,7 @@ class PairCaches {
   bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation& rotation_a,
                      const Placed<ShapeT>& b, const Rotation& rotation_b, Scalar margin,
                      Scalar carry, Manifold<S>& out, auto&& use) {
-    if constexpr (can_carry) {
+    if constexpr (can_carry<ShapeT>) {
       if (!(carry == 0 ? collide(a, b, margin, out, caches_[p])
                        : carry_along(p, a, {a.center(), rotation_a, b.center(), rotation_b}, b,
                                      margin, carry, out)))
@@ -89,7 +95,7 @@ class PairCaches {
   [[gnu::noinline]] bool carry_along(std::size_t p, const Placed<ShapeT>& a,
                                      const typename CarriedContact<S>::Placing& now,
                                      const Placed<ShapeT>& b, Scalar margin, Scalar carry,
-                                     Manifold<S>& out) requires can_carry {
+                                     Manifold<S>& out) requires can_carry<ShapeT> {
     CarriedContact<S>& carried = carried_[p];
     if (p + 1 < carried_.size()) prefetch(&carried_[p + 1], sizeof(CarriedContact<S>));
     if (carried.holds(now, b.radius(), margin, carry)) return carried.write(now, margin, out);
