@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Laws for impulses in a periodic cell that deforms, in turn with the kinds of shapes. tests/world/long/matrix_*.cpp have the
-// same suite for every shape, with the laws of conformance/matrix.hpp.
+// Laws for impulses in a periodic cell that deforms, in turn with the kinds of shapes.
 #include "conformance/cell.hpp"
 
 #include "moreau/law/bonded.hpp"
