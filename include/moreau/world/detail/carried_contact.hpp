@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <tuple>
 
+#include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
@@ -33,8 +34,8 @@ class CarriedContact {
 
   /// The present pose of b relative to a, in the axes of a.
   struct Placing {
-    Matrix axes_a,
-        turn;  ///< from the axes of a to those of the world; from those of b to those of a
+    Matrix axes_a;              ///< from the axes of a to those of the world
+    Matrix turn;                ///< from the axes of b to those of a
     Vector center_a, center_b;  ///< world axes [m]
     Vector apart;               ///< from a to b, axes of a [m]
     Placing(const Vector& a, const typename S::Rotation& rotation_a, const Vector& b,
@@ -98,6 +99,9 @@ class CarriedContact {
   friend struct moreau::SerializationAccess;
   auto serialized_members() {
     return std::tie(turn_, apart_, normal_, margin_, contact_class_, count_, points_);
+  }
+  void deserialized() const {
+    require(count_ <= most, "CarriedContact", "count", count_, "must be at most 8");
   }
 
   struct Point {

@@ -75,14 +75,14 @@ class PairCaches {
   bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation& rotation_a,
                      const Placed<ShapeT>& b, const Rotation& rotation_b, Scalar margin,
                      Scalar carry, Manifold<S>& out, auto&& use) {
-    if constexpr (can_carry<ShapeT>) {
-      if (!(carry == 0 ? collide(a, b, margin, out, caches_[p])
-                       : carry_along(p, a, {a.center(), rotation_a, b.center(), rotation_b}, b,
-                                     margin, carry, out)))
-        return false;
-    } else if (!collide(a, b, margin, out, caches_[p])) {
-      return false;
-    }
+    const auto touch = [&] {
+      if constexpr (can_carry<ShapeT>)
+        if (carry > 0 && !carried_.empty())
+          return carry_along(p, a, {a.center(), rotation_a, b.center(), rotation_b}, b, margin,
+                             carry, out);
+      return collide(a, b, margin, out, caches_[p]);
+    };
+    if (!touch()) return false;
     use();
     return true;
   }
