@@ -21,7 +21,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -30,6 +29,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/mesh/check_mesh.hpp"
+#include "moreau/mesh/detail/tip_normals.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/box_tree.hpp"
 
@@ -106,7 +106,7 @@ class MeshWall {
   /// How far facets of one face may lie beside its plane [m].
   Scalar flatness() const { return flat_; }
   /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
-  bool is_tip(std::size_t v) const { return is_tip_[v] != 0; }
+  bool is_tip(std::size_t v) const { return tips_.is_tip(v); }
   /// Whether side(k) has neither a convex ridge nor a tip.
   bool is_plain(std::size_t k) const {
     for (const std::uint32_t r : facet_sides_[k].ridge)
@@ -131,16 +131,12 @@ class MeshWall {
   }
   /// Whether a direction d, for which is_top() holds, leads from a tip to the outside, and not to the back of a
   /// surface with one side. At a rim both are free.
-  bool is_outward(std::size_t v, const Vector& d) const {
-    return d.dot(outward_[v]) >= Scalar(-1e-6);
-  }
+  bool is_outward(std::size_t v, const Vector& d) const { return tips_.is_outward(v, d); }
   /// Whether a direction d is a possible contact normal at a tip, towards the grain: all faces at the
   /// vertex lie below the plane through it.
   /// @param tolerance sine of the largest angle of a face above the plane [-]
   bool is_top(std::size_t v, const Vector& d, Scalar tolerance) const {
-    for (std::uint32_t k = ring_begin_[v]; k < ring_begin_[v + 1]; ++k)
-      if (d.dot(ring_[k]) > tolerance) return false;
-    return true;
+    return tips_.is_top(v, d, tolerance);
   }
   /// The boxes of the facets [m]. A query gives the places k of side().
   const detail::BoxTree<S>& tree() const { return tree_; }
@@ -159,9 +155,6 @@ class MeshWall {
   void join_faces();
   void set_inward();
   void set_ridges(const std::vector<Ridge<S>>& ridges);
-  void set_tips();
-  void set_rings(const std::vector<Ridge<S>>& ridges);
-  void set_outward(const std::vector<Ridge<S>>& ridges);
   void sort_by_place();
   /// A vector without its component along a ridge.
   Vector across(const Ridge<S>& ridge, Vector x) const {
@@ -180,11 +173,7 @@ class MeshWall {
   std::vector<Facet> neighbours_;  ///< see neighbour()
   std::vector<Aabb<S>> boxes_;
   std::vector<ConvexRidge> ridges_;
-  std::vector<unsigned char> is_tip_;
-  /// Unit vectors from each tip along the lines in which its faces meet, and within the faces.
-  std::vector<Vector> ring_;
-  std::vector<std::uint32_t> ring_begin_;  ///< the first of each vertex
-  std::vector<Vector> outward_;            ///< of each vertex, see set_outward()
+  detail::TipNormals<S> tips_;
   detail::BoxTree<S> tree_;
   Scalar flat_ = 0;  ///< a corner closer to the plane of a neighbour than this lies in it [m]
 };
@@ -207,9 +196,10 @@ void MeshWall<S>::build() {
   join_faces();
   set_inward();
   set_ridges(ridges);
-  set_tips();
-  set_rings(ridges);
-  set_outward(ridges);
+  tips_ = detail::TipNormals<S>(
+      std::span(std::as_const(mesh_.vertices)), std::span(std::as_const(facets_)),
+      std::span(std::as_const(facet_sides_)), std::span(std::as_const(ridges_)), ridges,
+      sides_ == WallSides::both);
   sort_by_place();
 }
 
@@ -341,86 +331,6 @@ void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
     pair_up([&](auto f, auto g) { return (f < front) != (g < front); });
     for (std::size_t i = 0; i < at.size(); ++i)
       if (is_paired[i] == 0) add(at[i], at[i]);
-  });
-}
-
-template <EuclideanSpace S>
-void MeshWall<S>::set_tips() {
-  // The other ends of the convex ridges at a vertex must not lie in one line with it. In the plane a
-  // ridge is a vertex.
-  is_tip_.assign(mesh_.vertices.size(), 0);
-  std::vector<Vector> first(mesh_.vertices.size(), Vector::Zero());
-  for (const ConvexRidge& ridge : ridges_)
-    for (const std::uint32_t v : ridge.vertices) {
-      if (ridge.vertices.size() == 1) is_tip_[v] = 1;
-      for (const std::uint32_t w : ridge.vertices) {
-        if (w == v) continue;
-        const Vector along = (mesh_.vertices[w] - mesh_.vertices[v]).normalized();
-        if (first[v].isZero(0)) first[v] = along;
-        if (std::abs(along.dot(first[v])) < Scalar(1 - 1e-10)) is_tip_[v] = 1;
-      }
-    }
-}
-
-template <EuclideanSpace S>
-void MeshWall<S>::set_rings(const std::vector<Ridge<S>>& ridges) {
-  const std::size_t count = mesh_.vertices.size(), front = mesh_.facets.size();
-  std::vector<std::pair<std::uint32_t, Vector>> found;  // tip, direction
-  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
-    const auto add = [&](std::uint32_t v, const Vector& along) {
-      if (is_tip_[v] != 0) found.emplace_back(v, along);
-    };
-    // With both sides, the facets of the back are last: they have the same directions.
-    const Side& a = facet_sides_[at[0].facet];
-    const bool is_rim = at.size() < 2 || at[1].facet >= front;
-    const Side& b = is_rim ? a : facet_sides_[at[1].facet];
-    if constexpr (S::dim == 2) {
-      add(at[0].vertices[0], a.inward[at[0].corner]);
-      if (!is_rim) add(at[0].vertices[0], b.inward[at[1].corner]);
-    } else {
-      const auto [v, w] = at[0].vertices;
-      Vector along = mesh_.vertices[w] - mesh_.vertices[v];
-      along = (along - along.dot(a.normal) * a.normal).normalized();
-      // Facets of a face lie near its plane only: two planes need not meet in the ridge.
-      const Vector line = a.normal.cross(b.normal);
-      const Scalar length = line.norm(), part = line.dot(along);
-      if (a.face != b.face && std::abs(part) > length / 2 && length > Scalar(1e-9))
-        along = part > 0 ? Vector(line / length) : Vector(-line / length);
-      add(v, along);
-      add(w, -along);
-    }
-  });
-  ring_begin_.assign(count + 1, 0);
-  for (const auto& [v, along] : found) ++ring_begin_[v + 1];
-  std::partial_sum(ring_begin_.begin(), ring_begin_.end(), ring_begin_.begin());
-  ring_.resize(found.size());
-  std::vector<std::uint32_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
-  for (const auto& [v, along] : found) ring_[end[v]++] = along;
-}
-
-/// Sets a normal at each vertex that says on which side of the surface a point is that is nearest to the vertex: the
-/// mean of the normals of its facets, weighted by their angles at the vertex. It is 0 where both sides are free: of a
-/// wall with two sides, and at rims. Source: J. A. Baerentzen, H. Aanaes, Signed distance computation using the
-/// angle weighted pseudonormal (2005).
-template <EuclideanSpace S>
-void MeshWall<S>::set_outward(const std::vector<Ridge<S>>& ridges) {
-  outward_.assign(mesh_.vertices.size(), Vector::Zero());
-  if (sides_ == WallSides::both) return;
-  for (std::size_t f = 0; f < facets_.size(); ++f)
-    for (int k = 0; k < S::dim; ++k) {
-      Scalar angle = 1;
-      if constexpr (S::dim == 3) {
-        const Matrix& corners = facet_sides_[f].corners;
-        const Vector to_next = corners.col((k + 1) % 3) - corners.col(k);
-        const Vector to_last = corners.col((k + 2) % 3) - corners.col(k);
-        angle = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
-      }
-      outward_[facets_[f][std::size_t(k)]] += angle * facet_sides_[f].normal;
-    }
-  for (Vector& outward : outward_) outward.normalize();
-  for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
-    if (at.size() > 1) return;
-    for (const std::uint32_t v : at[0].vertices) outward_[v].setZero();
   });
 }
 
