@@ -133,6 +133,20 @@ void shear(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
 }
 #endif  // springs_in_a_deforming_cell
 
+#ifdef springs_with_tangential_restitution
+// Springs in series with a law that has a tangential restitution.
+// expect: Compliant<TangentialRestitution> would have two tangential restitutions
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/tangential_restitution.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Push = EITHER(moreau::TangentialRestitution<>, moreau::SignoriniCoulomb<>);
+using Law = moreau::Compliant<Push>;
+const moreau::Materials<Law> materials(1, Law(Push(0.4), 1e6));
+const moreau::Simulation<moreau::Ball<>, Law> world(1, materials);
+#endif  // springs_with_tangential_restitution
+
 #ifdef bonds_of_a_law_without
 // A bond under a law that has none.
 // expect: (bond|constraints not satisfied)
