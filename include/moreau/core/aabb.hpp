@@ -8,6 +8,7 @@
 
 #include "moreau/core/components.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -75,8 +76,8 @@ typename S::Scalar volume(const Aabb<S>& box) {
 template <class S>
 Aabb<S> box_around(const Aabb<S>& box_body, const Pose<S>& pose) {
   using Vector = typename S::Vector;
-  const Vector half =
-      pose.rotation.toRotationMatrix().cwiseAbs() * (box_body.upper - box_body.lower) / 2;
+  const typename S::Matrix absolute = pose.rotation.toRotationMatrix().cwiseAbs();
+  const Vector half = product(absolute, box_body.upper - box_body.lower) / 2;
   const Vector center = pose((box_body.lower + box_body.upper) / 2);
   return {center - half, center + half};
 }

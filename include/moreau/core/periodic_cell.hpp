@@ -88,13 +88,17 @@ class PeriodicCell {
   bool is_lattice() const { return is_lattice_; }
   /// The vectors of the cell as columns, world axes [m]. Of a box they are parallel to the axes, and
   /// zero along open axes.
-  Value<Matrix> vectors() const { return is_lattice_ ? vectors_ : Matrix(length_.asDiagonal()); }
+  Value<Matrix> vectors() const {
+    Matrix columns = vectors_;
+    for (int k = 0; k < S::dim && !is_lattice_; ++k) columns(k, k) = length_[k];
+    return columns;
+  }
   /// Volume of a lattice [m^3], in the plane its area [m^2].
   Scalar volume() const { return vectors().determinant(); }
 
   /// Deforms a lattice: its corner stays where it is, its vectors H become map H.
   /// @param map [-], with a positive determinant
-  void deform(const Matrix& map) { assign(map * vectors_); }
+  void deform(const Matrix& map) { assign(matrix_product(map, vectors_)); }
   /// The place of a point that moves with the deforming lattice, world axes [m].
   /// @param map as in deform()
   Value<Vector> deformed(const Matrix& map, const VectorArgument<S>& x) const {
@@ -110,10 +114,11 @@ class PeriodicCell {
       for (int i = 0; i < S::dim; ++i)
         for (int j = 0; j < S::dim; ++j) {
           if (i == j) continue;
-          const Scalar along = reduced.col(i).dot(reduced.col(j)) / reduced.col(j).squaredNorm();
+          const Vector one = reduced.col(i), other = reduced.col(j);
+          const Scalar along = one.dot(other) / other.squaredNorm();
           // Of two vectors of the same length, the one that is there stays.
           if (!(std::abs(along) > Scalar(0.5) + Scalar(1e-3))) continue;
-          reduced.col(i) -= std::round(along) * reduced.col(j);
+          reduced.col(i) = one - std::round(along) * other;
           again = changed = true;
         }
       again = shorten(reduced) || again;
@@ -221,7 +226,7 @@ class PeriodicCell {
   /// @throws std::invalid_argument if the cell is too short
   void require_room(Scalar width, const char* function) const {
     if (is_lattice_) {
-      const Scalar height = 1 / inverse_.cwiseAbs().rowwise().sum().maxCoeff();
+      const Scalar height = 1 / largest_row_sum(inverse_);
       require(height > 2 * width, function, "height of the cell", height,
               "must be more than two of the widest grain with margin and skin");
       return;
@@ -266,7 +271,8 @@ class PeriodicCell {
       const Vector parts = detail::neighbour_cell<Vector>(n);
       const Vector sum = product(vectors, parts);
       for (int k = 0; k < S::dim; ++k)
-        if (parts[k] == 1 && sum.squaredNorm() < Scalar(0.99) * vectors.col(k).squaredNorm()) {
+        if (parts[k] == 1 &&
+            sum.squaredNorm() < Scalar(0.99) * Vector(vectors.col(k)).squaredNorm()) {
           vectors.col(k) = sum;
           return true;
         }
@@ -276,7 +282,7 @@ class PeriodicCell {
   void assign(const Matrix& vectors) {
     vectors_ = vectors;
     inverse_ = vectors.inverse();
-    for (int k = 0; k < S::dim; ++k) length_[k] = vectors.col(k).norm();
+    for (int k = 0; k < S::dim; ++k) length_[k] = Vector(vectors.col(k)).norm();
   }
   /// The image of x nearest to `to` among x and its neighbours.
   Vector nearest_in_lattice(const Vector& x, const Vector& to) const {

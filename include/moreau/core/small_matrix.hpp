@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Functions of small matrices that the compiler instantiates once. Eigen has each of them, but with
 // new types for every combination of operands, which make up most of the time to compile a
-// simulation. Results that Eigen's functions have under the same name are the same to the last bit.
+// simulation. Sums are taken from the first to the last term; Eigen's order depends on the type and on the
+// flags of the compiler.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,6 +27,14 @@ bool are_finite(const T* entries, Eigen::Index count) {
   return finite;
 }
 
+/// a . b of N entries that lie the strides apart, summed from the first to the last.
+template <int N, int StrideA, int StrideB, class T>
+[[gnu::always_inline]] inline T dot_of(const T* a, const T* b) {
+  T sum = *a * *b;
+  for (int k = 1; k < N; ++k) sum += a[k * StrideA] * b[k * StrideB];
+  return sum;
+}
+
 }  // namespace detail
 
 /// Whether all entries of a matrix or vector are finite.
@@ -40,13 +49,67 @@ bool all_finite(const Eigen::PlainObjectBase<Matrix>& m) {
 template <class T, int N>
 Eigen::Matrix<T, N, 1> product(const Eigen::Matrix<T, N, N>& m,
                                const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
-  return m * x;
+  Eigen::Matrix<T, N, 1> y;
+  for (int i = 0; i < N; ++i) y[i] = detail::dot_of<N, N, 1>(m.data() + i, x.data());
+  return y;
 }
 /// The same of the transposed matrix.
 template <class T, int N>
 Eigen::Matrix<T, N, 1> transposed_product(const Eigen::Matrix<T, N, N>& m,
                                           const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
-  return m.transpose() * x;
+  Eigen::Matrix<T, N, 1> y;
+  for (int i = 0; i < N; ++i) y[i] = detail::dot_of<N, 1, 1>(m.data() + i * N, x.data());
+  return y;
+}
+/// a b.
+template <class T, int N, int K, int M>
+Eigen::Matrix<T, N, M> matrix_product(const Eigen::Matrix<T, N, K>& a,
+                                      const Eigen::Matrix<T, K, M>& b) {
+  Eigen::Matrix<T, N, M> c;
+  for (int j = 0; j < M; ++j)
+    for (int i = 0; i < N; ++i)
+      c.data()[j * N + i] = detail::dot_of<K, N, 1>(a.data() + i, b.data() + j * K);
+  return c;
+}
+/// a b^T.
+template <class T, int N, int K, int M>
+Eigen::Matrix<T, N, M> product_with_transposed(const Eigen::Matrix<T, N, K>& a,
+                                               const Eigen::Matrix<T, M, K>& b) {
+  Eigen::Matrix<T, N, M> c;
+  for (int j = 0; j < M; ++j)
+    for (int i = 0; i < N; ++i)
+      c.data()[j * N + i] = detail::dot_of<K, N, M>(a.data() + i, b.data() + j);
+  return c;
+}
+/// The sum of the squares of the differences of all entries.
+template <class T, int N>
+T squared_distance(const Eigen::Matrix<T, N, N>& a, const Eigen::Matrix<T, N, N>& b) {
+  T sum = 0;
+  for (int k = 0; k < N * N; ++k) {
+    const T difference = a.data()[k] - b.data()[k];
+    sum += difference * difference;
+  }
+  return sum;
+}
+/// I - factor m.
+template <class T, int N>
+Eigen::Matrix<T, N, N> identity_minus(std::type_identity_t<T> factor,
+                                      const Eigen::Matrix<T, N, N>& m) {
+  Eigen::Matrix<T, N, N> difference;
+  for (int k = 0; k < N * N; ++k)
+    difference.data()[k] = (k % (N + 1) == 0 ? T(1) : T(0)) - factor * m.data()[k];
+  return difference;
+}
+/// The largest sum of the absolute values of a row: the norm of a matrix for vectors whose norm is the largest entry.
+template <class T, int N>
+T largest_row_sum(const Eigen::Matrix<T, N, N>& m) {
+  T largest = 0;
+  for (int i = 0; i < N; ++i) {
+    T sum = 0;
+    for (int j = 0; j < N; ++j) sum += std::abs(m.data()[j * N + i]);
+    largest = std::max(largest, sum);
+  }
+  return largest;
 }
 
 /// The inverse of a matrix with positive trace, such as an inertia. The determinant is that of a matrix near 1, so

@@ -17,9 +17,9 @@ template <class S, class Derived>
 auto linear(Eigen::MatrixBase<Derived>& twist) {
   return twist.template head<S::dim>();
 }
-/// The linear part of a constant vector.
+/// The linear part of a constant vector, as a value.
 template <class S, class Derived>
-auto linear(const Eigen::MatrixBase<Derived>& twist) {
+Eigen::Matrix<typename Derived::Scalar, S::dim, 1> linear(const Eigen::MatrixBase<Derived>& twist) {
   return twist.template head<S::dim>();
 }
 
@@ -30,9 +30,10 @@ template <class S, class Derived>
 auto angular(Eigen::MatrixBase<Derived>& twist) {
   return twist.template segment<S::angular_dim>(S::dim);
 }
-/// The angular part of a constant vector.
+/// The angular part of a constant vector, as a value.
 template <class S, class Derived>
-auto angular(const Eigen::MatrixBase<Derived>& twist) {
+Eigen::Matrix<typename Derived::Scalar, S::angular_dim, 1> angular(
+    const Eigen::MatrixBase<Derived>& twist) {
   return twist.template segment<S::angular_dim>(S::dim);
 }
 

@@ -42,8 +42,10 @@ class SpatialOrder {
     if (boxes.empty()) return;
     Aabb<S> all = boxes[0];
     for (const Aabb<S>& box : boxes) {
-      all.lower = all.lower.cwiseMin(box.lower);
-      all.upper = all.upper.cwiseMax(box.upper);
+      for (int k = 0; k < S::dim; ++k) {
+        all.lower[k] = std::min(all.lower[k], box.lower[k]);
+        all.upper[k] = std::max(all.upper[k], box.upper[k]);
+      }
     }
     const double edge = double((all.upper - all.lower).maxCoeff());
     for (std::size_t k = 0; k < boxes.size(); ++k) {

@@ -13,6 +13,7 @@
 
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/value.hpp"
 #include "moreau/motion/mobility.hpp"
 
@@ -30,7 +31,7 @@ typename S::Inertia inverse_root(const typename S::Inertia& inertia) {
     const auto root = std::sqrt(1 / solver.eigenvalues()[k]);
     for (int i = 0; i < S::angular_dim; ++i) scaled(i, k) = axes(i, k) * root;
   }
-  return scaled * axes.transpose();
+  return product_with_transposed(scaled, axes);
 }
 
 /// All bodies of a simulation. Element i of each array belongs to the body whose BodyId::index() is
@@ -135,20 +136,21 @@ struct Bodies {
   /// The inertia of body i about its centre of mass, in world axes, A x A [kg m^2], if its rotation
   /// from body to world axes is q.
   Value<Inertia> inertia(std::size_t i, const typename S::Rotation& q) const {
-    const Inertia a = S::adjoint(q), turned = a * inertia_body[i];
-    return turned * a.transpose();
+    const Inertia a = S::adjoint(q);
+    return product_with_transposed(matrix_product(a, inertia_body[i]), a);
   }
   /// M^-1/2 of body i in world axes, at its present rotation. M is the mass matrix.
   MobilityRoot<S> mobility_root(std::size_t i) const {
     typename S::Matrix r = axes(i), linear;
-    const Inertia a = S::adjoint(pose[i].rotation), turned = a * inverse_inertia_root_body[i];
+    const Inertia a = S::adjoint(pose[i].rotation),
+                  turned = matrix_product(a, inverse_inertia_root_body[i]);
     for (int row = 0; row < S::dim; ++row)
       for (int column = 0; column < S::dim; ++column) {
         linear(row, column) = 0;
         for (int k = 0; k < S::dim; ++k)
           linear(row, column) += r(row, k) * std::sqrt(inverse_mass[i][k]) * r(column, k);
       }
-    return {linear, turned * a.transpose(), grain_mass[i] > 0};
+    return {linear, product_with_transposed(turned, a), grain_mass[i] > 0};
   }
 
   /// See core/serialize.hpp.

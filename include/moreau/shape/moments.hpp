@@ -36,7 +36,7 @@ struct Moments {
   /// negative if the columns are left-handed (the determinant is negative).
   void add_simplex(const Matrix& v) {
     const Scalar part = v.determinant() / factorial(S::dim);
-    const Matrix products = v * v.transpose();
+    const Matrix products = product_with_transposed(v, v);
     Vector s = v.col(S::dim - 1);
     for (int k = S::dim - 2; k >= 0; --k)
       for (int i = 0; i < S::dim; ++i) s[i] = v(i, k) + s[i];

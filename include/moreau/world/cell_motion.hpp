@@ -55,8 +55,7 @@ class CellMotion {
   /// @param theta    part of the step that comes after detection [-]
   void begin(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Team& team) {
     if (!rate_.isZero(0)) {
-      const Matrix inverse = Matrix::Identity() - (1 - theta) * step * rate_;
-      deform(bodies, detector, inverse.inverse(), team);
+      deform(bodies, detector, inverse_of(identity_minus((1 - theta) * step, rate_)), team);
     }
     volume_ = detector.cell().volume();
   }
@@ -67,7 +66,7 @@ class CellMotion {
            const Matrix& moment, const Team& team) {
     stress_ = moment / volume_;
     if (is_active()) rate_ = rate;
-    if (!rate_.isZero(0)) deform(bodies, detector, Matrix::Identity() + theta * step * rate_, team);
+    if (!rate_.isZero(0)) deform(bodies, detector, identity_minus(-theta * step, rate_), team);
   }
 
  private:
@@ -88,7 +87,7 @@ class CellMotion {
     team.share_each(bodies.size(), 512,
                     [&](std::size_t i) { move_with_cell(bodies.pose[i], detector.cell(), map); });
     detector.deform_cell(map);
-    deformation_ = map * deformation_;
+    deformation_ = matrix_product(map, Matrix(deformation_));
   }
 
   CellControl<S> control_;

@@ -77,8 +77,9 @@ class OperatorCell {
       Scalar& factor = factors_[c];
       if (up) {
         const typename Point::Matrix inverse = points[c].block.matrix().inverse();
-        factor = 1 + response_.maxCoeff() * branch(points[c]).norm() * sum *
-                         inverse.template topLeftCorner<S::dim, S::dim>().trace();
+        Scalar trace = 0;
+        for (int k = 0; k < S::dim; ++k) trace += inverse(k, k);
+        factor = 1 + response_.maxCoeff() * branch(points[c]).norm() * sum * trace;
         if (!(factor >= 1)) factor = 1;  // between bodies that cannot move
       }
       points[c].block *= up ? factor : 1 / factor;

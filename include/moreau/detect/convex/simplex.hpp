@@ -184,7 +184,7 @@ std::array<T, 3> weights_of(const Simplex<T>& simplex) {
   const Vector& x = simplex.nearest();
   if (simplex.size() == 2) {
     const Vector along = simplex[1].point - simplex[0].point;
-    weight[1] = std::clamp((x - simplex[0].point).dot(along) / along.squaredNorm(), T(0), T(1));
+    weight[1] = std::clamp(along.dot(x - simplex[0].point) / along.squaredNorm(), T(0), T(1));
     weight[0] = T(1) - weight[1];
   } else if (simplex.size() == 3) {
     const Vector p = simplex[0].point - x, q = simplex[1].point - x, r = simplex[2].point - x;

@@ -81,7 +81,8 @@ template <class Simulation>
   const auto& bodies = simulation.bodies();
   if (!simulation.cylinders().empty()) return true;
   for (const BodyId wall : simulation.walls())
-    if (bodies.axes(wall.index()).col(0).dot(gravity) < Scalar(-0.1) * gravity.norm()) return true;
+    if (Vector(bodies.axes(wall.index()).col(0)).dot(gravity) < Scalar(-0.1) * gravity.norm())
+      return true;
   Scalar first = std::numeric_limits<Scalar>::infinity(), last = -first;
   for (const BodyId grain : simulation.grains()) {
     const Scalar depth = gravity.dot(bodies.pose[grain.index()].position);

@@ -39,7 +39,7 @@ FacePlane<Vector> face_plane(std::size_t count, const At& at) {
     if (x.squaredNorm() > longest.squaredNorm()) longest = x;
   }
   plane.axis = longest.normalized();
-  plane.normal = (area - plane.axis * plane.axis.dot(area)).normalized();
+  plane.normal = Vector(area - Vector(plane.axis * plane.axis.dot(area))).normalized();
   plane.width = area.norm() / longest.norm();
   return plane;
 }

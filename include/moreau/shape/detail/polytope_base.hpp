@@ -95,8 +95,9 @@ class PolytopeBase {
   /// @throws std::invalid_argument if the scalar type cannot represent the moments
   void set_moments(const Moments<S>& moments, std::string_view function) {
     moments_ = moments;
-    require(moments_.are_regular(), function, "second moment", moments_.second.trace(),
-            Names::unit_of_second_moment);
+    Scalar trace = 0;
+    for (int k = 0; k < S::dim; ++k) trace += moments_.second(k, k);
+    require(moments_.are_regular(), function, "second moment", trace, Names::unit_of_second_moment);
   }
   /// Computes inradius and normal spacing from face_normals_ and face_offsets_.
   void summarize_faces() {

@@ -38,6 +38,14 @@ std::size_t farthest_vertex(const VertexMatrix<S>& vertices, const typename S::V
   return static_cast<std::size_t>(farthest);
 }
 
+/// A row as a vector.
+template <class S>
+typename S::Vector row_of(const VertexMatrix<S>& rows, Eigen::Index i) {
+  typename S::Vector row;
+  for (int k = 0; k < S::dim; ++k) row[k] = rows(i, k);
+  return row;
+}
+
 /// The smallest box in world axes [m] around vertices at a pose.
 /// @param vertices  body coordinates [m]
 template <class S>
@@ -45,19 +53,11 @@ Aabb<S> box_around(const VertexMatrix<S>& vertices, const Pose<S>& pose) {
   const typename S::Matrix rotation = pose.rotation.toRotationMatrix();
   Aabb<S> box;
   for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
-    box.merge(rotation * vertices.row(i).transpose());
+    box.merge(product(rotation, row_of<S>(vertices, i)));
   }
   box.lower += pose.position;
   box.upper += pose.position;
   return box;
-}
-
-/// A row as a vector.
-template <class S>
-typename S::Vector row_of(const VertexMatrix<S>& rows, Eigen::Index i) {
-  typename S::Vector row;
-  for (int k = 0; k < S::dim; ++k) row[k] = rows(i, k);
-  return row;
 }
 
 /// Squared distance of a row from a point, both in the same axes and unit.

@@ -204,16 +204,21 @@ class IslandPoints {
     bodies_.push_back(body);
     const Root inverse = dense<Space<dim, double>>(mass);
     roots_.push_back(root(inverse, 8 * double(std::numeric_limits<typename S::Scalar>::epsilon())));
-    const double linear_trace = inverse.diagonal().template head<dim>().sum();
-    const double speed = linear_trace > 0 ? linear_trace / dim : inverse.trace();
+    const double linear_trace = trace(inverse, 0, dim);
+    const double speed = linear_trace > 0 ? linear_trace / dim : trace(inverse, dim, dofs);
     speeds_.push_back(std::sqrt(speed));
     return number;
+  }
+  /// The sum of the diagonal entries from first to last - 1.
+  static double trace(const Root& m, int first, int last) {
+    double sum = 0;
+    for (int k = first; k < last; ++k) sum += m(k, k);
+    return sum;
   }
   /// L of a positive semidefinite matrix L L^T, lower triangle; a zero pivot gives a zero column.
   /// @param rounding of a part of the matrix, as a share of its trace
   static Root root(const Root& m, double rounding) {
-    const double linear = rounding * m.diagonal().template head<dim>().sum();
-    const double angular = rounding * m.diagonal().template tail<dofs - dim>().sum();
+    const double linear = rounding * trace(m, 0, dim), angular = rounding * trace(m, dim, dofs);
     Root l = Root::Zero();
     const auto rest = [&](int i, int k) {
       double sum = m(i, k);

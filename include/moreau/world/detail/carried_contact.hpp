@@ -41,10 +41,12 @@ class CarriedContact {
     Placing(const Vector& a, const typename S::Rotation& rotation_a, const Vector& b,
             const typename S::Rotation& rotation_b)
         : axes_a(rotation_a.toRotationMatrix()),
-          turn(axes_a.transpose() * rotation_b.toRotationMatrix()),
           center_a(a),
           center_b(b),
-          apart(axes_a.transpose() * (b - a)) {}
+          apart(transposed_product(axes_a, b - a)) {
+      const Matrix axes_b = rotation_b.toRotationMatrix();
+      for (int k = 0; k < S::dim; ++k) turn.col(k) = transposed_product(axes_a, axes_b.col(k));
+    }
   };
 
   /// Stores a contact.
@@ -75,7 +77,7 @@ class CarriedContact {
     if (count_ == 0) return false;
     // A rotation by an angle t differs from the identity by 2 sqrt(2) sin(t / 2), in the plane and in space.
     const Scalar moved =
-        (now.apart - apart_).norm() + radius * std::sqrt((now.turn - turn_).squaredNorm() / 2);
+        (now.apart - apart_).norm() + radius * std::sqrt(squared_distance(now.turn, turn_) / 2);
     return moved <= carry && margin + moved <= margin_;
   }
   /// Fills the manifold with the points whose gap is at most the margin [m].

@@ -65,7 +65,9 @@ class CellJumps {
   static double work(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
                      const Matrix& rate, const Matrix& next, Scalar step) {
     double sum = 0;
-    const Matrix between = (rate + next) / 2;
+    Matrix between = rate;
+    between += next;
+    between /= 2;
     for (std::size_t c = 0; c < contacts.size(); ++c)
       sum -= double(contacts.impulse(c).dot(jump_at(contacts.points[c], between)));
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -83,7 +85,7 @@ class CellJumps {
       const Contact<S>& contact = contacts.points[c];
       const Vector between = contact.lever_a - contact.lever_b,
                    force = product(contact.frame, Vector(impulse(c))) / step;
-      sum += between * force.transpose();
+      add_product_transposed(sum, between, force);
     }
     return sum;
   }
@@ -95,7 +97,7 @@ class CellJumps {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
       const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;
-      sum += bodies.grain_mass[i] * p * mean.transpose();
+      add_product_transposed(sum, Vector(bodies.grain_mass[i] * p), mean);
     }
     return sum;
   }

@@ -18,6 +18,8 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/world/cell_motion.hpp"
 
@@ -41,8 +43,8 @@ class CellServo {
     Matrix moment = Matrix::Zero();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
-      const Vector p = bodies.velocity[i].template head<S::dim>();
-      moment += bodies.grain_mass[i] * p * p.transpose();
+      const Vector v = linear<S>(bodies.velocity[i]), p = bodies.grain_mass[i] * v;
+      add_product_transposed(moment, p, v);
     }
     const Scalar square = std::pow(cell.volume(), Scalar(2) / S::dim);
     for (int i = 0; i < S::dim; ++i)
@@ -63,7 +65,10 @@ class CellServo {
   /// L0, with attraction between the bodies [1/s].
   /// @param moment sum of d_j r_i of the attraction [J s]
   Matrix free(const Matrix& moment) const {
-    return free_ + response_.cwiseProduct(moment.transpose());
+    Matrix sum = free_;
+    for (int i = 0; i < S::dim; ++i)
+      for (int j = 0; j < S::dim; ++j) sum(i, j) += response_(i, j) * moment(j, i);
+    return sum;
   }
   /// Sets L+.
   void set_rate(const Matrix& rate) { rate_ = rate; }

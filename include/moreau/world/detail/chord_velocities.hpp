@@ -196,11 +196,12 @@ class ChordVelocities {
     const Vector slip = linear<S>(bodies.velocity[b]) + S::spin(tilt, lever_b) -
                         velocity_at<S>(bodies.velocity[a], lever_a);
     const Scalar radius = -S::spin(axis, S::spin(axis, lever_b)).dot(normal) + contact.gap;
-    const Scalar along = step * S::spin(axis, normal).dot(slip + tilted - own);
+    const Vector excess = tilted - own;
+    const Scalar along = step * S::spin(axis, normal).dot(slip + excess);
     const Scalar inside = std::sqrt(std::max(Scalar(0), radius * radius - along * along));
     const Scalar curved = radius > 0 ? along * along / (radius + inside) / step : Scalar(0);
     const Scalar along_normal =
-        normal.dot(tilted - own) + step * S::spin(tilt, normal).dot(slip) - curved;
+        normal.dot(excess) + step * S::spin(tilt, normal).dot(slip) - curved;
     // Only a wall that turns does work on a grain that rests on it.
     const Vector sum = of_b.isZero(0) ? Vector(Vector::Zero())
                                       : Vector(chord_excess<S>(of_b, lever_b, step) - own);

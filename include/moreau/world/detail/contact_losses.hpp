@@ -29,15 +29,15 @@ template <class S, int Rows>
 void add_losses(const Bodies<S>& bodies, const Contacts<S, Rows>& contacts, std::size_t c,
                 const typename S::Vector& before, std::span<const typename S::Twist> after,
                 ContactLosses& sum) {
-  constexpr int tangents = S::dim - 1;
   const Contact<S>& contact = contacts.points[c];
   const std::uint32_t a = contact.a, b = contact.b;
   const typename S::Vector& impulse = contacts.impulse(c);
   if (contacts.impulses[c].isZero(0)) return;
   typename S::Vector mean = BodyDelassus<S>::relative_velocity(contact, after[a], after[b]);
   for (int k = 0; k < S::dim; ++k) mean[k] = (before[k] + mean[k]) / 2;
-  const double friction =
-      -double(impulse.template tail<tangents>().dot(mean.template tail<tangents>()));
+  typename S::Scalar along = 0;
+  for (int k = 1; k < S::dim; ++k) along += impulse[k] * mean[k];
+  const double friction = -double(along);
   sum.friction += friction;
   sum.dissipation += friction - double(impulse[0] * mean[0]);
   if constexpr (!Contacts<S, Rows>::has_couples) return;

@@ -39,8 +39,7 @@ class EnlargedBoxes {
     if (old.contains(box.inflated(reach))) return longer.maxCoeff() > skin ? old : plain;
     // Four times the way from the middle of the old box: twice as long as before.
     const Vector way = 2 * (box.lower + box.upper - old.lower - old.upper);
-    plain.lower += way.cwiseMin(Scalar(0));
-    plain.upper += way.cwiseMax(Scalar(0));
+    for (int k = 0; k < S::dim; ++k) (way[k] < 0 ? plain.lower : plain.upper)[k] += way[k];
     return plain;
   }
 

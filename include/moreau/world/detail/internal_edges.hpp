@@ -117,7 +117,7 @@ class InternalEdges {
   /// Whether two contact points belong to one manifold.
   static bool are_of_one(std::uint32_t c, std::uint32_t d, const DetectedContacts<S>& contacts) {
     return contacts.keys[c].is_of_parts_of(contacts.keys[d]) &&
-           contacts.points[c].frame.col(0) == contacts.points[d].frame.col(0);
+           Vector(contacts.points[c].frame.col(0)) == Vector(contacts.points[d].frame.col(0));
   }
   static bool has_one_manifold(std::uint32_t first, std::uint32_t last,
                                const DetectedContacts<S>& contacts) {

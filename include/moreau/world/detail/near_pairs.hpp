@@ -26,6 +26,7 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -201,8 +202,8 @@ template <class Grains>
 bool NearPairs<ShapeT, BroadPhaseT>::holds_in_lattice(const Grains& grains,
                                                       std::span<const Aabb<S>> boxes, Scalar reach,
                                                       Scalar widest) const {
-  const typename S::Matrix inverse = deformed_.inverse(), change = S::Matrix::Identity() - inverse;
-  const Scalar most = change.cwiseAbs().rowwise().sum().maxCoeff();
+  const typename S::Matrix inverse = inverse_of(deformed_);
+  const Scalar most = largest_row_sum(identity_minus(Scalar(1), inverse));
   const Scalar by = reach + most * (widest + 2 * reach) / 2;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const Vector center = (boxes[k].lower + boxes[k].upper) / 2;

@@ -106,9 +106,11 @@ class OverlapSweeps {
   /// @param least of the bounds of bodies that move [m]
   void find_reach(Scalar longest, Scalar least) {
     reach_.resize(moves_.size());
-    for (std::size_t i = 0; i < reach_.size(); ++i)
-      reach_[i] = std::max(linear<S>(shifts_[i]).norm() + longest * angular<S>(shifts_[i]).norm(),
+    for (std::size_t i = 0; i < reach_.size(); ++i) {
+      const Twist& shift = shifts_[i];
+      reach_[i] = std::max(linear<S>(shift).norm() + longest * angular<S>(shift).norm(),
                            moves_[i] ? least : Scalar(0));
+    }
   }
 
   void take(const auto& op, std::span<const Contact<S>> contacts,
@@ -164,8 +166,9 @@ class OverlapSweeps {
     const std::size_t still = moves_.size();
     for (Row& row : std::span(rows_).first(row_count_)) {
       Twist &a = shifts_[row.a], &b = shifts_[row.b];
-      const Scalar opening = row.normal.dot(linear<S>(b) - linear<S>(a)) +
-                             (row.arm_b.dot(angular<S>(b)) - row.arm_a.dot(angular<S>(a)));
+      const Twist &of_a = a, &of_b = b;
+      const Scalar opening = row.normal.dot(linear<S>(of_b) - linear<S>(of_a)) +
+                             (row.arm_b.dot(angular<S>(of_b)) - row.arm_a.dot(angular<S>(of_a)));
       const Scalar push = std::max(Scalar(0), row.push + (row.target - opening) * row.inverse);
       const Scalar change = push - row.push;
       row.push = push;

@@ -53,6 +53,7 @@
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/disjoint_sets.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
@@ -257,10 +258,10 @@ class RestitutionLimit {
       if (!std::isfinite(offset_[c])) continue;
       const Row free = problem.delassus.free_velocity(c);
       const double rest = 1 - double(islands_[island_of(bodies, problem, c)].rest_share());
-      largest = std::max(largest, double(free.template head<S::dim>().norm()));
+      largest = std::max(largest, double(linear<S>(free).norm()));
       if (rest == 0) continue;
       const Row by_impulses = problem.delassus.velocity(c) - free;
-      change = std::max(change, rest * double(by_impulses.template head<S::dim>().norm()));
+      change = std::max(change, rest * double(linear<S>(by_impulses).norm()));
     }
     return change > 0 ? change / largest : 0;
   }

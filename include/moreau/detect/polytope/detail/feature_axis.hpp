@@ -151,8 +151,10 @@ template <std::floating_point T>
     const EdgeView<T>& a, const EdgeView<T>& b, const typename Space<3, T>::Vector& offset) {
   Axis<Space<3, T>> axis;
   if (!crossing_normal(a, b, axis.normal)) return std::nullopt;
-  const T top = std::max(axis.normal.dot(a.from), axis.normal.dot(a.from + a.direction));
-  const T bottom = std::min(axis.normal.dot(b.from), axis.normal.dot(b.from + b.direction));
+  using Vector = typename Space<3, T>::Vector;
+  const Vector end_a = a.from + a.direction, end_b = b.from + b.direction;
+  const T top = std::max(axis.normal.dot(a.from), axis.normal.dot(end_a));
+  const T bottom = std::min(axis.normal.dot(b.from), axis.normal.dot(end_b));
   axis.gap = axis.normal.dot(offset) + (bottom - top);
   axis.kind = AxisKind::edges;
   axis.a = a.id;

@@ -69,7 +69,9 @@ class FeatureComparison {
   void compare(const Edge& edge_a, std::uint32_t i, const Edge& edge_b, std::uint32_t j) {
     const Vector p = pair_.a.vertices()[edge_a.vertex[0]], q = pair_.a.vertices()[edge_a.vertex[1]];
     const Vector v = pair_.b.vertices()[edge_b.vertex[0]], w = pair_.b.vertices()[edge_b.vertex[1]];
-    const SegmentPair<S> segments((q - p) / 2, (w - v) / 2, pair_.offset + (v - p + (w - q)) / 2);
+    Vector between = v - p;
+    between += w - q;
+    const SegmentPair<S> segments((q - p) / 2, (w - v) / 2, pair_.offset + between / 2);
     SegmentAxis<S> nearest = nearest_points(segments);
     if (!(nearest.gap < axis_.gap)) return;
     const bool end_a = std::abs(nearest.s) >= T(1), end_b = std::abs(nearest.t) >= T(1);

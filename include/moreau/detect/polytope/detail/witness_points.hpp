@@ -27,12 +27,12 @@ WitnessPoints<Space<3, T>> witness_of_edges(const PolytopePair<Polyhedron<T>>& p
   // coordinate along `across`, which is perpendicular to the normal and to b's edge.
   const Vector across = v.cross(axis.normal);
   const T slope = u.dot(across);
-  T t = slope == T(0) ? T(0.5) : std::clamp((q - p).dot(across) / slope, T(0), T(1));
+  T t = slope == T(0) ? T(0.5) : std::clamp(across.dot(q - p) / slope, T(0), T(1));
   const Vector from_q = along(p, t, u) - q;
   const T beside = from_q.dot(v) / v.squaredNorm();
   if (!(beside >= T(0) && beside <= T(1))) {
     const Vector end = beside > T(0) ? Vector(q + v) : q;
-    t = std::clamp((end - p).dot(u) / u.squaredNorm(), T(0), T(1));
+    t = std::clamp(u.dot(end - p) / u.squaredNorm(), T(0), T(1));
   }
   const Vector on_a = along(p, t, u);
   return {on_a, along(on_a, axis.gap, axis.normal),
