@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/core/small_matrix.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -78,6 +79,36 @@ void check_products(std::mt19937_64& random) {
     moreau::add_transposed_product(to, down, b, factor);
     CHECK(error_of(Table(to), of_start, factor, Table(down).transposed(), of_b) < tolerance);
   }
+  const Table zero(decltype(start)::Zero());
+  CHECK(error_of(Table(moreau::matrix_product(a, b)), zero, 1, of_a, of_b) < tolerance);
+  CHECK(error_of(Table(moreau::product_with_transposed(a, turned)), zero, 1, of_a,
+                 Table(turned).transposed()) < tolerance);
+}
+
+/// A square matrix times a vector, and measures of square matrices.
+template <class T, int N>
+void check_square(std::mt19937_64& random) {
+  using Vector = Eigen::Matrix<T, N, 1>;
+  const auto m = random_matrix<T, N, N>(random), other = random_matrix<T, N, N>(random);
+  const Vector x = random_matrix<T, N, 1>(random);
+  const Table of_m(m), of_x(x), zero(Vector::Zero());
+  const double tolerance = 20 * double(std::numeric_limits<T>::epsilon());
+  CHECK(error_of(Table(moreau::product(m, x)), zero, 1, of_m, of_x) < tolerance);
+  CHECK(error_of(Table(moreau::transposed_product(m, x)), zero, 1, of_m.transposed(), of_x) <
+        tolerance);
+  const Table rest(moreau::identity_minus(T(0.3), m));
+  double squares = 0, largest = 0;
+  for (int i = 0; i < N; ++i) {
+    double row = 0;
+    for (int j = 0; j < N; ++j) {
+      CHECK(std::abs(rest(i, j) - ((i == j) - 0.3 * of_m(i, j))) < tolerance);
+      squares += std::pow(of_m(i, j) - double(other(i, j)), 2);
+      row += std::abs(of_m(i, j));
+    }
+    largest = std::max(largest, row);
+  }
+  CHECK(std::abs(double(moreau::squared_distance(m, other)) - squares) < 10 * tolerance);
+  CHECK(std::abs(double(moreau::largest_row_sum(m)) - largest) < tolerance);
 }
 
 /// The inverse of a definite matrix; matrices that are not definite are refused.
@@ -130,6 +161,13 @@ TEST_CASE_TEMPLATE("sums of products of small matrices", T, double, float) {
   check_products<T, 2, 3, 3>(random);
   check_products<T, 3, 2, 1>(random);
   check_products<T, 1, 1, 1>(random);
+}
+
+TEST_CASE_TEMPLATE("square matrices times vectors, differences and norms", T, double, float) {
+  std::mt19937_64 random(4);
+  check_square<T, 1>(random);
+  check_square<T, 2>(random);
+  check_square<T, 3>(random);
 }
 
 TEST_CASE_TEMPLATE("the inverse of a definite matrix, and which matrices are not definite", T,
